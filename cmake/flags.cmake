@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Warnings are errors for our own code. -ffp-contract=off: the same expression gives the same bits
+# with and without FMA units. -fno-math-errno only; -ffast-math miscompiles with Debian 12's gcc
+# (docs/decisions/0003-floating-point-flags.md).
+add_compile_options(-Wall -Wextra -Wconversion -Wshadow -Wstrict-prototypes -Wvla
+                    -Wdouble-promotion -Wmissing-prototypes -Werror
+                    -ffp-contract=off -fno-math-errno)
+add_compile_definitions(_GNU_SOURCE FW_VERSION="${PROJECT_VERSION}"
+                        FW_SOURCE_DATA_DIR="${PROJECT_SOURCE_DIR}"
+                        FW_INSTALL_DATA_DIR="${CMAKE_INSTALL_PREFIX}/share/flexwright")
+include_directories(${PROJECT_SOURCE_DIR}/src)
+if(FW_SANITIZE)
+    add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
+    add_link_options(-fsanitize=address,undefined)
+endif()

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# One static library per room. The order is the order of the floors: a room may use the rooms named
+# before it and no other. tests/arch checks the same list against every #include.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(XML2 REQUIRED IMPORTED_TARGET libxml-2.0)
+pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo)
+pkg_check_modules(GSL REQUIRED IMPORTED_TARGET gsl)
+pkg_check_modules(JANSSON REQUIRED IMPORTED_TARGET jansson)
+find_library(LAPACKE_LIBRARY lapacke REQUIRED)
+find_library(LAPACK_LIBRARY lapack REQUIRED)
+
+set(FW_ROOMS base maths geometry quantity device flexure layout mechanism effects dynamics workspace
+             verdict process mask recipe report plan cli)
+set(FW_EXTERN_maths PkgConfig::GSL ${LAPACKE_LIBRARY} ${LAPACK_LIBRARY} m)
+set(FW_EXTERN_device PkgConfig::XML2)
+set(FW_EXTERN_process PkgConfig::XML2)
+set(FW_EXTERN_report PkgConfig::CAIRO)
+set(FW_EXTERN_base PkgConfig::JANSSON m)
+
+set(below)
+foreach(room ${FW_ROOMS})
+    file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${room}/*.c)
+    list(FILTER sources EXCLUDE REGEX "/cli/main\\.c$")
+    if(sources)
+        add_library(fw_${room} STATIC ${sources})
+        target_link_libraries(fw_${room} PUBLIC ${below} ${FW_EXTERN_${room}})
+        list(PREPEND below fw_${room})
+    endif()
+endforeach()

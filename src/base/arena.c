@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/arena.h"
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ALIGNMENT = 64, FIRST_CHUNK = 64 * 1024, LARGEST_CHUNK = 8 * 1024 * 1024 };
+
+typedef struct chunk {
+    struct chunk *before;
+    size_t size, used;
+    unsigned char *data; /* aligned, inside the block of this header */
+} chunk;
+
+struct fw_arena {
+    chunk *last;
+    size_t cap, total, peak; /* bytes handed out, and the most ever */
+    size_t held;             /* bytes asked of malloc */
+};
+
+static long fault_at, allocations;
+static int fault_ever_after;
+
+void fw_arena_fail_at(long n, int ever_after) {
+    fault_at = n;
+    fault_ever_after = ever_after;
+    allocations = 0;
+}
+
+long fw_arena_count(void) {
+    return allocations;
+}
+
+static int injected_fault(void) {
+    allocations++;
+    if (fault_at == 0) return 0;
+    return allocations == fault_at || (fault_ever_after && allocations > fault_at);
+}
+
+fw_arena *fw_arena_new(size_t cap_bytes) {
+    if (injected_fault()) return NULL;
+    fw_arena *arena = calloc(1, sizeof *arena);
+    if (arena) arena->cap = cap_bytes ? cap_bytes : (size_t)256 * 1024 * 1024;
+    return arena;
+}
+
+void fw_arena_free(fw_arena *arena) {
+    if (!arena) return;
+    for (chunk *c = arena->last; c;) {
+        chunk *before = c->before;
+        free(c);
+        c = before;
+    }
+    free(arena);
+}
+
+static chunk *add_chunk(fw_arena *arena, size_t bytes) {
+    size_t size = arena->last ? 2 * arena->last->size : FIRST_CHUNK;
+    if (size > LARGEST_CHUNK) size = LARGEST_CHUNK;
+    if (size < bytes) size = bytes;
+    if (size > SIZE_MAX - sizeof(chunk) - ALIGNMENT) return NULL;
+    size_t whole = size + sizeof(chunk) + ALIGNMENT;
+    chunk *c = malloc(whole);
+    if (!c) return NULL;
+    uintptr_t start = (uintptr_t)(c + 1);
+    size_t shift = (ALIGNMENT - start % ALIGNMENT) % ALIGNMENT;
+    *c = (chunk){arena->last, size, 0, (unsigned char *)(c + 1) + shift};
+    arena->last = c;
+    arena->held += whole;
+    return c;
+}
+
+void *fw_arena_alloc(fw_arena *arena, size_t count, size_t size) {
+    if (injected_fault()) return NULL;
+    if (size && count > SIZE_MAX / size) return NULL;
+    size_t bytes = count * size;
+    if (bytes > SIZE_MAX - ALIGNMENT) return NULL;
+    bytes = (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+    if (bytes == 0) bytes = ALIGNMENT;
+    if (bytes > arena->cap || arena->total > arena->cap - bytes) return NULL;
+    chunk *c = arena->last;
+    if (!c || c->size - c->used < bytes) c = add_chunk(arena, bytes);
+    if (!c) return NULL;
+    void *block = c->data + c->used;
+    c->used += bytes;
+    arena->total += bytes;
+    if (arena->total > arena->peak) arena->peak = arena->total;
+    return memset(block, 0, bytes);
+}
+
+void *fw_arena_grow(fw_arena *arena, const void *old, size_t old_count, size_t new_count,
+                    size_t size) {
+    void *block = fw_arena_alloc(arena, new_count, size);
+    if (block && old && old_count) memcpy(block, old, old_count * size);
+    return block;
+}
+
+char *fw_arena_strndup(fw_arena *arena, const char *text, size_t n) {
+    char *copy = fw_arena_alloc(arena, n + 1, 1);
+    if (copy && n) memcpy(copy, text, n);
+    return copy;
+}
+
+char *fw_arena_strdup(fw_arena *arena, const char *text) {
+    return text ? fw_arena_strndup(arena, text, strlen(text)) : NULL;
+}
+
+char *fw_arena_printf(fw_arena *arena, const char *format, ...) {
+    va_list arguments, again;
+    va_start(arguments, format);
+    va_copy(again, arguments);
+    int n = vsnprintf(NULL, 0, format, arguments);
+    va_end(arguments);
+    char *text = n < 0 ? NULL : fw_arena_alloc(arena, (size_t)n + 1, 1);
+    if (text) vsnprintf(text, (size_t)n + 1, format, again);
+    va_end(again);
+    return text;
+}
+
+fw_mark fw_arena_mark(const fw_arena *arena) {
+    return (fw_mark){arena->last, arena->last ? arena->last->used : 0, arena->total};
+}
+
+void fw_arena_rewind(fw_arena *arena, fw_mark mark) {
+    while (arena->last && (void *)arena->last != mark.chunk) {
+        chunk *c = arena->last;
+        arena->last = c->before;
+        arena->held -= c->size + sizeof(chunk) + ALIGNMENT;
+        free(c);
+    }
+    if (arena->last) arena->last->used = mark.used;
+    arena->total = mark.total;
+}
+
+size_t fw_arena_peak(const fw_arena *arena) {
+    return arena->peak;
+}

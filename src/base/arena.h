@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One arena owns everything of a plan; nothing is freed singly. Chunks of 64 KiB, doubling.
+   Memory is zeroed. A failed or capped allocation gives NULL, never an abort. */
+#ifndef FW_BASE_ARENA_H
+#define FW_BASE_ARENA_H
+#include <stdarg.h>
+#include <stddef.h>
+
+typedef struct fw_arena fw_arena;
+typedef struct fw_mark {
+    void *chunk;
+    size_t used, total;
+} fw_mark;
+
+/* cap_bytes 0 means the default of 256 MiB; NULL when memory is short */
+fw_arena *fw_arena_new(size_t cap_bytes);
+void fw_arena_free(fw_arena *arena); /* NULL allowed */
+
+/* count * size bytes, zeroed, aligned to 64; NULL on overflow, cap or failure. count 0 gives a
+   valid pointer. */
+void *fw_arena_alloc(fw_arena *arena, size_t count, size_t size);
+#define fw_arena_array(arena, type, count) ((type *)fw_arena_alloc((arena), (count), sizeof(type)))
+#define fw_arena_one(arena, type)          fw_arena_array((arena), type, 1)
+
+/* grow an array from old_count to new_count items, copying (the old block stays in the arena) */
+void *fw_arena_grow(fw_arena *arena, const void *old, size_t old_count, size_t new_count,
+                    size_t size);
+char *fw_arena_strdup(fw_arena *arena, const char *text); /* NULL text gives NULL */
+char *fw_arena_strndup(fw_arena *arena, const char *text, size_t n);
+char *fw_arena_printf(fw_arena *arena, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* scratch: everything allocated after the mark is returned at the rewind */
+fw_mark fw_arena_mark(const fw_arena *arena);
+void fw_arena_rewind(fw_arena *arena, fw_mark mark);
+size_t fw_arena_peak(const fw_arena *arena);
+
+/* fault injection for tests: the n-th allocation from now on (1 = next) fails, and every later one
+   too when `ever_after`; n = 0 turns it off. Counts over all arenas of the process. */
+void fw_arena_fail_at(long n, int ever_after);
+long fw_arena_count(void); /* allocations so far, over all arenas */
+
+#endif

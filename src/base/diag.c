@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/diag.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const fw_diag_entry table[] = {
+#define X(number, title, text) {number, title, text},
+#include "base/diagnostics.def"
+#undef X
+};
+
+const fw_diag_entry *fw_diag_table(size_t *count) {
+    *count = sizeof table / sizeof table[0];
+    return table;
+}
+
+const fw_diag_entry *fw_diag_find(int number) {
+    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++)
+        if (table[i].number == number) return &table[i];
+    return NULL;
+}
+
+fw_diags fw_diags_new(fw_arena *arena) {
+    return (fw_diags){.arena = arena};
+}
+
+static void add(fw_diags *diags, fw_severity severity, int number, fw_place place,
+                const char *format, va_list arguments) {
+    if (severity == FW_ERROR) diags->errors++;
+    if (diags->count == FW_DIAG_MOST) {
+        diags->dropped++;
+        return;
+    }
+    if (diags->count == diags->capacity) {
+        size_t more = diags->capacity ? 2 * diags->capacity : 8;
+        fw_diag *item =
+            fw_arena_grow(diags->arena, diags->item, diags->count, more, sizeof *diags->item);
+        if (!item) {
+            diags->failed = 1;
+            return;
+        }
+        diags->item = item;
+        diags->capacity = more;
+    }
+    char buffer[2048];
+    vsnprintf(buffer, sizeof buffer, format, arguments);
+    char *message = fw_arena_strdup(diags->arena, buffer);
+    if (!message) {
+        diags->failed = 1;
+        return;
+    }
+    diags->item[diags->count++] = (fw_diag){number, severity, place, message};
+}
+
+fw_status fw_diag_error(fw_diags *diags, int number, fw_place place, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    add(diags, FW_ERROR, number, place, format, arguments);
+    va_end(arguments);
+    return diags->failed ? FW_NOMEM : FW_INPUT;
+}
+
+void fw_diag_warning(fw_diags *diags, int number, fw_place place, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    add(diags, FW_WARNING, number, place, format, arguments);
+    va_end(arguments);
+}
+
+void fw_diag_note(fw_diags *diags, int number, fw_place place, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    add(diags, FW_NOTE, number, place, format, arguments);
+    va_end(arguments);
+}
+
+static void show_line(fw_text *out, const char *source, size_t n, fw_place place) {
+    size_t start = 0;
+    for (int line = 1; line < place.line; line++) {
+        const char *end = memchr(source + start, '\n', n - start);
+        if (!end) return;
+        start = (size_t)(end - source) + 1;
+    }
+    const char *end = memchr(source + start, '\n', n - start);
+    size_t length = end ? (size_t)(end - source) - start : n - start;
+    if (length > 200 || (size_t)place.column > length + 1 || place.column < 1) return;
+    fw_text_printf(out, "  %4d | ", place.line);
+    for (size_t i = 0; i < length; i++) {
+        unsigned char c = (unsigned char)source[start + i];
+        char shown = c < 0x20 || c == 0x7f ? ' ' : (char)c;
+        fw_text_bytes(out, &shown, 1);
+    }
+    fw_text_add(out, "\n       | ");
+    for (int i = 1; i < place.column; i++) {
+        unsigned char c = (unsigned char)source[start + (size_t)i - 1];
+        if ((c & 0xc0) != 0x80) /* one caret column per UTF-8 character */
+            fw_text_add(out, " ");
+    }
+    fw_text_add(out, "^\n");
+}
+
+static int in_file_order(const void *left, const void *right) {
+    const fw_diag *a = *(const fw_diag *const *)left, *b = *(const fw_diag *const *)right;
+    if (a->place.line != b->place.line) return a->place.line < b->place.line ? -1 : 1;
+    if (a->place.column != b->place.column) return a->place.column < b->place.column ? -1 : 1;
+    return a < b ? -1 : a > b;
+}
+
+void fw_diags_print(const fw_diags *diags, fw_text *out, const char *source, size_t n, int colour) {
+    static const char *const word[] = {"note", "warning", "error"};
+    static const char *const paint[] = {"\033[36m", "\033[35m", "\033[1;31m"};
+    const fw_diag *order[FW_DIAG_MOST];
+    for (size_t i = 0; i < diags->count; i++)
+        order[i] = &diags->item[i];
+    qsort(order, diags->count, sizeof order[0], in_file_order);
+    for (size_t i = 0; i < diags->count; i++) {
+        const fw_diag *d = order[i];
+        if (d->place.file) fw_text_printf(out, "%s:", d->place.file);
+        if (d->place.line > 0) fw_text_printf(out, "%d:%d:", d->place.line, d->place.column);
+        fw_text_printf(out, "%s%s%s%s: %s [FW-D%03d]\n", d->place.file ? " " : "",
+                       colour ? paint[d->severity] : "", word[d->severity], colour ? "\033[0m" : "",
+                       d->message, d->number);
+        if (source && d->place.line > 0) show_line(out, source, n, d->place);
+    }
+    if (diags->dropped) fw_text_printf(out, "%zu more not shown\n", diags->dropped);
+}

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Diagnostics: what is wrong, where, the value, the limit and its source, what to do. Collected, so
+   that all mistakes of a file are reported in one run. */
+#ifndef FW_BASE_DIAG_H
+#define FW_BASE_DIAG_H
+#include "base/arena.h"
+#include "base/status.h"
+#include "base/text.h"
+
+/* base/diagnostics.def holds one row per id: X(number, short title, long text for `explain`) */
+typedef struct fw_diag_entry {
+    int number;
+    const char *title, *text;
+} fw_diag_entry;
+
+typedef enum fw_severity { FW_NOTE, FW_WARNING, FW_ERROR } fw_severity;
+
+/* a place in a file; line 0 means the file as a whole. Columns count bytes from 1. */
+typedef struct fw_place {
+    const char *file;
+    int line, column;
+} fw_place;
+
+typedef struct fw_diag {
+    int number;
+    fw_severity severity;
+    fw_place place;
+    const char *message;
+} fw_diag;
+
+typedef struct fw_diags {
+    fw_arena *arena;
+    fw_diag *item; /* (count) */
+    size_t count, capacity;
+    size_t errors, dropped; /* dropped: beyond the first FW_DIAG_MOST */
+    int failed;             /* memory was short while collecting */
+} fw_diags;
+
+enum { FW_DIAG_MOST = 100 };
+
+fw_diags fw_diags_new(fw_arena *arena);
+/* printf rules of fw_text_printf hold: format numbers with fw_number_text. Returns FW_INPUT for
+   errors, so that `return fw_diag_error(...)` reads well. */
+fw_status fw_diag_error(fw_diags *diags, int number, fw_place place, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+void fw_diag_warning(fw_diags *diags, int number, fw_place place, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+void fw_diag_note(fw_diags *diags, int number, fw_place place, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+/* "FILE:LINE:COLUMN: error: message [FW-D041]", one line each, in file order.
+   `source` (may be NULL, n bytes) is the file's text: the line with a caret is then shown. */
+void fw_diags_print(const fw_diags *diags, fw_text *out, const char *source, size_t n, int colour);
+
+const fw_diag_entry *fw_diag_table(size_t *count);
+const fw_diag_entry *fw_diag_find(int number); /* NULL when there is none */
+
+#endif

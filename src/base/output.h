@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Results appear whole or not at all. Files are built in DIR.tmp-PID beside DIR, each one checked
+   and synced; commit exchanges the two directories in one step and removes the old one. */
+#ifndef FW_BASE_OUTPUT_H
+#define FW_BASE_OUTPUT_H
+#include "base/diag.h"
+
+typedef struct fw_output fw_output;
+typedef struct fw_output_file {
+    const char *name;   /* relative, with '/' */
+    size_t size;        /* bytes */
+    const char *sha256; /* 64 hexadecimal digits */
+} fw_output_file;
+
+/* starts a set of files that will become directory `path`. A directory that exists and was not
+   written by this program (no manifest.json in it) is refused unless it is empty. */
+fw_status fw_output_open(fw_arena *arena, const char *path, fw_diags *diags, fw_output **output);
+/* one file below the directory; makes sub-directories. Errors name the file. */
+fw_status fw_output_write(fw_output *output, const char *name, const void *data, size_t n);
+const fw_output_file *fw_output_files(const fw_output *output, size_t *count); /* by name */
+fw_status fw_output_commit(fw_output *output);
+void fw_output_abort(fw_output *output); /* removes what was built; NULL and twice allowed */
+
+/* a single file, whole or not at all ("-" is standard output) */
+fw_status fw_output_single(fw_arena *arena, const char *path, const void *data, size_t n,
+                           fw_diags *diags);
+
+/* a whole file or, for "-", standard input, at most `most` bytes (FW_LIMIT beyond); NUL added
+   after the end. Errors name the file (FW-D220, FW-D221). */
+fw_status fw_input_read(fw_arena *arena, const char *path, size_t most, fw_diags *diags,
+                        char **data, size_t *n);
+
+/* where packs and layer tables are: $FLEXWRIGHT_DATA as given by the caller, else the installed
+   directory, else the source tree. Returns a path of `name` below it that exists, or NULL. */
+const char *fw_data_path(fw_arena *arena, const char *override, const char *name);
+
+#endif

@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/text.h"
+#include <locale.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+fw_text fw_text_new(fw_arena *arena) {
+    return (fw_text){.arena = arena};
+}
+
+static int reserve(fw_text *text, size_t more) {
+    if (text->failed) return 0;
+    if (more > SIZE_MAX / 4 - text->length) {
+        text->failed = 1;
+        return 0;
+    }
+    size_t need = text->length + more + 1;
+    if (need <= text->capacity) return 1;
+    size_t capacity = text->capacity ? text->capacity : 256;
+    while (capacity < need)
+        capacity *= 2;
+    char *data = fw_arena_grow(text->arena, text->data, text->length, capacity, 1);
+    if (!data) {
+        text->failed = 1;
+        return 0;
+    }
+    text->data = data;
+    text->capacity = capacity;
+    return 1;
+}
+
+void fw_text_bytes(fw_text *text, const void *data, size_t n) {
+    if (!reserve(text, n)) return;
+    if (n) memcpy(text->data + text->length, data, n);
+    text->length += n;
+    text->data[text->length] = '\0';
+}
+
+void fw_text_add(fw_text *text, const char *string) {
+    fw_text_bytes(text, string, strlen(string));
+}
+
+void fw_text_printf(fw_text *text, const char *format, ...) {
+    va_list arguments, again;
+    va_start(arguments, format);
+    va_copy(again, arguments);
+    int n = vsnprintf(NULL, 0, format, arguments);
+    va_end(arguments);
+    if (n < 0)
+        text->failed = 1;
+    else if (reserve(text, (size_t)n)) {
+        vsnprintf(text->data + text->length, (size_t)n + 1, format, again);
+        text->length += (size_t)n;
+    }
+    va_end(again);
+}
+
+/* printf and strtod follow LC_NUMERIC; the program never calls setlocale, but a caller of the
+   library may have: replace whatever decimal point came out. */
+static void force_point(char *buffer) {
+    const char *point = localeconv()->decimal_point;
+    if (point[0] == '.' && point[1] == '\0') return;
+    char *found = strstr(buffer, point);
+    if (!found) return;
+    *found = '.';
+    memmove(found + 1, found + strlen(point), strlen(found + strlen(point)) + 1);
+}
+
+char *fw_number_text(char *buffer, size_t n, double value, int digits) {
+    if (value == 0.0) value = 0.0; /* no minus zero */
+    snprintf(buffer, n, "%.*g", digits, value);
+    force_point(buffer);
+    return buffer;
+}
+
+void fw_text_number(fw_text *text, double value, int digits) {
+    char buffer[64];
+    fw_text_add(text, fw_number_text(buffer, sizeof buffer, value, digits));
+}
+
+void fw_text_fixed(fw_text *text, double value, int decimals) {
+    char buffer[400];
+    snprintf(buffer, sizeof buffer, "%.*f", decimals, value);
+    force_point(buffer);
+    char *end = buffer + strlen(buffer);
+    if (strchr(buffer, '.')) {
+        while (end[-1] == '0')
+            end--;
+        if (end[-1] == '.') end--;
+        *end = '\0';
+    }
+    fw_text_add(text, strcmp(buffer, "-0") == 0 ? "0" : buffer);
+}
+
+void fw_text_escaped(fw_text *text, const char *string) {
+    for (const unsigned char *s = (const unsigned char *)string; *s; s++) {
+        switch (*s) {
+        case '&':
+            fw_text_add(text, "&amp;");
+            break;
+        case '<':
+            fw_text_add(text, "&lt;");
+            break;
+        case '>':
+            fw_text_add(text, "&gt;");
+            break;
+        case '"':
+            fw_text_add(text, "&quot;");
+            break;
+        case '\'':
+            fw_text_add(text, "&#39;");
+            break;
+        default: {
+            char c = *s < 0x20 && *s != '\n' && *s != '\t' ? ' ' : (char)*s;
+            fw_text_bytes(text, &c, 1);
+        }
+        }
+    }
+}
+
+fw_status fw_text_end(const fw_text *text) {
+    return text->failed ? FW_NOMEM : FW_OK;
+}
+
+/* [+-] digits [. digits] [e [+-] digits], nothing before or after */
+static int number_shape(const char *s, size_t n) {
+    size_t i = 0, digits = 0;
+    if (i < n && (s[i] == '+' || s[i] == '-')) i++;
+    for (; i < n && s[i] >= '0' && s[i] <= '9'; i++)
+        digits++;
+    if (i < n && s[i] == '.')
+        for (i++; i < n && s[i] >= '0' && s[i] <= '9'; i++)
+            digits++;
+    if (digits == 0) return 0;
+    if (i < n && (s[i] == 'e' || s[i] == 'E')) {
+        i++;
+        if (i < n && (s[i] == '+' || s[i] == '-')) i++;
+        size_t first = i;
+        while (i < n && s[i] >= '0' && s[i] <= '9')
+            i++;
+        if (i == first) return 0;
+    }
+    return i == n;
+}
+
+int fw_number_parse(const char *string, size_t n, double *value) {
+    char buffer[512];
+    const char *point = localeconv()->decimal_point;
+    if (n == 0 || n + strlen(point) >= sizeof buffer || !number_shape(string, n)) return 0;
+    size_t length = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (string[i] == '.') {
+            memcpy(buffer + length, point, strlen(point));
+            length += strlen(point);
+        } else
+            buffer[length++] = string[i];
+    }
+    buffer[length] = '\0';
+    *value = strtod(buffer, NULL);
+    return isfinite(*value);
+}
+
+int fw_edit_distance(const char *a, const char *b, int limit) {
+    enum { LONGEST = 64 };
+    size_t na = strlen(a), nb = strlen(b);
+    if (na > LONGEST || nb > LONGEST) return limit + 1;
+    int row[3][LONGEST + 1];
+    for (size_t j = 0; j <= nb; j++)
+        row[0][j] = (int)j;
+    for (size_t i = 1; i <= na; i++) {
+        int *now = row[i % 3], *up = row[(i + 2) % 3], *up2 = row[(i + 1) % 3];
+        now[0] = (int)i;
+        for (size_t j = 1; j <= nb; j++) {
+            int best = up[j - 1] + (a[i - 1] != b[j - 1]);
+            if (up[j] + 1 < best) best = up[j] + 1;
+            if (now[j - 1] + 1 < best) best = now[j - 1] + 1;
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] &&
+                up2[j - 2] + 1 < best)
+                best = up2[j - 2] + 1;
+            now[j] = best;
+        }
+    }
+    int d = row[na % 3][nb];
+    return d > limit ? limit + 1 : d;
+}
+
+const char *fw_did_you_mean(const char *word, const char *const *names, size_t count) {
+    const char *best = NULL;
+    int least = 3;
+    for (size_t i = 0; i < count; i++) {
+        int d = fw_edit_distance(word, names[i], 2);
+        if (d < least && (size_t)d < strlen(names[i])) {
+            least = d;
+            best = names[i];
+        }
+    }
+    return best;
+}

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A growing text in an arena. Errors stick: check `failed` (or fw_text_end) once, at the end.
+   Numbers never depend on the locale. */
+#ifndef FW_BASE_TEXT_H
+#define FW_BASE_TEXT_H
+#include "base/arena.h"
+#include "base/status.h"
+
+typedef struct fw_text {
+    fw_arena *arena;
+    char *data; /* always NUL-terminated once something was added */
+    size_t length, capacity;
+    int failed;
+} fw_text;
+
+fw_text fw_text_new(fw_arena *arena);
+void fw_text_add(fw_text *text, const char *string);
+void fw_text_bytes(fw_text *text, const void *data, size_t n);
+/* printf without %f, %e, %g: those follow the locale; use fw_text_number */
+void fw_text_printf(fw_text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* `digits` significant digits, shortest form, '.' always; 17 round-trips */
+void fw_text_number(fw_text *text, double value, int digits);
+/* fixed decimals without trailing zeros (for SVG coordinates and tables) */
+void fw_text_fixed(fw_text *text, double value, int decimals);
+/* escape & < > " ' for XML and HTML; control characters become spaces */
+void fw_text_escaped(fw_text *text, const char *string);
+fw_status fw_text_end(const fw_text *text); /* FW_OK or FW_NOMEM */
+
+/* the same into a caller's buffer of n bytes; returns buffer */
+char *fw_number_text(char *buffer, size_t n, double value, int digits);
+/* whole string is one finite number ('.' decimal, optional exponent, no hex, inf or nan)? */
+int fw_number_parse(const char *string, size_t n, double *value);
+/* edit distance (insert, delete, replace, swap), at most `limit`+1; for "did you mean" */
+int fw_edit_distance(const char *a, const char *b, int limit);
+/* best match among count names within distance 2, or NULL */
+const char *fw_did_you_mean(const char *word, const char *const *names, size_t count);
+
+#endif

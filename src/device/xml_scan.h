@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The raw bytes of an XML text: where tags and attributes stand, and what is refused before a parser
+   sees it. Private to device/. */
+#ifndef FW_DEVICE_XML_SCAN_H
+#define FW_DEVICE_XML_SCAN_H
+#include "base/diag.h"
+
+enum {
+    FW_XML_BYTES_MOST = 8 * 1024 * 1024,
+    FW_XML_DEPTH_MOST = 32,
+    FW_XML_ELEMENTS_MOST = 20000,
+    FW_XML_ATTRIBUTES_MOST = 64,
+    FW_XML_VALUE_MOST = 4096
+};
+
+typedef struct fw_bytes {
+    const char *data;
+    size_t n;
+} fw_bytes;
+
+typedef struct fw_raw_attribute { /* offsets into the text */
+    size_t name, name_length, value, value_length;
+} fw_raw_attribute;
+
+/* byte offset -> line and column, both from 1 */
+fw_place fw_place_at(const char *file, fw_bytes xml, size_t offset);
+int fw_starts_with(fw_bytes xml, size_t at, const char *what);
+size_t fw_find(fw_bytes xml, size_t at, const char *what); /* xml.n when absent */
+
+/* the first start tag at or behind `at`, comments and the like skipped; xml.n when none */
+size_t fw_next_tag(fw_bytes xml, size_t at);
+/* the next attribute name="value" at or behind `at` inside a tag; 0 when the tag ends first */
+int fw_next_attribute(fw_bytes xml, size_t at, fw_raw_attribute *attribute);
+
+/* refusals; *body is the offset behind a byte order mark */
+fw_status fw_xml_guard(const char *file, fw_bytes xml, fw_diags *diags, size_t *body);
+
+#endif

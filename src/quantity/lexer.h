@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tokens of an expression; shared by the evaluator and the search for names. Private to quantity/. */
+#ifndef FW_QUANTITY_LEXER_H
+#define FW_QUANTITY_LEXER_H
+#include "quantity/expression.h"
+
+typedef enum fw_token_kind {
+    FW_TOKEN_END,
+    FW_TOKEN_NUMBER, /* with its unit, in SI */
+    FW_TOKEN_NAME,
+    FW_TOKEN_MARK,   /* one of + - * / ^ ( ) , */
+    FW_TOKEN_WRONG   /* `error` is filled */
+} fw_token_kind;
+
+typedef struct fw_token {
+    fw_token_kind kind;
+    size_t start, length;
+    char mark;
+    double value;
+    fw_dimension dimension;
+    size_t unit_start, unit_length; /* length 0: a number without unit */
+} fw_token;
+
+typedef struct fw_lexer {
+    fw_arena *arena;
+    const char *text;
+    size_t n, at;
+    fw_expression_error *error; /* message NULL after running out of memory */
+} fw_lexer;
+
+fw_token fw_lexer_next(fw_lexer *lexer);
+
+/* longest unit that text starts with: bytes used, 0 when none; *wrong is the symbol where the chain
+   stopped (NULL when it stopped for another reason) */
+size_t fw_unit_scan(const char *text, size_t n, bool minus_allowed, fw_unit *unit,
+                    const char **wrong, size_t *wrong_n);
+bool fw_unit_symbol(const char *symbol, size_t n);
+/* "did you mean 'um'?" for a misspelt unit, or NULL */
+const char *fw_unit_suggestion(const char *symbol, size_t n);
+/* d += by * times; false when an exponent leaves -127..127 */
+bool fw_dimension_combine(fw_dimension *d, fw_dimension by, int times);
+/* a unit that suits the dimension in messages: "um", "N m/rad"; NULL when there is no usual one */
+const char *fw_dimension_unit(fw_dimension d);
+bool fw_expression_function(const char *name, size_t n); /* sqrt, sin ... or pi */
+
+#endif

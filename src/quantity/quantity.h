@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Numbers with unit, uncertainty, status and source. Inside, all values are SI. */
+#ifndef FW_QUANTITY_QUANTITY_H
+#define FW_QUANTITY_QUANTITY_H
+#include "base/arena.h"
+#include "base/diag.h"
+#include "base/status.h"
+#include <stdbool.h>
+#include <stdint.h>
+
+/* exponents of m, kg, s, A, K, mol, rad. The angle is kept apart so that "5 deg" is not "0.0873" by
+   accident; where a formula multiplies by an angle the table says so (N m/rad). */
+typedef struct fw_dimension {
+    int8_t m, kg, s, A, K, mol, rad;
+} fw_dimension;
+
+bool fw_dimension_equal(fw_dimension a, fw_dimension b);
+/* "m s^-1"; or the name of a known one: "length", "torsional stiffness" */
+const char *fw_dimension_text(fw_arena *arena, fw_dimension d);
+
+/* one row of the unit table: "um", "mA/cm2" is composed of rows. `offset` for Cel only. */
+typedef struct fw_unit {
+    double factor; /* value_SI = value * factor + offset */
+    double offset;
+    fw_dimension dimension;
+} fw_unit;
+
+/* parses a unit expression: products by space, "." or "*", "/", integer exponents behind the symbol
+   (cm2, s-1, um^2), e.g. "N m/rad", "mA/cm2", "Ao/s", "g/cm3", "{sccm}", "1". false when unknown;
+   *wrong (may be NULL) then points at the offending symbol inside text, *wrong_n its length. */
+bool fw_unit_parse(const char *text, size_t n, fw_unit *unit, const char **wrong, size_t *wrong_n);
+/* all unit symbols, for "did you mean" and the reference page */
+const char *const *fw_unit_names(size_t *count);
+
+typedef enum fw_value_status { /* from best to worst; a result inherits the worst of its inputs */
+    FW_MEASURED,
+    FW_STATED,
+    FW_DERIVED,
+    FW_TYPICAL,
+    FW_ASSUMED
+} fw_value_status;
+const char *fw_value_status_text(fw_value_status status);
+bool fw_value_status_parse(const char *text, fw_value_status *status);
+
+typedef struct fw_quantity {
+    const char *id;      /* may be NULL */
+    bool unknown;        /* no value: whatever needs it is NOT COMPUTABLE */
+    double value;        /* SI */
+    double uncertainty;  /* standard, absolute, SI; >= 0 */
+    fw_dimension dimension;
+    const char *unit;    /* as written, for printing */
+    fw_value_status status;
+    const char *source;  /* text of the source */
+    const char *note;    /* may be NULL */
+    fw_place place;
+} fw_quantity;
+
+/* value in its own unit, e.g. 9 for 9e-6 m in "um" */
+double fw_quantity_in_unit(const fw_quantity *q);
+
+#endif

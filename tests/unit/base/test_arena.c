@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/arena.h"
+#include "test.h"
+
+static void zeroed_and_aligned(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    for (size_t n = 0; n < 5000; n = 3 * n + 1) {
+        unsigned char *p = fw_arena_alloc(arena, n, 3);
+        assert_non_null(p);
+        assert_int_equal((uintptr_t)p % 64, 0);
+        for (size_t i = 0; i < 3 * n; i++)
+            assert_int_equal(p[i], 0);
+        memset(p, 0xff, 3 * n);
+    }
+    fw_arena_free(arena);
+}
+
+static void overflow_and_cap_are_null(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(1 << 20);
+    assert_null(fw_arena_alloc(arena, SIZE_MAX, 2));
+    assert_null(fw_arena_alloc(arena, SIZE_MAX / 2, 2));
+    assert_null(fw_arena_alloc(arena, (1 << 20) + 1, 1));
+    assert_non_null(fw_arena_alloc(arena, 1 << 19, 1));
+    assert_null(fw_arena_alloc(arena, 1 << 20, 1));
+    assert_true(fw_arena_peak(arena) <= 1 << 20);
+    fw_arena_free(arena);
+    fw_arena_free(NULL);
+}
+
+static void rewinding_gives_back(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(1 << 22);
+    char *kept = fw_arena_printf(arena, "%s %d", "kept", 1);
+    for (int round = 0; round < 100; round++) { /* would pass the cap without the rewind */
+        fw_mark mark = fw_arena_mark(arena);
+        for (int i = 0; i < 10; i++) {
+            char *p = fw_arena_alloc(arena, 1 << 18, 1);
+            assert_non_null(p);
+            assert_int_equal(p[0], 0);
+            p[0] = 1;
+        }
+        fw_arena_rewind(arena, mark);
+    }
+    assert_string_equal(kept, "kept 1");
+    fw_arena_free(arena);
+}
+
+static void faults_are_injected(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_arena_fail_at(2, 0);
+    assert_non_null(fw_arena_alloc(arena, 1, 1));
+    assert_null(fw_arena_alloc(arena, 1, 1));
+    assert_non_null(fw_arena_alloc(arena, 1, 1));
+    assert_int_equal(fw_arena_count(), 3);
+    fw_arena_fail_at(1, 1);
+    assert_null(fw_arena_alloc(arena, 1, 1));
+    assert_null(fw_arena_new(0));
+    fw_arena_fail_at(0, 0);
+    fw_arena_free(arena);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(zeroed_and_aligned),
+        cmocka_unit_test(overflow_and_cap_are_null),
+        cmocka_unit_test(rewinding_gives_back),
+        cmocka_unit_test(faults_are_injected),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/diag.h"
+#include "test.h"
+
+static void printed_in_file_order_with_caret(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    const char *source = "<a>\n  <b c=\"\xc3\xa4x\"/>\n</a>\n";
+    assert_int_equal(fw_diag_error(&diags, 41, (fw_place){"f.xml", 2, 11}, "wrong %s", "x"),
+                     FW_INPUT);
+    fw_diag_warning(&diags, 40, (fw_place){"f.xml", 1, 1}, "odd");
+    fw_text out = fw_text_new(arena);
+    fw_diags_print(&diags, &out, source, strlen(source), 0);
+    assert_string_equal(out.data, "f.xml:1:1: warning: odd [FW-D040]\n"
+                                  "     1 | <a>\n"
+                                  "       | ^\n"
+                                  "f.xml:2:11: error: wrong x [FW-D041]\n"
+                                  "     2 |   <b c=\"\xc3\xa4x\"/>\n"
+                                  "       |          ^\n");
+    assert_int_equal(diags.errors, 1);
+    fw_arena_free(arena);
+}
+
+static void only_the_first_hundred(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    for (int i = 0; i < 250; i++)
+        fw_diag_error(&diags, 41, (fw_place){"f.xml", i + 1, 1}, "one");
+    assert_int_equal(diags.count, 100);
+    assert_int_equal(diags.dropped, 150);
+    assert_int_equal(diags.errors, 250);
+    fw_arena_free(arena);
+}
+
+static void table_is_sorted_and_complete(void **state) {
+    (void)state;
+    size_t n;
+    const fw_diag_entry *entry = fw_diag_table(&n);
+    for (size_t i = 0; i < n; i++) {
+        if (i > 0 && entry[i].number <= entry[i - 1].number)
+            fail_msg("FW-D%03d is out of order or doubled", entry[i].number);
+        if (strlen(entry[i].title) < 5 || strlen(entry[i].text) < 40)
+            fail_msg("FW-D%03d has no long text", entry[i].number);
+        assert_ptr_equal(fw_diag_find(entry[i].number), &entry[i]);
+    }
+    assert_null(fw_diag_find(999));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(printed_in_file_order_with_caret),
+        cmocka_unit_test(only_the_first_hundred),
+        cmocka_unit_test(table_is_sorted_and_complete),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/output.h"
+#include "test.h"
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+typedef struct room {
+    char path[64];
+    fw_arena *arena;
+    fw_diags diags;
+} room;
+
+static int enter(void **state) {
+    static room r;
+    strcpy(r.path, "fw-output-XXXXXX");
+    if (!mkdtemp(r.path)) return -1;
+    r.arena = fw_arena_new(0);
+    r.diags = fw_diags_new(r.arena);
+    *state = &r;
+    return 0;
+}
+
+static int leave(void **state) {
+    room *r = *state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -rf %s", r->path);
+    fw_arena_free(r->arena);
+    return system(command);
+}
+
+static const char *below(room *r, const char *name) {
+    return fw_arena_printf(r->arena, "%s/%s", r->path, name);
+}
+
+static fw_status plan(room *r, const char *to, const char *content) {
+    fw_output *output;
+    FW_TRY(fw_output_open(r->arena, below(r, to), &r->diags, &output));
+    FW_TRY(fw_output_write(output, "deep/er/a.txt", content, strlen(content)));
+    FW_TRY(fw_output_write(output, "manifest.json", "{}", 2));
+    return fw_output_commit(output);
+}
+
+static void whole_and_replaced_whole(void **state) {
+    room *r = *state;
+    char *text;
+    size_t n;
+    assert_int_equal(plan(r, "x/y/out", "one"), FW_OK);
+    assert_int_equal(plan(r, "x/y/out/", "two"), FW_OK); /* a slash at the end means the same */
+    assert_int_equal(
+        fw_input_read(r->arena, below(r, "x/y/out/deep/er/a.txt"), 100, &r->diags, &text, &n),
+        FW_OK);
+    assert_string_equal(text, "two");
+    assert_int_equal(system(fw_arena_printf(r->arena, "test $(ls -a %s/x/y | wc -l) = 3", r->path)),
+                     0); /* . .. out: nothing left behind */
+}
+
+static void aborted_leaves_nothing_and_keeps_the_old(void **state) {
+    room *r = *state;
+    assert_int_equal(plan(r, "out", "old"), FW_OK);
+    fw_output *output;
+    assert_int_equal(fw_output_open(r->arena, below(r, "out"), &r->diags, &output), FW_OK);
+    assert_int_equal(fw_output_write(output, "deep/er/a.txt", "new", 3), FW_OK);
+    fw_output_abort(output);
+    fw_output_abort(output);
+    fw_output_abort(NULL);
+    assert_int_equal(system(fw_arena_printf(
+                         r->arena, "grep -q old %s/out/deep/er/a.txt && test $(ls %s | wc -l) = 1",
+                         r->path, r->path)),
+                     0);
+}
+
+static void foreign_directories_are_refused(void **state) {
+    room *r = *state;
+    assert_int_equal(
+        system(fw_arena_printf(r->arena, "mkdir %s/mine && echo thesis > %s/mine/thesis.tex",
+                               r->path, r->path)),
+        0);
+    assert_int_equal(plan(r, "mine", "x"), FW_IO);
+    assert_int_equal(r->diags.item[0].number, 223);
+    assert_int_equal(
+        system(fw_arena_printf(r->arena, "grep -q thesis %s/mine/thesis.tex", r->path)), 0);
+    assert_int_equal(system(fw_arena_printf(r->arena, "mkdir %s/empty", r->path)), 0);
+    assert_int_equal(plan(r, "empty", "x"), FW_OK);
+}
+
+static void leftovers_of_the_dead_are_removed(void **state) {
+    room *r = *state; /* process numbers end at 2^22 */
+    assert_int_equal(
+        system(fw_arena_printf(r->arena, "mkdir -p %s/out.tmp-99999999/masks %s/out.tmp-1/masks",
+                               r->path, r->path)),
+        0);
+    assert_int_equal(plan(r, "out", "x"), FW_OK);
+    assert_int_not_equal(access(below(r, "out.tmp-99999999"), F_OK), 0);
+    assert_int_equal(access(below(r, "out.tmp-1"), F_OK), 0); /* init is alive */
+}
+
+static void input_says_what_is_wrong(void **state) {
+    room *r = *state;
+    char *text;
+    size_t n;
+    assert_int_equal(fw_input_read(r->arena, below(r, "none"), 10, &r->diags, &text, &n), FW_IO);
+    assert_int_equal(fw_input_read(r->arena, r->path, 10, &r->diags, &text, &n), FW_IO);
+    assert_int_equal(fw_output_single(r->arena, below(r, "eleven"), "12345678901", 11, &r->diags),
+                     FW_OK);
+    assert_int_equal(fw_input_read(r->arena, below(r, "eleven"), 10, &r->diags, &text, &n),
+                     FW_INPUT);
+    assert_int_equal(r->diags.item[0].number, 220);
+    assert_int_equal(r->diags.item[2].number, 221);
+    assert_int_equal(fw_output_single(r->arena, "/dev/full", "x", 1, &r->diags), FW_IO);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(whole_and_replaced_whole, enter, leave),
+        cmocka_unit_test_setup_teardown(aborted_leaves_nothing_and_keeps_the_old, enter, leave),
+        cmocka_unit_test_setup_teardown(foreign_directories_are_refused, enter, leave),
+        cmocka_unit_test_setup_teardown(leftovers_of_the_dead_are_removed, enter, leave),
+        cmocka_unit_test_setup_teardown(input_says_what_is_wrong, enter, leave),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

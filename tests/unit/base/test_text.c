@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/text.h"
+#include "test.h"
+
+static void numbers_round_trip(void **state) {
+    (void)state;
+    uint64_t seed = 7;
+    char buffer[64];
+    for (int i = 0; i < 100000; i++) {
+        seed = seed * 6364136223846793005u + 1442695040888963407u;
+        double x;
+        memcpy(&x, &seed, sizeof x);
+        if (!isfinite(x)) continue;
+        double back;
+        fw_number_text(buffer, sizeof buffer, x, 17);
+        assert_true(fw_number_parse(buffer, strlen(buffer), &back));
+        assert_memory_equal(&x, &back, sizeof x);
+    }
+}
+
+static void numbers_are_strict(void **state) {
+    (void)state;
+    static const char *const bad[] = {"",  " 1",  "1 ",  "0x10", "inf",   "nan",   "1e", "1e+",
+                                      ".", "1,5", "--1", "+",    "1e999", "1.2.3", "1d3"};
+    static const char *const good[] = {"1", "-1.5", "+.5", "5.", "1e-3", "1E+3"};
+    double x;
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
+        assert_false(fw_number_parse(bad[i], strlen(bad[i]), &x));
+    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++)
+        assert_true(fw_number_parse(good[i], strlen(good[i]), &x));
+}
+
+static void fixed_and_escaped(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_text t = fw_text_new(arena);
+    fw_text_fixed(&t, 1.5, 6);
+    fw_text_add(&t, " ");
+    fw_text_fixed(&t, -0.0000001, 3);
+    fw_text_add(&t, " ");
+    fw_text_fixed(&t, 100, 2);
+    fw_text_add(&t, " ");
+    fw_text_escaped(&t, "<a href=\"x\">&'\x01</a>");
+    assert_string_equal(t.data, "1.5 0 100 &lt;a href=&quot;x&quot;&gt;&amp;&#39; &lt;/a&gt;");
+    assert_int_equal(fw_text_end(&t), FW_OK);
+    fw_arena_free(arena);
+}
+
+static void short_memory_sticks(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_text t = fw_text_new(arena);
+    fw_arena_fail_at(1, 0);
+    fw_text_add(&t, "lost");
+    fw_arena_fail_at(0, 0);
+    fw_text_add(&t, "kept?");
+    assert_int_equal(fw_text_end(&t), FW_NOMEM);
+    fw_arena_free(arena);
+}
+
+static void spelling(void **state) {
+    (void)state;
+    static const char *const names[] = {"plan", "check", "simulate"};
+    assert_string_equal(fw_did_you_mean("simualte", names, 3), "simulate");
+    assert_string_equal(fw_did_you_mean("plam", names, 3), "plan");
+    assert_null(fw_did_you_mean("serve", names, 3));
+    assert_int_equal(fw_edit_distance("ab", "ba", 2), 1);
+    assert_int_equal(fw_edit_distance("", "abc", 2), 3);
+    assert_int_equal(fw_edit_distance("kitten", "sitting", 5), 3);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(numbers_round_trip), cmocka_unit_test(numbers_are_strict),
+        cmocka_unit_test(fixed_and_escaped),  cmocka_unit_test(short_memory_sticks),
+        cmocka_unit_test(spelling),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* cmocka in the order in which it wants its own headers included, and comparisons of doubles that
+   print both numbers. */
+#ifndef FW_TEST_H
+#define FW_TEST_H
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <cmocka.h>
+
+/* |got - want| <= tol, absolute */
+#define assert_near(got, want, tol)                                                                \
+    do {                                                                                           \
+        double got_ = (got), want_ = (want), tol_ = (tol);                                         \
+        if (!(fabs(got_ - want_) <= tol_))                                                         \
+            fail_msg("%s = %.17g, expected %.17g +- %.3g (off by %.3g)", #got, got_, want_, tol_,  \
+                     got_ - want_);                                                                \
+    } while (0)
+
+/* |got / want - 1| <= tol */
+#define assert_relative(got, want, tol) assert_near((got), (want), fabs((double)(want)) * (tol))
+#endif
