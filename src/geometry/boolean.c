@@ -1,0 +1,264 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Exact boolean of outlines of lines and arcs: cut both at all common points, keep the parts that
+   bound the result, stitch them. Nothing is flattened. */
+#include "geometry/boolean.h"
+#include <stdlib.h>
+#include <string.h>
+
+static int find_node(const fw_graph *g, fw_vec2 at) {
+    for (int i = 0; i < g->nnode; i++)
+        if (fabs(g->node[i].x - at.x) <= FW_COINCIDENT_M &&
+            vec_distance(g->node[i], at) <= FW_COINCIDENT_M)
+            return i;
+    return -1;
+}
+
+/* the node at a place, made when there is none within the tolerance */
+static fw_status node_at(fw_graph *g, fw_vec2 at, int *node) {
+    *node = find_node(g, at);
+    if (*node >= 0) return FW_OK;
+    if (g->nnode == g->node_room) {
+        int more = g->node_room ? 2 * g->node_room : 64;
+        fw_vec2 *grown =
+            fw_arena_grow(g->arena, g->node, (size_t)g->nnode, (size_t)more, sizeof *grown);
+        int *same = fw_arena_grow(g->arena, g->same, (size_t)g->nnode, (size_t)more, sizeof *same);
+        FW_NEED(grown);
+        FW_NEED(same);
+        g->node = grown;
+        g->same = same;
+        g->node_room = more;
+    }
+    *node = g->same[g->nnode] = g->nnode;
+    g->node[g->nnode++] = at;
+    return FW_OK;
+}
+
+static int root_of(const fw_graph *g, int node) {
+    while (g->same[node] != node)
+        node = g->same[node];
+    return node;
+}
+
+/* two places that a segment cannot tell apart are one node, the earlier */
+static void unite(fw_graph *g, int a, int b) {
+    a = root_of(g, a);
+    b = root_of(g, b);
+    g->same[a > b ? a : b] = a > b ? b : a;
+}
+
+static fw_status add_cut(fw_graph *g, int segment, double t, int node) {
+    if (g->ncut == g->cut_room) {
+        int more = g->cut_room ? 2 * g->cut_room : 64;
+        fw_cut *grown =
+            fw_arena_grow(g->arena, g->cut, (size_t)g->ncut, (size_t)more, sizeof *grown);
+        FW_NEED(grown);
+        g->cut = grown;
+        g->cut_room = more;
+    }
+    g->cut[g->ncut++] = (fw_cut){segment, node, t};
+    return FW_OK;
+}
+
+static int count_segments(const fw_region *region) {
+    int n = 0;
+    for (int i = 0; i < region->count; i++)
+        n += region->contour[i].count;
+    return n;
+}
+
+/* every segment with cuts at its own two ends; ends of p come first and keep their doubles */
+static fw_status collect(fw_graph *g, const fw_region *p, const fw_region *q) {
+    g->nfirst = count_segments(p);
+    g->nsegment = g->nfirst + count_segments(q);
+    g->segment = fw_arena_array(g->arena, const fw_segment *, (size_t)g->nsegment);
+    FW_NEED(g->segment);
+    int n = 0;
+    for (int side = 0; side < 2; side++) {
+        const fw_region *region = side ? q : p;
+        for (int i = 0; i < region->count; i++) {
+            if (!fw_contour_valid(&region->contour[i])) return FW_GEOMETRY;
+            for (int k = 0; k < region->contour[i].count; k++)
+                g->segment[n++] = &region->contour[i].segment[k];
+        }
+    }
+    for (int i = 0; i < g->nsegment; i++) {
+        int node;
+        FW_TRY(node_at(g, g->segment[i]->a, &node));
+        FW_TRY(add_cut(g, i, 0, node));
+        FW_TRY(node_at(g, g->segment[i]->b, &node));
+        FW_TRY(add_cut(g, i, 1, node));
+    }
+    return FW_OK;
+}
+
+/* a cut inside a segment; at its very end the node is united with that end */
+static fw_status cut_at(fw_graph *g, int segment, double t, int node) {
+    double length = fw_segment_length(g->segment[segment]);
+    if (t * length <= FW_COINCIDENT_M)
+        unite(g, node, g->cut[2 * segment].node);
+    else if ((1 - t) * length <= FW_COINCIDENT_M)
+        unite(g, node, g->cut[2 * segment + 1].node);
+    else
+        return add_cut(g, segment, t, node);
+    return FW_OK;
+}
+
+static fw_status intersect_all(fw_graph *g) {
+    fw_box *box = fw_arena_array(g->arena, fw_box, (size_t)g->nsegment);
+    FW_NEED(box);
+    for (int i = 0; i < g->nsegment; i++)
+        box[i] = fw_segment_box(g->segment[i]);
+    for (int i = 0; i < g->nfirst; i++)
+        for (int j = g->nfirst; j < g->nsegment; j++) {
+            if (fw_box_gap(box[i], box[j]) > FW_COINCIDENT_M) continue;
+            fw_hit hit[FW_MOST_HITS];
+            int n = fw_segment_intersect(g->segment[i], g->segment[j], hit);
+            for (int k = 0; k < n; k++) {
+                int node;
+                FW_TRY(node_at(g, hit[k].at, &node));
+                FW_TRY(cut_at(g, i, hit[k].tp, node));
+                FW_TRY(cut_at(g, j, hit[k].tq, node));
+            }
+        }
+    return FW_OK;
+}
+
+static int by_place(const void *left, const void *right) {
+    const fw_cut *a = left, *b = right;
+    if (a->segment != b->segment) return a->segment < b->segment ? -1 : 1;
+    if (a->t != b->t) return a->t < b->t ? -1 : 1;
+    return (a->node > b->node) - (a->node < b->node);
+}
+
+static fw_status cut_edges(fw_graph *g) {
+    for (int i = 0; i < g->ncut; i++)
+        g->cut[i].node = root_of(g, g->cut[i].node);
+    qsort(g->cut, (size_t)g->ncut, sizeof *g->cut, by_place);
+    g->edge = fw_arena_array(g->arena, fw_edge, (size_t)g->ncut);
+    FW_NEED(g->edge);
+    for (int i = 1, rank = 0; i < g->ncut; i++) {
+        const fw_cut *a = &g->cut[i - 1], *b = &g->cut[i];
+        if (a->segment != b->segment) {
+            rank = 0;
+            continue;
+        }
+        const fw_segment *s = g->segment[a->segment];
+        double length = fw_segment_length(s) * (b->t - a->t);
+        /* a closed circle may run from a node to itself, a stub within the tolerance may not */
+        if (a->node == b->node && length <= 8 * FW_COINCIDENT_M) continue;
+        g->edge[g->nedge++] = (fw_edge){.segment = a->segment,
+                                        .rank = rank++,
+                                        .owner = a->segment < g->nfirst ? 0 : 1,
+                                        .from = a->node,
+                                        .to = b->node,
+                                        .t0 = a->t,
+                                        .t1 = b->t,
+                                        .twin = -1};
+    }
+    return FW_OK;
+}
+
+fw_segment fw_edge_segment(const fw_graph *g, const fw_edge *e) {
+    fw_segment s =
+        fw_segment_cut(g->segment[e->segment], e->t0, g->node[e->from], e->t1, g->node[e->to]);
+    return e->reversed ? fw_segment_reverse(&s) : s;
+}
+
+static fw_vec2 middle_of(const fw_graph *g, const fw_edge *e) {
+    fw_segment s = fw_edge_segment(g, e);
+    return fw_segment_point(&s, 0.5);
+}
+
+/* edges of p and q between the same nodes along the same path; *same: in the same direction */
+static bool is_twin(const fw_graph *g, const fw_edge *a, const fw_edge *b, bool *same) {
+    if (a->from == b->from && a->to == b->to)
+        *same = true;
+    else if (a->from == b->to && a->to == b->from)
+        *same = false;
+    else
+        return false;
+    if (a->from == a->to)
+        *same = (g->segment[a->segment]->sweep_rad > 0) == (g->segment[b->segment]->sweep_rad > 0);
+    return vec_distance(middle_of(g, a), middle_of(g, b)) <= 8 * FW_COINCIDENT_M;
+}
+
+static int region_winding(const fw_region *region, fw_vec2 point) {
+    int winding = 0;
+    for (int i = 0; i < region->count; i++)
+        winding += fw_contour_winding(&region->contour[i], point);
+    return winding;
+}
+
+/* which edges bound the result, and in which direction */
+static void choose(fw_edge *e, bool within, fw_boolean op) {
+    if (op == FW_UNION)
+        e->keep = !within;
+    else if (op == FW_INTERSECTION)
+        e->keep = within;
+    else {
+        e->keep = e->owner == 0 ? !within : within;
+        e->reversed = e->owner == 1;
+    }
+}
+
+static int compare_ints(int a, int b) {
+    return (a > b) - (a < b);
+}
+
+typedef struct key {
+    int low, high, edge;
+} key;
+
+static int by_key(const void *left, const void *right) {
+    const key *a = left, *b = right;
+    if (a->low != b->low) return compare_ints(a->low, b->low);
+    if (a->high != b->high) return compare_ints(a->high, b->high);
+    return compare_ints(a->edge, b->edge);
+}
+
+/* twins stand next to each other once sorted by their two nodes. Shared edges bound a union or an
+   intersection once when both regions lie on one side, never when on either side; a difference the
+   other way round. The copy of p is kept, with its flags. */
+static fw_status pair_twins(fw_graph *g, fw_boolean op) {
+    key *order = fw_arena_array(g->arena, key, (size_t)g->nedge);
+    FW_NEED(order);
+    for (int i = 0; i < g->nedge; i++) {
+        const fw_edge *e = &g->edge[i];
+        order[i] = (key){e->from < e->to ? e->from : e->to, e->from < e->to ? e->to : e->from, i};
+    }
+    qsort(order, (size_t)g->nedge, sizeof *order, by_key);
+    for (int i = 0; i < g->nedge; i++)
+        for (int j = i + 1;
+             j < g->nedge && order[j].low == order[i].low && order[j].high == order[i].high; j++) {
+            fw_edge *a = &g->edge[order[i].edge], *b = &g->edge[order[j].edge];
+            bool same;
+            if (a->owner == b->owner || a->twin >= 0 || b->twin >= 0 || !is_twin(g, a, b, &same))
+                continue;
+            a->twin = order[j].edge;
+            b->twin = order[i].edge;
+            a->keep = same == (op != FW_DIFFERENCE); /* a is of p: its edges come first */
+        }
+    return FW_OK;
+}
+
+/* Boolean of two regions: (1) cut every segment at its common points with the other region, nodes
+   within 1e-12 m are one; (2) an edge bounds the result by the winding number of its midpoint about
+   the other region, coincident edges by rule; (3) stitch. In: regions (outer ccw, holes cw, m).
+   Out: the same kind of region. Untouched segments keep their doubles and flags.
+   Cost: O(n m + n (n + m)). Test: test_boolean.c. */
+fw_status fw_region_boolean(fw_arena *arena, const fw_region *p, const fw_region *q, fw_boolean op,
+                            fw_region *out) {
+    *out = (fw_region){0};
+    fw_graph g = {.arena = arena};
+    FW_TRY(collect(&g, p, q));
+    if (g.nsegment == 0) return FW_OK;
+    FW_TRY(intersect_all(&g));
+    FW_TRY(cut_edges(&g));
+    FW_TRY(pair_twins(&g, op));
+    for (int i = 0; i < g.nedge; i++)
+        if (g.edge[i].twin < 0) {
+            fw_edge *e = &g.edge[i];
+            choose(e, region_winding(e->owner ? p : q, middle_of(&g, e)) != 0, op);
+        }
+    return fw_graph_stitch(&g, out);
+}

@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Width and space of one outline: the shortest chord between two edges that face each other. */
+#include "geometry/segment.h"
+
+typedef struct search {
+    const fw_contour *contour;
+    bool inside;
+} search;
+
+static const fw_segment *around(const fw_contour *contour, int i) {
+    return &contour->segment[(i + contour->count) % contour->count];
+}
+
+/* can the end of segment i at parameter t slide along the outline past t without a corner? */
+static bool runs_on(const fw_contour *contour, int i, bool at_end) {
+    const fw_segment *before = around(contour, at_end ? i : i - 1);
+    const fw_segment *after = around(contour, at_end ? i + 1 : i);
+    if ((before->flags | after->flags) & FW_SEGMENT_JOINT) return false;
+    return fabs(fw_corner_turn(before, after)) < FW_SMOOTH_RAD;
+}
+
+/* is the distance stationary or least at this end of the chord? u points along the chord, away */
+static bool settled(const search *in, int i, double t, fw_vec2 u) {
+    const double slack = 1e-6;
+    double toward = vec_dot(u, fw_segment_tangent(around(in->contour, i), t));
+    bool start = t <= 0, end = t >= 1;
+    if (start && !runs_on(in->contour, i, false)) return toward <= slack;
+    if (end && !runs_on(in->contour, i, true)) return toward >= -slack;
+    return fabs(toward) <= slack;
+}
+
+/* a chord counts when both edges have it on the wanted side, face each other, and neither end can
+   slide along its edge to a shorter one */
+static bool counts(const search *in, int i, int j, const fw_chord *chord, double length) {
+    fw_vec2 u = vec_scale(1 / length, vec_sub(chord->at_q, chord->at_p));
+    fw_vec2 left_i = vec_left(fw_segment_tangent(around(in->contour, i), chord->tp));
+    fw_vec2 left_j = vec_left(fw_segment_tangent(around(in->contour, j), chord->tq));
+    double side = in->inside ? 1 : -1, slack = 1e-6;
+    if (side * vec_dot(u, left_i) <= slack || side * vec_dot(u, left_j) >= -slack) return false;
+    if (vec_dot(left_i, left_j) > -slack) return false;
+    return settled(in, i, chord->tp, u) && settled(in, j, chord->tq, vec_scale(-1, u));
+}
+
+/* do the two ends of the chord lie at a corner that the segments share? */
+static bool at_shared_corner(const fw_contour *contour, int i, int j, const fw_chord *chord) {
+    int n = contour->count;
+    bool after = (i + 1) % n == j && chord->tp >= 1 && chord->tq <= 0;
+    bool before = (j + 1) % n == i && chord->tq >= 1 && chord->tp <= 0;
+    return after || before;
+}
+
+static double pair_clearance(const search *in, int i, int j) {
+    const fw_segment *p = around(in->contour, i), *q = around(in->contour, j);
+    int n = in->contour->count;
+    fw_hit hit[FW_MOST_HITS];
+    int hits = fw_segment_intersect(p, q, hit);
+    for (int k = 0; k < hits;
+         k++) { /* touching or crossing anywhere else than at a shared corner */
+        fw_chord met = {hit[k].tp, hit[k].tq, hit[k].at, hit[k].at};
+        if (!at_shared_corner(in->contour, i, j, &met) || n < 2) return 0;
+    }
+    fw_chord chord[FW_MOST_CHORDS];
+    int count = fw_segment_chords(p, q, chord);
+    double least = HUGE_VAL;
+    for (int k = 0; k < count; k++) {
+        double length = vec_distance(chord[k].at_p, chord[k].at_q);
+        if (length > FW_COINCIDENT_M && length < least && counts(in, i, j, &chord[k], length))
+            least = length;
+    }
+    return least;
+}
+
+/* an arc of half a turn or more faces itself across its diameter */
+static double own_clearance(const fw_segment *s, bool inside) {
+    bool round = s->kind == FW_ARC && fabs(s->sweep_rad) >= FW_PI * (1 - 1e-12);
+    return round && (s->sweep_rad > 0) == inside ? 2 * s->radius : HUGE_VAL;
+}
+
+double fw_contour_clearance(const fw_contour *contour, bool inside, int *i, int *j) {
+    search in = {contour, inside};
+    double least = HUGE_VAL;
+    int best_i = -1, best_j = -1;
+    for (int p = 0; p < contour->count; p++) {
+        const fw_segment *s = &contour->segment[p];
+        if (s->flags & FW_SEGMENT_JOINT) continue;
+        if (own_clearance(s, inside) < least) {
+            least = own_clearance(s, inside);
+            best_i = best_j = p;
+        }
+        fw_box box = fw_segment_box(s);
+        for (int q = p + 1; q < contour->count; q++) {
+            const fw_segment *other = &contour->segment[q];
+            if (other->flags & FW_SEGMENT_JOINT || fw_box_gap(box, fw_segment_box(other)) >= least)
+                continue;
+            double here = pair_clearance(&in, p, q);
+            if (here < least) {
+                least = here;
+                best_i = p;
+                best_j = q;
+            }
+        }
+    }
+    if (i) *i = best_i;
+    if (j) *j = best_j;
+    return least;
+}

@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Least distances, in closed form: a shortest chord between two segments ends at segment ends, at
+   feet of perpendiculars from them, or stands square on both. */
+#include "geometry/segment.h"
+
+static int add_chord(fw_chord *chord, int n, double tp, double tq, fw_vec2 at_p, fw_vec2 at_q) {
+    if (n < FW_MOST_CHORDS) chord[n++] = (fw_chord){tp, tq, at_p, at_q};
+    return n;
+}
+
+/* concentric arcs: every chord through the centre is square on both, from r1 - r2 (the ends give
+   it) to r1 + r2 across the centre */
+static int diameters(const fw_segment *p, const fw_segment *q, fw_chord *chord, int n) {
+    const fw_vec2 end[4] = {p->a, p->b, q->a, q->b};
+    for (int i = 0; i < 4; i++) {
+        fw_vec2 u = vec_unit(vec_sub(end[i], p->centre));
+        double tp, tq, way = i < 2 ? 1 : -1;
+        if (fw_segment_faces(p, vec_scale(way, u), &tp) &&
+            fw_segment_faces(q, vec_scale(-way, u), &tq))
+            n = add_chord(chord, n, tp, tq, vec_along(p->centre, way * p->radius, u),
+                          vec_along(q->centre, -way * q->radius, u));
+    }
+    return n;
+}
+
+/* chords square on both an arc and a line, or on two arcs: they lie on a line through the centres
+ */
+static int square_chords(const fw_segment *p, const fw_segment *q, fw_chord *chord, int n) {
+    fw_vec2 foot = {0, 0}, from = p->kind == FW_ARC ? p->centre : q->centre, to;
+    double t = 0;
+    if (p->kind == FW_ARC && q->kind == FW_ARC)
+        to = q->centre;
+    else {
+        const fw_segment *line = p->kind == FW_LINE ? p : q;
+        double along = vec_dot(vec_sub(from, line->a), vec_sub(line->b, line->a));
+        double square = vec_dot(vec_sub(line->b, line->a), vec_sub(line->b, line->a));
+        t = along / square;
+        if (t < 0 || t > 1) return n;
+        to = foot = fw_segment_point(line, t);
+    }
+    fw_vec2 ray = vec_sub(to, from);
+    if (p->kind == q->kind && vec_length(ray) <= FW_COINCIDENT_M) return diameters(p, q, chord, n);
+    if (vec_length(ray) <= 1e-15) /* line through the centre: the ends and crossings tell all */
+        return n;
+    fw_vec2 u = vec_unit(ray);
+    for (int i = -1; i <= 1; i += 2) {
+        double t0 = 0, t1 = 0;
+        const fw_segment *arc = p->kind == FW_ARC ? p : q;
+        if (!fw_segment_faces(arc, vec_scale(i, u), &t0)) continue;
+        fw_vec2 at = vec_along(arc->centre, i * arc->radius, u);
+        if (p->kind != q->kind) {
+            n = p->kind == FW_ARC ? add_chord(chord, n, t0, t, at, foot)
+                                  : add_chord(chord, n, t, t0, foot, at);
+            continue;
+        }
+        for (int k = -1; k <= 1; k += 2)
+            if (fw_segment_faces(q, vec_scale(k, u), &t1))
+                n = add_chord(chord, n, t0, t1, at, vec_along(q->centre, k * q->radius, u));
+    }
+    return n;
+}
+
+/* All chords between two segments at which the distance can be least: end to foot (4), end to end
+   (4), square on both (4). In: two segments. Out: at most 12 chords with parameters and places (m).
+   Error: a few ulp of the coordinates. Source: first-order conditions. Test: test_distance.c. */
+int fw_segment_chords(const fw_segment *p, const fw_segment *q, fw_chord chord[FW_MOST_CHORDS]) {
+    int n = 0;
+    for (int end = 0; end < 2; end++) {
+        double t;
+        fw_vec2 foot, from = end ? p->b : p->a;
+        fw_segment_nearest(q, from, &t, &foot);
+        n = add_chord(chord, n, end, t, from, foot);
+        from = end ? q->b : q->a;
+        fw_segment_nearest(p, from, &t, &foot);
+        n = add_chord(chord, n, t, end, foot, from);
+        for (int other = 0; other < 2; other++)
+            n = add_chord(chord, n, end, other, end ? p->b : p->a, other ? q->b : q->a);
+    }
+    return p->kind == FW_ARC || q->kind == FW_ARC ? square_chords(p, q, chord, n) : n;
+}
+
+double fw_segment_distance(const fw_segment *p, const fw_segment *q, fw_vec2 *at_p, fw_vec2 *at_q) {
+    fw_hit hit[FW_MOST_HITS];
+    if (fw_segment_intersect(p, q, hit) > 0) {
+        *at_p = *at_q = hit[0].at;
+        return 0;
+    }
+    fw_chord chord[FW_MOST_CHORDS];
+    int n = fw_segment_chords(p, q, chord);
+    double least = HUGE_VAL;
+    for (int i = 0; i < n; i++) {
+        double length = vec_distance(chord[i].at_p, chord[i].at_q);
+        if (length < least) {
+            least = length;
+            *at_p = chord[i].at_p;
+            *at_q = chord[i].at_q;
+        }
+    }
+    return least;
+}
+
+double fw_contour_distance(const fw_contour *p, const fw_contour *q, fw_vec2 *at_p, fw_vec2 *at_q) {
+    double least = HUGE_VAL;
+    fw_vec2 best_p = {0, 0}, best_q = {0, 0};
+    fw_box whole = fw_contour_box(q);
+    for (int i = 0; i < p->count; i++) {
+        fw_box box = fw_segment_box(&p->segment[i]);
+        if (q->count == 0 || fw_box_gap(box, whole) >= least) continue;
+        for (int j = 0; j < q->count; j++) {
+            if (fw_box_gap(box, fw_segment_box(&q->segment[j])) >= least) continue;
+            fw_vec2 here, there;
+            double d = fw_segment_distance(&p->segment[i], &q->segment[j], &here, &there);
+            if (d < least) {
+                least = d;
+                best_p = here;
+                best_q = there;
+            }
+        }
+    }
+    if (at_p) *at_p = best_p;
+    if (at_q) *at_q = best_q;
+    return least;
+}

@@ -1,0 +1,260 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Exact certificate of a polygon on the grid, in 64-bit integers: with |coordinate| < 2^30 every
+   difference is below 2^31 and every cross product below 2^63. */
+#include "geometry/segment.h"
+#include "geometry/tessellate.h"
+#include <stdlib.h>
+
+typedef struct sweep {
+    const fw_polygon *polygon;
+    int *left, *right; /* search tree over the edges that the sweep line meets, by height */
+    int root;
+} sweep;
+
+static fw_point vertex(const fw_polygon *p, int i) {
+    return p->vertex[i < p->count ? i : 0];
+}
+
+static int64_t cross(fw_point a, fw_point b, fw_point c) {
+    return ((int64_t)b.x_dbu - a.x_dbu) * ((int64_t)c.y_dbu - a.y_dbu) -
+           ((int64_t)b.y_dbu - a.y_dbu) * ((int64_t)c.x_dbu - a.x_dbu);
+}
+
+static int sign(int64_t value) {
+    return (value > 0) - (value < 0);
+}
+
+static int compare_points(fw_point a, fw_point b) {
+    if (a.x_dbu != b.x_dbu) return a.x_dbu < b.x_dbu ? -1 : 1;
+    return (a.y_dbu > b.y_dbu) - (a.y_dbu < b.y_dbu);
+}
+
+/* the end of edge e that the sweep meets first, and the other */
+static void ends(const fw_polygon *p, int e, fw_point *low, fw_point *high) {
+    fw_point a = vertex(p, e), b = vertex(p, e + 1);
+    bool ordered = compare_points(a, b) < 0;
+    *low = ordered ? a : b;
+    *high = ordered ? b : a;
+}
+
+/* is edge e above (+1) or below (-1) edge f, where both meet the sweep line? */
+static int above(const fw_polygon *p, int e, int f) {
+    fw_point el, eh, fl, fh;
+    if (e == f) return 0;
+    ends(p, e, &el, &eh);
+    ends(p, f, &fl, &fh);
+    if (compare_points(el, fl) >= 0) {
+        int side = sign(cross(fl, fh, el));
+        return side ? side : sign(cross(fl, fh, eh));
+    }
+    int side = sign(cross(el, eh, fl));
+    return side ? -side : -sign(cross(el, eh, fh));
+}
+
+/* c lies on the line through a <= b: between them? */
+static bool within(fw_point a, fw_point b, fw_point c) {
+    return compare_points(a, c) <= 0 && compare_points(c, b) <= 0;
+}
+
+/* do two closed edges have a common point? */
+static bool meet(const fw_polygon *p, int e, int f) {
+    fw_point a, b, c, d;
+    ends(p, e, &a, &b);
+    ends(p, f, &c, &d);
+    int c_side = sign(cross(a, b, c)), d_side = sign(cross(a, b, d));
+    int a_side = sign(cross(c, d, a)), b_side = sign(cross(c, d, b));
+    if (c_side * d_side < 0 && a_side * b_side < 0) return true;
+    return (c_side == 0 && within(a, b, c)) || (d_side == 0 && within(a, b, d)) ||
+           (a_side == 0 && within(c, d, a)) || (b_side == 0 && within(c, d, b));
+}
+
+/* fixed scrambling of the number (Knuth's multiplier, folded): heights of the tree stay about
+   2 ln n and the result does not depend on the run */
+static uint32_t priority(int e) {
+    uint32_t h = (uint32_t)e * 2654435761u;
+    h ^= h >> 15;
+    h *= 2246822519u;
+    return h ^ (h >> 13);
+}
+
+static void split(sweep *s, int node, int e, int *below, int *over) {
+    if (node < 0)
+        *below = *over = -1;
+    else if (above(s->polygon, e, node) > 0) {
+        *below = node;
+        split(s, s->right[node], e, &s->right[node], over);
+    } else {
+        *over = node;
+        split(s, s->left[node], e, below, &s->left[node]);
+    }
+}
+
+static int merge(sweep *s, int below, int over) {
+    if (below < 0 || over < 0) return below < 0 ? over : below;
+    if (priority(below) > priority(over)) {
+        s->right[below] = merge(s, s->right[below], over);
+        return below;
+    }
+    s->left[over] = merge(s, below, s->left[over]);
+    return over;
+}
+
+/* puts e into the tree; its neighbours below and above */
+static void insert(sweep *s, int e, int *under, int *over) {
+    int *link = NULL, node = s->root;
+    *under = *over = -1;
+    for (int *at = &s->root; node >= 0; node = *at) {
+        if (!link && priority(e) > priority(node)) link = at;
+        if (above(s->polygon, e, node) > 0) {
+            *under = node;
+            at = &s->right[node];
+        } else {
+            *over = node;
+            at = &s->left[node];
+        }
+        if (*at < 0 && !link) link = at;
+    }
+    if (!link) link = &s->root;
+    int old = *link, low, high;
+    split(s, old, e, &low, &high);
+    s->left[e] = low;
+    s->right[e] = high;
+    *link = e;
+}
+
+/* takes e out; its neighbours below and above. false: not found, the order was broken */
+static bool take_out(sweep *s, int e, int *under, int *over) {
+    int *at = &s->root;
+    *under = *over = -1;
+    while (*at >= 0 && *at != e) {
+        int node = *at;
+        if (above(s->polygon, e, node) > 0) {
+            *under = node;
+            at = &s->right[node];
+        } else {
+            *over = node;
+            at = &s->left[node];
+        }
+    }
+    if (*at != e) return false;
+    for (int node = s->left[e]; node >= 0; node = s->right[node])
+        *under = node;
+    for (int node = s->right[e]; node >= 0; node = s->left[node])
+        *over = node;
+    *at = merge(s, s->left[e], s->right[e]);
+    return true;
+}
+
+typedef struct event {
+    fw_point at;
+    int edge;
+    int enters; /* at one point edges leave before others enter */
+} event;
+
+static int by_event(const void *left, const void *right) {
+    const event *a = left, *b = right;
+    int order = compare_points(a->at, b->at);
+    if (order) return order;
+    if (a->enters != b->enters) return a->enters < b->enters ? -1 : 1;
+    return (a->edge > b->edge) - (a->edge < b->edge);
+}
+
+static bool neighbours(int n, int e, int f) {
+    int gap = e > f ? e - f : f - e;
+    return gap == 1 || gap == n - 1;
+}
+
+static bool clash(const fw_polygon *p, int e, int f, fw_polygon_report *report) {
+    if (e < 0 || f < 0 || neighbours(p->count, e, f) || !meet(p, e, f)) return false;
+    *report = (fw_polygon_report){false, e < f ? e : f, e < f ? f : e, report->shortest_edge_m,
+                                  report->sharpest_rad};
+    return true;
+}
+
+/* Sweep after Shamos and Hoey (1976): edges are kept in the order in which the sweep line meets
+   them, and each pair is tested when it becomes neighbouring; the first common point is always
+   found so. Vertices were found distinct before. In: polygon (dbu). Out: report. Exact. O(n log n).
+   Test: test_polygon.c. */
+static bool sweep_edges(sweep *s, const event *events, fw_polygon_report *report) {
+    const fw_polygon *p = s->polygon;
+    for (int i = 0; i < 2 * p->count; i++) {
+        int under, over, e = events[i].edge;
+        if (events[i].enters) {
+            insert(s, e, &under, &over);
+            if (clash(p, e, under, report) || clash(p, e, over, report)) return false;
+        } else if (!take_out(s, e, &under, &over))
+            return false;
+        else if (clash(p, under, over, report))
+            return false;
+    }
+    return true;
+}
+
+/* lengths, corners, spikes; false at the first spike or zero edge */
+static bool measure(const fw_polygon *p, fw_polygon_report *report) {
+    bool good = true;
+    int n = p->count;
+    report->shortest_edge_m = HUGE_VAL;
+    report->sharpest_rad = FW_PI;
+    for (int i = 0; i < n; i++) {
+        fw_point a = vertex(p, i), b = vertex(p, i + 1),
+                 c = vertex(p, i + 2 < n ? i + 2 : i + 2 - n);
+        int64_t ux = (int64_t)a.x_dbu - b.x_dbu, uy = (int64_t)a.y_dbu - b.y_dbu;
+        int64_t vx = (int64_t)c.x_dbu - b.x_dbu, vy = (int64_t)c.y_dbu - b.y_dbu;
+        int64_t area = ux * vy - uy * vx, dot = ux * vx + uy * vy;
+        double length = sqrt((double)ux * (double)ux + (double)uy * (double)uy) * 1e-9;
+        report->shortest_edge_m = fmin(report->shortest_edge_m, length);
+        report->sharpest_rad = fmin(report->sharpest_rad, atan2(fabs((double)area), (double)dot));
+        if (good && area == 0 && dot >= 0) {
+            good = false;
+            report->bad_i = i;
+            report->bad_j = (i + 1) % n;
+        }
+    }
+    return good;
+}
+
+static void fill_events(const fw_polygon *p, event *events) {
+    for (int e = 0; e < p->count; e++) {
+        fw_point low, high;
+        ends(p, e, &low, &high);
+        events[2 * e] = (event){low, e, 1};
+        events[2 * e + 1] = (event){high, e, 0};
+    }
+    qsort(events, 2 * (size_t)p->count, sizeof *events, by_event);
+}
+
+/* each vertex belongs to two edges, so an end that occurs more than twice is met again */
+static bool vertices_distinct(const event *events, int n, fw_polygon_report *report) {
+    for (int i = 2; i < 2 * n; i++)
+        if (compare_points(events[i].at, events[i - 2].at) == 0) {
+            int e = events[i - 2].edge, f = events[i].edge;
+            if (neighbours(n, e, f) && i + 1 < 2 * n &&
+                compare_points(events[i + 1].at, events[i].at) == 0)
+                f = events[i + 1].edge;
+            report->bad_i = e < f ? e : f;
+            report->bad_j = e < f ? f : e;
+            return false;
+        }
+    return true;
+}
+
+fw_status fw_polygon_check(fw_arena *arena, const fw_polygon *polygon, fw_polygon_report *report) {
+    int n = polygon->count;
+    *report = (fw_polygon_report){.bad_i = -1, .bad_j = -1};
+    if (n < 3) return FW_GEOMETRY;
+    for (int i = 0; i < n; i++) {
+        int64_t x = polygon->vertex[i].x_dbu, y = polygon->vertex[i].y_dbu, most = 1 << 30;
+        if (x <= -most || x >= most || y <= -most || y >= most) return FW_LIMIT;
+    }
+    if (!measure(polygon, report)) return FW_OK;
+    fw_mark mark = fw_arena_mark(arena);
+    event *events = fw_arena_array(arena, event, 2 * (size_t)n);
+    sweep s = {polygon, fw_arena_array(arena, int, (size_t)n),
+               fw_arena_array(arena, int, (size_t)n), -1};
+    if (!events || !s.left || !s.right) return FW_NOMEM;
+    fill_events(polygon, events);
+    report->simple = vertices_distinct(events, n, report) && sweep_edges(&s, events, report);
+    fw_arena_rewind(arena, mark);
+    return FW_OK;
+}

@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "geometry/segment.h"
+
+typedef struct fillet {
+    bool wanted;
+    double radius_m; /* asked for */
+    double factor;   /* 1/4..1 of it that fits */
+    double scale;    /* of the factor, found in this pass */
+    double side;     /* +1 convex: the centre is on the left; -1 concave */
+    fw_segment arc;
+    double t_before, t_after;       /* where the arc leaves and meets the neighbours */
+    double trim_before, trim_after; /* share of each neighbour that is cut away */
+} fillet;
+
+/* the segment's carrier moved by r to one side; false when an arc would vanish */
+static bool beside(const fw_segment *s, double side, double r, fw_segment *moved) {
+    *moved = *s;
+    if (s->kind == FW_ARC) {
+        moved->radius -= (s->sweep_rad > 0 ? side : -side) * r;
+        return moved->radius > FW_COINCIDENT_M;
+    }
+    fw_vec2 shift = vec_scale(side * r, vec_left(fw_segment_tangent(s, 0)));
+    moved->a = vec_add(s->a, shift);
+    moved->b = vec_add(s->b, shift);
+    return true;
+}
+
+/* where the rounding circle about `centre` touches s; the parameter of a line is not clamped */
+static bool touch(const fw_segment *s, fw_vec2 centre, double *t, fw_vec2 *at) {
+    if (s->kind == FW_LINE) {
+        fw_vec2 along = vec_sub(s->b, s->a);
+        *t = vec_dot(vec_sub(centre, s->a), along) / vec_dot(along, along);
+        *at = vec_along(s->a, *t, along);
+        return true;
+    }
+    fw_vec2 u = vec_unit(vec_sub(centre, s->centre));
+    *at = vec_along(s->centre, s->radius, u);
+    return fw_segment_faces(s, u, t);
+}
+
+/* Rounding arc of radius r at the corner of two segments: its centre is a common point of the two
+   carriers moved by r to the inner side, the one nearest the corner; it touches at the feet.
+   For two lines this cuts r tan(turn / 2) off each. In: segments (m). Out: arc, parameters.
+   False: no such circle touches both. Error 1e-18 m / sin(turn). Test: test_round.c. */
+static bool fit(const fw_segment *before, const fw_segment *after, fillet *f) {
+    double r = f->radius_m * f->factor, least = HUGE_VAL;
+    fw_segment p, q;
+    fw_vec2 centre[2];
+    if (!beside(before, f->side, r, &p) || !beside(after, f->side, r, &q)) return false;
+    int n = fw_carrier_meet(&p, &q, centre);
+    for (int i = 0; i < n; i++) {
+        double t0, t1, away = vec_distance(centre[i], before->b);
+        fw_vec2 a, b;
+        if (!(away < least) || !touch(before, centre[i], &t0, &a) ||
+            !touch(after, centre[i], &t1, &b))
+            continue;
+        double sweep = fw_vec_angle(vec_sub(a, centre[i]), vec_sub(b, centre[i]));
+        if (sweep * f->side <= 0) continue;
+        least = away;
+        f->arc = (fw_segment){FW_ARC, 0, a, b, centre[i], r, sweep};
+        f->t_before = t0;
+        f->t_after = t1;
+    }
+    f->trim_before = 1 - f->t_before;
+    f->trim_after = f->t_after;
+    return least < HUGE_VAL;
+}
+
+static void plan_corner(const fw_segment *before, const fw_segment *after, double convex_m,
+                        double concave_m, fillet *f) {
+    double turn = fw_corner_turn(before, after);
+    *f = (fillet){.factor = 1, .scale = 1, .side = turn > 0 ? 1 : -1};
+    f->radius_m = turn > 0 ? convex_m : concave_m;
+    f->wanted = fabs(turn) >= FW_SMOOTH_RAD && f->radius_m > FW_COINCIDENT_M &&
+                !((before->flags | after->flags) & FW_SEGMENT_JOINT);
+}
+
+/* one pass: fits all corners, shrinks those that do not fit; index of a corner that got too small,
+   or -1. corner i is where segment i ends. */
+static int shrink(const fw_contour *contour, fillet *f, bool *changed) {
+    const double slack = 1e-12;
+    int n = contour->count;
+    *changed = false;
+    for (int i = 0; i < n; i++)
+        while (f[i].wanted && !fit(&contour->segment[i], &contour->segment[(i + 1) % n], &f[i])) {
+            f[i].factor *= 0.95;
+            *changed = true;
+            if (f[i].factor < 0.25) return i;
+        }
+    for (int i = 0; i < n; i++) {
+        fillet *start = &f[(i + n - 1) % n], *end = &f[i];
+        double cut = (start->wanted ? start->trim_after : 0) + (end->wanted ? end->trim_before : 0);
+        if (cut <= 1 + slack) continue;
+        *changed = true;
+        /* the trim of a corner grows about linearly with its radius */
+        start->scale = fmin(start->scale, 1 / cut);
+        end->scale = fmin(end->scale, 1 / cut);
+    }
+    for (int i = 0; i < n; i++) {
+        f[i].factor *= f[i].scale;
+        f[i].scale = 1;
+        if (f[i].wanted && f[i].factor < 0.25 * (1 - slack)) return i;
+    }
+    return -1;
+}
+
+static int assemble(const fw_contour *contour, fillet *f, fw_segment *out) {
+    int n = contour->count, count = 0;
+    /* a segment that is used up: the two arcs beside it share one point */
+    for (int i = 0; i < n; i++) {
+        fillet *start = &f[(i + n - 1) % n], *end = &f[i];
+        if (!start->wanted || !end->wanted) continue;
+        if ((end->t_before - start->t_after) * fw_segment_length(&contour->segment[i]) <=
+            FW_COINCIDENT_M)
+            end->arc.a = start->arc.b;
+    }
+    for (int i = 0; i < n; i++) {
+        const fw_segment *s = &contour->segment[i];
+        const fillet *start = &f[(i + n - 1) % n], *end = &f[i];
+        fw_vec2 a = start->wanted ? start->arc.b : s->a, b = end->wanted ? end->arc.a : s->b;
+        double ta = start->wanted ? start->t_after : 0, tb = end->wanted ? end->t_before : 1;
+        if (!vec_same(a, b) || (ta <= 0 && tb >= 1)) out[count++] = fw_segment_cut(s, ta, a, tb, b);
+        if (end->wanted) out[count++] = end->arc;
+    }
+    return count;
+}
+
+fw_status fw_contour_round(fw_arena *arena, const fw_contour *contour, double convex_m,
+                           double concave_m, fw_contour *out, fw_vec2 *where) {
+    *out = (fw_contour){0};
+    if (!isfinite(convex_m) || !isfinite(concave_m) || convex_m < 0 || concave_m < 0 ||
+        !fw_contour_valid(contour)) {
+        if (where) *where = (fw_vec2){0, 0};
+        return FW_GEOMETRY;
+    }
+    int n = contour->count, bad = -1;
+    fw_segment *segment = fw_arena_array(arena, fw_segment, 2 * (size_t)n);
+    FW_NEED(segment);
+    fw_mark mark = fw_arena_mark(arena);
+    fillet *f = fw_arena_array(arena, fillet, (size_t)n);
+    FW_NEED(f);
+    for (int i = 0; i < n; i++)
+        plan_corner(&contour->segment[i], &contour->segment[(i + 1) % n], convex_m, concave_m,
+                    &f[i]);
+    bool changed = true;
+    for (int pass = 0; pass < 200 && changed && bad < 0; pass++)
+        bad = shrink(contour, f, &changed);
+    for (int i = 0; changed && bad < 0 && i < n; i++)
+        if (f[i].factor < 1) bad = i;
+    if (bad < 0)
+        *out = (fw_contour){segment, assemble(contour, f, segment)};
+    else if (where)
+        *where = contour->segment[bad].b;
+    fw_arena_rewind(arena, mark);
+    return bad < 0 ? FW_OK : FW_GEOMETRY;
+}

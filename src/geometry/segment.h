@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Private to geometry/: vectors, and what can be asked of one or two segments. */
+#ifndef FW_GEOMETRY_SEGMENT_H
+#define FW_GEOMETRY_SEGMENT_H
+#include "geometry/contour.h"
+#include <math.h>
+
+#define FW_COINCIDENT_M 1e-12 /* points nearer than this are one point */
+#define FW_SMOOTH_RAD   1e-6  /* a smaller turn is no corner */
+#define FW_PI           3.14159265358979323846
+#define FW_TURN         6.28318530717958647693
+
+static inline fw_vec2 vec_add(fw_vec2 p, fw_vec2 q) {
+    return (fw_vec2){p.x + q.x, p.y + q.y};
+}
+static inline fw_vec2 vec_sub(fw_vec2 p, fw_vec2 q) {
+    return (fw_vec2){p.x - q.x, p.y - q.y};
+}
+static inline fw_vec2 vec_scale(double s, fw_vec2 p) {
+    return (fw_vec2){s * p.x, s * p.y};
+}
+static inline fw_vec2 vec_along(fw_vec2 p, double s, fw_vec2 u) {
+    return (fw_vec2){p.x + s * u.x, p.y + s * u.y};
+}
+static inline double vec_dot(fw_vec2 p, fw_vec2 q) {
+    return p.x * q.x + p.y * q.y;
+}
+static inline double vec_cross(fw_vec2 p, fw_vec2 q) {
+    return p.x * q.y - p.y * q.x;
+}
+/* not hypot: sqrt is correctly rounded everywhere, so results do not depend on the C library */
+static inline double vec_length(fw_vec2 p) {
+    return sqrt(p.x * p.x + p.y * p.y);
+}
+static inline double vec_distance(fw_vec2 p, fw_vec2 q) {
+    return vec_length(vec_sub(p, q));
+}
+static inline fw_vec2 vec_left(fw_vec2 p) {
+    return (fw_vec2){-p.y, p.x};
+}
+static inline bool vec_same(fw_vec2 p, fw_vec2 q) {
+    return p.x == q.x && p.y == q.y;
+}
+static inline bool vec_before(fw_vec2 p, fw_vec2 q) {
+    return p.x < q.x || (p.x == q.x && p.y < q.y);
+}
+static inline bool vec_finite(fw_vec2 p) {
+    return isfinite(p.x) && isfinite(p.y);
+}
+/* unit vector; (1, 0) for the null vector */
+static inline fw_vec2 vec_unit(fw_vec2 p) {
+    double length = vec_length(p);
+    return length > 0 ? vec_scale(1 / length, p) : (fw_vec2){1, 0};
+}
+
+fw_vec2 fw_vec_rotate(fw_vec2 p, double angle_rad);
+/* angle from p to q, -pi..pi */
+double fw_vec_angle(fw_vec2 p, fw_vec2 q);
+/* angle + 2 pi k nearest to `near` */
+double fw_angle_near(double angle_rad, double near_rad);
+
+/* t runs from 0 at a to 1 at b; both ends are returned bit for bit */
+fw_vec2 fw_segment_point(const fw_segment *s, double t);
+fw_vec2 fw_segment_tangent(const fw_segment *s, double t); /* unit, in the running direction */
+double fw_segment_length(const fw_segment *s);
+double fw_segment_parameter(const fw_segment *s, fw_vec2 on); /* of a point on the segment, 0..1 */
+double fw_segment_nearest(const fw_segment *s, fw_vec2 from, double *t, fw_vec2 *at);
+/* does the ray from the arc's centre along `direction` meet the arc (ends included)? */
+bool fw_segment_faces(const fw_segment *arc, fw_vec2 direction, double *t);
+fw_box fw_segment_box(const fw_segment *s);
+fw_segment fw_segment_reverse(const fw_segment *s);
+/* the part between two parameters, with end points already known */
+fw_segment fw_segment_cut(const fw_segment *s, double t0, fw_vec2 p0, double t1, fw_vec2 p1);
+bool fw_segment_valid(const fw_segment *s);
+
+/* points of a line (point, unit direction) on a circle, of two circles; 0, 1 (touch) or 2 */
+int fw_line_circle(fw_vec2 p, fw_vec2 u, fw_vec2 centre, double radius, fw_vec2 hit[2]);
+int fw_circle_circle(fw_vec2 c1, double r1, fw_vec2 c2, double r2, fw_vec2 hit[2]);
+/* points common to the carriers (whole line or whole circle) of two segments */
+int fw_carrier_meet(const fw_segment *p, const fw_segment *q, fw_vec2 hit[2]);
+
+typedef struct fw_hit {
+    double tp, tq;
+    fw_vec2 at;
+} fw_hit;
+enum { FW_MOST_HITS = 6 };
+/* where two segments meet, touch, or begin and end to overlap */
+int fw_segment_intersect(const fw_segment *p, const fw_segment *q, fw_hit hit[FW_MOST_HITS]);
+
+/* stationary chords between two segments */
+typedef struct fw_chord {
+    double tp, tq;
+    fw_vec2 at_p, at_q;
+} fw_chord;
+enum { FW_MOST_CHORDS = 12 };
+int fw_segment_chords(const fw_segment *p, const fw_segment *q, fw_chord chord[FW_MOST_CHORDS]);
+double fw_segment_distance(const fw_segment *p, const fw_segment *q, fw_vec2 *at_p, fw_vec2 *at_q);
+
+/* turns of the contour about the point, counter-clockwise positive */
+int fw_contour_winding(const fw_contour *contour, fw_vec2 point);
+double fw_box_gap(fw_box p, fw_box q); /* least distance between two boxes */
+fw_box fw_box_join(fw_box p, fw_box q);
+/* turn at the corner where `before` ends and `after` begins, > 0 to the left (convex) */
+double fw_corner_turn(const fw_segment *before, const fw_segment *after);
+/* closed, joined bit for bit, finite, every segment well formed */
+bool fw_contour_valid(const fw_contour *contour);
+
+#endif

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Flattening, last of all: lines and arcs to a polygon on the integer grid (1 dbu = 1 nm).
+
+   n = ceil(|sweep| / (2 acos(1 - eps/R))) chords per arc, all arcs start and end on exact joints;
+   then each vertex is rounded to the grid (half up, the same for both pieces that share it).
+   Bounds (docs/theory/contours.md): vertex error <= 0.707 g; edge error <= eps + 0.707 g; area
+   error <= perimeter (eps + 0.707 g); arcs keep one-signed turns when eps >= 1.42 g. */
+#ifndef FW_GEOMETRY_TESSELLATE_H
+#define FW_GEOMETRY_TESSELLATE_H
+#include "geometry/contour.h"
+#include <stdint.h>
+
+typedef struct fw_point {
+    int32_t x_dbu, y_dbu;
+} fw_point;
+
+typedef struct fw_polygon { /* closed, first vertex not repeated, counter-clockwise */
+    fw_point *vertex;       /* (count) */
+    int count;
+} fw_polygon;
+
+/* tolerance_m is the sagitta eps >= 1.42 nm (else FW_INPUT); grid 1e-9 m. Vertices that lie exactly
+   on the way between their neighbours are left out, except the ends of JOINT segments. A clockwise
+   outline gives a clockwise polygon. FW_LIMIT: a coordinate of 2^30 or more; FW_GEOMETRY: fewer
+   than three vertices are left. */
+fw_status fw_tessellate(fw_arena *arena, const fw_contour *contour, double tolerance_m,
+                        fw_polygon *polygon);
+/* twice the signed area in dbu^2, exact (|coordinate| < 2^30) */
+int64_t fw_polygon_area2(const fw_polygon *polygon);
+
+/* exact integer certificate of one polygon */
+typedef struct fw_polygon_report {
+    bool simple;      /* no crossing, touch, zero edge or spike */
+    int bad_i, bad_j; /* the two edges, when not simple */
+    double shortest_edge_m;
+    double sharpest_rad; /* smallest interior or exterior corner angle */
+} fw_polygon_report;
+fw_status fw_polygon_check(fw_arena *arena, const fw_polygon *polygon, fw_polygon_report *report);
+
+#endif

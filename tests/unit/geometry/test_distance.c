@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "geo.h"
+
+/* closed form against a fine sampling of one of the two outlines, which is never below and at most
+   a step above */
+static void distance_matches_sampling(void **state) {
+    int apart = 0;
+    for (int i = 0; i < 1500; i++) {
+        fw_mark mark = fw_arena_mark(*state);
+        fw_contour p = random_shape(*state, 1e-4, 0), q = random_shape(*state, 1e-4, 0);
+        fw_vec2 at_p, at_q;
+        double d = fw_contour_distance(&p, &q, &at_p, &at_q), sampled = HUGE_VAL, step = 0;
+        assert_near(vec_distance(at_p, at_q), d, 1e-18);
+        fw_region rp = region_of(&p), rq = region_of(&q);
+        assert_true(region_edge(&rp, at_p) < 1e-18 + (d > 0 ? 0 : 1e-12));
+        assert_true(region_edge(&rq, at_q) < 1e-18 + (d > 0 ? 0 : 1e-12));
+        for (int k = 0; k < p.count; k++) {
+            step = fmax(step, fw_segment_length(&p.segment[k]) / 400);
+            for (int n = 0; n <= 400; n++)
+                sampled =
+                    fmin(sampled, region_edge(&rq, fw_segment_point(&p.segment[k], n / 400.)));
+        }
+        assert_true(d <= sampled + 1e-18);
+        assert_true(sampled <= d + 0.5 * step + 1e-18);
+        apart += d > 0;
+        fw_arena_rewind(*state, mark);
+    }
+    assert_true(apart > 200);
+}
+
+static void known_distances(void **state) {
+    fw_contour p, q, ring;
+    assert_int_equal(fw_contour_disc(*state, (fw_vec2){0, 0}, 1e-5, &p), 0);
+    assert_int_equal(fw_contour_disc(*state, (fw_vec2){3e-5, 4e-5}, 2e-5, &q), 0);
+    fw_vec2 a, b;
+    assert_near(fw_contour_distance(&p, &q, &a, &b), 2e-5, 1e-20);
+    assert_near(a.x, 6e-6, 1e-19);
+    assert_near(b.y, 2.4e-5, 1e-19);
+    /* concentric: the gap is the same all round */
+    assert_int_equal(fw_contour_ring_sector(*state, (fw_vec2){0, 0}, 1.8e-5, 2.5e-5, 1, 4, &ring),
+                     0);
+    assert_near(fw_contour_distance(&p, &ring, NULL, NULL), 8e-6, 1e-20);
+    /* one inside the other */
+    assert_int_equal(fw_contour_disc(*state, (fw_vec2){5e-6, 0}, 3e-6, &q), 0);
+    assert_near(fw_contour_distance(&p, &q, NULL, NULL), 2e-6, 1e-20);
+    assert_int_equal(fw_contour_disc(*state, (fw_vec2){9e-6, 0}, 3e-6, &q), 0);
+    assert_near(fw_contour_distance(&p, &q, NULL, NULL), 0, 0);
+}
+
+static void clearance_of_a_comb(void **state) {
+    /* U: two legs 10 and 14 um wide, a gap of 8 um between them, a bridge of 20 um */
+    const double x[] = {0, 32, 32, 18, 18, 10, 10, 0}, y[] = {0, 0, 90, 90, 20, 20, 90, 90};
+    fw_outline o = fw_outline_start(*state, (fw_vec2){0, 0});
+    for (int i = 1; i < 8; i++)
+        fw_outline_line(&o, (fw_vec2){1e-6 * x[i], 1e-6 * y[i]}, 0);
+    fw_contour c, round;
+    assert_int_equal(fw_outline_close(&o, &c), FW_OK);
+    int i, j;
+    assert_near(fw_contour_clearance(&c, false, &i, &j), 8e-6, 1e-18);
+    assert_int_equal(i, 3);
+    assert_int_equal(j, 5);
+    assert_near(fw_contour_clearance(&c, true, &i, &j), 10e-6, 1e-18);
+    assert_int_equal(i, 5);
+    assert_int_equal(j, 7);
+    /* rounding corners by 2 um makes neither a width nor a space of 2 um */
+    fw_vec2 where;
+    assert_int_equal(fw_contour_round(*state, &c, 2e-6, 2e-6, &round, &where), FW_OK);
+    assert_near(fw_contour_clearance(&round, false, NULL, NULL), 8e-6, 1e-17);
+    assert_near(fw_contour_clearance(&round, true, NULL, NULL), 10e-6, 1e-17);
+}
+
+static void clearance_of_rounds(void **state) {
+    fw_contour c;
+    int i, j;
+    assert_int_equal(fw_contour_disc(*state, (fw_vec2){0, 0}, 1e-5, &c), 0);
+    assert_near(fw_contour_clearance(&c, true, &i, &j), 2e-5, 1e-19);
+    assert_true(isinf(fw_contour_clearance(&c, false, &i, &j)));
+    assert_int_equal(i, -1);
+    /* nearly closed ring: width 7 um, slot between the ends */
+    double w = FW_TURN - 0.2;
+    assert_int_equal(fw_contour_ring_sector(*state, (fw_vec2){0, 0}, 2e-5, 2.7e-5, 0.1, w, &c), 0);
+    assert_near(fw_contour_clearance(&c, true, &i, &j), 7e-6, 1e-18);
+    assert_near(fw_contour_clearance(&c, false, &i, &j), 2 * 2e-5 * sin(0.1), 1e-18);
+    assert_int_equal(i, 1);
+    assert_true(j == 2 || j == 3); /* the corner of the slot belongs to both */
+    /* a step in an edge is neither */
+    const double x[] = {0, 100, 100, 50, 50, 0}, y[] = {0, 0, 40, 40, 41, 41};
+    fw_outline o = fw_outline_start(*state, (fw_vec2){0, 0});
+    for (int k = 1; k < 6; k++)
+        fw_outline_line(&o, (fw_vec2){1e-6 * x[k], 1e-6 * y[k]}, 0);
+    assert_int_equal(fw_outline_close(&o, &c), FW_OK);
+    assert_near(fw_contour_clearance(&c, true, NULL, NULL), 40e-6, 1e-17);
+    assert_true(isinf(fw_contour_clearance(&c, false, NULL, NULL)));
+}
+
+static void joints_are_no_edges(void **state) {
+    /* 9 um wide, 4 um long between two cut lines */
+    fw_outline o = fw_outline_start(*state, (fw_vec2){0, 0});
+    fw_outline_line(&o, (fw_vec2){4e-6, 0}, 0);
+    fw_outline_line(&o, (fw_vec2){4e-6, 9e-6}, FW_SEGMENT_JOINT);
+    fw_outline_line(&o, (fw_vec2){0, 9e-6}, 0);
+    fw_outline_line(&o, (fw_vec2){0, 0}, FW_SEGMENT_JOINT);
+    fw_contour c;
+    assert_int_equal(fw_outline_close(&o, &c), FW_OK);
+    assert_near(fw_contour_clearance(&c, true, NULL, NULL), 9e-6, 1e-19);
+}
+
+/* membership against the sign of a flattened polygon's own winding: here, against closed forms */
+static void contains_matches_closed_forms(void **state) {
+    for (int i = 0; i < 3000; i++) {
+        fw_mark mark = fw_arena_mark(*state);
+        double inner = uniform(1e-5, 5e-5), outer = inner + uniform(1e-6, 5e-5);
+        double start = uniform(-7, 7), sweep = uniform(0.1, 6.2);
+        fw_contour c, back;
+        fw_vec2 m = {uniform(-1e-4, 1e-4), uniform(-1e-4, 1e-4)};
+        assert_int_equal(fw_contour_ring_sector(*state, m, inner, outer, start, sweep, &c), 0);
+        assert_int_equal(fw_contour_reverse(*state, &c, &back), 0);
+        for (int k = 0; k < 20; k++) {
+            double r = uniform(0, 1.3 * outer), angle = uniform(0, FW_TURN);
+            if (k % 4 == 0) /* level with a vertex, top or bottom */
+                angle = asin(fmax(-1, fmin(1, (c.segment[k / 4 % 4].a.y - m.y) / r)));
+            fw_vec2 p = {m.x + r * cos(angle), m.y + r * sin(angle)};
+            double turn = fmod(angle - start + 8 * FW_TURN, FW_TURN);
+            fw_region region = region_of(&c);
+            if (region_edge(&region, p) < 1e-15) continue;
+            bool want = r > inner && r < outer && turn < sweep;
+            assert_int_equal(fw_contour_contains(&c, p), want);
+            assert_int_equal(fw_contour_contains(&back, p), want);
+            assert_int_equal(fw_contour_winding(&back, p), want ? -1 : 0);
+        }
+        fw_arena_rewind(*state, mark);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        geo_test(distance_matches_sampling), geo_test(known_distances),
+        geo_test(clearance_of_a_comb),       geo_test(clearance_of_rounds),
+        geo_test(joints_are_no_edges),       geo_test(contains_matches_closed_forms),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

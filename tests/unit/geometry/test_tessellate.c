@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "geo.h"
+
+#define GRID 1e-9
+#define SNAP (0.70710678118654757 * GRID)
+
+static fw_vec2 metres(fw_point p) {
+    return (fw_vec2){p.x_dbu * GRID, p.y_dbu * GRID};
+}
+
+/* vertex error <= g / sqrt 2 and edge error <= eps + g / sqrt 2, against the exact outline */
+static void errors_stay_in_bounds(void **state) {
+    double worst_vertex = 0, worst_edge = 0;
+    for (int i = 0; i < 600; i++) {
+        fw_mark mark = fw_arena_mark(*state);
+        double size = pow(10, uniform(-5.5, -3)), eps = pow(10, uniform(-8.84, -7));
+        fw_contour c = random_shape(*state, size, 0);
+        fw_region exact = region_of(&c);
+        fw_polygon p;
+        assert_int_equal(fw_tessellate(*state, &c, eps, &p), FW_OK);
+        for (int k = 0; k < p.count; k++) {
+            fw_vec2 a = metres(p.vertex[k]), b = metres(p.vertex[(k + 1) % p.count]);
+            worst_vertex = fmax(worst_vertex, region_edge(&exact, a) / SNAP);
+            for (int n = 0; n < 8; n++) {
+                fw_vec2 at = vec_along(a, n / 8., vec_sub(b, a));
+                worst_edge = fmax(worst_edge, region_edge(&exact, at) / (eps + SNAP));
+            }
+            assert_false(vec_same(a, b));
+        }
+        double area = (double)fw_polygon_area2(&p) * 0.5 * GRID * GRID;
+        double bound = fw_contour_perimeter(&c) * (eps + SNAP);
+        assert_near(area, fw_contour_area(&c), bound);
+        fw_arena_rewind(*state, mark);
+    }
+    print_message("worst vertex error %.4f and edge error %.4f of their bounds\n", worst_vertex,
+                  worst_edge);
+    assert_true(worst_vertex <= 1 + 1e-9 && worst_vertex > 0.9);
+    assert_true(worst_edge <= 1 + 1e-9 && worst_edge > 0.8);
+}
+
+/* every corner strictly inside an arc turns the arc's way */
+static void arcs_keep_one_sign(void **state) {
+    long corners = 0;
+    for (int i = 0; i < 3000; i++) {
+        fw_mark mark = fw_arena_mark(*state);
+        double r = pow(10, uniform(-6, -3)), eps = uniform(1.42e-9, 6e-9);
+        if (i % 3 == 0) eps = 1.42e-9;
+        fw_vec2 m = {uniform(-5e-3, 5e-3), uniform(-5e-3, 5e-3)};
+        fw_contour disc;
+        fw_polygon p;
+        assert_int_equal(fw_contour_disc(*state, m, r, &disc), FW_OK);
+        assert_int_equal(fw_tessellate(*state, &disc, eps, &p), FW_OK);
+        for (int k = 0; k < p.count; k++) {
+            fw_point a = p.vertex[k], b = p.vertex[(k + 1) % p.count],
+                     c = p.vertex[(k + 2) % p.count];
+            int64_t turn = ((int64_t)b.x_dbu - a.x_dbu) * ((int64_t)c.y_dbu - b.y_dbu) -
+                           ((int64_t)b.y_dbu - a.y_dbu) * ((int64_t)c.x_dbu - b.x_dbu);
+            /* where the two half circles meet, the chord is the same: the lemma holds there too */
+            assert_true(turn > 0);
+            corners++;
+        }
+        fw_arena_rewind(*state, mark);
+    }
+    print_message("%ld corners, none the wrong way\n", corners);
+}
+
+static void chord_count_is_the_formula(void **state) {
+    for (int i = 0; i < 500; i++) {
+        fw_mark mark = fw_arena_mark(*state);
+        double r = pow(10, uniform(-5, -3)), eps = uniform(1.5e-9, 1e-8), w = uniform(0.5, 3);
+        fw_contour c;
+        fw_polygon p;
+        assert_int_equal(fw_contour_ring_sector(*state, (fw_vec2){0, 0}, 0, r, 0.1, w, &c), FW_OK);
+        assert_int_equal(fw_tessellate(*state, &c, eps, &p), FW_OK);
+        double n = w / (2 * acos(1 - eps / r));
+        if (fabs(n - round(n)) > 1e-6) assert_int_equal(p.count, (int)ceil(n) + 2);
+        fw_arena_rewind(*state, mark);
+    }
+}
+
+/* two pieces that share an arc run along it in opposite directions: the same vertices, for ends and
+   sweeps computed in either direction too */
+static void shared_arcs_have_the_same_vertices(void **state) {
+    for (int i = 0; i < 2000; i++) {
+        fw_mark mark = fw_arena_mark(*state);
+        double r = pow(10, uniform(-5, -3)), start = uniform(-4, 4), w = uniform(0.05, 6);
+        fw_vec2 m = {uniform(-3e-3, 3e-3), uniform(-3e-3, 3e-3)};
+        fw_vec2 a = {m.x + r * cos(start), m.y + r * sin(start)};
+        fw_vec2 b = {m.x + r * cos(start + w), m.y + r * sin(start + w)};
+        fw_outline o = fw_outline_start(*state, a);
+        fw_outline_arc_to(&o, m, w, b, 0);
+        fw_contour inner, outer;
+        fw_outline_line(&o, m, 0);
+        assert_int_equal(fw_outline_close(&o, &inner), FW_OK);
+        o = fw_outline_start(*state, b);
+        fw_outline_arc_to(&o, m, -w, a, 0);
+        fw_outline_line(&o, vec_along(m, 2 * r, vec_unit(vec_sub(a, m))), 0);
+        fw_outline_line(&o, vec_along(m, 2 * r, vec_unit(vec_sub(b, m))), 0);
+        assert_int_equal(fw_outline_close(&o, &outer), FW_OK);
+        fw_polygon p, q;
+        assert_int_equal(fw_tessellate(*state, &inner, 5e-9, &p), FW_OK);
+        assert_int_equal(fw_tessellate(*state, &outer, 5e-9, &q), FW_OK);
+        int n = p.count - 2; /* chords: p has the centre and n + 1 points of the arc */
+        for (int k = 0; k <= n; k++)
+            assert_memory_equal(&p.vertex[k], &q.vertex[n - k], sizeof(fw_point));
+        fw_arena_rewind(*state, mark);
+    }
+}
+
+static void straight_vertices_go_unless_they_end_a_joint(void **state) {
+    for (int joint = 0; joint < 2; joint++) {
+        fw_outline o = fw_outline_start(*state, (fw_vec2){0, 0});
+        fw_outline_line(&o, (fw_vec2){1e-5, 0}, 0);
+        fw_outline_line(&o, (fw_vec2){2e-5, 0}, joint ? FW_SEGMENT_JOINT : 0);
+        fw_outline_line(&o, (fw_vec2){3e-5, 0}, 0);
+        fw_outline_line(&o, (fw_vec2){3e-5, 1e-5}, 0);
+        fw_outline_line(&o, (fw_vec2){3e-5, 1.00002e-5}, 0); /* below the grid */
+        fw_outline_line(&o, (fw_vec2){0, 1e-5}, 0);
+        fw_contour c;
+        fw_polygon p;
+        assert_int_equal(fw_outline_close(&o, &c), FW_OK);
+        assert_int_equal(fw_tessellate(*state, &c, 5e-9, &p), FW_OK);
+        assert_int_equal(p.count, joint ? 6 : 4);
+        assert_true(fw_polygon_area2(&p) == 2LL * 30000 * 10000);
+    }
+}
+
+static void limits(void **state) {
+    fw_contour c;
+    fw_polygon p;
+    assert_int_equal(fw_contour_rectangle(*state, (fw_box){0, 0, 1e-5, 1e-5}, &c), FW_OK);
+    assert_int_equal(fw_tessellate(*state, &c, 1.4e-9, &p), FW_INPUT);
+    assert_int_equal(fw_tessellate(*state, &c, (double)NAN, &p), FW_INPUT);
+    for (long n = 1; n <= 2; n++) {
+        fw_arena_fail_at(n, 1);
+        assert_int_equal(fw_tessellate(*state, &c, 5e-9, &p), FW_NOMEM);
+        fw_arena_fail_at(0, 0);
+    }
+    assert_int_equal(fw_contour_rectangle(*state, (fw_box){0, 0, 1.08, 1e-5}, &c), FW_OK);
+    assert_int_equal(fw_tessellate(*state, &c, 5e-9, &p), FW_LIMIT);
+    assert_int_equal(fw_contour_rectangle(*state, (fw_box){0, 0, 1e-10, 1e-10}, &c), FW_OK);
+    assert_int_equal(fw_tessellate(*state, &c, 5e-9, &p), FW_GEOMETRY);
+    int32_t most = (1 << 30) - 1; /* the largest square: 2 A = 2^63 - 2^34 + 8 - ... fits */
+    fw_point corner[] = {{-most, -most}, {most, -most}, {most, most}, {-most, most}};
+    assert_true(fw_polygon_area2(&(fw_polygon){corner, 4}) == 2LL * (2LL * most) * (2LL * most));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        geo_test(errors_stay_in_bounds),
+        geo_test(arcs_keep_one_sign),
+        geo_test(chord_count_is_the_formula),
+        geo_test(shared_arcs_have_the_same_vertices),
+        geo_test(straight_vertices_go_unless_they_end_a_joint),
+        geo_test(limits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
