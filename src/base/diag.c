@@ -21,6 +21,11 @@ const fw_diag_entry *fw_diag_find(int number) {
     return NULL;
 }
 
+const char *fw_place_file(fw_place place) {
+    const char *slash = place.file ? strrchr(place.file, '/') : NULL;
+    return slash ? slash + 1 : place.file ? place.file : "";
+}
+
 fw_diags fw_diags_new(fw_arena *arena) {
     return (fw_diags){.arena = arena};
 }

@@ -21,6 +21,10 @@ typedef struct fw_place {
     int line, column;
 } fw_place;
 
+/* the file's name without directories, "" when there is none: outputs show this, so that where a
+   file lies does not change a byte of them */
+const char *fw_place_file(fw_place place);
+
 typedef struct fw_diag {
     int number;
     fw_severity severity;

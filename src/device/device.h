@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The description, read and checked: what the device file says, in SI, with the place of every value
-   in the file. Const for everyone downstream.
+/* The description, read and checked: what the device file says, in SI, with the place of every
+   value in the file. Const for everyone downstream.
 
    <six-bar> is expanded here into bodies, joints and body shapes, so that the rooms above know only
    the general planar mechanism. */
@@ -18,15 +18,15 @@ typedef struct fw_parameter {
     const char *name, *doc;
     double value, min, max; /* SI; min and max are -inf and +inf when absent */
     fw_dimension dimension;
-    const char *unit;       /* unit of the value as written, "" when none */
-    bool overridden;        /* by --set */
+    const char *unit; /* unit of the value as written, "" when none */
+    bool overridden;  /* by --set */
     fw_place place;
 } fw_parameter;
 
 typedef struct fw_flow_use { /* <flow ref material thickness/> */
     const char *ref;
-    const char *material;    /* id of the material in this flow; NULL: the device's own */
-    double thickness_m;      /* NaN: the device's own */
+    const char *material; /* id of the material in this flow; NULL: the device's own */
+    double thickness_m;   /* NaN: the device's own */
     fw_place place;
 } fw_flow_use;
 
@@ -35,22 +35,22 @@ typedef enum fw_flexure_kind { FW_FLEXURE_CSFH, FW_FLEXURE_LEAF } fw_flexure_kin
 typedef struct fw_flexure { /* <flexure id kind radius|length angle width gap fillet .../> */
     const char *id;
     fw_flexure_kind kind;
-    double length_m;        /* along the centre line, face to face */
-    double angle_rad;       /* subtended angle 2a (csfh) */
-    double radius_m;        /* of the centre line (csfh) */
-    double width_m;         /* in the plane, t */
-    double gap_m;           /* of the conjugate surfaces; 0 = none */
-    double fillet_m;        /* NaN: chosen by the layout */
-    bool length_given;      /* the file gives length (else radius): what advice should name */
+    double length_m;   /* along the centre line, face to face */
+    double angle_rad;  /* subtended angle 2a (csfh) */
+    double radius_m;   /* of the centre line (csfh) */
+    double width_m;    /* in the plane, t */
+    double gap_m;      /* of the conjugate surfaces; 0 = none */
+    double fillet_m;   /* NaN: chosen by the layout */
+    bool length_given; /* the file gives length (else radius): what advice should name */
     fw_place place, length_place;
 } fw_flexure;
 
 typedef struct fw_body { /* <body>, or a link of <six-bar> */
     const char *id;
-    double mass_kg, inertia_kg_m2;  /* NaN: from the laid-out shape */
-    double x_m, y_m, phi_rad;       /* pose of the centre of mass; x, y NaN: from the shape */
+    double mass_kg, inertia_kg_m2; /* NaN: from the laid-out shape */
+    double x_m, y_m, phi_rad;      /* pose of the centre of mass; x, y NaN: from the shape */
     double vx_m_per_s, vy_m_per_s, omega_rad_per_s; /* initial velocities are in the scene */
-    double width_m;                 /* of the bars that join its hinges; NaN: not drawn */
+    double width_m;                       /* of the bars that join its hinges; NaN: not drawn */
     double plate_width_m, plate_height_m; /* a rectangle about plate_x, plate_y; NaN: none */
     double plate_x_m, plate_y_m, plate_angle_rad;
     bool platform;
@@ -59,14 +59,14 @@ typedef struct fw_body { /* <body>, or a link of <six-bar> */
 
 typedef struct fw_joint { /* <revolute>, or a hinge of <six-bar> */
     const char *id;
-    int body_a, body_b;             /* index or FW_GROUND; angle = phi_b - phi_a - free_angle */
-    double x_m, y_m;                /* hinge point in the world, in the drawn position */
-    double ax_m, ay_m, bx_m, by_m;  /* local coordinates as written; NaN: from x, y */
-    double stiffness_Nm_per_rad;    /* NaN: from the flexure's geometry (0 without a flexure) */
-    double damping_Nms_per_rad;     /* NaN: from the flexure's material (0 without a flexure) */
+    int body_a, body_b;            /* index or FW_GROUND; angle = phi_b - phi_a - free_angle */
+    double x_m, y_m;               /* hinge point in the world, in the drawn position */
+    double ax_m, ay_m, bx_m, by_m; /* local coordinates as written; NaN: from x, y */
+    double stiffness_Nm_per_rad;   /* NaN: from the flexure's geometry (0 without a flexure) */
+    double damping_Nms_per_rad;    /* NaN: from the flexure's material (0 without a flexure) */
     double free_angle_rad;
-    int flexure;                    /* index or FW_NONE */
-    double axis_rad;                /* direction of the flexure's bulge; NaN: chosen by the layout */
+    int flexure;     /* index or FW_NONE */
+    double axis_rad; /* direction of the flexure's bulge; NaN: chosen by the layout */
     fw_place place;
 } fw_joint;
 
@@ -100,7 +100,7 @@ typedef struct fw_initial { /* <initial body vx vy omega/> */
 
 typedef struct fw_scene {
     const char *name;
-    const char *flow;  /* only in this flow; NULL: in all */
+    const char *flow; /* only in this flow; NULL: in all */
     double duration_s;
     bool gravity;
     double gx_m_per_s2, gy_m_per_s2;
@@ -125,7 +125,7 @@ typedef struct fw_die { /* <die>; NaN: from the drawn mechanism */
 
 typedef struct fw_device {
     const char *file, *name;
-    const char *source;   /* the file's text, for carets */
+    const char *source; /* the file's text, for carets */
     size_t source_length;
     fw_parameter *parameter;
     fw_flow_use *flow;
@@ -140,10 +140,10 @@ typedef struct fw_device {
     fw_place material_place;
     /* overrides of <material>; unknown = take the pack's value */
     fw_material_override material;
-    double thickness_m;       /* device layer, NaN: the flow's */
-    double safety_factor;     /* <limits safety-factor>, default 1.5 */
+    double thickness_m;   /* device layer, NaN: the flow's */
+    double safety_factor; /* <limits safety-factor>, default 1.5 */
     fw_place limits_place;
-    bool six_bar;             /* joints 0..5 are A..F, bodies 0..4 AB BC CD DE EF */
+    bool six_bar; /* joints 0..5 are A..F, bodies 0..4 AB BC CD DE EF */
     fw_die die;
 } fw_device;
 

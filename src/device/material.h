@@ -6,12 +6,12 @@
 
 typedef struct fw_material {
     const char *id, *name;
-    fw_quantity youngs;      /* Pa, for bending in the wafer plane */
-    fw_quantity poisson;     /* 1 */
-    fw_quantity density;     /* kg/m3 */
-    fw_quantity strength;    /* Pa: stress that the safety factor divides */
-    const char *criterion;   /* "fracture", "proportional limit", "yield" */
-    fw_quantity loss;        /* 1: loss factor eta of the material damping, for c = eta k/omega */
+    fw_quantity youngs;    /* Pa, for bending in the wafer plane */
+    fw_quantity poisson;   /* 1 */
+    fw_quantity density;   /* kg/m3 */
+    fw_quantity strength;  /* Pa: stress that the safety factor divides */
+    const char *criterion; /* "fracture", "proportional limit", "yield" */
+    fw_quantity loss;      /* 1: loss factor eta of the material damping, for c = eta k/omega */
 } fw_material;
 
 typedef struct fw_material_override { /* attributes of <material>; unknown where absent */

@@ -2,8 +2,9 @@
 /* The <q> element: one number with unit, uncertainty, status and source. Material and process packs
    share it.
 
-   <q id value unit status src note/> with exactly one of u (standard, in `unit`), urel (relative) or
-   lo and hi (uniform between them: u = (hi - lo)/sqrt(12)); or unknown="true" instead of value. */
+   <q id value unit status src note/> with exactly one of u (standard, in `unit`), urel (relative)
+   or lo and hi (uniform between them: u = (hi - lo)/sqrt(12)); or unknown="true" instead of value.
+ */
 #ifndef FW_DEVICE_QUANTITY_XML_H
 #define FW_DEVICE_QUANTITY_XML_H
 #include "device/xml.h"
@@ -20,8 +21,7 @@ fw_status fw_sources_read(fw_arena *arena, const fw_element *parent, fw_diags *d
 /* FW_INPUT when the element is wrong (all its mistakes are in diags); *q is then unknown. `src` is
    resolved among the sources; q->source is the source's text. Attributes that are not named above
    are errors. The value is in SI, degrees Celsius in kelvin. */
-fw_status fw_quantity_read(fw_arena *arena, const fw_element *element,
-                           const fw_source_text *source, int nsource, fw_diags *diags,
-                           fw_quantity *q);
+fw_status fw_quantity_read(fw_arena *arena, const fw_element *element, const fw_source_text *source,
+                           int nsource, fw_diags *diags, fw_quantity *q);
 
 #endif

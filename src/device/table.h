@@ -16,15 +16,15 @@ typedef enum fw_kind {
 } fw_kind;
 
 typedef enum fw_space { /* ids are unique within one of these */
-    FW_SPACE_NONE,
-    FW_SPACE_PARAMETER,
-    FW_SPACE_FLOW,
-    FW_SPACE_FLEXURE,
-    FW_SPACE_BODY,
-    FW_SPACE_JOINT,
-    FW_SPACE_SPRING,
-    FW_SPACE_SCENE,
-    FW_SPACE_COUNT
+                        FW_SPACE_NONE,
+                        FW_SPACE_PARAMETER,
+                        FW_SPACE_FLOW,
+                        FW_SPACE_FLEXURE,
+                        FW_SPACE_BODY,
+                        FW_SPACE_JOINT,
+                        FW_SPACE_SPRING,
+                        FW_SPACE_SCENE,
+                        FW_SPACE_COUNT
 } fw_space;
 
 typedef struct fw_attribute_row {
@@ -39,25 +39,25 @@ typedef struct fw_attribute_row {
     const char *fallback; /* what holds when it is absent, for the page; NULL: nothing */
     const char *const *words, *const *later; /* NULL-terminated; later: not in this version */
     fw_space space;
-    bool ground;          /* a reference may be "ground" */
+    bool ground; /* a reference may be "ground" */
     const char *sentence;
 } fw_attribute_row;
 
 typedef struct fw_element_row {
-    const char *name, *parent; /* parent "" for the root */
-    const char *key;           /* the attribute that names it in --set, or NULL */
-    fw_space space;            /* where the key must be unique */
-    bool once;                 /* at most one in its parent */
-    bool later;                /* not in this version */
-    int most;                  /* of them in a file; 0: no limit of its own */
+    const char *name, *parent;         /* parent "" for the root */
+    const char *key;                   /* the attribute that names it in --set, or NULL */
+    fw_space space;                    /* where the key must be unique */
+    bool once;                         /* at most one in its parent */
+    bool later;                        /* not in this version */
+    int most;                          /* of them in a file; 0: no limit of its own */
     const fw_attribute_row *attribute; /* (nattribute) */
     int nattribute;
     const char *sentence;
 } fw_element_row;
 
 const fw_element_row *fw_device_table(int *count);
-const fw_element_row *fw_element_row_find(const char *name);              /* or NULL */
-const char *fw_space_text(fw_space space);                                /* "flexure" */
+const fw_element_row *fw_element_row_find(const char *name); /* or NULL */
+const char *fw_space_text(fw_space space);                   /* "flexure" */
 bool fw_kind_is_expression(fw_kind kind);
 
 #endif

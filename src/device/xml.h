@@ -10,20 +10,20 @@
 
 typedef struct fw_attribute {
     const char *name, *value;
-    fw_place place;        /* of the value's first character */
-    size_t value_offset;   /* byte offset of the value in the file */
-    int exact;             /* value bytes equal file bytes (no entity inside): offsets inside hold */
-    fw_place name_place;   /* of the name's first character */
-    const char *raw;       /* the value as it stands in the file, raw_length bytes; not ended by NUL */
+    fw_place place;      /* of the value's first character */
+    size_t value_offset; /* byte offset of the value in the file */
+    int exact;           /* value bytes equal file bytes (no entity inside): offsets inside hold */
+    fw_place name_place; /* of the name's first character */
+    const char *raw; /* the value as it stands in the file, raw_length bytes; not ended by NUL */
     size_t raw_length;
 } fw_attribute;
 
 typedef struct fw_element {
-    const char *name, *space;     /* local name, namespace */
-    fw_place place;               /* of the '<' */
-    fw_attribute *attribute;      /* (nattribute) */
+    const char *name, *space; /* local name, namespace */
+    fw_place place;           /* of the '<' */
+    fw_attribute *attribute;  /* (nattribute) */
     int nattribute;
-    const char *text;             /* character data directly inside, trimmed; "" when none */
+    const char *text; /* character data directly inside, trimmed; "" when none */
     fw_place text_place;
     struct fw_element *parent, *first_child, *last_child, *next;
 } fw_element;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Private to geometry/: vectors, and what can be asked of one or two segments. */
+/* Vectors, and what can be asked of one or two segments: the parts of this room, shared with the exact
+   rule checks of mask/. */
 #ifndef FW_GEOMETRY_SEGMENT_H
 #define FW_GEOMETRY_SEGMENT_H
 #include "geometry/contour.h"

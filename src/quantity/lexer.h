@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tokens of an expression; shared by the evaluator and the search for names. Private to quantity/. */
+/* Tokens of an expression; shared by the evaluator and the search for names. Private to quantity/.
+ */
 #ifndef FW_QUANTITY_LEXER_H
 #define FW_QUANTITY_LEXER_H
 #include "quantity/expression.h"
@@ -8,8 +9,8 @@ typedef enum fw_token_kind {
     FW_TOKEN_END,
     FW_TOKEN_NUMBER, /* with its unit, in SI */
     FW_TOKEN_NAME,
-    FW_TOKEN_MARK,   /* one of + - * / ^ ( ) , */
-    FW_TOKEN_WRONG   /* `error` is filled */
+    FW_TOKEN_MARK, /* one of + - * / ^ ( ) , */
+    FW_TOKEN_WRONG /* `error` is filled */
 } fw_token_kind;
 
 typedef struct fw_token {
@@ -41,6 +42,7 @@ const char *fw_unit_suggestion(const char *symbol, size_t n);
 bool fw_dimension_combine(fw_dimension *d, fw_dimension by, int times);
 /* a unit that suits the dimension in messages: "um", "N m/rad"; NULL when there is no usual one */
 const char *fw_dimension_unit(fw_dimension d);
-bool fw_expression_function(const char *name, size_t n); /* sqrt, sin ... or pi */
+/* with its article, for sentences: "a length", "an angle" */
+const char *fw_dimension_phrase(fw_arena *arena, fw_dimension d);
 
 #endif

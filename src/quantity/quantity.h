@@ -29,29 +29,33 @@ typedef struct fw_unit {
    (cm2, s-1, um^2), e.g. "N m/rad", "mA/cm2", "Ao/s", "g/cm3", "{sccm}", "1". false when unknown;
    *wrong (may be NULL) then points at the offending symbol inside text, *wrong_n its length. */
 bool fw_unit_parse(const char *text, size_t n, fw_unit *unit, const char **wrong, size_t *wrong_n);
+/* value in the unit -> SI and back. A factor such as 1e-6 divides by 1e6, so that "10 um" is the
+   very number 10e-6. */
+double fw_unit_to_si(const fw_unit *unit, double value);
+double fw_unit_from_si(const fw_unit *unit, double value);
 /* all unit symbols, for "did you mean" and the reference page */
 const char *const *fw_unit_names(size_t *count);
 
 typedef enum fw_value_status { /* from best to worst; a result inherits the worst of its inputs */
-    FW_MEASURED,
-    FW_STATED,
-    FW_DERIVED,
-    FW_TYPICAL,
-    FW_ASSUMED
+                               FW_MEASURED,
+                               FW_STATED,
+                               FW_DERIVED,
+                               FW_TYPICAL,
+                               FW_ASSUMED
 } fw_value_status;
 const char *fw_value_status_text(fw_value_status status);
 bool fw_value_status_parse(const char *text, fw_value_status *status);
 
 typedef struct fw_quantity {
-    const char *id;      /* may be NULL */
-    bool unknown;        /* no value: whatever needs it is NOT COMPUTABLE */
-    double value;        /* SI */
-    double uncertainty;  /* standard, absolute, SI; >= 0 */
+    const char *id;     /* may be NULL */
+    bool unknown;       /* no value: whatever needs it is NOT COMPUTABLE */
+    double value;       /* SI */
+    double uncertainty; /* standard, absolute, SI; >= 0 */
     fw_dimension dimension;
-    const char *unit;    /* as written, for printing */
+    const char *unit; /* as written, for printing */
     fw_value_status status;
-    const char *source;  /* text of the source */
-    const char *note;    /* may be NULL */
+    const char *source; /* text of the source */
+    const char *note;   /* may be NULL */
     fw_place place;
 } fw_quantity;
 

@@ -1,0 +1,369 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/options.h"
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct option_row {
+    const char *name;     /* without the dashes */
+    char letter;          /* 0: none */
+    const char *argument; /* NULL: none */
+    const char *help;
+    unsigned group;
+    const char *(*take)(fw_cli_options *o, const char *value); /* NULL or what is wrong */
+} option_row;
+
+int fw_cli_usage(const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    fputs("flexwright: error: ", stderr);
+    vfprintf(stderr, format, arguments);
+    fputs(" [FW-D230]\n", stderr);
+    va_end(arguments);
+    return fw_status_exit(FW_USAGE);
+}
+
+/* ---- one function per option ---- */
+
+static const char *take_output(fw_cli_options *o, const char *v) {
+    o->output = v;
+    return *v ? NULL : "needs the name of a directory";
+}
+
+static const char *take_json(fw_cli_options *o, const char *v) {
+    (void)v;
+    o->json = true;
+    return NULL;
+}
+
+static const char *take_set(fw_cli_options *o, const char *v) {
+    const char *equals = strchr(v, '=');
+    /* flexure[A]/@length=312 um: the first '=' ends the path; ids hold none */
+    if (!equals || equals == v)
+        return "needs PATH=VALUE, for example arc=\"250 deg\" or \"flexure[A]/@length=312 um\"";
+    if (o->plan.nset == FW_MOST_SETS) return "is given more than 64 times";
+    char *path = malloc((size_t)(equals - v) + 1); /* lives as long as the program */
+    if (!path) return "could not be stored: out of memory";
+    memcpy(path, v, (size_t)(equals - v));
+    path[equals - v] = '\0';
+    o->set[o->plan.nset++] = (fw_set){path, equals + 1};
+    return NULL;
+}
+
+static const char *take_accuracy(fw_cli_options *o, const char *v) {
+    double *x = &o->plan.verdict.motion.accuracy;
+    if (!fw_number_parse(v, strlen(v), x) || !(*x >= 1e-12 && *x <= 0.1))
+        return "needs a relative error between 1e-12 and 0.1";
+    return NULL;
+}
+
+static const char *take_effects(fw_cli_options *o, const char *v) {
+    static const char *const word[] = {"auto", "all", "none"};
+    fw_effect_choice *e = &o->plan.verdict.motion.effects;
+    *e = (fw_effect_choice){FW_EFFECTS_LIST, v};
+    for (int i = 0; i < 3; i++)
+        if (strcmp(v, word[i]) == 0) *e = (fw_effect_choice){(fw_effect_mode)i, NULL};
+    return *v ? NULL : "needs auto, all, none or a list of effects";
+}
+
+static const char *take_quiet(fw_cli_options *o, const char *v) {
+    (void)v;
+    o->quiet = true;
+    return NULL;
+}
+
+static const char *take_verbose(fw_cli_options *o, const char *v) {
+    (void)v;
+    o->verbose = true;
+    return NULL;
+}
+
+static const char *take_no_progress(fw_cli_options *o, const char *v) {
+    (void)v;
+    o->no_progress = true;
+    return NULL;
+}
+
+static const char *take_colour(fw_cli_options *o, const char *v) {
+    static const char *const word[] = {"auto", "never", "always"};
+    for (int i = 0; i < 3; i++)
+        if (strcmp(v, word[i]) == 0) {
+            o->colour = i - 1;
+            return NULL;
+        }
+    return "needs auto, always or never";
+}
+
+static const char *take_help(fw_cli_options *o, const char *v) {
+    (void)v;
+    o->help = true;
+    return NULL;
+}
+
+static const char *take_flow(fw_cli_options *o, const char *v) {
+    o->plan.flow = v;
+    return *v ? NULL : "needs the name of a flow";
+}
+
+static const char *take_force(fw_cli_options *o, const char *v) {
+    (void)v;
+    o->plan.force = true;
+    return NULL;
+}
+
+static const char *take_tolerance(fw_cli_options *o, const char *v) {
+    double nm;
+    if (!fw_number_parse(v, strlen(v), &nm) || !(nm >= 1.42 && nm <= 1000.0))
+        return "needs nanometres between 1.42 (below, rounding to the 1 nm grid would bend arcs "
+               "the "
+               "wrong way) and 1000";
+    o->plan.mask_tolerance_m = nm * 1e-9;
+    return NULL;
+}
+
+static const char *take_scene(fw_cli_options *o, const char *v) {
+    o->plan.scene = v;
+    return *v ? NULL : "needs the name of a scene";
+}
+
+static const char *from_table(const char *v, const fw_method_row *row, size_t n) {
+    for (size_t i = 0; i < n; i++)
+        if (strcmp(v, row[i].name) == 0) return NULL;
+    return "is not known in this version; see --help for those that are";
+}
+
+static const char *take_method(fw_cli_options *o, const char *v) {
+    size_t n;
+    const fw_method_row *row = fw_method_table(&n);
+    o->plan.verdict.motion.method = v;
+    return from_table(v, row, n);
+}
+
+static const char *take_integrator(fw_cli_options *o, const char *v) {
+    size_t n;
+    const fw_method_row *row = fw_integrator_table(&n);
+    o->plan.verdict.motion.integrator = v;
+    return from_table(v, row, n);
+}
+
+static const char *take_stabilise(fw_cli_options *o, const char *v) {
+    (void)o;
+    return strcmp(v, "projection") == 0 ? NULL : "knows only projection in this version";
+}
+
+static const char *take_hinge_model(fw_cli_options *o, const char *v) {
+    (void)o;
+    return strcmp(v, "auto") == 0 || strcmp(v, "revolute") == 0
+               ? NULL
+               : "knows only revolute in this version";
+}
+
+static const char *take_rtol(fw_cli_options *o, const char *v) {
+    double *x = &o->plan.verdict.motion.rtol;
+    if (!fw_number_parse(v, strlen(v), x) || !(*x >= 1e-14 && *x <= 1e-2))
+        return "needs a relative tolerance between 1e-14 and 1e-2";
+    return NULL;
+}
+
+static const char *take_samples(fw_cli_options *o, const char *v) {
+    double n;
+    if (!fw_number_parse(v, strlen(v), &n) || n != floor(n) || !(n >= 2 && n <= 1e6))
+        return "needs a whole number between 2 and 1000000";
+    o->plan.verdict.motion.samples = (int)n;
+    return NULL;
+}
+
+static const char *take_csv(fw_cli_options *o, const char *v) {
+    o->csv = v;
+    return *v ? NULL : "needs the name of a file";
+}
+
+static const char *take_animate(fw_cli_options *o, const char *v) {
+    o->animate = v;
+    return *v ? NULL : "needs the name of a file";
+}
+
+static const option_row table[] = {
+    {"output", 'o', "DIR", "directory of the results; it appears whole or not at all",
+     FW_OPT_OUTPUT, take_output},
+    {"json", 0, NULL, "one JSON document on standard output", FW_OPT_PLAN, take_json},
+    {"set", 0, "PATH=VALUE",
+     "override a parameter (arc=\"250 deg\") or an attribute (flexure[A]/@length=\"312 um\"); "
+     "repeatable",
+     FW_OPT_PLAN, take_set},
+    {"accuracy", 0, "REL", "relative error wanted on the peak hinge deflection; default 1e-3",
+     FW_OPT_PLAN, take_accuracy},
+    {"effects", 0, "WHICH", "auto (what matters), all, none, or a list like gravity,joint-damping",
+     FW_OPT_PLAN, take_effects},
+    {"flow", 0, "NAME", "only this process flow", FW_OPT_PLAN, take_flow},
+    {"hinge-model", 0, "MODEL", "auto or revolute", FW_OPT_PLAN, take_hinge_model},
+    {"force", 0, NULL, "masks and recipes of a rejected design too, each marked REJECTED",
+     FW_OPT_FABRICATE, take_force},
+    {"mask-tolerance", 0, "NM", "largest distance between an arc and its polygon, in nm; default 5",
+     FW_OPT_FABRICATE, take_tolerance},
+    {"scene", 0, "NAME", "the scene to simulate; default the first", FW_OPT_SIMULATE, take_scene},
+    {"method", 0, "NAME", "how the constraint forces are found; default chain", FW_OPT_SIMULATE,
+     take_method},
+    {"integrator", 0, "NAME", "default auto", FW_OPT_SIMULATE, take_integrator},
+    {"stabilise", 0, "HOW", "projection", FW_OPT_SIMULATE, take_stabilise},
+    {"rtol", 0, "R", "relative tolerance of the integrator; default from --accuracy",
+     FW_OPT_SIMULATE, take_rtol},
+    {"samples", 0, "N", "rows of the CSV, evenly over the scene; default 1001", FW_OPT_SIMULATE,
+     take_samples},
+    {"csv", 0, "FILE", "position and velocity of every body, 17 digits; - is standard output",
+     FW_OPT_SIMULATE, take_csv},
+    {"animate", 0, "FILE", "an SVG that plays by itself", FW_OPT_SIMULATE, take_animate},
+    {"quiet", 'q', NULL, "no messages but errors", FW_OPT_COMMON, take_quiet},
+    {"verbose", 'v', NULL, "a line per stage, and every note", FW_OPT_COMMON, take_verbose},
+    {"color", 0, "WHEN", "auto, always or never", FW_OPT_COMMON, take_colour},
+    {"no-progress", 0, NULL, "no progress on a terminal", FW_OPT_COMMON, take_no_progress},
+    {"help", 'h', NULL, "this text", FW_OPT_COMMON, take_help},
+};
+enum { NOPTION = sizeof table / sizeof table[0] };
+
+static const option_row *find(const fw_command *command, const char *name, size_t n, char letter) {
+    for (size_t i = 0; i < NOPTION; i++) {
+        if (!(table[i].group & command->options)) continue;
+        if (letter ? table[i].letter == letter
+                   : strlen(table[i].name) == n && strncmp(table[i].name, name, n) == 0)
+            return &table[i];
+    }
+    return NULL;
+}
+
+static bool unknown_option(const fw_command *command, const char *argument) {
+    const char *names[NOPTION];
+    size_t n = 0;
+    for (size_t i = 0; i < NOPTION; i++)
+        if (table[i].group & command->options) names[n++] = table[i].name;
+    const char *near = argument[1] == '-' ? fw_did_you_mean(argument + 2, names, n) : NULL;
+    fw_cli_usage("%s has no option '%s'%s%s%s; see flexwright %s --help", command->name, argument,
+                 near ? "; did you mean --" : "", near ? near : "", near ? "?" : "", command->name);
+    return false;
+}
+
+/* one option at argv[*i]; takes its value from behind '=' or from the next argument */
+static bool one_option(const fw_command *command, int argc, char **argv, int *i,
+                       fw_cli_options *o) {
+    const char *argument = argv[*i], *value = NULL;
+    const option_row *row;
+    if (argument[1] == '-') {
+        size_t n = strcspn(argument + 2, "=");
+        row = find(command, argument + 2, n, 0);
+        value = argument[2 + n] == '=' ? argument + 3 + n : NULL;
+    } else {
+        row = find(command, NULL, 0, argument[1]);
+        value = argument[2] ? argument + 2 : NULL;
+    }
+    if (!row || (!row->argument && value)) return unknown_option(command, argument);
+    if (row->argument && !value) {
+        if (*i + 1 >= argc) {
+            fw_cli_usage("--%s needs %s: %s", row->name, row->argument, row->help);
+            return false;
+        }
+        value = argv[++*i];
+    }
+    const char *wrong = row->take(o, value);
+    if (wrong) fw_cli_usage("--%s%s%s %s", row->name, value ? " " : "", value ? value : "", wrong);
+    return !wrong;
+}
+
+bool fw_cli_parse(const fw_command *command, int argc, char **argv, fw_cli_options *o) {
+    bool only_names = false;
+    for (int i = 2; i < argc; i++) {
+        const char *argument = argv[i];
+        if (!only_names && strcmp(argument, "--") == 0)
+            only_names = true;
+        else if (!only_names && argument[0] == '-' && argument[1]) {
+            if (!one_option(command, argc, argv, &i, o)) return false;
+        } else if (o->device) {
+            fw_cli_usage("%s takes one %s, got '%s' and '%s'", command->name,
+                         command->argument ? command->argument : "argument", o->device, argument);
+            return false;
+        } else
+            o->device = argument;
+    }
+    if (!o->help && command->argument && command->argument[0] != '[' && !o->device) {
+        fw_cli_usage("%s needs %s; see flexwright %s --help", command->name, command->argument,
+                     command->name);
+        return false;
+    }
+    o->plan.set = o->set;
+    return true;
+}
+
+/* ---- help ---- */
+
+static void print_options(unsigned groups, FILE *to) {
+    for (size_t i = 0; i < NOPTION; i++) {
+        if (!(table[i].group & groups)) continue;
+        char left[64];
+        snprintf(left, sizeof left, "%s%c%s--%s%s%s", table[i].letter ? "-" : " ",
+                 table[i].letter ? table[i].letter : ' ', table[i].letter ? ", " : "  ",
+                 table[i].name, table[i].argument ? " " : "",
+                 table[i].argument ? table[i].argument : "");
+        fprintf(to, "  %-26s %s\n", left, table[i].help);
+    }
+}
+
+void fw_cli_help(void) {
+    size_t n;
+    const fw_command *command = fw_command_table(&n);
+    fputs(
+        "flexwright - from one description of a compliant micromanipulator to a verdict, masks "
+        "and\n"
+        "fabrication recipes\n\n"
+        "  flexwright plan device.xml -o out       everything, for every flow of the device\n"
+        "  flexwright check device.xml             only: does a hinge leave its elastic range?\n\n"
+        "Commands:\n",
+        stdout);
+    for (size_t i = 0; i < n; i++)
+        printf("  %-9s %s\n", command[i].name, command[i].summary);
+    fputs("\n  flexwright COMMAND --help              options of a command, with an example\n"
+          "  flexwright --version\n\n"
+          "Exit status: 0 accepted or done, 1 design rejected, 2 wrong usage, 3 invalid input,\n"
+          "4 inconclusive, 5 input or output failed, 6 out of memory or another limit,\n"
+          "7 no numerical solution, 70 internal error, 130 and 143 on signals.\n"
+          "Results go to standard output, messages to standard error.\n",
+          stdout);
+}
+
+void fw_cli_command_help(const fw_command *command) {
+    printf("flexwright %s%s%s [options]\n\n  %s\n\n%s\n\nOptions:\n", command->name,
+           command->argument ? " " : "", command->argument ? command->argument : "",
+           command->example, command->text);
+    print_options(command->options, stdout);
+    if (command->options & FW_OPT_SIMULATE) {
+        size_t n;
+        fputs("\nMethods:\n", stdout);
+        const fw_method_row *row = fw_method_table(&n);
+        for (size_t i = 0; i < n; i++)
+            printf("  %-12s %s\n", row[i].name, row[i].summary);
+        fputs("Integrators:\n", stdout);
+        row = fw_integrator_table(&n);
+        for (size_t i = 0; i < n; i++)
+            printf("  %-12s %s\n", row[i].name, row[i].summary);
+    }
+}
+
+void fw_cli_reference(fw_text *out) {
+    size_t n;
+    const fw_command *command = fw_command_table(&n);
+    fw_text_add(out, "# Command line\n\nGenerated from the option table; do not edit.\n");
+    for (size_t i = 0; i < n; i++) {
+        fw_text_printf(out, "\n## flexwright %s%s%s\n\n%s\n\n    %s\n\n%s\n\n", command[i].name,
+                       command[i].argument ? " " : "",
+                       command[i].argument ? command[i].argument : "", command[i].summary,
+                       command[i].example, command[i].text);
+        fw_text_add(out, "| option | meaning |\n|---|---|\n");
+        for (size_t k = 0; k < NOPTION; k++)
+            if (table[k].group & command[i].options)
+                fw_text_printf(out, "| `%s%.*s%s--%s%s%s` | %s |\n", table[k].letter ? "-" : "",
+                               table[k].letter ? 1 : 0, &table[k].letter,
+                               table[k].letter ? "`, `" : "", table[k].name,
+                               table[k].argument ? " " : "",
+                               table[k].argument ? table[k].argument : "", table[k].help);
+    }
+}

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The command line, parsed by one table that also feeds --help and the reference page. */
+#ifndef FW_CLI_OPTIONS_H
+#define FW_CLI_OPTIONS_H
+#include "plan/plan.h"
+
+enum { FW_MOST_SETS = 64 };
+
+typedef struct fw_cli_options {
+    fw_plan_options plan;
+    fw_set set[FW_MOST_SETS];
+    const char *device; /* "-" = standard input; for explain: the code */
+    const char *output; /* -o */
+    const char *csv, *animate;
+    bool json, quiet, verbose, no_progress, help, version;
+    int colour; /* -1 auto, 0 never, 1 always */
+} fw_cli_options;
+
+typedef struct fw_command { /* one row per command */
+    const char *name, *argument, *summary, *example, *text;
+    unsigned options; /* bit per option group */
+    int (*run)(fw_cli_options *options);
+} fw_command;
+const fw_command *fw_command_table(size_t *count);
+
+enum { /* option groups */
+       FW_OPT_COMMON = 1,
+       FW_OPT_PLAN = 2,
+       FW_OPT_SIMULATE = 4,
+       FW_OPT_OUTPUT = 8,
+       FW_OPT_FABRICATE = 16
+};
+
+/* fills options from argv[2..]; false: wrong usage, said on stderr */
+bool fw_cli_parse(const fw_command *command, int argc, char **argv, fw_cli_options *options);
+void fw_cli_help(void); /* the program */
+void fw_cli_command_help(const fw_command *command);
+void fw_cli_reference(fw_text *out); /* docs/reference/command-line.md */
+/* says "flexwright: error: ... [FW-D230]" and returns exit status 2 */
+int fw_cli_usage(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+#endif

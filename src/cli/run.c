@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/cancel.h"
+#include "cli/cli.h"
+#include "cli/session.h"
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const fw_command table[] = {
+    {"plan", "DEVICE.xml", "everything: verdict, masks, recipes, report",
+     "flexwright plan device.xml -o out",
+     "Judges the device in every flow it names, draws the masks with the flow's bias, computes "
+     "the\n"
+     "recipes and writes a report. Exit status 0: accepted; 1: rejected (the report says which\n"
+     "parameter to change and by how much), or a flow cannot make it; 4: the error band straddles\n"
+     "the limit. The directory appears complete or not at all.",
+     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_FABRICATE, fw_command_plan},
+    {"check", "DEVICE.xml", "only the verdict: does a hinge leave its elastic range?",
+     "flexwright check device.xml --set arc=\"250 deg\"",
+     "Runs every scene and the required workspace and compares each hinge's peak strain with its\n"
+     "limit. Writes nothing.",
+     FW_OPT_COMMON | FW_OPT_PLAN, fw_command_check},
+    {"simulate", "DEVICE.xml", "one scene: motion, peaks, statistics",
+     "flexwright simulate device.xml --scene step-load --csv motion.csv",
+     "Solves the equations of motion of one scene and prints the peak of every hinge angle. With\n"
+     "--csv every body's position and velocity, evenly sampled; with --animate a moving picture.",
+     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_SIMULATE, fw_command_simulate},
+    {"mask", "DEVICE.xml", "only the masks (GDSII, SVG, layer properties, certificate)",
+     "flexwright mask device.xml --flow al-masked-rie -o masks-out",
+     "Judges the device first: a rejected design gets no mask unless --force.",
+     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_FABRICATE, fw_command_mask},
+    {"recipe", "DEVICE.xml", "only the recipes (run sheet, CSV, calendar, JSON)",
+     "flexwright recipe device.xml --flow copper-on-porous-silicon --json",
+     "Judges the device first: a rejected design gets no recipe unless --force. With --json and "
+     "one\n"
+     "flow the recipe is printed; with several, a document that holds them all.",
+     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_FABRICATE, fw_command_recipe},
+    {"hinge", "DEVICE.xml", "every flexure: elastic centre, stiffness, strain, limit angle",
+     "flexwright hinge device.xml",
+     "Closed form with depth, root and fillet corrections, for every flow's material and "
+     "thickness.",
+     FW_OPT_COMMON | FW_OPT_PLAN, fw_command_hinge},
+    {"init", "[NAME]", "a starter device on standard output",
+     "flexwright init my-device > device.xml",
+     "Prints a small six-bar with comments; every command accepts it as it is.", FW_OPT_COMMON,
+     fw_command_init},
+    {"explain", "CODE", "the long text of a diagnostic", "flexwright explain FW-D204",
+     "Says what the diagnostic means and what to do.", FW_OPT_COMMON, fw_command_explain},
+    {"doctor", NULL, "what is installed, for a bug report", "flexwright doctor",
+     "Versions of the libraries, where the data files are, what the processor offers.",
+     FW_OPT_COMMON, fw_command_doctor},
+};
+
+/* named in the contract, not in this version: say so instead of "unknown" */
+static const char *const later[] = {"assemble", "statics", "modes",     "workspace",
+                                    "tradeoff", "study",   "calibrate", "serve"};
+
+const fw_command *fw_command_table(size_t *count) {
+    *count = sizeof table / sizeof table[0];
+    return table;
+}
+
+static const fw_command *find_command(const char *name) {
+    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++)
+        if (strcmp(table[i].name, name) == 0) return &table[i];
+    return NULL;
+}
+
+static int unknown_command(const char *name) {
+    for (size_t i = 0; i < sizeof later / sizeof later[0]; i++)
+        if (strcmp(later[i], name) == 0)
+            return fw_cli_usage("'%s' is not in this version (%s); flexwright --help lists what is",
+                                name, FW_VERSION);
+    const char *names[sizeof table / sizeof table[0]];
+    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++)
+        names[i] = table[i].name;
+    const char *near = fw_did_you_mean(name, names, sizeof table / sizeof table[0]);
+    return fw_cli_usage("unknown command '%s'%s%s%s; see flexwright --help", name,
+                        near ? "; did you mean " : "", near ? near : "", near ? "?" : "");
+}
+
+/* the first signal asks to stop, the second one stops */
+static void on_signal(int number) {
+    if (fw_cancel_requested()) _exit(128 + number);
+    fw_cancel_request(number);
+}
+
+static void catch_signals(void) {
+    struct sigaction stop = {.sa_handler = on_signal}, ignore = {.sa_handler = SIG_IGN};
+    sigaction(SIGINT, &stop, NULL);
+    sigaction(SIGTERM, &stop, NULL);
+    sigaction(SIGPIPE, &ignore, NULL); /* a closed pipe is an input/output error like others */
+    sigaction(SIGXFSZ, &ignore, NULL);
+}
+
+static int last_words(int status) {
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        fputs("flexwright: error: standard output could not be written [FW-D222]\n", stderr);
+        return fw_status_exit(FW_IO);
+    }
+    return status;
+}
+
+int fw_cli_run(int argc, char **argv) {
+    catch_signals();
+    if (argc < 2) return fw_cli_usage("no command; see flexwright --help");
+    const char *name = argv[1];
+    if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0) {
+        const fw_command *about = argc > 2 ? find_command(argv[2]) : NULL;
+        if (about)
+            fw_cli_command_help(about);
+        else
+            fw_cli_help();
+        return last_words(0);
+    }
+    if (strcmp(name, "--version") == 0) {
+        printf("flexwright %s\n", FW_VERSION);
+        return last_words(0);
+    }
+    const fw_command *command = find_command(name);
+    if (!command) return unknown_command(name);
+    fw_cli_options options = {.plan = fw_plan_options_default(), .colour = -1};
+    options.plan.data_directory = getenv("FLEXWRIGHT_DATA");
+    if (!fw_cli_parse(command, argc, argv, &options)) return fw_status_exit(FW_USAGE);
+    if (options.help) {
+        fw_cli_command_help(command);
+        return last_words(0);
+    }
+    return last_words(command->run(&options));
+}

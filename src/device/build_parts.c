@@ -1,0 +1,218 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Material, limits, flows, flexures, workspaces and the die. */
+#include "device/reader.h"
+#include <math.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+
+static fw_status read_override(fw_reader *r, const fw_record *record, const char *name,
+                               const char *id, fw_dimension dimension, fw_quantity *q) {
+    const fw_cell *cell = fw_cell_of(record, name);
+    *q = (fw_quantity){.id = id,
+                       .unknown = true,
+                       .dimension = dimension,
+                       .unit = "",
+                       .status = FW_STATED,
+                       .source = "device file",
+                       .place = fw_place_of(record, name)};
+    if (!cell->given || !cell->ok) return FW_OK;
+    q->unknown = false;
+    q->value = cell->number;
+    return fw_expression_unit(r->arena, cell->given->value, strlen(cell->given->value), dimension,
+                              &q->unit);
+}
+
+static fw_status build_material(fw_reader *r, const fw_record *record) {
+    static const fw_dimension pressure = {-1, 1, -2, 0, 0, 0, 0}, density = {.m = -3, .kg = 1};
+    static const fw_element_row no_row = {.name = "material"};
+    fw_element nothing = {.name = "material"};
+    fw_record absent = {.row = &no_row, .element = &nothing};
+    fw_device *d = r->device;
+    const fw_record *from = record ? record : &absent;
+    FW_TRY(read_override(r, from, "youngs-modulus", "youngs", pressure, &d->material.youngs));
+    FW_TRY(read_override(r, from, "poisson", "poisson", (fw_dimension){0}, &d->material.poisson));
+    FW_TRY(read_override(r, from, "density", "density", density, &d->material.density));
+    FW_TRY(read_override(r, from, "strength", "strength", pressure, &d->material.strength));
+    if (!record) return FW_OK;
+    d->material_ref = fw_text_of(record, "ref");
+    d->material_place = fw_place_of(record, "ref");
+    d->thickness_m = fw_number_of(record, "thickness");
+    return FW_OK;
+}
+
+static fw_flow_use flow_of(const fw_record *record) {
+    return (fw_flow_use){.ref = fw_text_of(record, "ref"),
+                         .material = fw_text_of(record, "material"),
+                         .thickness_m = fw_number_of(record, "thickness"),
+                         .place = fw_place_of(record, "ref")};
+}
+
+static const char *reference_text(fw_reader *r, const fw_record *record, const char *name) {
+    return fw_reference(r, record, name) >= 0 ? fw_text_of(record, name) : NULL;
+}
+
+static void check_order(fw_reader *r, const fw_record *record, const char *low, const char *high,
+                        const char *unit) {
+    double a = fw_number_of(record, low), b = fw_number_of(record, high);
+    char left[FW_LABEL], right[FW_LABEL];
+    if (a > b)
+        fw_diag_error(r->diags, 63, fw_place_of(record, low),
+                      "workspace: %s %s is above %s %s; exchange them", low,
+                      fw_in_unit(left, a, unit), high, fw_in_unit(right, b, unit));
+}
+
+static fw_workspace_box workspace_of(fw_reader *r, const fw_record *record) {
+    check_order(r, record, "x-min", "x-max", "um");
+    check_order(r, record, "y-min", "y-max", "um");
+    check_order(r, record, "phi-min", "phi-max", "deg");
+    return (fw_workspace_box){.flow = reference_text(r, record, "flow"),
+                              .x_min_m = fw_number_of(record, "x-min"),
+                              .x_max_m = fw_number_of(record, "x-max"),
+                              .y_min_m = fw_number_of(record, "y-min"),
+                              .y_max_m = fw_number_of(record, "y-max"),
+                              .phi_min_rad = fw_number_of(record, "phi-min"),
+                              .phi_max_rad = fw_number_of(record, "phi-max"),
+                              .place = record->element->place};
+}
+
+static void build_die(fw_device *d, const fw_record *record) {
+    const char *tethers = fw_text_of(record, "tethers");
+    d->die = (fw_die){.width_m = fw_number_of(record, "width"),
+                      .height_m = fw_number_of(record, "height"),
+                      .frame_m = fw_number_of(record, "frame"),
+                      .lane_m = fw_number_of(record, "lane"),
+                      .clearance_m = fw_number_of(record, "clearance"),
+                      .title = fw_text_of(record, "title"),
+                      .tethers = !tethers || strcmp(tethers, "no") != 0};
+}
+
+/* flows before the rest, because scenes and workspaces refer to them */
+static fw_status build_flows(fw_reader *r) {
+    fw_device *d = r->device;
+    FW_NEED(d->flow = fw_arena_array(r->arena, fw_flow_use, (size_t)fw_count(r, "flow")));
+    for (int i = 0; i < r->nrecord; i++)
+        if (fw_is(&r->record[i], "flow")) d->flow[d->nflow++] = flow_of(&r->record[i]);
+    return FW_OK;
+}
+
+fw_status fw_build_parts(fw_reader *r) {
+    fw_device *d = r->device;
+    double nan_ = (double)NAN;
+    d->safety_factor = 1.5;
+    d->thickness_m = nan_;
+    d->die = (fw_die){nan_, nan_, nan_, nan_, nan_, NULL, true};
+    FW_TRY(build_material(r, NULL));
+    FW_TRY(build_flows(r));
+    size_t boxes = (size_t)fw_count(r, "workspace");
+    FW_NEED(d->workspace = fw_arena_array(r->arena, fw_workspace_box, boxes));
+    for (int i = 0; i < r->nrecord; i++) {
+        const fw_record *record = &r->record[i];
+        if (fw_is(record, "device"))
+            d->name = fw_text_of(record, "name");
+        else if (fw_is(record, "material"))
+            FW_TRY(build_material(r, record));
+        else if (fw_is(record, "limits")) {
+            d->safety_factor = fw_number_or(record, "safety-factor", 1.5);
+            d->limits_place = record->element->place;
+        } else if (fw_is(record, "workspace"))
+            d->workspace[d->nworkspace++] = workspace_of(r, record);
+        else if (fw_is(record, "die"))
+            build_die(d, record);
+    }
+    return r->diags->failed ? FW_NOMEM : FW_OK;
+}
+
+/* exactly two of length, radius, angle; the third follows from length = radius angle */
+static bool complete_arc(fw_reader *r, const fw_record *record, fw_flexure *f) {
+    char label[FW_LABEL];
+    bool length = fw_given(record, "length"), radius = fw_given(record, "radius");
+    bool angle = fw_given(record, "angle");
+    if (length + radius + angle != 2) {
+        fw_diag_error(r->diags, 58, record->element->place,
+                      "%s: a csfh needs exactly two of length, radius and angle (length = radius x "
+                      "angle); %d given",
+                      fw_label(record, label), length + radius + angle);
+        return false;
+    }
+    if (!length)
+        f->length_m = f->radius_m * f->angle_rad;
+    else if (!radius)
+        f->radius_m = f->length_m / f->angle_rad;
+    else
+        f->angle_rad = f->length_m / f->radius_m;
+    return !fw_failed(record, "length") && !fw_failed(record, "radius") &&
+           !fw_failed(record, "angle");
+}
+
+static void check_arc(fw_reader *r, const fw_record *record, const fw_flexure *f) {
+    char label[FW_LABEL], a[FW_LABEL], b[FW_LABEL];
+    if (f->angle_rad > 330 * PI / 180 * (1 + 1e-12))
+        fw_diag_error(r->diags, 59, f->length_place,
+                      "%s: length over radius is an angle of %s; it must be at most 330 deg, else "
+                      "the ends of the arc meet; shorten it or take a greater radius",
+                      fw_label(record, label), fw_in_unit(a, f->angle_rad, "deg"));
+    if (f->width_m >= 2 * f->radius_m)
+        fw_diag_error(
+            r->diags, 59, fw_place_of(record, "width"),
+            "%s: width %s is not below twice the radius (%s), so the inner side of the arc "
+            "has no radius left; make it thinner",
+            fw_label(record, label), fw_in_unit(a, f->width_m, "um"),
+            fw_in_unit(b, 2 * f->radius_m, "um"));
+}
+
+static void check_slender(fw_reader *r, const fw_record *record, const fw_flexure *f) {
+    char label[FW_LABEL], a[FW_LABEL], b[FW_LABEL];
+    if (f->width_m > f->length_m / 4)
+        fw_diag_error(
+            r->diags, 59, fw_place_of(record, "width"),
+            "%s: width %s is more than a quarter of the length (%s); beam formulas do not "
+            "hold for so stout a flexure; make it thinner or longer",
+            fw_label(record, label), fw_in_unit(a, f->width_m, "um"),
+            fw_in_unit(b, f->length_m, "um"));
+}
+
+static fw_flexure flexure_of(fw_reader *r, const fw_record *record) {
+    const char *kind = fw_text_of(record, "kind");
+    bool length = fw_given(record, "length");
+    fw_flexure f = {.id = fw_text_of(record, "id"),
+                    .length_m = fw_number_of(record, "length"),
+                    .angle_rad = fw_number_of(record, "angle"),
+                    .radius_m = fw_number_of(record, "radius"),
+                    .width_m = fw_number_of(record, "width"),
+                    .gap_m = fw_number_or(record, "gap", 0.0),
+                    .fillet_m = fw_number_of(record, "fillet"),
+                    .length_given = length,
+                    .place = record->element->place,
+                    .length_place = fw_place_of(record, length ? "length" : "radius")};
+    if (!kind) return f;
+    char label[FW_LABEL];
+    if (strcmp(kind, "csfh") == 0) {
+        f.kind = FW_FLEXURE_CSFH;
+        if (!complete_arc(r, record, &f)) return f;
+        check_arc(r, record, &f);
+        if (f.width_m < 2 * f.radius_m) check_slender(r, record, &f);
+        return f;
+    }
+    f.kind = FW_FLEXURE_LEAF;
+    static const char *const foreign[] = {"radius", "angle"};
+    for (int i = 0; i < 2; i++)
+        if (fw_given(record, foreign[i]))
+            fw_diag_error(r->diags, 58, fw_place_of(record, foreign[i]),
+                          "%s: a leaf is straight and has no %s; remove it or write kind=\"csfh\"",
+                          fw_label(record, label), foreign[i]);
+    if (!length)
+        fw_diag_error(r->diags, 58, record->element->place, "%s: a leaf needs its length",
+                      fw_label(record, label));
+    check_slender(r, record, &f);
+    return f;
+}
+
+fw_status fw_build_flexures(fw_reader *r) {
+    fw_device *d = r->device;
+    FW_NEED(d->flexure = fw_arena_array(r->arena, fw_flexure, (size_t)fw_count(r, "flexure")));
+    for (int i = 0; i < r->nrecord; i++)
+        if (fw_is(&r->record[i], "flexure"))
+            d->flexure[d->nflexure++] = flexure_of(r, &r->record[i]);
+    return r->diags->failed ? FW_NOMEM : FW_OK;
+}

@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Ids: unique within their kind, and references that lead somewhere. */
+#include "base/text.h"
+#include "device/reader.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static size_t count_of(const fw_device *d, fw_space space) {
+    switch (space) {
+    case FW_SPACE_FLOW:
+        return (size_t)d->nflow;
+    case FW_SPACE_FLEXURE:
+        return (size_t)d->nflexure;
+    case FW_SPACE_BODY:
+        return (size_t)d->nbody;
+    default:
+        return 0;
+    }
+}
+
+static const char *id_of(const fw_device *d, fw_space space, size_t i) {
+    const char *id = space == FW_SPACE_FLOW      ? d->flow[i].ref
+                     : space == FW_SPACE_FLEXURE ? d->flexure[i].id
+                                                 : d->body[i].id;
+    return id ? id : "";
+}
+
+static void say_dangling(fw_reader *r, const fw_record *record, const fw_attribute_row *row,
+                         const fw_attribute *a) {
+    const fw_device *d = r->device;
+    size_t n = count_of(d, row->space);
+    const char *kind = fw_space_text(row->space), *better = NULL;
+    char label[FW_LABEL], list[200] = "";
+    size_t used = 0;
+    int least = 3;
+    for (size_t i = 0; i < n && !fw_full(r); i++) {
+        const char *id = id_of(d, row->space, i);
+        int distance = fw_edit_distance(a->value, id, 2);
+        if (distance < least && (size_t)distance < strlen(id)) {
+            least = distance;
+            better = id;
+        }
+        if (used + strlen(id) + 3 < sizeof list)
+            used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", i ? " " : "", id);
+    }
+    fw_label(record, label);
+    if (better && strlen(a->value) > 2)
+        fw_diag_error(r->diags, 46, a->place, "%s: there is no %s '%.64s'; did you mean '%s'?",
+                      label, kind, a->value, better);
+    else
+        fw_diag_error(r->diags, 46, a->place, "%s: there is no %s '%.64s'; declared %s: %s", label,
+                      kind, a->value, n == 1 ? "is" : "are", n ? list : "none");
+}
+
+int fw_reference(fw_reader *r, const fw_record *record, const char *name) {
+    const fw_cell *cell = fw_cell_of(record, name);
+    if (cell->missing || (cell->given && !cell->ok)) return FW_NOWHERE;
+    if (!cell->given) return FW_NONE;
+    const fw_attribute_row *row = record->row->attribute;
+    while (strcmp(row->name, name) != 0)
+        row++;
+    const char *id = cell->given->value;
+    if (strcmp(id, "ground") == 0 && row->space == FW_SPACE_BODY) {
+        if (row->ground) return FW_GROUND;
+        char label[FW_LABEL];
+        fw_diag_error(r->diags, 46, cell->given->place, "%s: the ground does not move; name a body",
+                      fw_label(record, label));
+        return FW_NOWHERE;
+    }
+    size_t n = count_of(r->device, row->space);
+    for (size_t i = 0; i < n; i++)
+        if (strcmp(id_of(r->device, row->space, i), id) == 0) return (int)i;
+    if (!r->broken[row->space]) say_dangling(r, record, row, cell->given);
+    return FW_NOWHERE;
+}
+
+typedef struct entry {
+    fw_space space;
+    const fw_attribute *id;
+    int order;
+} entry;
+
+static int compare(const void *left, const void *right) {
+    const entry *a = left, *b = right;
+    if (a->space != b->space) return a->space < b->space ? -1 : 1;
+    int c = strcmp(a->id->value, b->id->value);
+    return c ? c : a->order - b->order;
+}
+
+fw_status fw_ids_check(fw_reader *r) {
+    entry *entries = fw_arena_array(r->arena, entry, (size_t)r->nrecord);
+    FW_NEED(entries);
+    size_t n = 0;
+    for (int i = 0; i < r->nrecord; i++) {
+        const fw_record *record = &r->record[i];
+        const char *key = record->row->key;
+        if (record->row->space == FW_SPACE_NONE || !fw_text_of(record, key)) continue;
+        entries[n++] = (entry){record->row->space, fw_cell_of(record, key)->given, i};
+    }
+    qsort(entries, n, sizeof *entries, compare);
+    for (size_t i = 1, first = 0; i < n; i++) {
+        const entry *a = &entries[first], *b = &entries[i];
+        if (a->space != b->space || strcmp(a->id->value, b->id->value) != 0) {
+            first = i;
+            continue;
+        }
+        fw_diag_error(r->diags, 45, b->id->place,
+                      "%s '%s' is given twice (first at line %d, column %d); rename or remove one",
+                      fw_space_text(a->space), a->id->value, a->id->place.line,
+                      a->id->place.column);
+    }
+    return r->diags->failed ? FW_NOMEM : FW_OK;
+}

@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "device/material.h"
+#include "base/text.h"
+#include "device/quantity_xml.h"
+#include <string.h>
+
+static const char *const ids[] = {"youngs", "poisson", "density", "strength", "loss"};
+enum { IDS = 5 };
+
+static const fw_dimension dimension_of[IDS] = {
+    {-1, 1, -2, 0, 0, 0, 0}, {0}, {.m = -3, .kg = 1}, {-1, 1, -2, 0, 0, 0, 0}, {0}};
+
+static fw_quantity *slot(fw_material *m, int k) {
+    fw_quantity *const all[IDS] = {&m->youngs, &m->poisson, &m->density, &m->strength, &m->loss};
+    return all[k];
+}
+
+static int index_of(const char *id) {
+    for (int k = 0; k < IDS; k++)
+        if (strcmp(ids[k], id) == 0) return k;
+    return -1;
+}
+
+static fw_place place_of(const fw_element *e, const char *name) {
+    const fw_attribute *a = fw_xml_attribute(e, name);
+    return a ? a->place : e->place;
+}
+
+/* positive where a formula divides by it; Poisson's ratio within its stable range */
+static void check_value(fw_arena *arena, const fw_element *e, int k, const fw_quantity *q,
+                        fw_diags *diags) {
+    if (!fw_dimension_equal(q->dimension, dimension_of[k])) {
+        fw_diag_error(diags, 25, place_of(e, "unit"),
+                      "%s: the dimension must be '%s', and \"%s\" is '%s'; correct the unit",
+                      ids[k], fw_dimension_text(arena, dimension_of[k]), q->unit,
+                      fw_dimension_text(arena, q->dimension));
+        return;
+    }
+    int wrong = k == 1   ? !(q->value > -1.0 && q->value <= 0.5)
+                : k == 4 ? !(q->value >= 0.0)
+                         : !(q->value > 0.0);
+    if (!q->unknown && wrong)
+        fw_diag_error(diags, 47, place_of(e, "value"), "%s must be %s", ids[k],
+                      k == 1   ? "above -1 and at most 0.5 (elastic stability)"
+                      : k == 4 ? "at least 0 (a negative one would feed energy in)"
+                               : "above 0");
+}
+
+static fw_status read_child(fw_arena *arena, const fw_element *e, const fw_source_text *source,
+                            int nsource, fw_diags *diags, fw_material *m) {
+    const fw_attribute *id = fw_xml_attribute(e, "id");
+    int k = id ? index_of(id->value) : -1;
+    if (id && k < 0) {
+        const char *better = fw_did_you_mean(id->value, ids, IDS);
+        if (better)
+            fw_diag_error(diags, 72, id->place,
+                          "material '%s' has no quantity '%s'; did you mean "
+                          "'%s'?",
+                          m->id, id->value, better);
+        return FW_OK; /* other quantities belong to the flows */
+    }
+    fw_quantity q;
+    fw_status status = fw_quantity_read(arena, e, source, nsource, diags, &q);
+    if (status != FW_OK || !id) return status == FW_NOMEM ? status : FW_OK;
+    if (slot(m, k)->id)
+        return fw_diag_error(diags, 45, id->place, "material '%s' has '%s' twice; remove one",
+                             m->id, ids[k]) == FW_NOMEM
+                   ? FW_NOMEM
+                   : FW_OK;
+    check_value(arena, e, k, &q, diags);
+    *slot(m, k) = q;
+    return FW_OK;
+}
+
+static fw_status read_material(fw_arena *arena, const fw_element *e, const fw_source_text *source,
+                               int nsource, fw_diags *diags, fw_material *m) {
+    const fw_attribute *name = fw_xml_attribute(e, "name");
+    const fw_attribute *criterion = fw_xml_attribute(e, "criterion");
+    *m = (fw_material){.id = fw_xml_attribute(e, "id")->value};
+    m->name = name ? name->value : m->id;
+    m->criterion = criterion ? criterion->value : "";
+    for (const fw_element *q = e->first_child; q; q = q->next)
+        if (strcmp(q->name, "q") == 0)
+            FW_TRY(read_child(arena, q, source, nsource, diags, m));
+        else
+            fw_diag_error(diags, 40, q->place,
+                          "<%.64s> is not known inside <material>; only <q> is", q->name);
+    for (int k = 0; k < IDS; k++)
+        if (!slot(m, k)->id)
+            *slot(m, k) = (fw_quantity){.id = ids[k],
+                                        .unknown = true,
+                                        .dimension = dimension_of[k],
+                                        .unit = "",
+                                        .status = FW_ASSUMED,
+                                        .source = "",
+                                        .place = e->place};
+    return FW_OK;
+}
+
+fw_status fw_materials_read(fw_arena *arena, const char *file, const char *xml, size_t n,
+                            fw_diags *diags, fw_materials *materials) {
+    size_t before = diags->errors;
+    *materials = (fw_materials){0};
+    fw_element *root;
+    fw_source_text *source;
+    int nsource, count = 0;
+    FW_TRY(fw_xml_read(arena, file, xml, n, diags, &root));
+    if (fw_sources_read(arena, root, diags, &source, &nsource) == FW_NOMEM) return FW_NOMEM;
+    for (const fw_element *e = root->first_child; e; e = e->next)
+        count += strcmp(e->name, "material") == 0;
+    FW_NEED(materials->item = fw_arena_array(arena, fw_material, (size_t)count));
+    for (const fw_element *e = root->first_child; e; e = e->next) {
+        if (strcmp(e->name, "material") != 0) continue;
+        const fw_attribute *id = fw_xml_attribute(e, "id");
+        if (!id || !id->value[0])
+            fw_diag_error(diags, 43, e->place, "<material> has no id; add id=\"...\"");
+        else if (fw_material_find(materials, id->value))
+            fw_diag_error(diags, 45, id->place, "material '%s' is given twice; rename one",
+                          id->value);
+        else
+            FW_TRY(read_material(arena, e, source, nsource, diags,
+                                 &materials->item[materials->count++]));
+    }
+    return diags->failed ? FW_NOMEM : diags->errors > before ? FW_INPUT : FW_OK;
+}
+
+const fw_material *fw_material_find(const fw_materials *materials, const char *id) {
+    for (int i = 0; id && i < materials->count; i++)
+        if (strcmp(materials->item[i].id, id) == 0) return &materials->item[i];
+    return NULL;
+}
+
+fw_material fw_material_with(const fw_material *material, const fw_material_override *override) {
+    fw_material m = *material;
+    const fw_quantity *const from[] = {&override->youngs, &override->poisson, &override->density,
+                                       &override->strength};
+    for (int k = 0; k < 4; k++) {
+        if (from[k]->unknown || !from[k]->unit) /* unit NULL: an override that was never filled */
+            continue;
+        const char *id = slot(&m, k)->id;
+        *slot(&m, k) = *from[k];
+        slot(&m, k)->id = id;
+        slot(&m, k)->source = "device file";
+    }
+    return m;
+}

@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parameters, evaluated in the order of their dependencies. */
+#include "device/reader.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef enum state { WAITING, OPEN, DONE, LOST } state;
+
+typedef struct item {
+    fw_record *record;
+    const fw_attribute *value, *set; /* set: from --set, or NULL */
+    state state;
+} item;
+
+typedef struct work {
+    fw_reader *r;
+    item *item;
+    int n;
+    int path[256], depth; /* items being evaluated, outermost first */
+} work;
+
+static fw_status evaluate(work *w, int k);
+
+static void lose(work *w, int k) {
+    item *p = &w->item[k];
+    if (p->state == LOST) return;
+    p->state = LOST;
+    const fw_cell *name = fw_cell_of(p->record, "name");
+    if (name->given) w->r->lost[w->r->nlost++] = name->given->value;
+}
+
+static int find(const work *w, const char *name) {
+    for (int i = 0; i < w->n; i++)
+        if (strcmp(w->r->device->parameter[i].name, name) == 0) return i;
+    return -1;
+}
+
+static void say_cycle(work *w, int k) {
+    char chain[400] = "";
+    size_t used = 0;
+    int first = 0;
+    while (w->path[first] != k)
+        first++;
+    for (int i = first; i < w->depth; i++) {
+        const char *name = w->r->device->parameter[w->path[i]].name;
+        if (used + strlen(name) + 5 < sizeof chain)
+            used += (size_t)snprintf(chain + used, sizeof chain - used, "%s -> ", name);
+    }
+    fw_diag_error(w->r->diags, 53, w->item[k].value->place,
+                  "parameter '%s' depends on itself: %s%s; give one of them a plain value",
+                  w->r->device->parameter[k].name, chain, w->r->device->parameter[k].name);
+    for (int i = first; i < w->depth; i++)
+        lose(w, w->path[i]);
+}
+
+static fw_status evaluate_needed(work *w, const fw_attribute *a) {
+    const char *const *names;
+    size_t count;
+    FW_TRY(fw_expression_names(w->r->arena, a->value, strlen(a->value), &names, &count));
+    for (size_t i = 0; i < count; i++) {
+        int k = find(w, names[i]);
+        if (k >= 0) FW_TRY(evaluate(w, k));
+    }
+    return FW_OK;
+}
+
+/* value of the file for the dimension, then --set's in its place */
+static fw_status evaluate_one(work *w, int k) {
+    item *p = &w->item[k];
+    fw_parameter *out = &w->r->device->parameter[k];
+    bool ok = true;
+    if (p->value)
+        FW_TRY(fw_attribute_evaluate(w->r, p->value, out->name, NULL, &out->dimension, &out->value,
+                                     &ok));
+    if (ok && p->set) {
+        fw_dimension found;
+        FW_TRY(fw_attribute_evaluate(w->r, p->set, out->name, &out->dimension, &found, &out->value,
+                                     &ok));
+        out->overridden = true;
+    }
+    if (!ok || !p->value || p->state == LOST || fw_failed(p->record, "name")) {
+        lose(w, k);
+        return FW_OK;
+    }
+    p->state = DONE;
+    w->r->name[w->r->names.count] = (fw_name_value){out->name, out->value, out->dimension};
+    w->r->names.count++;
+    return FW_OK;
+}
+
+static fw_status evaluate(work *w, int k) {
+    item *p = &w->item[k];
+    if (p->state == DONE || p->state == LOST) return FW_OK;
+    if (p->state == OPEN) {
+        say_cycle(w, k);
+        return FW_OK;
+    }
+    p->state = OPEN;
+    w->path[w->depth++] = k;
+    if (p->value) FW_TRY(evaluate_needed(w, p->value));
+    if (p->set) FW_TRY(evaluate_needed(w, p->set));
+    w->depth--;
+    return p->state == LOST ? FW_OK : evaluate_one(w, k);
+}
+
+static fw_status read_bounds(work *w, int k) {
+    fw_reader *r = w->r;
+    item *p = &w->item[k];
+    fw_parameter *out = &r->device->parameter[k];
+    double *bound[] = {&out->min, &out->max};
+    static const char *const name[] = {"min", "max"};
+    bool ok = true;
+    for (int i = 0; i < 2; i++) {
+        const fw_attribute *a = fw_cell_of(p->record, name[i])->given;
+        bool read = true;
+        fw_dimension found;
+        if (a)
+            FW_TRY(fw_attribute_evaluate(r, a, name[i], &out->dimension, &found, bound[i], &read));
+        ok = ok && read;
+    }
+    if (!ok) return FW_OK;
+    const char *unit = out->unit[0] ? out->unit : NULL;
+    char value[FW_LABEL], limit[FW_LABEL];
+    fw_place place = p->set ? p->set->place : out->place;
+    if (out->min > out->max)
+        fw_diag_error(r->diags, 63, fw_place_of(p->record, "min"),
+                      "parameter '%s': min %s is above max %s; exchange them", out->name,
+                      fw_in_unit(value, out->min, unit), fw_in_unit(limit, out->max, unit));
+    else if (out->value < out->min || out->value > out->max)
+        fw_diag_error(r->diags, 57, place,
+                      "parameter '%s' is %s; its declaration allows %s %s; change the value or the "
+                      "declaration",
+                      out->name, fw_in_unit(value, out->value, unit),
+                      out->value < out->min ? "at least" : "at most",
+                      fw_in_unit(limit, out->value < out->min ? out->min : out->max, unit));
+    return FW_OK;
+}
+
+static fw_status prepare(work *w) {
+    fw_reader *r = w->r;
+    int n = w->n = fw_count(r, "parameter");
+    r->device->nparameter = n;
+    FW_NEED(w->item = fw_arena_array(r->arena, item, (size_t)n));
+    FW_NEED(r->device->parameter = fw_arena_array(r->arena, fw_parameter, (size_t)n));
+    FW_NEED(r->name = fw_arena_array(r->arena, fw_name_value, (size_t)n));
+    FW_NEED(r->lost = fw_arena_array(r->arena, const char *, (size_t)n));
+    r->names = (fw_names){r->name, 0};
+    for (int i = 0, k = 0; i < r->nrecord; i++) {
+        fw_record *record = &r->record[i];
+        if (!fw_is(record, "parameter")) continue;
+        const fw_attribute *name = fw_cell_of(record, "name")->given;
+        const fw_attribute *doc = fw_cell_of(record, "doc")->given;
+        w->item[k] = (item){.record = record, .value = fw_cell_of(record, "value")->given};
+        for (int j = 0; j < r->noverride; j++)
+            if (r->override_[j].element == record->element)
+                w->item[k].set = r->override_[j].attribute;
+        r->device->parameter[k++] = (fw_parameter){.name = name ? name->value : "",
+                                                   .doc = doc ? doc->value : "",
+                                                   .min = -(double)INFINITY,
+                                                   .max = (double)INFINITY,
+                                                   .unit = "",
+                                                   .place = fw_place_of(record, "value")};
+    }
+    return FW_OK;
+}
+
+fw_status fw_parameters_read(fw_reader *r) {
+    work w = {.r = r};
+    FW_TRY(prepare(&w));
+    for (int i = 0; i < w.n; i++)
+        FW_TRY(evaluate(&w, i));
+    for (int i = 0; i < w.n; i++) {
+        if (w.item[i].state != DONE) continue;
+        fw_parameter *p = &r->device->parameter[i];
+        FW_TRY(fw_expression_unit(r->arena, w.item[i].value->value, strlen(w.item[i].value->value),
+                                  p->dimension, &p->unit));
+        FW_TRY(read_bounds(&w, i));
+    }
+    return r->diags->failed ? FW_NOMEM : FW_OK;
+}

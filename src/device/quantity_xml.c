@@ -1,0 +1,218 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "device/quantity_xml.h"
+#include "base/text.h"
+#include <math.h>
+#include <string.h>
+
+static fw_place value_place(const fw_element *e, const char *name) {
+    const fw_attribute *a = fw_xml_attribute(e, name);
+    return a ? a->place : e->place;
+}
+
+fw_status fw_sources_read(fw_arena *arena, const fw_element *parent, fw_diags *diags,
+                          fw_source_text **source, int *nsource) {
+    int count = 0;
+    size_t before = diags->errors;
+    for (const fw_element *e = parent->first_child; e; e = e->next)
+        count += strcmp(e->name, "source") == 0;
+    *nsource = 0;
+    FW_NEED(*source = fw_arena_array(arena, fw_source_text, (size_t)count));
+    for (const fw_element *e = parent->first_child; e; e = e->next) {
+        if (strcmp(e->name, "source") != 0) continue;
+        const fw_attribute *id = fw_xml_attribute(e, "id");
+        if (!id || !id->value[0]) {
+            fw_diag_error(diags, 43, e->place, "<source> has no id; add id=\"...\"");
+            continue;
+        }
+        int twice = 0;
+        for (int i = 0; i < *nsource; i++)
+            twice |= strcmp((*source)[i].id, id->value) == 0;
+        if (twice)
+            fw_diag_error(diags, 45, id->place, "source '%s' is given twice; rename one",
+                          id->value);
+        else
+            (*source)[(*nsource)++] = (fw_source_text){id->value, e->text};
+    }
+    return diags->failed ? FW_NOMEM : diags->errors > before ? FW_INPUT : FW_OK;
+}
+
+static void check_names(const fw_element *e, fw_diags *diags) {
+    static const char *const known[] = {"id",   "value",  "u",   "urel", "lo",     "hi",
+                                        "unit", "status", "src", "note", "unknown"};
+    enum { COUNT = sizeof known / sizeof known[0] };
+    for (int i = 0; i < e->nattribute; i++) {
+        int found = 0;
+        for (int k = 0; k < COUNT; k++)
+            found |= strcmp(known[k], e->attribute[i].name) == 0;
+        if (found) continue;
+        const char *better = fw_did_you_mean(e->attribute[i].name, known, COUNT);
+        fw_diag_error(diags, 42, e->attribute[i].name_place, "<q> has no attribute '%s'%s%s%s",
+                      e->attribute[i].name, better ? "; did you mean '" : "", better ? better : "",
+                      better ? "'?"
+                             : "; known are id value u urel lo hi unit status src note "
+                               "unknown");
+    }
+}
+
+/* 1 when present and a number; absent leaves *value NaN without a word */
+static int number(const fw_element *e, const char *name, fw_diags *diags, double *value) {
+    const fw_attribute *a = fw_xml_attribute(e, name);
+    *value = (double)NAN;
+    if (!a) return 0;
+    if (fw_number_parse(a->value, strlen(a->value), value)) return 1;
+    *value = (double)NAN;
+    fw_diag_error(diags, 70, a->place,
+                  "%s=\"%s\" is not a number; write digits with '.', and the "
+                  "unit in unit=\"...\"",
+                  name, a->value);
+    return 0;
+}
+
+static void read_unit(const fw_element *e, fw_diags *diags, fw_quantity *q, fw_unit *unit) {
+    const fw_attribute *a = fw_xml_attribute(e, "unit");
+    const char *wrong;
+    size_t wrong_n;
+    *unit = (fw_unit){.factor = 1.0};
+    if (!a) {
+        fw_diag_error(diags, 43, e->place,
+                      "<q> has no unit; add unit=\"...\" (unit=\"1\" for a pure "
+                      "number)");
+        return;
+    }
+    q->unit = a->value;
+    if (fw_unit_parse(a->value, strlen(a->value), unit, &wrong, &wrong_n)) {
+        q->dimension = unit->dimension;
+        return;
+    }
+    char word[32] = "";
+    if (wrong_n < sizeof word) memcpy(word, wrong, wrong_n);
+    size_t count;
+    const char *const *names = fw_unit_names(&count);
+    const char *better = fw_did_you_mean(word, names, count);
+    fw_diag_error(diags, 21, fw_xml_inside(a, (size_t)(wrong - a->value)),
+                  "unknown unit '%.*s' in \"%s\"%s%s%s", (int)wrong_n, wrong, a->value,
+                  better ? "; did you mean '" : "", better ? better : "",
+                  better ? "'?" : "; the symbols are listed in docs/reference/device.md");
+}
+
+static void read_status(const fw_element *e, fw_diags *diags, fw_quantity *q) {
+    const fw_attribute *a = fw_xml_attribute(e, "status");
+    q->status = FW_ASSUMED;
+    if (!a)
+        fw_diag_error(diags, 43, e->place,
+                      "<q> has no status; add status=\"measured\", stated, "
+                      "derived, typical or assumed");
+    else if (!fw_value_status_parse(a->value, &q->status))
+        fw_diag_error(diags, 48, a->place,
+                      "status \"%s\" is not one of measured, stated, derived, "
+                      "typical, assumed",
+                      a->value);
+}
+
+static void read_source(const fw_element *e, const fw_source_text *source, int nsource,
+                        fw_diags *diags, fw_quantity *q) {
+    const fw_attribute *a = fw_xml_attribute(e, "src");
+    q->source = "";
+    if (!a) {
+        fw_diag_error(diags, 43, e->place,
+                      "<q> has no src; name the <source> that the number is "
+                      "from");
+        return;
+    }
+    for (int i = 0; i < nsource; i++)
+        if (strcmp(source[i].id, a->value) == 0) {
+            q->source = source[i].text;
+            return;
+        }
+    fw_diag_error(diags, 46, a->place,
+                  "no <source id=\"%s\"> in this file; add it, or name another", a->value);
+}
+
+/* exactly one of u, urel, lo with hi */
+static void read_uncertainty(const fw_element *e, fw_diags *diags, double written,
+                             const fw_unit *unit, fw_quantity *q) {
+    double u, urel, lo, hi;
+    size_t before = diags->errors;
+    int has_u = number(e, "u", diags, &u), has_urel = number(e, "urel", diags, &urel);
+    int has_lo = number(e, "lo", diags, &lo), has_hi = number(e, "hi", diags, &hi);
+    if (diags->errors > before) return;
+    if (has_lo != has_hi || has_u + has_urel + has_lo != 1) {
+        fw_diag_error(diags, 71, e->place,
+                      "<q> needs exactly one uncertainty: u (standard), urel "
+                      "(relative), or lo and hi together; u=\"0\" says exact");
+        return;
+    }
+    if ((has_u && u < 0.0) || (has_urel && urel < 0.0)) {
+        fw_diag_error(diags, 71, value_place(e, has_u ? "u" : "urel"),
+                      "an uncertainty cannot be negative; give its size");
+        return;
+    }
+    if (has_lo && !(lo <= written && written <= hi)) {
+        fw_diag_error(diags, 71, value_place(e, "lo"),
+                      "the value lies outside lo to hi; correct the "
+                      "range");
+        return;
+    }
+    double wide = has_u ? u : has_urel ? urel * fabs(written) : (hi - lo) / sqrt(12.0);
+    fw_unit scale = *unit;
+    scale.offset = 0.0; /* a width has no zero point */
+    q->uncertainty = fw_unit_to_si(&scale, wide);
+    if (!isfinite(q->uncertainty)) {
+        q->uncertainty = 0.0;
+        fw_diag_error(diags, 71, e->place, "the uncertainty is too large for a number");
+    }
+}
+
+static void read_value(const fw_element *e, fw_diags *diags, const fw_unit *unit, fw_quantity *q) {
+    const fw_attribute *unknown = fw_xml_attribute(e, "unknown");
+    if (unknown) {
+        q->unknown = true;
+        if (strcmp(unknown->value, "true") != 0)
+            fw_diag_error(diags, 48, unknown->place,
+                          "unknown=\"%s\"; only unknown=\"true\" has a "
+                          "meaning, else leave it out",
+                          unknown->value);
+        if (fw_xml_attribute(e, "value"))
+            fw_diag_error(diags, 70, value_place(e, "value"),
+                          "a value and unknown=\"true\" exclude "
+                          "each other; remove one");
+        return;
+    }
+    double written;
+    if (!fw_xml_attribute(e, "value")) {
+        fw_diag_error(diags, 43, e->place,
+                      "<q> has no value; add value=\"...\" or unknown=\"true\"");
+        return;
+    }
+    if (!number(e, "value", diags, &written)) return;
+    q->value = fw_unit_to_si(unit, written);
+    if (!isfinite(q->value)) {
+        fw_diag_error(diags, 28, value_place(e, "value"), "the value is too large in SI units");
+        return;
+    }
+    read_uncertainty(e, diags, written, unit, q);
+}
+
+fw_status fw_quantity_read(fw_arena *arena, const fw_element *element, const fw_source_text *source,
+                           int nsource, fw_diags *diags, fw_quantity *q) {
+    (void)arena;
+    size_t before = diags->errors;
+    *q = (fw_quantity){.unit = "", .source = "", .place = element->place};
+    check_names(element, diags);
+    const fw_attribute *id = fw_xml_attribute(element, "id");
+    const fw_attribute *note = fw_xml_attribute(element, "note");
+    if (!id || !id->value[0])
+        fw_diag_error(diags, 43, element->place, "<q> has no id; add id=\"...\"");
+    else
+        q->id = id->value;
+    q->note = note ? note->value : NULL;
+    fw_unit unit;
+    read_unit(element, diags, q, &unit);
+    read_status(element, diags, q);
+    read_source(element, source, nsource, diags, q);
+    read_value(element, diags, &unit, q);
+    if (diags->failed) return FW_NOMEM;
+    if (diags->errors == before) return FW_OK;
+    q->unknown = true;
+    return FW_INPUT;
+}

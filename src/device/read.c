@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From the text of a device file to its description, step by step; later steps run after mistakes
+   of earlier ones, so that one run reports everything. */
+#include "device/reader.h"
+#include <math.h>
+#include <string.h>
+
+/* a material is needed where stiffness or mass must be computed */
+static void check_material(fw_reader *r) {
+    const fw_device *d = r->device;
+    bool needed = d->nflexure > 0;
+    for (int i = 0; i < d->nbody; i++)
+        needed |= !(d->body[i].mass_kg > 0.0);
+    if (needed && fw_count(r, "material") == 0 && !r->unknown_element)
+        fw_diag_error(r->diags, 52, r->root->place,
+                      "<device> has no <material>, and flexures or shapes need one; add <material "
+                      "ref=\"silicon-100\"/> or another of processes/base.xml");
+}
+
+static fw_status build(fw_reader *r) {
+    FW_TRY(fw_ids_check(r));
+    FW_TRY(fw_build_parts(r));
+    FW_TRY(fw_build_flexures(r));
+    FW_TRY(fw_expand_six_bar(r));
+    FW_TRY(fw_build_mechanism(r));
+    FW_TRY(fw_build_scenes(r));
+    check_material(r);
+    return FW_OK;
+}
+
+fw_status fw_device_read(fw_arena *arena, const char *file, const char *xml, size_t n,
+                         const fw_set *set, int nset, fw_diags *diags, const fw_device **device) {
+    *device = NULL;
+    size_t before = diags->errors;
+    fw_device *d = fw_arena_one(arena, fw_device);
+    FW_NEED(d);
+    fw_reader r = {.arena = arena, .diags = diags, .file = file, .device = d};
+    FW_TRY(fw_xml_read(arena, file, xml, n, diags, &r.root));
+    FW_NEED(d->source = fw_arena_strndup(arena, xml, n));
+    FW_NEED(d->file = fw_arena_strdup(arena, file ? file : ""));
+    d->source_length = n;
+    FW_TRY(fw_sets_apply(&r, set, nset));
+    FW_TRY(fw_records_read(&r));
+    FW_TRY(fw_words_read(&r));
+    FW_TRY(fw_parameters_read(&r));
+    FW_TRY(fw_cells_read(&r));
+    FW_TRY(build(&r));
+    if (diags->failed) return FW_NOMEM;
+    if (diags->errors > before) return FW_INPUT;
+    *device = d;
+    return FW_OK;
+}

@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A device file between its tree and its description: one record per element, one cell per
+   attribute of the table. A cell that failed has been reported; whoever needs it keeps silent.
+   Private to device/. */
+#ifndef FW_DEVICE_READER_H
+#define FW_DEVICE_READER_H
+#include "device/device.h"
+#include "device/table.h"
+#include "device/xml.h"
+
+typedef struct fw_cell {
+    const fw_attribute *given; /* NULL: absent */
+    bool ok;                   /* read, evaluated, in range */
+    bool missing;              /* required and absent, or misspelt: reported */
+    double number;             /* SI */
+} fw_cell;
+
+typedef struct fw_record {
+    fw_element *element;
+    const fw_element_row *row;
+    fw_cell *cell; /* (row->nattribute) */
+    int parent;    /* index, -1 for the root */
+} fw_record;
+
+typedef struct fw_override { /* --set of a parameter: its declared value still gives the dimension
+                              */
+    const fw_element *element;
+    const fw_attribute *attribute;
+} fw_override;
+
+typedef struct fw_reader {
+    fw_arena *arena;
+    fw_diags *diags;
+    const char *file;
+    fw_element *root;
+    fw_record *record; /* (nrecord) in file order */
+    int nrecord;
+    fw_override *override_; /* (noverride) */
+    int noverride;
+    fw_name_value *name; /* parameters with a value */
+    fw_names names;
+    const char **lost; /* (nlost) names of parameters without a value */
+    size_t nlost;
+    bool broken[FW_SPACE_COUNT]; /* an id of this space could not be read: do not miss it again */
+    bool unknown_element;        /* something is there that could not be read */
+    fw_device *device;
+} fw_reader;
+
+/* set.c, records.c, cells.c, parameter.c: the steps in their order */
+fw_status fw_sets_apply(fw_reader *r, const fw_set *set, int nset);
+fw_status fw_records_read(fw_reader *r);
+fw_status fw_words_read(fw_reader *r); /* ids, names, words */
+fw_status fw_parameters_read(fw_reader *r);
+fw_status fw_cells_read(fw_reader *r); /* numbers */
+fw_status fw_ids_check(fw_reader *r);
+
+/* one step per part of the description */
+fw_status fw_build_parts(fw_reader *r);
+fw_status fw_build_flexures(fw_reader *r);
+fw_status fw_expand_six_bar(fw_reader *r); /* bodies 0..4 and joints 0..5 */
+fw_status fw_build_mechanism(fw_reader *r);
+fw_status fw_build_scenes(fw_reader *r);
+
+/* values of a record; names must be in the table */
+const fw_cell *fw_cell_of(const fw_record *record, const char *name);
+bool fw_given(const fw_record *record, const char *name);  /* or meant to be */
+bool fw_failed(const fw_record *record, const char *name); /* given or required, without a value */
+double fw_number_of(const fw_record *record, const char *name); /* NaN when absent or failed */
+double fw_number_or(const fw_record *record, const char *name, double absent); /* NaN when failed */
+const char *fw_text_of(const fw_record *record, const char *name); /* NULL when absent or failed */
+fw_place fw_place_of(const fw_record *record, const char *name);   /* the element's when absent */
+
+enum { FW_LABEL = 128 };
+const char *fw_label(const fw_record *record, char buffer[FW_LABEL]); /* flexure 'A' */
+/* "12 um" in the unit of messages */
+const char *fw_in_unit(char buffer[FW_LABEL], double value, const char *unit);
+int fw_count(const fw_reader *r, const char *element);
+bool fw_is(const fw_record *record, const char *element);
+/* is the report full? then looking for suggestions is no use */
+bool fw_full(const fw_reader *r);
+bool fw_id_valid(const char *id, bool hyphen);
+/* evaluates an attribute; *ok tells, errors are reported (an expression's at its own column).
+   wanted NULL: any dimension, which comes back in *found. */
+fw_status fw_attribute_evaluate(fw_reader *r, const fw_attribute *a, const char *what,
+                                const fw_dimension *wanted, fw_dimension *found, double *value,
+                                bool *ok);
+enum { FW_NOWHERE = -2 };
+/* index of what the attribute refers to, FW_GROUND (== FW_NONE) for "ground" or when it is absent,
+   FW_NOWHERE when there is none: that has been reported */
+int fw_reference(fw_reader *r, const fw_record *record, const char *name);
+/* mass and inertia both or neither, and one of them or a shape */
+void fw_mass_check(fw_reader *r, const fw_record *record, bool shape, const char *shape_advice);
+
+#endif

@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which elements and attributes there are, and which are missing. */
+#include "base/text.h"
+#include "device/reader.h"
+#include "device/table.h"
+#include <stdio.h>
+#include <string.h>
+
+static void unknown_element(fw_reader *r, const fw_element *e, const char *parent) {
+    int count;
+    const fw_element_row *table = fw_device_table(&count);
+    const char *names[64];
+    size_t n = 0;
+    for (int i = 0; i < count && n < 64; i++)
+        if (strcmp(table[i].parent, parent) == 0) names[n++] = table[i].name;
+    const char *better = fw_full(r) ? NULL : fw_did_you_mean(e->name, names, n);
+    r->unknown_element = true;
+    if (better) { /* what it would have declared is not missed again */
+        r->broken[fw_element_row_find(better)->space] = true;
+        fw_diag_error(r->diags, 40, e->place, "<%s> is not known; did you mean <%s>?", e->name,
+                      better);
+        return;
+    }
+    char list[512] = "nothing";
+    size_t used = 0;
+    for (size_t i = 0; i < n && used + strlen(names[i]) + 4 < sizeof list; i++)
+        used += (size_t)snprintf(list + used, sizeof list - used, "%s<%s>", i ? " " : "", names[i]);
+    fw_diag_error(r->diags, 40, e->place, "<%.64s> is not known inside <%s>; allowed are: %s",
+                  e->name, parent, list);
+}
+
+/* an attribute that was probably meant counts as there and failed, so that it is not missed again
+ */
+static void unknown_attribute(fw_reader *r, fw_record *record, const fw_attribute *a) {
+    const fw_element_row *row = record->row;
+    char list[256] = "it has none";
+    size_t used = 0;
+    int best = -1, least = 3;
+    for (int i = 0; i < row->nattribute; i++) {
+        const char *name = row->attribute[i].name;
+        int distance = fw_full(r) ? 3 : fw_edit_distance(a->name, name, 2);
+        if (distance < least && (size_t)distance < strlen(name)) {
+            least = distance;
+            best = i;
+        }
+        if (used + strlen(name) + 2 < sizeof list)
+            used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", i ? " " : "", name);
+    }
+    if (best >= 0) {
+        record->cell[best].missing = true;
+        fw_diag_error(r->diags, 42, a->name_place, "<%s> has no attribute '%s'; did you mean '%s'?",
+                      row->name, a->name, row->attribute[best].name);
+    } else
+        fw_diag_error(r->diags, 42, a->name_place, "<%s> has no attribute '%.64s'; known are: %s",
+                      row->name, a->name, list);
+}
+
+static void read_attributes(fw_reader *r, fw_record *record) {
+    const fw_element_row *row = record->row;
+    for (int i = 0; i < record->element->nattribute; i++) {
+        const fw_attribute *a = &record->element->attribute[i];
+        int k = 0;
+        while (k < row->nattribute && strcmp(row->attribute[k].name, a->name) != 0)
+            k++;
+        if (k < row->nattribute)
+            record->cell[k].given = a;
+        else
+            unknown_attribute(r, record, a);
+    }
+    for (int k = 0; k < row->nattribute; k++) {
+        fw_cell *cell = &record->cell[k];
+        const fw_attribute_row *attribute = &row->attribute[k];
+        if (cell->given) {
+            cell->missing = false;
+            continue;
+        }
+        bool key = row->key && strcmp(row->key, attribute->name) == 0;
+        if (attribute->required && !cell->missing)
+            fw_diag_error(r->diags, 43, record->element->place, "<%s> needs %s=\"...\": %s",
+                          row->name, attribute->name, attribute->sentence);
+        cell->missing = cell->missing || attribute->required;
+        if (cell->missing && key) r->broken[row->space] = true;
+    }
+}
+
+/* how often an element may stand: once in its parent, or `most` in the file */
+static bool too_often(fw_reader *r, const fw_element *e, const fw_element_row *row, int *seen) {
+    if (row->once) {
+        for (const fw_element *f = e->parent ? e->parent->first_child : e; f != e; f = f->next)
+            if (strcmp(f->name, e->name) == 0) {
+                fw_diag_error(
+                    r->diags, 51, e->place,
+                    "<%s> is given twice (first at line %d); one is allowed, so remove one",
+                    e->name, f->place.line);
+                return true;
+            }
+    }
+    if (row->most == 0 || ++*seen <= row->most) return false;
+    if (*seen == row->most + 1)
+        fw_diag_error(r->diags, 66, e->place, "more than %d <%s> elements; that is the limit",
+                      row->most, row->name);
+    return true;
+}
+
+typedef struct walk {
+    fw_reader *r;
+    int seen[64]; /* per row of the table */
+    int capacity;
+} walk;
+
+static fw_status read_element(walk *w, fw_element *e, int parent);
+
+static fw_status read_children(walk *w, fw_element *e, int self) {
+    for (fw_element *child = e->first_child; child; child = child->next)
+        FW_TRY(read_element(w, child, self));
+    return FW_OK;
+}
+
+static fw_status add_record(walk *w, fw_element *e, const fw_element_row *row, int parent) {
+    fw_reader *r = w->r;
+    if (r->nrecord == w->capacity) {
+        int more = w->capacity ? 2 * w->capacity : 64;
+        FW_NEED(r->record = fw_arena_grow(r->arena, r->record, (size_t)r->nrecord, (size_t)more,
+                                          sizeof *r->record));
+        w->capacity = more;
+    }
+    fw_record record = {.element = e, .row = row, .parent = parent};
+    FW_NEED(record.cell = fw_arena_array(r->arena, fw_cell, (size_t)row->nattribute));
+    read_attributes(r, &record);
+    r->record[r->nrecord++] = record;
+    return FW_OK;
+}
+
+static fw_status read_element(walk *w, fw_element *e, int parent) {
+    fw_reader *r = w->r;
+    const char *inside = parent < 0 ? "" : r->record[parent].row->name;
+    const fw_element_row *row = fw_element_row_find(e->name);
+    int count;
+    const fw_element_row *table = fw_device_table(&count);
+    if (!row) {
+        unknown_element(r, e, inside);
+        return FW_OK;
+    }
+    if (strcmp(row->parent, inside) != 0) {
+        fw_diag_error(r->diags, 41, e->place, "<%s> may not stand inside <%s>; move it into <%s>",
+                      e->name, inside, row->parent[0] ? row->parent : "nothing");
+        r->unknown_element = true;
+        r->broken[row->space] = true;
+        return FW_OK;
+    }
+    if (row->later) {
+        fw_diag_error(
+            r->diags, 50, e->place,
+            "<%s> is not in this version: it would be left out silently, so it is refused; "
+            "remove it to compute without",
+            e->name);
+        r->unknown_element = true;
+        return FW_OK;
+    }
+    if (too_often(r, e, row, &w->seen[row - table])) return FW_OK;
+    if (e->text[0])
+        fw_diag_error(r->diags, 49, e->text_place,
+                      "text is not expected inside <%s>; values stand in attributes, remarks in "
+                      "<!-- -->",
+                      e->name);
+    int self = r->nrecord;
+    FW_TRY(add_record(w, e, row, parent));
+    return read_children(w, e, self);
+}
+
+static fw_status check_root(fw_reader *r) {
+    static const char urn[] = "urn:flexwright:device:1";
+    const fw_element *root = r->root;
+    if (strcmp(root->name, "device") != 0)
+        return fw_diag_error(
+            r->diags, 15, root->place,
+            "the file's first element is <%.64s>, a device file begins with <device "
+            "xmlns=\"%s\" name=\"...\">",
+            root->name, urn);
+    if (strcmp(root->space, urn) != 0)
+        fw_diag_error(r->diags, 15, root->place,
+                      "xmlns is \"%.100s\" and must be \"%s\"; write <device xmlns=\"%s\" "
+                      "name=\"...\">",
+                      root->space, urn, urn);
+    return FW_OK;
+}
+
+fw_status fw_records_read(fw_reader *r) {
+    walk w = {.r = r};
+    FW_TRY(check_root(r));
+    FW_TRY(read_element(&w, r->root, -1));
+    return r->diags->failed ? FW_NOMEM : FW_OK;
+}

@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* docs/reference/device.md */
+#include "base/text.h"
+#include "device/reader.h"
+#include <string.h>
+
+static void add_number(fw_text *out, double value, const char *unit) {
+    char buffer[FW_LABEL];
+    fw_text_add(out, fw_in_unit(buffer, value, unit));
+}
+
+static void add_value(fw_text *out, const fw_attribute_row *a) {
+    switch (a->kind) {
+    case FW_KIND_TEXT:
+        fw_text_add(out, "text");
+        break;
+    case FW_KIND_ID:
+    case FW_KIND_NAME:
+        fw_text_add(out, "name");
+        break;
+    case FW_KIND_ANY:
+        fw_text_add(out, "expression");
+        break;
+    case FW_KIND_REF:
+        fw_text_printf(out, "id of a %s%s", fw_space_text(a->space),
+                       a->ground ? " or `ground`" : "");
+        break;
+    case FW_KIND_WORD:
+        for (int i = 0; a->words[i]; i++)
+            fw_text_printf(out, "%s`%s`", i ? ", " : "", a->words[i]);
+        for (int i = 0; a->later && a->later[i]; i++)
+            fw_text_printf(out, "%s`%s`", i ? ", " : "; not in this version: ", a->later[i]);
+        break;
+    case FW_KIND_NUMBER:
+        if (strcmp(a->unit, "1") == 0)
+            fw_text_add(out, "pure number");
+        else
+            fw_text_printf(out, "%s, e.g. in `%s`", fw_dimension_text(out->arena, a->dimension),
+                           a->unit);
+        break;
+    }
+}
+
+static void add_range(fw_text *out, const fw_attribute_row *a) {
+    if (!a->ranged) return;
+    fw_text_add(out, a->open ? " Above " : " At least ");
+    add_number(out, a->min, a->unit);
+    fw_text_add(out, ", at most ");
+    add_number(out, a->max, a->unit);
+    fw_text_printf(out, " (%s).", a->reason);
+}
+
+static void add_element(fw_text *out, const fw_element_row *e) {
+    fw_text_printf(out, "\n### `<%s>`\n\n%s", e->name, e->sentence);
+    if (e->parent[0])
+        fw_text_printf(out, " Inside `<%s>`%s.", e->parent, e->once ? ", at most once" : "");
+    if (e->later)
+        fw_text_add(out, " **Not in this version**: refused, because leaving it out silently would "
+                         "change the answer.");
+    fw_text_add(out, "\n");
+    if (e->nattribute > 0)
+        fw_text_add(out, "\n| attribute | value | when absent | meaning |\n|---|---|---|---|\n");
+    for (int i = 0; i < e->nattribute; i++) {
+        const fw_attribute_row *a = &e->attribute[i];
+        fw_text_printf(out, "| `%s` | ", a->name);
+        add_value(out, a);
+        fw_text_printf(out, " | %s | %s",
+                       a->required   ? "**required**"
+                       : a->fallback ? a->fallback
+                                     : "",
+                       a->sentence);
+        add_range(out, a);
+        fw_text_add(out, " |\n");
+    }
+}
+
+static void add_units(fw_text *out) {
+    size_t count;
+    const char *const *names = fw_unit_names(&count);
+    fw_text_add(
+        out, "\n## Units\n\nSymbols are joined by a space, `.`, `*` or `/` and may carry a whole "
+             "exponent: `N m/rad`, `mA/cm2`, `um^2`, `s^-1`. `Ao` is the Angstrom, `Cel` the "
+             "degree Celsius, `{sccm}` gas flow (1 cm3 per minute at 273.15 K and 101325 Pa)."
+             "\n\n");
+    for (size_t i = 0; i < count; i++)
+        fw_text_printf(out, "%s`%s`", i ? ", " : "", names[i]);
+    fw_text_add(out, "\n");
+}
+
+fw_status fw_device_reference_markdown(fw_text *out) {
+    int count;
+    const fw_element_row *table = fw_device_table(&count);
+    fw_text_add(out,
+                "<!-- generated from src/device/table.c; do not edit -->\n"
+                "# Device files\n\n"
+                "A device file is XML in UTF-8, at most 8 MiB, without DOCTYPE, entities of its "
+                "own or processing instructions. The schema for editors is "
+                "[device.rng](device.rng).\n\n"
+                "## Values\n\n"
+                "A physical value is a number with its unit or an expression: `10 um`, `2*t + 5 "
+                "um`, `1.711e-6 N m/rad`. A unit binds tighter than `*` and `/`; names are "
+                "parameters; `sqrt exp ln sin cos tan asin acos atan atan2 min max abs` and `pi` "
+                "are known. Both sides of `+` and `-` need the same kind of unit, and the result "
+                "the kind of the attribute. The angle is a kind of its own; only a product or "
+                "quotient may lack or carry an extra `rad` (length / angle is a radius).\n\n"
+                "`--set NAME=VALUE` changes a parameter, `--set ELEMENT[ID]/@ATTRIBUTE=VALUE` an "
+                "attribute (`flexure[A]/@length=312 um`); `[ID]` may be left out where there is "
+                "one such element.\n\n"
+                "## Elements\n");
+    for (int i = 0; i < count; i++)
+        add_element(out, &table[i]);
+    add_units(out);
+    return fw_text_end(out);
+}

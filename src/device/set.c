@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* --set PATH=VALUE replaces an attribute before anything is evaluated. */
+#include "device/reader.h"
+#include "device/table.h"
+#include <string.h>
+
+static const fw_place nowhere = {"--set", 0, 0};
+
+static fw_attribute value_of(const fw_set *set, const char *name) {
+    return (fw_attribute){
+        .name = name, .value = set->value, .place = nowhere, .name_place = nowhere};
+}
+
+static void unknown_path(fw_reader *r, const fw_set *set, const char *what, const char *word,
+                         const char *const *names, size_t n) {
+    const char *better = word && n ? fw_did_you_mean(word, names, n) : NULL;
+    fw_diag_error(r->diags, 55, nowhere, "%.100s: %s%s%s%s", set->path, what,
+                  better ? "; did you mean '" : "", better ? better : "",
+                  better ? "'?"
+                         : "; a path is a parameter's name or ELEMENT[ID]/@ATTRIBUTE, for example "
+                           "flexure[A]/@length");
+}
+
+/* names of what the file holds: values of `key` of all elements with this name, to depth 3 */
+static size_t collect(fw_element *e, const char *element, const char *key, fw_element **found,
+                      const char **names, size_t room, size_t n) {
+    for (; e; e = e->next) {
+        if (n < room && strcmp(e->name, element) == 0) {
+            const fw_attribute *a = key ? fw_xml_attribute(e, key) : NULL;
+            found[n] = e;
+            names[n++] = a ? a->value : "";
+        }
+        n = collect(e->first_child, element, key, found, names, room, n);
+    }
+    return n;
+}
+
+enum { MOST = 4096 };
+
+static fw_status set_parameter(fw_reader *r, const fw_set *set) {
+    fw_element **found = fw_arena_array(r->arena, fw_element *, MOST);
+    const char **names = fw_arena_array(r->arena, const char *, MOST);
+    FW_NEED(found && names);
+    size_t n = collect(r->root->first_child, "parameter", "name", found, names, MOST, 0);
+    for (size_t i = 0; i < n; i++) {
+        if (strcmp(names[i], set->path) != 0) continue;
+        fw_attribute *a = fw_arena_one(r->arena, fw_attribute);
+        FW_NEED(a);
+        *a = value_of(set, set->path);
+        r->override_[r->noverride++] = (fw_override){found[i], a};
+        return FW_OK;
+    }
+    unknown_path(r, set, "no parameter has this name", set->path, names, n);
+    return FW_OK;
+}
+
+static fw_status replace(fw_reader *r, const fw_set *set, fw_element *e, const fw_element_row *row,
+                         const char *attribute) {
+    const char *names[16];
+    size_t n = 0;
+    for (int i = 0; i < row->nattribute && n < 16; i++)
+        names[n++] = row->attribute[i].name;
+    size_t k = 0;
+    while (k < n && strcmp(names[k], attribute) != 0)
+        k++;
+    if (k == n) {
+        unknown_path(r, set, "the element has no such attribute", attribute, names, n);
+        return FW_OK;
+    }
+    for (int i = 0; i < e->nattribute; i++)
+        if (strcmp(e->attribute[i].name, attribute) == 0) {
+            e->attribute[i] = value_of(set, attribute);
+            return FW_OK;
+        }
+    size_t count = (size_t)e->nattribute;
+    FW_NEED(e->attribute =
+                fw_arena_grow(r->arena, e->attribute, count, count + 1, sizeof *e->attribute));
+    e->attribute[e->nattribute++] = value_of(set, names[k]);
+    return FW_OK;
+}
+
+typedef struct path {
+    char *element, *id, *attribute; /* id NULL: left out */
+} path;
+
+/* splits ELEMENT[ID]/@ATTRIBUTE; *ok false when it is not one */
+static fw_status split(fw_arena *arena, const char *text, path *p, bool *ok) {
+    const char *at = strstr(text, "/@");
+    *p = (path){0};
+    *ok = false;
+    if (!at) return FW_OK;
+    size_t head = (size_t)(at - text), name = strcspn(text, "[/");
+    FW_NEED(p->attribute = fw_arena_strdup(arena, at + 2));
+    FW_NEED(p->element = fw_arena_strndup(arena, text, name));
+    if (name < head) {
+        if (text[head - 1] != ']' || head < name + 2) return FW_OK;
+        FW_NEED(p->id = fw_arena_strndup(arena, text + name + 1, head - name - 2));
+    }
+    *ok = true;
+    return FW_OK;
+}
+
+static fw_status set_attribute(fw_reader *r, const fw_set *set) {
+    path p;
+    bool ok;
+    FW_TRY(split(r->arena, set->path, &p, &ok));
+    if (!ok) {
+        unknown_path(r, set, "this is no path", NULL, NULL, 0);
+        return FW_OK;
+    }
+    const char *element = p.element, *id = p.id, *attribute = p.attribute;
+    const fw_element_row *row = fw_element_row_find(element);
+    if (!row || row->later) {
+        int count;
+        const fw_element_row *table = fw_device_table(&count);
+        const char *names[64];
+        size_t n = 0;
+        for (int i = 0; i < count && n < 64; i++)
+            names[n++] = table[i].name;
+        unknown_path(r, set, "no such element in this version", element, names, n);
+        return FW_OK;
+    }
+    fw_element **found = fw_arena_array(r->arena, fw_element *, MOST);
+    const char **names = fw_arena_array(r->arena, const char *, MOST);
+    FW_NEED(found && names);
+    size_t n = collect(r->root, element, row->key, found, names, MOST, 0);
+    for (size_t i = 0; i < n; i++)
+        if (id ? row->key && strcmp(names[i], id) == 0 : n == 1)
+            return replace(r, set, found[i], row, attribute);
+    unknown_path(r, set,
+                 id  ? "no such element has this id"
+                 : n ? "several such elements; name one"
+                     : "there is no such element",
+                 id, names, row->key ? n : 0);
+    return FW_OK;
+}
+
+fw_status fw_sets_apply(fw_reader *r, const fw_set *set, int nset) {
+    FW_NEED(r->override_ = fw_arena_array(r->arena, fw_override, (size_t)(nset > 0 ? nset : 0)));
+    for (int i = 0; i < nset; i++) {
+        fw_set copy = {fw_arena_strdup(r->arena, set[i].path ? set[i].path : ""),
+                       fw_arena_strdup(r->arena, set[i].value ? set[i].value : "")};
+        FW_NEED(copy.path && copy.value);
+        if (strpbrk(copy.path, "[]/@"))
+            FW_TRY(set_attribute(r, &copy));
+        else
+            FW_TRY(set_parameter(r, &copy));
+    }
+    return r->diags->failed ? FW_NOMEM : FW_OK;
+}

@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What comes in at the border of this room. */
+#include "dynamics/model.h"
+#include <math.h>
+#include <string.h>
+
+static fw_status usage(fw_status status) {
+    return status == FW_NOMEM ? FW_NOMEM : FW_USAGE;
+}
+
+static const char *name_of(const char *id) {
+    return id ? id : "(unnamed)";
+}
+
+/* ---- names ---- */
+
+static fw_status pick(fw_diags *diags, int number, const char *what, const char *wanted,
+                      const fw_method_row *row, size_t count, const char **name) {
+    *name = row[0].name;
+    if (!wanted) return FW_OK;
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(row[i].name, wanted) == 0) {
+            *name = row[i].name;
+            return FW_OK;
+        }
+    fw_text names = fw_text_new(diags->arena);
+    for (size_t i = 0; i < count; i++)
+        fw_text_printf(&names, "%s%s", i ? ", " : "", row[i].name);
+    FW_TRY(fw_text_end(&names));
+    return usage(fw_diag_error(diags, number, (fw_place){0},
+                               "there is no %s \"%.60s\"; known are %s", what, wanted, names.data));
+}
+
+fw_status fw_check_names(const fw_motion_options *o, fw_diags *diags, fw_motion *motion) {
+    size_t count;
+    const char *name;
+    const fw_method_row *row = fw_method_table(&count);
+    FW_TRY(pick(diags, 103, "method", o->method, row, count, &motion->method));
+    row = fw_integrator_table(&count);
+    FW_TRY(pick(diags, 104, "integrator", o->integrator, row, count, &name));
+    bool automatic = strcmp(name, "auto") == 0;
+    motion->integrator = "dop853";
+    motion->reason = automatic
+                         ? "auto: the equations are smooth and all loads constant; explicit order "
+                           "8 with projection needs the fewest evaluations"
+                         : "asked for";
+    return FW_OK;
+}
+
+fw_status fw_check_options(const fw_motion_options *o, const fw_scene *scene, fw_diags *diags) {
+    char text[32];
+    if (!(scene->duration_s > 0) || !isfinite(scene->duration_s))
+        return fw_diag_error(diags, 105, scene->place,
+                             "scene %s lasts %s s; give a duration above 0", name_of(scene->name),
+                             fw_number_text(text, sizeof text, scene->duration_s, 4));
+    if (!(o->rtol >= 0) || !isfinite(o->rtol) || !(o->accuracy >= 0) || !isfinite(o->accuracy) ||
+        o->samples < 0)
+        return usage(fw_diag_error(diags, 105, (fw_place){0},
+                                   "rtol, accuracy and samples must be finite and not negative"));
+    return FW_OK;
+}
+
+/* ---- numbers ---- */
+
+static bool finite_all(const double *value, int count) {
+    for (int i = 0; i < count; i++)
+        if (!isfinite(value[i])) return false;
+    return true;
+}
+
+static bool body_ok(const fw_mechanism *m, int body) {
+    return body >= FW_GROUND && body < m->nbody;
+}
+
+static fw_status check_mechanism(const fw_mechanism *m, fw_place place, fw_diags *diags) {
+    if (m->nbody <= 0) return fw_diag_error(diags, 107, place, "there is no body that could move");
+    for (int b = 0; b < m->nbody; b++) {
+        const fw_mass *p = &m->body[b];
+        const double all[5] = {p->mass_kg, p->inertia_kg_m2, p->x_m, p->y_m, p->phi_rad};
+        if (!finite_all(all, 5) || all[0] <= 0 || all[1] <= 0)
+            return fw_diag_error(diags, 107, place,
+                                 "body %s needs a finite pose, and mass and inertia above 0",
+                                 name_of(p->id));
+    }
+    for (int i = 0; i < m->npin; i++) {
+        const fw_pin *p = &m->pin[i];
+        const double all[7] = {p->ax_m,
+                               p->ay_m,
+                               p->bx_m,
+                               p->by_m,
+                               p->stiffness_Nm_per_rad,
+                               p->damping_Nms_per_rad,
+                               p->free_angle_rad};
+        if (!finite_all(all, 7) || all[4] < 0 || all[5] < 0 || !body_ok(m, p->body_a) ||
+            !body_ok(m, p->body_b) || p->body_a == p->body_b)
+            return fw_diag_error(diags, 107, place,
+                                 "joint %s needs two different bodies and finite values",
+                                 name_of(p->id));
+    }
+    for (int i = 0; i < m->nspring; i++) {
+        const fw_spring *p = &m->spring[i];
+        const double all[7] = {
+            p->ax_m,    p->ay_m, p->bx_m, p->by_m, p->stiffness_N_per_m, p->damping_Ns_per_m,
+            p->length_m};
+        if (!finite_all(all, 7) || all[4] < 0 || all[5] < 0 || !body_ok(m, p->body_a) ||
+            !body_ok(m, p->body_b) || p->body_a == p->body_b)
+            return fw_diag_error(diags, 107, place,
+                                 "spring %s needs two different bodies and finite values",
+                                 name_of(p->id));
+    }
+    return FW_OK;
+}
+
+fw_status fw_check_motion(const fw_mechanism *m, const fw_scene *s, fw_diags *diags) {
+    FW_TRY(check_mechanism(m, s->place, diags));
+    bool good = finite_all((const double[2]){s->gx_m_per_s2, s->gy_m_per_s2}, 2) || !s->gravity;
+    for (int i = 0; i < s->nforce; i++) {
+        const fw_force *f = &s->force[i];
+        const double all[4] = {f->x_m, f->y_m, f->fx_N, f->fy_N};
+        good = good && finite_all(all, 4) && body_ok(m, f->body);
+    }
+    for (int i = 0; i < s->ntorque; i++)
+        good = good && isfinite(s->torque[i].value_Nm) && body_ok(m, s->torque[i].body);
+    for (int i = 0; i < s->ninitial; i++) {
+        const fw_initial *v = &s->initial[i];
+        const double all[3] = {v->vx_m_per_s, v->vy_m_per_s, v->omega_rad_per_s};
+        good = good && finite_all(all, 3) && body_ok(m, v->body);
+    }
+    if (good) return FW_OK;
+    return fw_diag_error(
+        diags, 105, s->place,
+        "loads and initial velocities of scene %s must be finite and act on bodies of "
+        "the mechanism",
+        name_of(s->name));
+}

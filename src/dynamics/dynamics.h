@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Motion of a planar mechanism in reference-point coordinates q = (x, y, phi) of every body's
+   centre of mass: M q'' + G^T lambda = Q(q, q', t),   Psi(q) = 0,   G = dPsi/dq.
+
+   Theory: docs/theory/dynamics.md. Internally everything is scaled by the scene's own length, mass
+   and time. */
+#ifndef FW_DYNAMICS_DYNAMICS_H
+#define FW_DYNAMICS_DYNAMICS_H
+#include "base/diag.h"
+#include "effects/effects.h"
+#include "mechanism/mechanism.h"
+
+typedef struct fw_motion_options {
+    const char *method;     /* "chain" (default, NULL) */
+    const char *integrator; /* "auto" (NULL), "dop853" */
+    double rtol;            /* relative tolerance of the integrator; 0: from `accuracy` */
+    double accuracy;        /* relative error wanted on the peak hinge deflection; default 1e-3 */
+    int samples; /* rows of `sample`, evenly over the scene, first at 0, last at the end */
+    fw_effect_choice effects;
+} fw_motion_options;
+
+typedef struct fw_peak { /* per pin: extreme of |phi_b - phi_a - free angle| over the scene */
+    double angle_rad;    /* with its sign */
+    double t_s;
+    double error_rad; /* estimate, >= 0 */
+} fw_peak;
+
+typedef struct fw_motion_stats {
+    long steps, rejected, rhs, projections;
+    double cpu_s;               /* of the integration */
+    double max_constraint_norm; /* |Psi| over the scene's length, after projection, all steps */
+    double max_velocity_norm;   /* |G q'| likewise, scaled */
+    double energy_error;        /* |T + V + dissipated - work| / largest energy; dimensionless */
+    double rtol;                /* used */
+    double assembly_moved_m;    /* largest correction of the initial position */
+    double estimate_cpu_s;      /* of the second run that the peaks' error estimates come from */
+} fw_motion_stats;
+
+typedef struct fw_motion {
+    int nbody, npin, nsample;
+    double *t_s;        /* (nsample) */
+    double *q;          /* (nsample x 3 nbody) x, y, phi in m and rad */
+    double *v;          /* (nsample x 3 nbody) */
+    double *angle_rad;  /* (nsample x npin) phi_b - phi_a - free angle */
+    double *reaction_N; /* (nsample x 2 npin) force of the pin on body b (ground: on the ground),
+                           world axes, without the springs' torque */
+    fw_peak *peak;      /* (npin) */
+    fw_motion_stats stats;
+    fw_effect_ledger ledger;
+    const char *integrator, *method; /* used, and why: `reason` */
+    const char *reason;
+} fw_motion;
+
+/* solves Psi(q) = 0 from the guess q (3 nbody) by damped Newton with mass-weighted steps; *moved_m
+   the largest displacement. FW_SOLVER names the joint that cannot close and by how much. */
+fw_status fw_assemble(fw_arena *arena, const fw_mechanism *mechanism, double *q, double *moved_m,
+                      fw_diags *diags);
+
+/* one scene from the assembled position. FW_SOLVER when the steps become too small. */
+fw_status fw_simulate(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                      const fw_motion_options *options, fw_diags *diags, const fw_motion **motion);
+
+typedef struct fw_method_row { /* one row per method, integrator: feeds --help and reference pages
+                                */
+    const char *name, *summary;
+} fw_method_row;
+const fw_method_row *fw_method_table(size_t *count);
+const fw_method_row *fw_integrator_table(size_t *count);
+
+#endif

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "effects/effect.h"
+#include <math.h>
+
+static bool called_for(const fw_effect_case *c) {
+    return c->scene->gravity && (c->scene->gx_m_per_s2 != 0 || c->scene->gy_m_per_s2 != 0);
+}
+
+static void add(const fw_effect_case *c, fw_terms *terms) {
+    for (int b = 0; b < c->mechanism->nbody; b++) {
+        terms->constant[3 * b] += c->mechanism->body[b].mass_kg * c->scene->gx_m_per_s2;
+        terms->constant[3 * b + 1] += c->mechanism->body[b].mass_kg * c->scene->gy_m_per_s2;
+    }
+}
+
+static double largest(const double *value, int count) {
+    double most = 0;
+    for (int i = 0; i < count; i++)
+        most = fmax(most, fabs(value[i]));
+    return most;
+}
+
+/* 2 max|theta_gravity| / max|theta_rest| of the linear static responses: a load put on at once
+   moves up to twice its static response, and the rest moves at least by its own. Infinite where the
+   mechanism has a free motion, nothing else moves it, or it starts with a velocity.
+   Output dimensionless; conservative for small angles. Cost one dense solve each.
+   Test: test_effects.c. */
+static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
+    const fw_mechanism *m = c->mechanism;
+    size_t n = 3 * (size_t)m->nbody;
+    *value = (double)INFINITY;
+    *reason = "weight has nothing to be small against: kept";
+    if (fw_effect_initial_velocity.called_for(c)) return FW_OK;
+    fw_mark mark = fw_arena_mark(c->arena);
+    fw_terms rest, weight;
+    double *force, *displacement, *rotation;
+    FW_TRY(fw_terms_new(c->arena, m, c->scene, &rest));
+    FW_TRY(fw_terms_new(c->arena, m, c->scene, &weight));
+    FW_NEED(force = fw_arena_array(c->arena, double, n));
+    FW_NEED(displacement = fw_arena_array(c->arena, double, n));
+    FW_NEED(rotation = fw_arena_array(c->arena, double, (size_t)m->npin));
+    fw_effect_joint_elasticity.add(c, &rest);
+    fw_effect_point_spring.add(c, &rest);
+    fw_effect_applied_load.add(c, &rest);
+    add(c, &weight);
+    bool valid = false;
+    FW_TRY(fw_static_response(c->arena, m, &rest, weight.constant, displacement, rotation, &valid));
+    double moved = largest(rotation, m->npin), others = 0;
+    if (valid) {
+        fw_terms_initial_force(m, &rest, force);
+        FW_TRY(fw_static_response(c->arena, m, &rest, force, displacement, rotation, &valid));
+        others = largest(rotation, m->npin);
+    }
+    if (valid && others > 0) {
+        *value = 2 * moved / others;
+        *reason = "bound: twice the static response to the weights over that to the other loads";
+    }
+    fw_arena_rewind(c->arena, mark);
+    return FW_OK;
+}
+
+const fw_effect_row fw_effect_gravity = {"gravity", "weight of the bodies", called_for, bound, add};

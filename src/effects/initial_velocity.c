@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "effects/effect.h"
+#include <math.h>
+
+static bool called_for(const fw_effect_case *c) {
+    for (int i = 0; i < c->scene->ninitial; i++) {
+        const fw_initial *v = &c->scene->initial[i];
+        if (v->vx_m_per_s != 0 || v->vy_m_per_s != 0 || v->omega_rad_per_s != 0) return true;
+    }
+    return false;
+}
+
+static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
+    (void)c;
+    *value = (double)INFINITY;
+    *reason = "the scene starts with velocities: they are the motion itself";
+    return FW_OK;
+}
+
+static void add(const fw_effect_case *c, fw_terms *terms) {
+    for (int i = 0; i < c->scene->ninitial; i++) {
+        const fw_initial *v = &c->scene->initial[i];
+        if (v->body == FW_GROUND) continue;
+        terms->velocity[3 * v->body] += v->vx_m_per_s;
+        terms->velocity[3 * v->body + 1] += v->vy_m_per_s;
+        terms->velocity[3 * v->body + 2] += v->omega_rad_per_s;
+    }
+}
+
+const fw_effect_row fw_effect_initial_velocity = {"initial-velocity", "velocities at the start",
+                                                  called_for, bound, add};

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "effects/effect.h"
+#include <math.h>
+
+static bool called_for(const fw_effect_case *c) {
+    for (int i = 0; i < c->mechanism->nspring; i++)
+        if (c->mechanism->spring[i].stiffness_N_per_m > 0 ||
+            c->mechanism->spring[i].damping_Ns_per_m > 0)
+            return true;
+    return false;
+}
+
+static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
+    (void)c;
+    *value = (double)INFINITY;
+    *reason = "the mechanism has springs between points: they are the motion itself";
+    return FW_OK;
+}
+
+/* force k (l - l0) + c l' along the line between the two points */
+static void add(const fw_effect_case *c, fw_terms *terms) {
+    for (int i = 0; i < c->mechanism->nspring; i++) {
+        const fw_spring *s = &c->mechanism->spring[i];
+        if (s->stiffness_N_per_m > 0 || s->damping_Ns_per_m > 0)
+            terms->spring[terms->nspring++] = *s;
+    }
+}
+
+const fw_effect_row fw_effect_point_spring = {
+    "point-spring", "springs and dampers between two points", called_for, bound, add};

@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "effects/effect.h"
+#include <math.h>
+#include <string.h>
+
+static const fw_effect_row *const rows[] = {
+    &fw_effect_joint_elasticity, &fw_effect_joint_damping, &fw_effect_point_spring,
+    &fw_effect_applied_load,     &fw_effect_gravity,       &fw_effect_initial_velocity,
+};
+enum { ROWS = sizeof rows / sizeof rows[0] };
+
+const fw_effect_row *const *fw_effect_rows(size_t *count) {
+    *count = ROWS;
+    return rows;
+}
+
+/* is `id` one of the comma separated names? */
+static bool listed(const char *list, const char *id) {
+    size_t n = strlen(id);
+    for (const char *at = list; at && *at;) {
+        at += strspn(at, ", \t");
+        size_t length = strcspn(at, ", \t");
+        if (length == n && strncmp(at, id, n) == 0) return true;
+        at += length;
+    }
+    return false;
+}
+
+static bool known(const char *id, size_t n) {
+    for (size_t i = 0; i < ROWS; i++)
+        if (strlen(rows[i]->id) == n && strncmp(rows[i]->id, id, n) == 0) return true;
+    return false;
+}
+
+static fw_status check_list(fw_arena *arena, const char *list, fw_diags *diags) {
+    for (const char *at = list; at && *at;) {
+        at += strspn(at, ", \t");
+        size_t n = strcspn(at, ", \t");
+        if (n && !known(at, n)) {
+            fw_text names = fw_text_new(arena);
+            for (size_t i = 0; i < ROWS; i++)
+                fw_text_printf(&names, "%s%s", i ? ", " : "", rows[i]->id);
+            FW_TRY(fw_text_end(&names));
+            fw_status status = fw_diag_error(
+                diags, 110, (fw_place){"--effects", 0, 0},
+                "there is no effect \"%.*s\"; known are auto, all, none, or a list of %s",
+                n > 60 ? 60 : (int)n, at, names.data);
+            return status == FW_NOMEM ? FW_NOMEM : FW_USAGE;
+        }
+        at += n;
+    }
+    return FW_OK;
+}
+
+/* active or not, and in words why */
+static fw_status decide(const fw_effect_case *c, const fw_effect_row *row,
+                        const fw_effect_choice *choice, double accuracy, fw_effect_entry *entry) {
+    *entry = (fw_effect_entry){.id = row->id, .reason = "not called for by the scene"};
+    entry->called_for = row->called_for(c);
+    if (!entry->called_for) return FW_OK;
+    const char *how = "";
+    FW_TRY(row->bound(c, &entry->bound, &how));
+    char bound[32], wanted[32];
+    fw_number_text(bound, sizeof bound, entry->bound, 3);
+    fw_number_text(wanted, sizeof wanted, accuracy, 3);
+    switch (choice->mode) {
+    case FW_EFFECTS_AUTO:
+        entry->active = !(entry->bound < accuracy);
+        if (isinf(entry->bound))
+            entry->reason = how;
+        else
+            FW_NEED(entry->reason =
+                        fw_arena_printf(c->arena, "%s = %s, %s the accuracy wanted %s", how, bound,
+                                        entry->active ? "not below" : "below", wanted));
+        return FW_OK;
+    case FW_EFFECTS_ALL:
+        entry->active = true;
+        entry->reason = "called for, and all effects were asked for";
+        return FW_OK;
+    case FW_EFFECTS_NONE:
+        entry->reason = "called for, but no effect was asked for";
+        return FW_OK;
+    case FW_EFFECTS_LIST:
+    default:
+        entry->active = listed(choice->list, row->id);
+        entry->reason = entry->active ? "called for, and in the list asked for"
+                                      : "called for, but not in the list";
+        return FW_OK;
+    }
+}
+
+fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                             const fw_effect_choice *choice, double accuracy, fw_diags *diags,
+                             fw_effect_ledger *ledger, fw_terms *terms) {
+    const fw_effect_case c = {arena, mechanism, scene};
+    if (choice->mode == FW_EFFECTS_LIST) FW_TRY(check_list(arena, choice->list, diags));
+    FW_NEED(ledger->item = fw_arena_array(arena, fw_effect_entry, ROWS));
+    ledger->count = ROWS;
+    FW_TRY(fw_terms_new(arena, mechanism, scene, terms));
+    for (size_t i = 0; i < ROWS; i++) {
+        FW_TRY(decide(&c, rows[i], choice, accuracy, &ledger->item[i]));
+        if (ledger->item[i].active) rows[i]->add(&c, terms);
+    }
+    return FW_OK;
+}

@@ -1,0 +1,222 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One outline per body: bars and plate, cut free of the hinges, united with its own hinge heads. */
+#include "layout/draw.h"
+#include <math.h>
+
+enum { MOST_JOINTS = 16, MOST_PARTS = 3 * MOST_JOINTS + 8 };
+
+typedef struct parts {
+    fw_contour item[MOST_PARTS];
+    int count;
+} parts;
+
+static bool has_plate(const fw_drawing *d, int body) {
+    return body >= 0 && !isnan(d->device->body[body].plate_width_m);
+}
+
+static const fw_side *side_of(const fw_drawing *d, int joint, int body) {
+    const fw_hinge_plan *plan = &d->hinge[joint];
+    return &plan->side[plan->side[1].body == body];
+}
+
+/* One end of a bar: it starts inside the neck, crosses the neck's edges at a small angle and widens
+   to its full width. Fills the edge from the hinge outwards; returns the number of points. */
+static int bar_end(const fw_side *side, double half, double length, fw_vec2 *p) {
+    double from = fmax(side->neck_end_m - 72e-6, side->solid_m);
+    double slope = 6e-6 / (side->neck_end_m - from);
+    double widen = fmin(half - side->neck_m + 4e-6, slope * (length - from));
+    p[0] = fw_v(from, side->neck_m - 4e-6);
+    p[1] = fw_v(from + widen / slope, side->neck_m - 4e-6 + widen);
+    return 2;
+}
+
+/* mirrors the n points of one edge to the other and closes the outline; local x along the bar */
+static fw_status close_bar(fw_drawing *d, fw_vec2 w, fw_vec2 direction, fw_vec2 *p, int n,
+                           fw_contour *bar) {
+    fw_local local = {w, direction.x, direction.y, false};
+    for (int i = 0; i < n; i++)
+        p[2 * n - 1 - i] = fw_v(p[i].x, -p[i].y);
+    return fw_layout_polygon(d->arena, &local, p, 2 * n, -1, bar);
+}
+
+/* from hinge to `end` on the hinge's own direction, square end */
+static fw_status draw_spoke(fw_drawing *d, int joint, const fw_side *side, double half, double end,
+                            fw_contour *bar) {
+    fw_vec2 p[8];
+    int n = bar_end(side, half, end, p);
+    p[n++] = fw_v(end, half);
+    return close_bar(d, fw_joint_point(d->device, joint), side->direction, p, n, bar);
+}
+
+/* bar between two hinges of a body */
+static fw_status draw_link(fw_drawing *d, int body, const int joint[2], fw_contour *bar) {
+    fw_vec2 p[8], w = fw_joint_point(d->device, joint[0]), far[2];
+    const fw_side *a = side_of(d, joint[0], body), *b = side_of(d, joint[1], body);
+    double length = fw_norm(fw_sub(fw_joint_point(d->device, joint[1]), w));
+    int n = bar_end(a, a->half_width_m, 0.5 * length, p);
+    bar_end(b, b->half_width_m, 0.5 * length, far);
+    for (int i = 1; i >= 0; i--)
+        p[n++] = fw_v(length - far[i].x, far[i].y);
+    return close_bar(d, w, a->direction, p, n, bar);
+}
+
+/* cuts the keep-out discs of the given hinges (all but those in `skip`) out of a part; the pieces
+   that are left are appended */
+static fw_status cut_free(fw_drawing *d, const fw_contour *part, const int *skip, int nskip,
+                          parts *out) {
+    fw_region region = {(fw_contour *)part, 1};
+    for (int j = 0; j < d->device->njoint; j++) {
+        const fw_hinge_layout *h = &d->layout->hinge[j];
+        bool own = false;
+        for (int i = 0; i < nskip; i++)
+            own = own || skip[i] == j;
+        if (own) continue;
+        fw_contour disc;
+        FW_TRY(fw_contour_disc(d->arena, h->centre, h->keep_out_m, &disc));
+        if (!fw_contour_contains(part, h->centre) &&
+            fw_contour_distance(part, &disc, NULL, NULL) > 0.0)
+            continue;
+        fw_region hole = {&disc, 1}, left;
+        FW_TRY(fw_region_boolean(d->arena, &region, &hole, FW_DIFFERENCE, &left));
+        region = left;
+    }
+    for (int i = 0; i < region.count && out->count < MOST_PARTS; i++)
+        out->item[out->count++] = region.contour[i];
+    return FW_OK;
+}
+
+/* the plate without the discs of the hinges; the necks of its own hinges reach into it */
+static fw_status plate_parts(fw_drawing *d, int body, parts *out) {
+    const fw_body *b = &d->device->body[body];
+    double w = 0.5 * b->plate_width_m, h = 0.5 * b->plate_height_m;
+    fw_local local = {fw_v(b->plate_x_m, b->plate_y_m), cos(b->plate_angle_rad),
+                      sin(b->plate_angle_rad), false};
+    fw_vec2 corner[4] = {{-w, -h}, {w, -h}, {w, h}, {-w, h}};
+    fw_contour plate;
+    FW_TRY(fw_layout_polygon(d->arena, &local, corner, 4, -1, &plate));
+    return cut_free(d, &plate, NULL, 0, out);
+}
+
+static fw_status bar_parts(fw_drawing *d, int body, const int *joint, int njoint, parts *out) {
+    fw_contour bar;
+    if (njoint == 2) {
+        FW_TRY(draw_link(d, body, joint, &bar));
+        return cut_free(d, &bar, joint, 2, out);
+    }
+    fw_vec2 hub = fw_v(0.0, 0.0);
+    double half = 0.0;
+    for (int i = 0; i < njoint; i++) {
+        fw_vec2 p = fw_joint_point(d->device, joint[i]);
+        hub = fw_add(hub, 1.0 / njoint, p);
+        half = side_of(d, joint[i], body)->half_width_m;
+    }
+    if (njoint == 1 && body >= 0) hub = fw_v(d->device->body[body].x_m, d->device->body[body].y_m);
+    if (njoint == 1 && body < 0) { /* the pedestal takes over before the frame */
+        const fw_side *side = side_of(d, joint[0], body);
+        double begin = side->neck_end_m, cut = fw_base_reach(d, joint[0]);
+        hub = fw_add(hub, begin + 0.6 * (cut - begin), side->direction);
+    }
+    for (int i = 0; i < njoint; i++) {
+        const fw_side *side = side_of(d, joint[i], body);
+        double end = fw_norm(fw_sub(hub, fw_joint_point(d->device, joint[i])));
+        FW_TRY(draw_spoke(d, joint[i], side, half, end, &bar));
+        FW_TRY(cut_free(d, &bar, &joint[i], 1, out));
+    }
+    if (njoint > 2) { /* a hub under the inner ends */
+        fw_contour disc;
+        FW_TRY(fw_contour_disc(d->arena, hub, 1.3 * half, &disc));
+        FW_TRY(cut_free(d, &disc, NULL, 0, out));
+    }
+    return FW_OK;
+}
+
+/* one simple outline, or FW_GEOMETRY */
+fw_status fw_body_unite(fw_drawing *d, int body, const fw_contour *part, int npart,
+                        fw_contour *out) {
+    fw_region region = {(fw_contour *)part, 1};
+    for (int i = 1; i < npart; i++) {
+        fw_region next = {(fw_contour *)&part[i], 1}, both;
+        FW_TRY(fw_region_boolean(d->arena, &region, &next, FW_UNION, &both));
+        region = both;
+    }
+    if (region.count != 1) {
+        const char *label = fw_body_label(d, body);
+        FW_NEED(label);
+        bool hole = false;
+        for (int i = 0; i < region.count; i++)
+            hole = hole || fw_contour_area(&region.contour[i]) < 0.0;
+        fw_diag_error(d->diags, 123, fw_body_place(d, body),
+                      "%s would %s; a body must be one outline without holes: move its plate or "
+                      "hinges, or change the width of its bars",
+                      label, hole ? "enclose a hole" : "fall apart where hinges cut it");
+        return FW_GEOMETRY;
+    }
+    *out = region.contour[0];
+    return FW_OK;
+}
+
+/* Corners of 10 um; where the parts are too small for that, 5, 2.5 or 1.25 um for the whole body.
+   Fillets at the roots and conjugate surfaces meet their neighbours smoothly or keep their arcs. */
+fw_status fw_body_round(fw_drawing *d, int body, const fw_contour *in, fw_contour *out) {
+    fw_vec2 where = fw_v(0.0, 0.0);
+    for (double radius = FW_CORNER_M; radius > 1e-6; radius *= 0.5) {
+        fw_status status = fw_contour_round(d->arena, in, radius, radius, out, &where);
+        if (status != FW_GEOMETRY) return status;
+    }
+    char x[32], y[32];
+    const char *label = fw_body_label(d, body);
+    FW_NEED(label);
+    fw_diag_error(d->diags, 126, fw_body_place(d, body),
+                  "%s has a corner at (%s, %s) um that cannot be rounded by even 0.3 um; parts of "
+                  "it nearly coincide: change a width or a position slightly",
+                  label, fw_layout_um(x, where.x), fw_layout_um(y, where.y));
+    return FW_GEOMETRY;
+}
+
+/* raw (united) and plain (rounded) outline of one body, and its moments. `extra` are parts that
+   only the base has. Half of each adjacent flexure's mass is not added: it is about 1 % of a
+   link's. */
+fw_status fw_body_draw(fw_drawing *d, int body, int only, const fw_contour *extra, int nextra) {
+    int joint[MOST_JOINTS], slot = fw_drawing_slot(d, body, only);
+    int njoint = fw_body_joints(d->device, body, joint, MOST_JOINTS);
+    if (only != FW_NONE) {
+        joint[0] = only;
+        njoint = 1;
+    }
+    parts *all;
+    FW_NEED(all = fw_arena_one(d->arena, parts));
+    if (njoint > MOST_JOINTS) {
+        const char *label = fw_body_label(d, body);
+        FW_NEED(label);
+        fw_diag_error(d->diags, 123, fw_body_place(d, body),
+                      "%s has %d hinges; at most %d can be drawn on one body", label, njoint,
+                      (int)MOST_JOINTS);
+        return FW_GEOMETRY;
+    }
+    if (has_plate(d, body))
+        FW_TRY(plate_parts(d, body, all));
+    else
+        FW_TRY(bar_parts(d, body, joint, njoint, all));
+    for (int i = 0; i < njoint; i++)
+        all->item[all->count++] = side_of(d, joint[i], body)->head;
+    for (int i = 0; i < nextra; i++)
+        all->item[all->count++] = extra[i];
+    FW_TRY(fw_body_unite(d, body, all->item, all->count, &d->raw[slot]));
+
+    if (body >= 0 && d->device->body[body].platform) {
+        fw_contour lug[4];
+        int nlug = 0;
+        FW_TRY(fw_platform_lugs(d, body, lug, &nlug));
+        for (int i = 0; i < nlug; i++) {
+            fw_contour pair[2] = {d->raw[slot], lug[i]};
+            FW_TRY(fw_body_unite(d, body, pair, 2, &d->raw[slot]));
+        }
+    }
+    FW_TRY(fw_body_round(d, body, &d->raw[slot], &d->plain[slot]));
+    if (body < 0) return FW_OK;
+    fw_region region = {&d->plain[slot], 1};
+    fw_moments m = fw_region_moments(&region);
+    d->layout->body[body] =
+        (fw_body_layout){m.area_m2, fw_contour_perimeter(&d->plain[slot]), m.centroid, m.polar_m4};
+    return FW_OK;
+}

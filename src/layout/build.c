@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From the description to outlines. The construction: docs/theory/layout.md. */
+#include "layout/draw.h"
+#include "layout/text.h"
+#include <math.h>
+
+/* NULL when every body has a shape and every joint a flexure; else what is missing */
+static const char *missing(fw_arena *arena, const fw_device *device, bool *failed) {
+    const char *why = NULL;
+    *failed = false;
+    if (device->nbody == 0 || device->njoint == 0) return "there is no mechanism";
+    for (int i = 0; i < device->nbody && !why; i++) {
+        const fw_body *b = &device->body[i];
+        int n = fw_body_joints(device, i, NULL, 0);
+        bool plate = b->plate_width_m > 0.0 && b->plate_height_m > 0.0 &&
+                     isfinite(b->plate_x_m + b->plate_y_m + b->plate_angle_rad);
+        if (!(b->width_m > 0.0 || plate))
+            why = fw_arena_printf(arena, "body %s has neither a width nor a plate", b->id);
+        else if (!isnan(b->plate_width_m) && !plate)
+            why = fw_arena_printf(arena, "the plate of body %s lacks its size or place", b->id);
+        else if (!plate && (n == 0 || (n == 1 && !isfinite(b->x_m + b->y_m))))
+            why =
+                fw_arena_printf(arena, "body %s has a width, but no second hinge to reach", b->id);
+        else
+            continue;
+        *failed = !why;
+    }
+    for (int i = 0; i < device->njoint && !why && !*failed; i++) {
+        const fw_joint *j = &device->joint[i];
+        if (j->flexure == FW_NONE)
+            why = fw_arena_printf(arena, "joint %s has no flexure", j->id);
+        else if (!isfinite(j->x_m + j->y_m))
+            why = fw_arena_printf(arena, "joint %s has no place in the drawing", j->id);
+        else
+            continue;
+        *failed = !why;
+    }
+    return why;
+}
+
+static fw_status add_bodies(fw_drawing *d) {
+    for (int s = 0; s < d->nslot; s++) {
+        int body = s < d->device->nbody ? s : FW_GROUND;
+        fw_contour whole = d->plain[s];
+        if (whole.count == 0) continue;
+        bool held = false;
+        fw_contour pair[2] = {d->raw[s], whole};
+        for (int i = 0; i < d->nattachment; i++) {
+            if (d->attachment[i].body != body || d->attachment[i].finger.count == 0) continue;
+            held = true;
+            pair[1] = d->attachment[i].finger;
+            FW_TRY(fw_body_unite(d, body, pair, 2, &pair[0]));
+        }
+        if (held) FW_TRY(fw_body_round(d, body, &pair[0], &whole));
+        FW_TRY(fw_drawing_add(d, FW_ROLE_STRUCTURE, body, FW_NONE, fw_body_label(d, body), &whole));
+    }
+    for (int j = 0; j < d->device->njoint; j++) {
+        const char *label =
+            fw_arena_printf(d->arena, "flexure of hinge %s", d->device->joint[j].id);
+        FW_TRY(fw_drawing_add(d, FW_ROLE_FLEXURE, d->layout->hinge[j].lower, j, label,
+                              &d->hinge[j].flexure));
+    }
+    return FW_OK;
+}
+
+static void measure_free_rotation(fw_drawing *d) {
+    for (int j = 0; j < d->device->njoint; j++) {
+        fw_hinge_layout *h = &d->layout->hinge[j];
+        const fw_contour *p = &d->plain[fw_drawing_slot(d, h->lower, j)];
+        const fw_contour *q = &d->plain[fw_drawing_slot(d, h->upper, j)];
+        h->free_rad = fw_layout_free_rotation(h->centre, p, q, 4.0 * h->keep_out_m);
+    }
+}
+
+static fw_status draw(fw_drawing *d) {
+    const fw_device *device = d->device;
+    int nground = fw_body_joints(device, FW_GROUND, NULL, 0);
+    d->nslot = device->nbody + (nground > 2 ? nground : 1);
+    size_t slots = (size_t)d->nslot;
+    bool bad = false;
+    for (int j = 0; j < device->njoint; j++)
+        d->centre = fw_add(d->centre, 1.0 / device->njoint, fw_joint_point(device, j));
+    FW_NEED(d->raw = fw_arena_array(d->arena, fw_contour, slots));
+    FW_NEED(d->plain = fw_arena_array(d->arena, fw_contour, slots));
+    FW_TRY(fw_hinges_plan(d));
+    for (int b = 0; b < device->nbody; b++) { /* all refusals in one run */
+        fw_status status = fw_body_draw(d, b, FW_NONE, NULL, 0);
+        if (status == FW_GEOMETRY)
+            bad = true;
+        else if (status != FW_OK)
+            return status;
+    }
+    if (bad) return FW_GEOMETRY;
+    FW_TRY(fw_window_choose(d));
+    fw_status base = fw_ground_draw(d);
+    if (base != FW_OK && base != FW_GEOMETRY) return base;
+    FW_TRY(base == FW_OK ? fw_tethers_draw(d) : FW_OK);
+    FW_TRY(fw_frame_draw(d));
+    FW_TRY(fw_clearance_check(d));
+    FW_TRY(base);
+    measure_free_rotation(d);
+    FW_TRY(add_bodies(d));
+    fw_layout *l = d->layout;
+    return fw_layout_annotate(d->arena, device, l->window, l->die, &l->piece, &l->npiece,
+                              &d->capacity);
+}
+
+fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *diags,
+                          const fw_layout **layout) {
+    fw_layout *l;
+    bool failed;
+    FW_NEED(l = fw_arena_one(arena, fw_layout));
+    FW_NEED(l->hinge = fw_arena_array(arena, fw_hinge_layout, (size_t)device->njoint));
+    FW_NEED(l->body = fw_arena_array(arena, fw_body_layout, (size_t)device->nbody));
+    l->why_not = missing(arena, device, &failed);
+    if (failed) return FW_NOMEM;
+    if (!l->why_not) {
+        fw_drawing d = {.arena = arena, .device = device, .diags = diags, .layout = l};
+        FW_TRY(draw(&d));
+        l->drawn = true;
+    }
+    *layout = l;
+    return FW_OK;
+}

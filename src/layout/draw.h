@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Shared by the files of layout/ only. Construction and figures: docs/theory/layout.md. */
+#ifndef FW_LAYOUT_DRAW_H
+#define FW_LAYOUT_DRAW_H
+#include "flexure/flexure.h"
+#include "layout/layout.h"
+#include <math.h>
+
+/* drawing rules, m and rad */
+#define FW_LEAST_SPACE_M 8e-6   /* between parts that move apart, unless a gap is set smaller */
+#define FW_CORNER_M      10e-6  /* radius of rounded corners */
+#define FW_RING_M        40e-6  /* thickness of the rings that carry the conjugate surfaces */
+#define FW_BESIDE_RING_M 20e-6  /* free width around the outer ring */
+#define FW_FREE_RAD      0.56   /* rotation that rings and blocks leave free where they can */
+#define FW_BASE_WIDTH_M  200e-6 /* bar between the ground hinges */
+#define FW_NECK_WIDTH_M  120e-6 /* between a plate and its hinge, where the body has no width */
+#define FW_FRAME_M       250e-6
+#define FW_LANE_M        100e-6
+#define FW_CLEARANCE_M   150e-6 /* mechanism to frame */
+#define FW_STUB_M        20e-6 /* of the frame towards the base, so that the cut has square sides */
+#define FW_TETHER_M      20e-6
+#define FW_TETHER_NECK_M 8e-6
+#define FW_TETHER_STUB_M 10e-6
+
+/* ---- small vectors ---- */
+static inline fw_vec2 fw_v(double x, double y) {
+    return (fw_vec2){x, y};
+}
+static inline fw_vec2 fw_add(fw_vec2 p, double s, fw_vec2 d) {
+    return (fw_vec2){p.x + s * d.x, p.y + s * d.y};
+}
+static inline fw_vec2 fw_sub(fw_vec2 p, fw_vec2 q) {
+    return (fw_vec2){p.x - q.x, p.y - q.y};
+}
+static inline double fw_dot(fw_vec2 p, fw_vec2 q) {
+    return p.x * q.x + p.y * q.y;
+}
+static inline fw_vec2 fw_left(fw_vec2 d) {
+    return (fw_vec2){-d.y, d.x};
+}
+static inline double fw_norm(fw_vec2 p) {
+    return hypot(p.x, p.y);
+}
+static inline fw_vec2 fw_polar(double angle_rad) {
+    return fw_v(cos(angle_rad), sin(angle_rad));
+}
+/* unit vector; (1, 0) when the points coincide */
+static inline fw_vec2 fw_towards(fw_vec2 from, fw_vec2 to) {
+    fw_vec2 d = fw_sub(to, from);
+    double n = fw_norm(d);
+    return n > 0.0 ? fw_v(d.x / n, d.y / n) : fw_v(1.0, 0.0);
+}
+
+/* local frame: origin, x axis (c, s); mirror: local y points the other way. The same local point
+   gives the same world bits whoever asks. */
+typedef struct fw_local {
+    fw_vec2 origin;
+    double c, s;
+    bool mirror;
+} fw_local;
+fw_vec2 fw_local_point(const fw_local *local, fw_vec2 p);
+
+/* an outline given in local coordinates; closes counter-clockwise whatever the mirror */
+typedef struct fw_sketch {
+    fw_outline outline;
+    const fw_local *local;
+} fw_sketch;
+fw_sketch fw_sketch_start(fw_arena *arena, const fw_local *local, fw_vec2 p);
+void fw_sketch_line(fw_sketch *sketch, fw_vec2 to, unsigned flags);
+void fw_sketch_arc(fw_sketch *sketch, fw_vec2 centre, double sweep_rad, fw_vec2 to);
+fw_status fw_sketch_close(fw_sketch *sketch, fw_contour *contour);
+fw_status fw_layout_polygon(fw_arena *arena, const fw_local *local, const fw_vec2 *p, int n,
+                            int joint,
+                            fw_contour *contour); /* joint: index of a JOINT edge or -1 */
+
+/* ---- hinges ---- */
+/* Flexure and its root at the upper body, in the hinge frame: W at the origin, bulge along +x. The
+   root at the lower body is the mirror image. */
+typedef struct fw_hinge_shape {
+    fw_vec2 arc_centre;               /* O */
+    double strip_sweep_rad;           /* of the flexure between the two cuts; 0: straight */
+    double fillet_m, width_m, size_m; /* size: radius, or half the length of a leaf */
+    fw_vec2 joint_in, joint_out;      /* the cut */
+    fw_vec2 outer_start, outer_centre, outer_end; /* fillet on the bulge side */
+    fw_vec2 inner_start, inner_centre;            /* fillet inside; ends at joint_in */
+    double edge_sweep_rad; /* outer edge from the cut to outer_start, about O; 0: none */
+    double outer_sweep_rad, inner_sweep_rad;
+    fw_vec2 root, face, into; /* middle of the root; along its face; into the block */
+    fw_vec2 inner_corner;     /* end of the root face inside */
+    double reach_m;           /* farthest of flexure and fillets from W */
+} fw_hinge_shape;
+
+/* one row per kind of flexure; false: no room for two roots */
+typedef struct fw_hinge_drawer {
+    fw_flexure_kind kind;
+    bool (*shape)(const fw_flexure *flexure, fw_hinge_shape *shape);
+} fw_hinge_drawer;
+bool fw_hinge_shape_csfh(const fw_flexure *flexure, fw_hinge_shape *shape);
+bool fw_hinge_shape_leaf(const fw_flexure *flexure, fw_hinge_shape *shape);
+/* elastic centre from O, by the same function as the mechanics use */
+double fw_hinge_centre(const fw_flexure *flexure, double fillet_m);
+
+typedef struct fw_side { /* one body at one hinge */
+    int body;
+    fw_vec2 direction;   /* unit, from W to where its bar or plate lies, world */
+    double own_rad;      /* the same in its own (mirrored) hinge frame, from the bulge */
+    double half_width_m; /* of the bar */
+    double ring_in_m, ring_out_m, ring_end_rad;
+    const fw_body *plate; /* the neck ends in this plate, `plate_at_m` from W; NULL: in a bar */
+    double plate_at_m;
+    double neck_m;     /* half width of the neck between ring and bar */
+    double far_m;      /* the same on the side away from the bulge */
+    double corner_m;   /* where far_m > neck_m: of the plate's corner, along `direction` */
+    double neck_end_m; /* from W along `direction` */
+    double solid_m;    /* from there on the neck is as wide as neck_m on both sides */
+    fw_local local;
+    fw_contour head; /* root block, ring and neck */
+} fw_side;
+
+typedef struct fw_hinge_plan {
+    fw_hinge_shape shape;
+    fw_side side[2]; /* 0 lower, 1 upper */
+    int convex;      /* which side carries the convex surface */
+    fw_contour flexure;
+} fw_hinge_plan;
+
+/* ---- the whole drawing ---- */
+typedef enum fw_window_side { FW_LEFT, FW_RIGHT, FW_BOTTOM, FW_TOP } fw_window_side;
+typedef struct fw_attachment { /* what meets the frame, from `low` to `high` along the side */
+    int body;
+    fw_window_side side;
+    double low_m, high_m, stub_m;
+    fw_contour finger; /* of a tether; count 0 for the base */
+} fw_attachment;
+
+typedef struct fw_drawing {
+    fw_arena *arena;
+    const fw_device *device;
+    fw_diags *diags;
+    fw_layout *layout;
+    int capacity;
+    fw_vec2 centre; /* mean of the hinge points */
+    double lane_m;
+    fw_hinge_plan *hinge; /* (njoint) */
+    fw_contour *raw;      /* (nslot) united, not rounded: bodies, then one base for all ground
+                             hinges, or one for each when there are more than two */
+    fw_contour *plain;    /* (nslot) rounded, without tethers */
+    int nslot;
+    fw_contour *lug; /* (nlug) of the platforms, for the tethers to avoid */
+    int nlug;
+    fw_attachment *attachment; /* (nattachment) what meets the frame */
+    int nattachment;
+} fw_drawing;
+
+/* index into raw and plain; the joint tells bases apart */
+int fw_drawing_slot(const fw_drawing *d, int body, int joint);
+const char *fw_body_label(fw_drawing *d, int body); /* NULL: out of memory */
+fw_place fw_body_place(const fw_drawing *d, int body);
+fw_vec2 fw_joint_point(const fw_device *device, int joint);
+int fw_body_joints(const fw_device *device, int body, int *joint, int most);
+fw_status fw_drawing_add(fw_drawing *d, fw_role role, int body, int joint, const char *label,
+                         const fw_contour *contour);
+/* "1234.5" in um */
+const char *fw_layout_um(char buffer[32], double metres);
+
+/* a point `depth` inside the window, at `along` on a side; sides run along +x or +y */
+fw_vec2 fw_window_point(const fw_layout *layout, fw_window_side side, double along, double depth);
+fw_vec2 fw_window_outward(fw_window_side side);
+/* strip from `start` (inside the body) to the stub of the frame, cut off by a JOINT segment;
+   narrows to 2 neck_m over its last part when neck_m < half_m */
+fw_status fw_strip_draw(fw_drawing *d, fw_window_side side, double low_start, double high_start,
+                        double along, double half_m, double neck_m, double stub_m,
+                        fw_attachment *out);
+fw_status fw_attachment_add(fw_drawing *d, const fw_attachment *item);
+
+fw_status fw_hinges_plan(fw_drawing *d);
+/* joint: the only one of several bases, or FW_NONE */
+fw_status fw_body_draw(fw_drawing *d, int body, int joint, const fw_contour *extra, int nextra);
+fw_status fw_body_round(fw_drawing *d, int body, const fw_contour *in, fw_contour *out);
+fw_status fw_body_unite(fw_drawing *d, int body, const fw_contour *part, int npart,
+                        fw_contour *out);
+fw_status fw_platform_lugs(fw_drawing *d, int body, fw_contour *lug, int *nlug);
+fw_status fw_window_choose(fw_drawing *d);
+/* from the hinge of a base of its own straight to its cut at the frame */
+double fw_base_reach(const fw_drawing *d, int joint);
+fw_status fw_ground_draw(fw_drawing *d);
+fw_status fw_tethers_draw(fw_drawing *d);
+fw_status fw_frame_draw(fw_drawing *d);
+fw_status fw_clearance_check(fw_drawing *d);
+double fw_layout_free_rotation(fw_vec2 w, const fw_contour *p, const fw_contour *q,
+                               double radius_m);
+#endif

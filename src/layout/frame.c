@@ -1,0 +1,206 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The window in the frame and the frame itself: two halves that share one cut on either side.
+
+   Cuts are where both neighbouring edges are square to them (across a frame bar, across a stub), so
+   that a process bias moves the edges and leaves the cuts alone on both pieces. */
+#include "layout/draw.h"
+#include "layout/text.h"
+#include <math.h>
+
+static bool upright(fw_window_side side) {
+    return side == FW_LEFT || side == FW_RIGHT;
+}
+
+fw_vec2 fw_window_outward(fw_window_side side) {
+    static const fw_vec2 out[] = {{-1.0, 0.0}, {1.0, 0.0}, {0.0, -1.0}, {0.0, 1.0}};
+    return out[side];
+}
+
+fw_vec2 fw_window_point(const fw_layout *layout, fw_window_side side, double along, double depth) {
+    const fw_box *w = &layout->window;
+    switch (side) {
+    case FW_LEFT:
+        return fw_v(w->x0 + depth, along);
+    case FW_RIGHT:
+        return fw_v(w->x1 - depth, along);
+    case FW_BOTTOM:
+        return fw_v(along, w->y0 + depth);
+    default:
+        return fw_v(along, w->y1 - depth);
+    }
+}
+
+fw_status fw_attachment_add(fw_drawing *d, const fw_attachment *item) {
+    FW_NEED(d->attachment = fw_arena_grow(d->arena, d->attachment, (size_t)d->nattachment,
+                                          (size_t)d->nattachment + 1, sizeof *d->attachment));
+    d->attachment[d->nattachment++] = *item;
+    return FW_OK;
+}
+
+/* low_start, high_start: coordinate across the side where the two edges of the strip begin */
+fw_status fw_strip_draw(fw_drawing *d, fw_window_side side, double low_start, double high_start,
+                        double along, double half_m, double neck_m, double stub_m,
+                        fw_attachment *out) {
+    const fw_layout *l = d->layout;
+    bool up = upright(side);
+    fw_vec2 inward = fw_window_outward(side), p[8];
+    inward = fw_v(-inward.x, -inward.y);
+    double at = fw_layout_to_grid(along), half = fw_layout_to_grid(half_m);
+    double neck = fw_layout_to_grid(fmin(neck_m, half_m)), widen = half - neck;
+    out->side = side;
+    out->stub_m = stub_m;
+    out->low_m = at - neck;
+    out->high_m = at + neck;
+    fw_vec2 low = fw_window_point(l, side, out->low_m, stub_m);
+    fw_vec2 high = fw_window_point(l, side, out->high_m, stub_m);
+    int n = 0, joint;
+    p[n++] = up ? fw_v(low_start, at - half) : fw_v(at - half, low_start);
+    if (widen > 0.0) {
+        p[n++] = fw_add(fw_window_point(l, side, at - half, stub_m), stub_m + 2.0 * widen, inward);
+        p[n++] = fw_add(low, stub_m, inward);
+    }
+    joint = n;
+    p[n++] = low;
+    p[n++] = high;
+    if (widen > 0.0) {
+        p[n++] = fw_add(high, stub_m, inward);
+        p[n++] = fw_add(fw_window_point(l, side, at + half, stub_m), stub_m + 2.0 * widen, inward);
+    }
+    p[n++] = up ? fw_v(high_start, at + half) : fw_v(at + half, high_start);
+    const fw_local world = {{0.0, 0.0}, 1.0, 0.0, false};
+    return fw_layout_polygon(d->arena, &world, p, n, joint, &out->finger);
+}
+
+/* ---- window ---- */
+
+static void enclose(fw_box *box, fw_box other) {
+    box->x0 = fmin(box->x0, other.x0);
+    box->y0 = fmin(box->y0, other.y0);
+    box->x1 = fmax(box->x1, other.x1);
+    box->y1 = fmax(box->y1, other.y1);
+}
+
+static fw_status one_axis(fw_drawing *d, double low, double high, double die, const char *name,
+                          double frame, double lane, double clearance, double *w0, double *w1) {
+    double rim = frame + lane;
+    if (isnan(die)) {
+        *w0 = fw_layout_to_grid(low - clearance);
+        *w1 = fw_layout_to_grid(high + clearance);
+        return FW_OK;
+    }
+    double half = 0.5 * die - rim, need = high - low + 2.0 * fmin(clearance, 60e-6) + 2.0 * rim;
+    if (die < need) {
+        char a[32], b[32];
+        fw_diag_error(d->diags, 124, (fw_place){d->device->file, 0, 0},
+                      "die %s is %s um, but the drawn mechanism with frame, lane and 60 um of "
+                      "clearance needs %s um; enlarge the die or leave %s out",
+                      name, fw_layout_um(a, die), fw_layout_um(b, need), name);
+        return FW_GEOMETRY;
+    }
+    double middle = fw_layout_to_grid(0.5 * (low + high));
+    *w0 = fw_layout_to_grid(middle - half);
+    *w1 = fw_layout_to_grid(middle + half);
+    return FW_OK;
+}
+
+/* around all moving bodies and all hinges; from the die's size where it is given */
+fw_status fw_window_choose(fw_drawing *d) {
+    const fw_device *device = d->device;
+    const fw_die *die = &device->die;
+    fw_layout *l = d->layout;
+    fw_box box = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (int b = 0; b < device->nbody; b++)
+        enclose(&box, fw_contour_box(&d->plain[b]));
+    for (int j = 0; j < device->njoint; j++) {
+        const fw_hinge_layout *h = &l->hinge[j];
+        double q = h->keep_out_m;
+        enclose(&box, (fw_box){h->centre.x - q, h->centre.y - q, h->centre.x + q, h->centre.y + q});
+    }
+    double frame = fw_layout_to_grid(isnan(die->frame_m) ? FW_FRAME_M : die->frame_m);
+    double lane = fw_layout_to_grid(isnan(die->lane_m) ? FW_LANE_M : die->lane_m);
+    double clearance = isnan(die->clearance_m) ? FW_CLEARANCE_M : die->clearance_m,
+           rim = frame + lane;
+    fw_status x = one_axis(d, box.x0, box.x1, die->width_m, "width", frame, lane, clearance,
+                           &l->window.x0, &l->window.x1);
+    fw_status y = one_axis(d, box.y0, box.y1, die->height_m, "height", frame, lane, clearance,
+                           &l->window.y0, &l->window.y1);
+    FW_TRY(x);
+    FW_TRY(y);
+    l->die = (fw_box){fw_layout_to_grid(l->window.x0 - rim), fw_layout_to_grid(l->window.y0 - rim),
+                      fw_layout_to_grid(l->window.x1 + rim), fw_layout_to_grid(l->window.y1 + rim)};
+    d->lane_m = lane;
+    return FW_OK;
+}
+
+/* ---- frame ---- */
+
+/* the inner edge along one side, from `from` (already there) to `to`, with its stubs */
+static void walk_side(const fw_drawing *d, fw_outline *o, fw_window_side side, double from,
+                      double to) {
+    double at = from, sign = to > from ? 1.0 : -1.0;
+    for (;;) {
+        const fw_attachment *next = NULL;
+        for (int i = 0; i < d->nattachment; i++) {
+            const fw_attachment *a = &d->attachment[i];
+            double ahead = sign * (a->low_m - at);
+            if (a->side != side || ahead <= 0.0 || sign * (a->low_m - to) >= 0.0) continue;
+            if (!next || ahead < sign * (next->low_m - at)) next = a;
+        }
+        if (!next) break;
+        double first = sign > 0.0 ? next->low_m : next->high_m;
+        double last = sign > 0.0 ? next->high_m : next->low_m;
+        fw_outline_line(o, fw_window_point(d->layout, side, first, 0.0), 0);
+        fw_outline_line(o, fw_window_point(d->layout, side, first, next->stub_m), 0);
+        fw_outline_line(o, fw_window_point(d->layout, side, last, next->stub_m), FW_SEGMENT_JOINT);
+        fw_outline_line(o, fw_window_point(d->layout, side, last, 0.0), 0);
+        at = next->low_m;
+    }
+    fw_outline_line(o, fw_window_point(d->layout, side, to, 0.0), 0);
+}
+
+/* the cut across an upright bar: as near to the middle as the stubs leave 80 um */
+static double cut_height(const fw_drawing *d, fw_window_side side) {
+    const fw_box *w = &d->layout->window;
+    double middle = fw_layout_to_grid(0.5 * (w->y0 + w->y1));
+    for (int step = 0; step < 200; step++)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            double y = middle + sign * step * 20e-6;
+            bool clear = y > w->y0 + 80e-6 && y < w->y1 - 80e-6;
+            for (int i = 0; i < d->nattachment && clear; i++)
+                if (d->attachment[i].side == side && y > d->attachment[i].low_m - 80e-6 &&
+                    y < d->attachment[i].high_m + 80e-6)
+                    clear = false;
+            if (clear) return fw_layout_to_grid(y);
+        }
+    return middle;
+}
+
+fw_status fw_frame_draw(fw_drawing *d) {
+    const fw_box w = d->layout->window, die = d->layout->die;
+    double lane = d->lane_m, yl = cut_height(d, FW_LEFT), yr = cut_height(d, FW_RIGHT);
+    fw_box out = {fw_layout_to_grid(die.x0 + lane), fw_layout_to_grid(die.y0 + lane),
+                  fw_layout_to_grid(die.x1 - lane), fw_layout_to_grid(die.y1 - lane)};
+    for (int half = 0; half < 2; half++) { /* lower, then upper; both counter-clockwise */
+        bool low = half == 0;
+        fw_window_side first = low ? FW_RIGHT : FW_LEFT, then = low ? FW_BOTTOM : FW_TOP;
+        fw_window_side last = low ? FW_LEFT : FW_RIGHT;
+        double ya = low ? yl : yr, yb = low ? yr : yl, y0 = low ? out.y0 : out.y1;
+        double xa = low ? out.x0 : out.x1, xb = low ? out.x1 : out.x0, end = low ? w.y0 : w.y1;
+        fw_outline o = fw_outline_start(d->arena, fw_v(xa, ya));
+        fw_outline_line(&o, fw_v(xa, y0), 0);
+        fw_outline_line(&o, fw_v(xb, y0), 0);
+        fw_outline_line(&o, fw_v(xb, yb), 0);
+        fw_outline_line(&o, fw_v(low ? w.x1 : w.x0, yb), FW_SEGMENT_JOINT);
+        walk_side(d, &o, first, yb, end);
+        walk_side(d, &o, then, low ? w.x1 : w.x0, low ? w.x0 : w.x1);
+        walk_side(d, &o, last, end, ya);
+        fw_outline_line(&o, fw_v(xa, ya), FW_SEGMENT_JOINT);
+        fw_contour raw, round;
+        fw_vec2 where;
+        FW_TRY(fw_outline_close(&o, &raw));
+        FW_TRY(fw_contour_round(d->arena, &raw, 0.0, FW_CORNER_M, &round, &where));
+        FW_TRY(fw_drawing_add(d, FW_ROLE_FRAME, FW_GROUND, FW_NONE,
+                              low ? "frame, lower half" : "frame, upper half", &round));
+    }
+    return FW_OK;
+}

@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is drawn: exact outlines of every body, flexure, conjugate surface, frame, tether and mark.
+
+   Pieces never overlap. Where a flexure meets a body both share one straight edge (a JOINT segment)
+   bit for bit, so that the union of all pieces is the device and no boolean is ever needed on the
+   mask. Each body's own pieces give its area, centroid and second moment. */
+#ifndef FW_LAYOUT_LAYOUT_H
+#define FW_LAYOUT_LAYOUT_H
+#include "device/device.h"
+#include "geometry/contour.h"
+
+typedef enum fw_role {                    /* what a piece is; masks/ maps roles to layers */
+                       FW_ROLE_STRUCTURE, /* links, platform, base: what is left standing */
+                       FW_ROLE_FLEXURE,   /* thin parts; the same material as the structure */
+                       FW_ROLE_FRAME,     /* die frame */
+                       FW_ROLE_TETHER,    /* broken before use */
+                       FW_ROLE_TEXT,      /* title and parameters, polygons */
+                       FW_ROLE_MARK,      /* alignment marks */
+                       FW_ROLE_DICING,    /* lane */
+                       FW_ROLE_COUNT
+} fw_role;
+
+typedef struct fw_piece {
+    fw_role role;
+    int body;          /* index, FW_GROUND, or FW_NONE - 1 for marks and text */
+    int joint;         /* of a flexure piece, else FW_NONE */
+    const char *label; /* for messages: "link AB", "flexure of hinge C" */
+    fw_contour contour;
+} fw_piece;
+
+typedef struct fw_hinge_layout { /* per joint */
+    bool drawn;
+    fw_vec2 centre;          /* W = the hinge point, world */
+    fw_vec2 arc_centre;      /* O, world */
+    double axis_rad;         /* direction O -> W, world */
+    int lower, upper;        /* body at the root of polar angle -a and +a */
+    double fillet_m;         /* as drawn */
+    double surface_radius_m; /* convex conjugate surface, about W; 0 = none */
+    double gap_m;
+    double keep_out_m; /* radius about W that belongs to this hinge */
+    double free_rad;   /* rotation until solid parts of the two bodies touch, either way */
+    int convex;        /* body with the convex surface: the one farther from the ground */
+    double facing_rad; /* sector about W in which the surfaces face each other */
+} fw_hinge_layout;
+
+typedef struct fw_body_layout { /* per body; area 0 when it is not drawn */
+    double area_m2, perimeter_m;
+    fw_vec2 centroid; /* world, drawn position */
+    double polar_m4;  /* second moment about the centroid */
+} fw_body_layout;
+
+typedef struct fw_layout {
+    bool drawn; /* false: the mechanism has no shapes; `why_not` says what is missing */
+    const char *why_not;
+    fw_piece *piece; /* (npiece) */
+    int npiece;
+    fw_hinge_layout *hinge; /* (device->njoint) */
+    fw_body_layout *body;   /* (device->nbody) */
+    fw_box die;             /* outline of the chip with its lane */
+    fw_box window;          /* inner edge of the frame */
+    double narrowest_gap_m; /* least distance between pieces that move apart */
+} fw_layout;
+
+/* FW_GEOMETRY when the parts cannot be drawn: diagnostics name both places. */
+fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *diags,
+                          const fw_layout **layout);
+
+#endif

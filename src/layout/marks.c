@@ -1,0 +1,262 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "layout/text.h"
+#include <math.h>
+#include <string.h>
+
+static const double UM = 1e-6;
+static const double MARGIN_M = 10e-6;      /* to the window and to the lane */
+static const double LEAST_STROKE_M = 5e-6; /* 4 um rule of contact lithography, and a reserve */
+static const double LARGEST_STROKE_M = 12e-6;
+static const double DEFAULT_LANE_M = 100e-6;
+enum { MOST_LINES = 2 };
+
+typedef struct sheet { /* where marks and text go */
+    fw_arena *arena;
+    fw_piece **piece;
+    int *npiece, *capacity;
+    fw_box window, die;
+    double lane;
+} sheet;
+
+static fw_status add_points(const sheet *s, const fw_vec2 *p, int n, bool reverse, fw_piece item) {
+    fw_outline outline = {0};
+    for (int i = 0; i < n; i++) {
+        fw_vec2 at = p[reverse ? n - 1 - i : i];
+        at = (fw_vec2){fw_layout_to_grid(at.x), fw_layout_to_grid(at.y)};
+        if (i == 0)
+            outline = fw_outline_start(s->arena, at);
+        else
+            fw_outline_line(&outline, at, 0);
+    }
+    FW_TRY(fw_outline_close(&outline, &item.contour));
+    return fw_layout_add(s->arena, item, s->piece, s->npiece, s->capacity);
+}
+
+/* four equal arms, each coarse near the centre (half width w, length a) and fine at the tip (f, b):
+   the coarse part is found by eye, the fine one is lined up */
+static fw_status add_cross(const sheet *s, fw_vec2 centre, double w, double a, double f, double b) {
+    const fw_vec2 arm[] = {{w, -w}, {a, -w}, {a, -f}, {b, -f}, {b, f}, {a, f}, {a, w}};
+    enum { PER_ARM = sizeof arm / sizeof arm[0] };
+    fw_vec2 p[4 * PER_ARM];
+    for (int k = 0; k < 4; k++)
+        for (int i = 0; i < PER_ARM; i++) {
+            fw_vec2 v = arm[i];
+            for (int turn = 0; turn < k; turn++)
+                v = (fw_vec2){-v.y, v.x};
+            p[k * PER_ARM + i] = (fw_vec2){centre.x + v.x, centre.y + v.y};
+        }
+    fw_piece item = {FW_ROLE_MARK, FW_NONE - 1, FW_NONE, "alignment cross", {0}};
+    return add_points(s, p, 4 * PER_ARM, false, item);
+}
+
+/* L whose outer corner is at `at` and whose arms point along (sx, sy) */
+static fw_status add_bracket(const sheet *s, fw_vec2 at, int sx, int sy, double width, double arm) {
+    const fw_vec2 local[] = {{0, 0},         {arm, 0},     {arm, width},
+                             {width, width}, {width, arm}, {0, arm}};
+    enum { CORNERS = sizeof local / sizeof local[0] };
+    fw_vec2 p[CORNERS];
+    for (int i = 0; i < CORNERS; i++)
+        p[i] = (fw_vec2){at.x + sx * local[i].x, at.y + sy * local[i].y};
+    fw_piece item = {FW_ROLE_MARK, FW_NONE - 1, FW_NONE, "corner bracket", {0}};
+    return add_points(s, p, CORNERS, sx * sy < 0, item);
+}
+
+static double narrowest_bar(const fw_box *window, const fw_box *die) {
+    return fmin(fmin(window->x0 - die->x0, die->x1 - window->x1),
+                fmin(window->y0 - die->y0, die->y1 - window->y1));
+}
+
+/* in the square of each corner: bracket outside, cross inside; all in units of 1/13 of the square
+ */
+static fw_status add_marks(const sheet *s) {
+    double side = narrowest_bar(&s->window, &s->die) - s->lane - 2 * MARGIN_M;
+    if (side < 60 * UM) return FW_OK;
+    double q = fmin(fw_layout_to_grid(side / 13), 20 * UM);
+    double inset = s->lane + MARGIN_M;
+    double fine = fmax(0.3 * q, 0.5 * LEAST_STROKE_M);
+    for (int k = 0; k < 4; k++) {
+        int sx = k % 2 ? -1 : 1, sy = k / 2 ? -1 : 1;
+        fw_vec2 corner = {sx > 0 ? s->die.x0 + inset : s->die.x1 - inset,
+                          sy > 0 ? s->die.y0 + inset : s->die.y1 - inset};
+        fw_vec2 centre = {corner.x + sx * 7.5 * q, corner.y + sy * 7.5 * q};
+        FW_TRY(add_bracket(s, corner, sx, sy, q, 6 * q));
+        FW_TRY(add_cross(s, centre, q, 3 * q, fine, 5 * q));
+    }
+    return FW_OK;
+}
+
+/* the lane along one side; the two shorter ones end at the two longer ones, on shared edges */
+static fw_status add_lane_side(const sheet *s, fw_box b, bool joined_at_ends, bool flip) {
+    fw_outline o = {0};
+    if (joined_at_ends) { /* bottom or top: its left and right edges are joints */
+        o = fw_outline_start(s->arena, (fw_vec2){b.x0, b.y0});
+        fw_outline_line(&o, (fw_vec2){b.x1, b.y0}, 0);
+        fw_outline_line(&o, (fw_vec2){b.x1, b.y1}, FW_SEGMENT_JOINT);
+        fw_outline_line(&o, (fw_vec2){b.x0, b.y1}, 0);
+        fw_outline_line(&o, (fw_vec2){b.x0, b.y0}, FW_SEGMENT_JOINT);
+    } else if (!flip) { /* left: joints at the ends of its right edge */
+        o = fw_outline_start(s->arena, (fw_vec2){b.x0, b.y0});
+        fw_outline_line(&o, (fw_vec2){b.x1, b.y0}, 0);
+        fw_outline_line(&o, (fw_vec2){b.x1, s->die.y0 + s->lane}, FW_SEGMENT_JOINT);
+        fw_outline_line(&o, (fw_vec2){b.x1, s->die.y1 - s->lane}, 0);
+        fw_outline_line(&o, (fw_vec2){b.x1, b.y1}, FW_SEGMENT_JOINT);
+        fw_outline_line(&o, (fw_vec2){b.x0, b.y1}, 0);
+    } else { /* right: joints at the ends of its left edge */
+        o = fw_outline_start(s->arena, (fw_vec2){b.x1, b.y1});
+        fw_outline_line(&o, (fw_vec2){b.x0, b.y1}, 0);
+        fw_outline_line(&o, (fw_vec2){b.x0, s->die.y1 - s->lane}, FW_SEGMENT_JOINT);
+        fw_outline_line(&o, (fw_vec2){b.x0, s->die.y0 + s->lane}, 0);
+        fw_outline_line(&o, (fw_vec2){b.x0, b.y0}, FW_SEGMENT_JOINT);
+        fw_outline_line(&o, (fw_vec2){b.x1, b.y0}, 0);
+    }
+    fw_piece item = {FW_ROLE_DICING, FW_NONE - 1, FW_NONE, "dicing lane", {0}};
+    FW_TRY(fw_outline_close(&o, &item.contour));
+    return fw_layout_add(s->arena, item, s->piece, s->npiece, s->capacity);
+}
+
+static fw_status add_lane(const sheet *s) {
+    const fw_box d = s->die;
+    double w = s->lane;
+    if (!(w > 0)) return FW_OK;
+    FW_TRY(add_lane_side(s, (fw_box){d.x0, d.y0, d.x0 + w, d.y1}, false, false));
+    FW_TRY(add_lane_side(s, (fw_box){d.x1 - w, d.y0, d.x1, d.y1}, false, true));
+    FW_TRY(add_lane_side(s, (fw_box){d.x0 + w, d.y0, d.x1 - w, d.y0 + w}, true, false));
+    return add_lane_side(s, (fw_box){d.x0 + w, d.y1 - w, d.x1 - w, d.y1}, true, false);
+}
+
+/* ---- text ---- */
+static double width_of(const char *string, double stroke) {
+    return fw_layout_text_width(string, 7 * stroke, stroke);
+}
+
+static fw_status add_text(const sheet *s, const char *string, double x, double y, double stroke,
+                          const char *label) {
+    return fw_layout_text(s->arena, string, (fw_vec2){x, y}, 7 * stroke, stroke, FW_ROLE_TEXT,
+                          label, s->piece, s->npiece, s->capacity);
+}
+
+/* title left and version right in the lower bar; the version goes first when both do not fit */
+static fw_status add_title(const sheet *s, const char *title) {
+    double length = s->window.x1 - s->window.x0;
+    double y0 = s->die.y0 + s->lane + MARGIN_M, band = s->window.y0 - MARGIN_M - y0;
+    const char *version = "FLEXWRIGHT " FW_VERSION;
+    double stroke = LARGEST_STROKE_M;
+    while (stroke > LEAST_STROKE_M &&
+           (7 * stroke > band ||
+            width_of(title, stroke) + width_of(version, stroke) + 12 * stroke > length))
+        stroke -= UM;
+    if (7 * stroke > band) return FW_OK;
+    char *shown = fw_arena_strdup(s->arena, title);
+    FW_NEED(shown);
+    for (size_t n = strlen(shown); n > 0 && width_of(shown, stroke) > length; n--) {
+        shown[n - 1] = '\0';
+        if (n > 1) shown[n - 2] = '+';
+    }
+    double y = y0 + 0.5 * (band - 7 * stroke);
+    FW_TRY(add_text(s, shown, s->window.x0, y, stroke, "title"));
+    double width = width_of(version, stroke);
+    if (width_of(shown, stroke) + width + 12 * stroke > length) return FW_OK;
+    return add_text(s, version, s->window.x1 - width, y, stroke, "version");
+}
+
+typedef struct items {
+    const char **text;
+    int count;
+} items;
+
+static fw_status add_item(fw_arena *arena, items *list, const char *name, const char *flow,
+                          double value, const char *unit) {
+    fw_unit u = {.factor = 1};
+    if (!unit || !*unit || !fw_unit_parse(unit, strlen(unit), &u, NULL, NULL)) unit = "";
+    char number[64];
+    fw_number_text(number, sizeof number, (value - u.offset) / u.factor, 6);
+    const char *text =
+        fw_arena_printf(arena, "%s%s%s%s=%s%s%s", name, flow ? "(" : "", flow ? flow : "",
+                        flow ? ")" : "", number, *unit ? " " : "", unit);
+    FW_NEED(text);
+    list->text[list->count++] = text;
+    return FW_OK;
+}
+
+/* the thickness may differ from flow to flow; then it is told for each */
+static fw_status list_parameters(fw_arena *arena, const fw_device *device, items *list) {
+    size_t most = (size_t)device->nparameter + (size_t)device->nflow + 1;
+    FW_NEED(list->text = fw_arena_array(arena, const char *, most));
+    for (int i = 0; i < device->nparameter; i++) {
+        const fw_parameter *p = &device->parameter[i];
+        FW_TRY(add_item(arena, list, p->name, NULL, p->value, p->unit));
+    }
+    bool differs = false;
+    for (int i = 0; i < device->nflow; i++)
+        differs = differs || isfinite(device->flow[i].thickness_m);
+    if (!differs && isfinite(device->thickness_m))
+        return add_item(arena, list, "thickness", NULL, device->thickness_m, "um");
+    for (int i = 0; i < device->nflow; i++) {
+        const fw_flow_use *flow = &device->flow[i];
+        double h = isfinite(flow->thickness_m) ? flow->thickness_m : device->thickness_m;
+        if (isfinite(h)) FW_TRY(add_item(arena, list, "thickness", flow->ref, h, "um"));
+    }
+    return FW_OK;
+}
+
+/* fills lines with whole items; returns how many were placed */
+static fw_status compose(fw_arena *arena, const items *list, int nline, double stroke,
+                         double length, const char **line, int *placed) {
+    int next = 0;
+    for (int k = 0; k < nline; k++) {
+        line[k] = "";
+        while (next < list->count) {
+            const char *tried =
+                fw_arena_printf(arena, "%s%s%s", line[k], *line[k] ? "  " : "", list->text[next]);
+            FW_NEED(tried);
+            bool last = k == nline - 1 && next < list->count - 1; /* room for the '+' */
+            if (width_of(tried, stroke) + (last ? 12 * stroke : 0) > length) break;
+            line[k] = tried;
+            next++;
+        }
+    }
+    *placed = next;
+    if (next < list->count && nline > 0) {
+        FW_NEED(line[nline - 1] = fw_arena_printf(arena, "%s +", line[nline - 1]));
+    }
+    return FW_OK;
+}
+
+/* in the upper bar: the largest stroke with which everything fits on one line, else on two */
+static fw_status add_parameters(const sheet *s, const fw_device *device) {
+    items list = {0};
+    FW_TRY(list_parameters(s->arena, device, &list));
+    double length = s->window.x1 - s->window.x0;
+    double y0 = s->window.y1 + MARGIN_M, band = s->die.y1 - s->lane - MARGIN_M - y0;
+    const char *line[MOST_LINES] = {0};
+    int nline = 0, placed = -1;
+    double stroke = LARGEST_STROKE_M, used = 0;
+    for (; stroke > LEAST_STROKE_M - 0.5 * UM; stroke -= UM) {
+        for (int k = 1; k <= MOST_LINES && placed < list.count; k++) {
+            if ((11 * k - 4) * stroke > band || list.count == 0) break;
+            FW_TRY(compose(s->arena, &list, k, stroke, length, line, &placed));
+            nline = k;
+            used = stroke;
+        }
+        if (placed == list.count) break;
+    }
+    double height = (11 * nline - 4) * used;
+    for (int k = 0; k < nline; k++) {
+        double y = y0 + 0.5 * (band - height) + (nline - 1 - k) * 11 * used;
+        FW_TRY(add_text(s, line[k], s->window.x0, y, used, "parameter text"));
+    }
+    return FW_OK;
+}
+
+fw_status fw_layout_annotate(fw_arena *arena, const fw_device *device, fw_box window, fw_box die,
+                             fw_piece **piece, int *npiece, int *capacity) {
+    sheet s = {arena, piece, npiece, capacity, window, die, device->die.lane_m};
+    double bar = narrowest_bar(&window, &die);
+    if (isnan(s.lane)) s.lane = fmin(DEFAULT_LANE_M, 0.4 * bar);
+    bool inside = window.x0 < window.x1 && window.y0 < window.y1 && bar >= 0 && bar < 1;
+    if (!inside || !(s.lane >= 0 && s.lane <= bar)) return FW_GEOMETRY;
+    FW_TRY(add_lane(&s));
+    FW_TRY(add_marks(&s));
+    FW_TRY(add_title(&s, device->die.title ? device->die.title : device->name));
+    return add_parameters(&s, device);
+}

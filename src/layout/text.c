@@ -1,0 +1,218 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "layout/text.h"
+#include <math.h>
+#include <string.h>
+
+enum { ROWS = 7, WIDEST = 7, MOST_CORNERS = 2 * (ROWS + 1) * (WIDEST + 1) };
+
+typedef struct glyph {
+    char letter;
+    const char *row[ROWS]; /* from the top; 'X' is drawn; all rows equally long */
+} glyph;
+
+/* test_layout_text.c proves for each: no hole, no two cells that touch at a corner only */
+static const glyph font[] = {
+    {'A', {"XXXXX", "X...X", "X...X", "XXX.X", "X...X", "X...X", "X...X"}},
+    {'B', {"XXXXX", "X...X", "X...X", "X.XXX", "X...X", "X...X", "X.XXX"}},
+    {'C', {"XXXXX", "X....", "X....", "X....", "X....", "X....", "XXXXX"}},
+    {'D', {"XXXX.", "X..XX", "X...X", "X...X", "X...X", "X..XX", "X.XX."}},
+    {'E', {"XXXXX", "X....", "X....", "XXXX.", "X....", "X....", "XXXXX"}},
+    {'F', {"XXXXX", "X....", "X....", "XXXX.", "X....", "X....", "X...."}},
+    {'G', {"XXXXX", "X....", "X....", "X.XXX", "X...X", "X...X", "XXXXX"}},
+    {'H', {"X...X", "X...X", "X...X", "XXXXX", "X...X", "X...X", "X...X"}},
+    {'I', {"XXX", ".X.", ".X.", ".X.", ".X.", ".X.", "XXX"}},
+    {'J', {"....X", "....X", "....X", "....X", "X...X", "X...X", "XXXXX"}},
+    {'K', {"X...X", "X..XX", "X.XX.", "XXX..", "X.XX.", "X..XX", "X...X"}},
+    {'L', {"X....", "X....", "X....", "X....", "X....", "X....", "XXXXX"}},
+    {'M', {"X.....X", "XX...XX", "XXX.XXX", "X.XXX.X", "X..X..X", "X.....X", "X.....X"}},
+    {'N', {"X.....X", "XX....X", "XXX...X", "X.XXX.X", "X...XXX", "X....XX", "X.....X"}},
+    {'O', {".XXX.", "XX.XX", "X...X", "X...X", "X...X", "XX.XX", ".X.X."}},
+    {'P', {"XXXXX", "X...X", "X...X", "X.XXX", "X....", "X....", "X...."}},
+    {'Q', {".XXXXX.", "XX...XX", "X.....X", "X.....X", "X..X..X", "XX.X.XX", ".X.XXX."}},
+    {'R', {"XXXXX", "X...X", "X...X", "X.XXX", "X..X.", "X..XX", "X...X"}},
+    {'S', {".XXXX", "XX...", "XX...", ".XXX.", "...XX", "...XX", "XXXX."}},
+    {'T', {"XXXXX", "..X..", "..X..", "..X..", "..X..", "..X..", "..X.."}},
+    {'U', {"X...X", "X...X", "X...X", "X...X", "X...X", "X...X", "XXXXX"}},
+    {'V', {"X...X", "X...X", "X...X", "XX.XX", ".X.X.", ".XXX.", "..X.."}},
+    {'W', {"X.....X", "X.....X", "X..X..X", "X..X..X", "X.XXX.X", "XXX.XXX", ".X...X."}},
+    {'X', {"X...X", "XX.XX", ".X.X.", ".XXX.", ".X.X.", "XX.XX", "X...X"}},
+    {'Y', {"X...X", "X...X", "XX.XX", ".XXX.", "..X..", "..X..", "..X.."}},
+    {'Z', {"XXXXX", "...XX", "..XX.", ".XX..", "XX...", "X....", "XXXXX"}},
+    {'0', {"XXXXX", "X...X", "X...X", "X...X", "X...X", "X...X", "XXX.X"}},
+    {'1', {".X.", "XX.", ".X.", ".X.", ".X.", ".X.", "XXX"}},
+    {'2', {"XXXXX", "....X", "....X", "XXXXX", "X....", "X....", "XXXXX"}},
+    {'3', {"XXXXX", "....X", "....X", ".XXXX", "....X", "....X", "XXXXX"}},
+    {'4', {"X...X", "X...X", "X...X", "XXXXX", "....X", "....X", "....X"}},
+    {'5', {"XXXXX", "X....", "X....", "XXXXX", "....X", "....X", "XXXXX"}},
+    {'6', {"XXXXX", "X....", "X....", "XXXXX", "X...X", "X...X", "XXX.X"}},
+    {'7', {"XXXXX", "....X", "...XX", "...X.", "..XX.", "..X..", "..X.."}},
+    {'8', {"XXXXX", "X...X", "X...X", "XX.XX", "X...X", "X...X", "XXX.X"}},
+    {'9', {"X.XXX", "X...X", "X...X", "XXXXX", "....X", "....X", "XXXXX"}},
+    {' ', {"...", "...", "...", "...", "...", "...", "..."}},
+    {'.', {".", ".", ".", ".", ".", ".", "X"}},
+    {',', {"..", "..", "..", "..", "..", ".X", "XX"}},
+    {'-', {"...", "...", "...", "XXX", "...", "...", "..."}},
+    {'+', {".....", "..X..", "..X..", "XXXXX", "..X..", "..X..", "....."}},
+    {'=', {"....", "....", "XXXX", "....", "XXXX", "....", "...."}},
+    {'/', {"....X", "...XX", "...X.", "..XX.", ".XX..", ".X...", "XX..."}},
+    {'_', {".....", ".....", ".....", ".....", ".....", ".....", "XXXXX"}},
+    {'(', {".XX", "XX.", "X..", "X..", "X..", "XX.", ".XX"}},
+    {')', {"XX.", ".XX", "..X", "..X", "..X", ".XX", "XX."}},
+    {':', {".", ".", "X", ".", ".", "X", "."}},
+    {'%', {"XX....X", "XX...XX", "....XX.", "...XX..", "..XX...", ".XX..XX", "XX...XX"}},
+    {'#', {".X.X.", ".X.X.", "XXXXX", ".X.X.", "XX.XX", ".X.X.", ".X.X."}},
+    {'*', {".....", "..X..", "X.X.X", "XXXXX", "X.X.X", "..X..", "....."}},
+};
+
+static const glyph *find(unsigned char c) {
+    char letter = (char)(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
+    const glyph *other = NULL;
+    for (size_t i = 0; i < sizeof font / sizeof font[0]; i++) {
+        if (font[i].letter == letter) return &font[i];
+        if (font[i].letter == '*') other = &font[i];
+    }
+    return other;
+}
+
+/* one UTF-8 character counts once */
+static bool continues(unsigned char c) {
+    return (c & 0xc0) == 0x80;
+}
+
+double fw_layout_to_grid(double x_m) {
+    return nearbyint(x_m * 1e9) / 1e9;
+}
+
+typedef struct pitch {
+    double stroke, gap; /* m, multiples of 1 nm: even and odd columns */
+} pitch;
+
+static bool sizes(double height_m, double stroke_m, pitch *p) {
+    if (!(stroke_m >= 1e-9 && height_m <= 1.0 && height_m >= 7 * stroke_m * (1 - 1e-12)))
+        return false;
+    p->stroke = fw_layout_to_grid(stroke_m);
+    p->gap = fmax(p->stroke, floor((height_m - 4 * p->stroke) / 3 * 1e9 + 1e-6) / 1e9);
+    return true;
+}
+
+/* distance of grid line k from the first, strokes and gaps in turn */
+static double line_at(const pitch *p, size_t k) {
+    return (double)((k + 1) / 2) * p->stroke + (double)(k / 2) * p->gap;
+}
+
+double fw_layout_text_width(const char *string, double height_m, double stroke_m) {
+    pitch p;
+    if (!sizes(height_m, stroke_m, &p)) return 0;
+    double width = 0;
+    for (const unsigned char *s = (const unsigned char *)string; *s; s++)
+        if (!continues(*s)) width += line_at(&p, strlen(find(*s)->row[0])) + p.gap;
+    return width > 0 ? width - p.gap : 0;
+}
+
+fw_status fw_layout_add(fw_arena *arena, fw_piece item, fw_piece **piece, int *npiece,
+                        int *capacity) {
+    if (*npiece >= *capacity) {
+        int more = *capacity > 0 ? 2 * *capacity : 64;
+        fw_piece *grown =
+            fw_arena_grow(arena, *piece, (size_t)*npiece, (size_t)more, sizeof **piece);
+        FW_NEED(grown);
+        *piece = grown;
+        *capacity = more;
+    }
+    (*piece)[(*npiece)++] = item;
+    return FW_OK;
+}
+
+/* cells of one letter, row 0 at the bottom, with an empty rim */
+typedef struct raster {
+    int width;
+    signed char cell[ROWS + 2][WIDEST + 2]; /* 0 empty, 1 drawn, 2 already outlined */
+} raster;
+
+static raster fill(const glyph *g) {
+    raster r = {.width = (int)strlen(g->row[0])};
+    for (int y = 0; y < ROWS; y++)
+        for (int x = 0; x < r.width; x++)
+            r.cell[y + 1][x + 1] = g->row[ROWS - 1 - y][x] == 'X';
+    return r;
+}
+
+/* cells reached through edges from (x, y) become 2 */
+static void flood(raster *r, int y, int x) {
+    if (r->cell[y][x] != 1) return;
+    r->cell[y][x] = 2;
+    flood(r, y - 1, x);
+    flood(r, y + 1, x);
+    flood(r, y, x - 1);
+    flood(r, y, x + 1);
+}
+
+typedef struct corner {
+    int x, y; /* grid lines */
+} corner;
+
+/* Walks round the part whose lowest, then leftmost cell is (x, y), material on the left, and keeps
+   the places where the direction changes. Four steps suffice per corner of the grid. */
+static int trace(const raster *r, int y, int x, corner *out) {
+    static const int dx[] = {1, 0, -1, 0}, dy[] = {0, 1, 0, -1};
+    /* cell ahead on the left and on the right of the grid corner, per direction */
+    static const int lx[] = {0, -1, -1, 0}, ly[] = {0, 0, -1, -1};
+    int n = 0, direction = 0, px = x, py = y;
+    do {
+        int right = (direction + 3) % 4;
+        bool ahead_right = r->cell[py + ly[right]][px + lx[right]] != 0;
+        bool ahead_left = r->cell[py + ly[direction]][px + lx[direction]] != 0;
+        int turned = ahead_right ? right : ahead_left ? direction : (direction + 1) % 4;
+        if (turned != direction || n == 0) out[n++] = (corner){px - 1, py - 1};
+        direction = turned;
+        px += dx[direction];
+        py += dy[direction];
+    } while ((px != x || py != y) && n < MOST_CORNERS);
+    return n;
+}
+
+static fw_status add_part(fw_arena *arena, const corner *c, int n, fw_vec2 origin, const pitch *p,
+                          fw_piece item, fw_piece **piece, int *npiece, int *capacity) {
+    fw_outline outline = {0};
+    for (int i = 0; i < n; i++) {
+        fw_vec2 at = {fw_layout_to_grid(origin.x + line_at(p, (size_t)c[i].x)),
+                      fw_layout_to_grid(origin.y + line_at(p, (size_t)c[i].y))};
+        if (i == 0)
+            outline = fw_outline_start(arena, at);
+        else
+            fw_outline_line(&outline, at, 0);
+    }
+    FW_TRY(fw_outline_close(&outline, &item.contour));
+    return fw_layout_add(arena, item, piece, npiece, capacity);
+}
+
+static fw_status add_letter(fw_arena *arena, const glyph *g, fw_vec2 origin, const pitch *p,
+                            fw_piece item, fw_piece **piece, int *npiece, int *capacity) {
+    raster r = fill(g);
+    for (int y = 1; y <= ROWS; y++)
+        for (int x = 1; x <= r.width; x++) {
+            if (r.cell[y][x] != 1) continue;
+            corner c[MOST_CORNERS];
+            int n = trace(&r, y, x, c);
+            FW_TRY(add_part(arena, c, n, origin, p, item, piece, npiece, capacity));
+            flood(&r, y, x);
+        }
+    return FW_OK;
+}
+
+fw_status fw_layout_text(fw_arena *arena, const char *string, fw_vec2 origin, double height_m,
+                         double stroke_m, fw_role role, const char *label, fw_piece **piece,
+                         int *npiece, int *capacity) {
+    pitch p;
+    if (!sizes(height_m, stroke_m, &p) || !(fabs(origin.x) < 1) || !(fabs(origin.y) < 1))
+        return FW_GEOMETRY;
+    fw_vec2 at = {fw_layout_to_grid(origin.x), fw_layout_to_grid(origin.y)};
+    fw_piece item = {.role = role, .body = FW_NONE - 1, .joint = FW_NONE, .label = label};
+    for (const unsigned char *s = (const unsigned char *)string; *s; s++) {
+        if (continues(*s)) continue;
+        const glyph *g = find(*s);
+        FW_TRY(add_letter(arena, g, at, &p, item, piece, npiece, capacity));
+        at.x += line_at(&p, strlen(g->row[0])) + p.gap;
+    }
+    return FW_OK;
+}

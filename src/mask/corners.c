@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "mask/rules.h"
+#include <math.h>
+
+static const double GRID_M = 1e-9;
+static const fw_place nowhere;
+
+static fw_vec2 place_of(fw_point p) {
+    return (fw_vec2){p.x_dbu * GRID_M, p.y_dbu * GRID_M};
+}
+
+static bool ends_joint(const fw_contour *c, fw_point vertex) {
+    fw_vec2 at = place_of(vertex);
+    for (int i = 0; i < c->count; i++) {
+        const fw_segment *s = &c->segment[i];
+        if (s->flags & FW_SEGMENT_JOINT && (hypot(s->a.x - at.x, s->a.y - at.y) < GRID_M ||
+                                            hypot(s->b.x - at.x, s->b.y - at.y) < GRID_M))
+            return true;
+    }
+    return false;
+}
+
+/* cosine of the angle between the two edges at vertex i; exact sign: |coordinates| < 2^30 */
+static double cosine(const fw_polygon *p, int i) {
+    fw_point v = p->vertex[i], a = p->vertex[(i + p->count - 1) % p->count];
+    fw_point b = p->vertex[(i + 1) % p->count];
+    int64_t ax = (int64_t)a.x_dbu - v.x_dbu, ay = (int64_t)a.y_dbu - v.y_dbu;
+    int64_t bx = (int64_t)b.x_dbu - v.x_dbu, by = (int64_t)b.y_dbu - v.y_dbu;
+    int64_t dot = ax * bx + ay * by;
+    if (dot <= 0) return 0;
+    return (double)dot / (hypot((double)ax, (double)ay) * hypot((double)bx, (double)by));
+}
+
+void fw_mask_check_corners(const fw_mask_shape *shape, int nshape, fw_diags *diags) {
+    for (int k = 0; k < nshape; k++) {
+        const fw_polygon *p = &shape[k].polygon;
+        int count = 0, worst = 0;
+        double most = 0;
+        for (int i = 0; i < p->count; i++) {
+            double c = cosine(p, i);
+            if (c <= 0 || ends_joint(&shape[k].contour, p->vertex[i])) continue;
+            count++;
+            if (c > most) {
+                most = c;
+                worst = i;
+            }
+        }
+        if (count == 0) continue;
+        char at[80], degrees[32];
+        fw_diag_warning(diags, 153, nowhere,
+                        "%s has %d corner(s) below 90 degrees on the grid, the sharpest %s at %s; "
+                        "width checks report them; round the corner",
+                        shape[k].piece->label, count,
+                        fw_number_text(degrees, sizeof degrees, acos(most) * 180 / acos(-1.0), 8),
+                        fw_mask_place_text(at, sizeof at, place_of(p->vertex[worst])));
+    }
+}

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "mask/rules.h"
+#include <math.h>
+#include <stdio.h>
+
+static const double SAME_M = 1e-12;
+static const double GRID_M = 1e-9;
+static const fw_place nowhere;
+
+const char *fw_mask_place_text(char *text, size_t n, fw_vec2 at) {
+    char x[32], y[32];
+    snprintf(text, n, "(%s, %s) um", fw_number_text(x, sizeof x, at.x * 1e6, 7),
+             fw_number_text(y, sizeof y, at.y * 1e6, 7));
+    return text;
+}
+
+typedef struct joint {  /* one JOINT segment of one shape */
+    int shape, segment; /* segment of the biased contour */
+    fw_vec2 a, b;       /* drawn ends */
+    int partner;        /* -1: none yet */
+} joint;
+
+static int next_joint(const fw_contour *c, int from) {
+    for (int i = from; i < c->count; i++)
+        if (c->segment[i].flags & FW_SEGMENT_JOINT) return i;
+    return -1;
+}
+
+/* bias keeps the JOINT segments and their order, so that the k-th drawn one is the k-th biased one
+ */
+static fw_status list_joints(fw_arena *arena, const fw_mask_shape *shape, int nshape, joint **out,
+                             int *count) {
+    int n = 0;
+    for (int s = 0; s < nshape; s++)
+        for (int i = next_joint(&shape[s].contour, 0); i >= 0;
+             i = next_joint(&shape[s].contour, i + 1))
+            n++;
+    joint *list = fw_arena_array(arena, joint, (size_t)n);
+    FW_NEED(list);
+    *count = 0;
+    for (int s = 0; s < nshape; s++) {
+        const fw_contour *drawn = &shape[s].piece->contour, *biased = &shape[s].contour;
+        int i = next_joint(drawn, 0), k = next_joint(biased, 0);
+        for (; i >= 0 && k >= 0; i = next_joint(drawn, i + 1), k = next_joint(biased, k + 1))
+            list[(*count)++] = (joint){s, k, drawn->segment[i].a, drawn->segment[i].b, -1};
+        if (i >= 0 || k >= 0) return FW_INTERNAL;
+    }
+    *out = list;
+    return FW_OK;
+}
+
+static bool same(fw_vec2 p, fw_vec2 q) {
+    return p.x == q.x && p.y == q.y;
+}
+
+static double apart(fw_vec2 p, fw_vec2 q) {
+    return hypot(p.x - q.x, p.y - q.y);
+}
+
+static void pair_up(const fw_mask_shape *shape, joint *list, int count) {
+    for (int i = 0; i < count; i++)
+        for (int j = i + 1; j < count && list[i].partner < 0; j++)
+            if (list[j].partner < 0 && shape[list[i].shape].layer == shape[list[j].shape].layer &&
+                same(list[i].a, list[j].b) && same(list[i].b, list[j].a)) {
+                list[i].partner = j;
+                list[j].partner = i;
+            }
+}
+
+static void set_start(fw_contour *c, int i, fw_vec2 at) {
+    c->segment[i].a = at;
+    c->segment[(i + c->count - 1) % c->count].b = at;
+}
+
+static void no_partner(fw_diags *diags, const fw_mask_shape *shape, const joint *j,
+                       const char *why) {
+    char at[80];
+    fw_vec2 middle = {0.5 * (j->a.x + j->b.x), 0.5 * (j->a.y + j->b.y)};
+    fw_diag_error(diags, 146, nowhere,
+                  "the joint of %s at %s %s; give both pieces the same edge and the same width "
+                  "there",
+                  shape->piece->label, fw_mask_place_text(at, sizeof at, middle), why);
+}
+
+fw_status fw_mask_join(fw_arena *arena, fw_mask_shape *shape, int nshape, fw_diags *diags) {
+    joint *list;
+    int count;
+    size_t errors = diags->errors;
+    FW_TRY(list_joints(arena, shape, nshape, &list, &count));
+    pair_up(shape, list, count);
+    for (int i = 0; i < count; i++) {
+        const joint *p = &list[i];
+        if (p->partner < 0) {
+            no_partner(diags, &shape[p->shape], p, "has no partner on its layer");
+            continue;
+        }
+        if (p->partner < i) continue;
+        const joint *q = &list[p->partner];
+        fw_contour *c = &shape[q->shape].contour;
+        const fw_segment *from = &shape[p->shape].contour.segment[p->segment];
+        fw_segment *to = &c->segment[q->segment];
+        if (!(apart(from->a, to->b) <= SAME_M && apart(from->b, to->a) <= SAME_M)) {
+            no_partner(diags, &shape[p->shape], p, "does not fit its partner after bias");
+            continue;
+        }
+        if (same(from->a, to->b) && same(from->b, to->a)) continue;
+        set_start(c, q->segment, from->b);
+        set_start(c, (q->segment + 1) % c->count, from->a);
+    }
+    if (diags->failed) return FW_NOMEM;
+    return diags->errors > errors ? FW_INPUT : FW_OK;
+}
+
+/* the polygon's edge whose ends round from a and b; false when there is none */
+static bool edge_at(const fw_polygon *polygon, fw_vec2 a, fw_vec2 b, fw_point *u, fw_point *v) {
+    for (int i = 0; i < polygon->count; i++) {
+        fw_point s = polygon->vertex[i], e = polygon->vertex[(i + 1) % polygon->count];
+        fw_vec2 ps = {s.x_dbu * GRID_M, s.y_dbu * GRID_M},
+                pe = {e.x_dbu * GRID_M, e.y_dbu * GRID_M};
+        if (apart(ps, a) < GRID_M && apart(pe, b) < GRID_M) {
+            *u = s;
+            *v = e;
+            return true;
+        }
+    }
+    return false;
+}
+
+fw_status fw_mask_check_joints(fw_arena *arena, const fw_mask_shape *shape, int nshape,
+                               fw_diags *diags) {
+    joint *list;
+    int count;
+    size_t errors = diags->errors;
+    FW_TRY(list_joints(arena, shape, nshape, &list, &count));
+    pair_up(shape, list, count);
+    for (int i = 0; i < count; i++) {
+        const joint *p = &list[i];
+        if (p->partner < i) continue;
+        const joint *q = &list[p->partner];
+        const fw_segment *s = &shape[p->shape].contour.segment[p->segment];
+        fw_point u, v, x, y;
+        bool found = edge_at(&shape[p->shape].polygon, s->a, s->b, &u, &v) &&
+                     edge_at(&shape[q->shape].polygon, s->b, s->a, &x, &y);
+        if (!found || u.x_dbu != y.x_dbu || u.y_dbu != y.y_dbu || v.x_dbu != x.x_dbu ||
+            v.y_dbu != x.y_dbu)
+            no_partner(diags, &shape[p->shape], p, "has different grid points on its two sides");
+    }
+    if (diags->failed) return FW_NOMEM;
+    return diags->errors > errors ? FW_INPUT : FW_OK;
+}

@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Exact outlines with true arcs: 1 user unit = 1 um, six decimals (1 pm). The y axis of SVG points
+   down, so y is turned round here and not by a transform that importers may lose. */
+#include "mask/mask.h"
+#include <math.h>
+
+static const double MARGIN_UM = 150, LEGEND_UM = 150, BAR_UM = 10;
+
+typedef struct page {
+    fw_text *out;
+    double x0, y1;        /* m: upper left corner of the drawing */
+    double width, height; /* um */
+} page;
+
+static void coordinate(const page *p, fw_vec2 at) {
+    fw_text_fixed(p->out, (at.x - p->x0) * 1e6, 6);
+    fw_text_add(p->out, " ");
+    fw_text_fixed(p->out, (p->y1 - at.y) * 1e6, 6);
+}
+
+/* parts of at most a third of a turn: a reader finds the centre from the end points, which fails
+   for equal points and loses half the digits near a half turn. The large-arc flag is then never
+   set. */
+static void arc(const page *p, const fw_segment *s) {
+    const double third = 2 * acos(-1.0) / 3;
+    int parts = (int)ceil(fabs(s->sweep_rad) / third - 1e-9);
+    fw_vec2 r = {s->a.x - s->centre.x, s->a.y - s->centre.y};
+    for (int i = 1; i <= parts; i++) {
+        double angle = s->sweep_rad * i / parts, c = cos(angle), n = sin(angle);
+        fw_vec2 to = {s->centre.x + r.x * c - r.y * n, s->centre.y + r.x * n + r.y * c};
+        fw_text_add(p->out, "A");
+        fw_text_fixed(p->out, s->radius * 1e6, 6);
+        fw_text_add(p->out, " ");
+        fw_text_fixed(p->out, s->radius * 1e6, 6);
+        fw_text_printf(p->out, " 0 0 %d ", s->sweep_rad < 0);
+        coordinate(p, i < parts ? to : s->b);
+    }
+}
+
+static void segment(const page *p, const fw_segment *s) {
+    if (s->kind == FW_ARC) {
+        arc(p, s);
+        return;
+    }
+    fw_text_add(p->out, "L");
+    coordinate(p, s->b);
+}
+
+static void shape(const page *p, const fw_mask_shape *s) {
+    fw_text_add(p->out, "<path d=\"M");
+    coordinate(p, s->contour.segment[0].a);
+    for (int i = 0; i < s->contour.count; i++)
+        segment(p, &s->contour.segment[i]);
+    fw_text_add(p->out, "Z\"><title>");
+    fw_text_escaped(p->out, s->piece->label);
+    fw_text_add(p->out, "</title></path>\n");
+}
+
+static void layer(const page *p, const fw_mask *mask, int k) {
+    const fw_mask_layer *y = &mask->table->layer[k];
+    fw_text_printf(p->out, "<g id=\"%s\" data-gds=\"%d/%d\" fill=\"%s\" fill-opacity=\"0.8\">",
+                   y->id, y->layer, y->datatype, y->colour);
+    fw_text_add(p->out, "<title>");
+    fw_text_escaped(p->out, y->name);
+    fw_text_add(p->out, ": ");
+    fw_text_escaped(p->out, y->purpose);
+    fw_text_printf(p->out, " (%s)</title>\n", y->tone);
+    for (int i = 0; i < mask->nshape; i++)
+        if (mask->shape[i].layer == k) shape(p, &mask->shape[i]);
+    fw_text_add(p->out, "</g>\n");
+}
+
+/* 1, 2 or 5 times a power of ten, at most a quarter of the width */
+static double bar_length(double width_um) {
+    double ten = pow(10, floor(log10(width_um / 4)));
+    double times = width_um / 4 / ten;
+    return ten * (times >= 5 ? 5 : times >= 2 ? 2 : 1);
+}
+
+static void scale_bar(const page *p, double drawn_um) {
+    double length = bar_length(drawn_um), y = p->height - LEGEND_UM;
+    fw_text_add(p->out, "<g id=\"scale\" fill=\"#000000\">\n<rect x=\"");
+    fw_text_fixed(p->out, MARGIN_UM, 6);
+    fw_text_add(p->out, "\" y=\"");
+    fw_text_fixed(p->out, y, 6);
+    fw_text_add(p->out, "\" width=\"");
+    fw_text_fixed(p->out, length, 6);
+    fw_text_add(p->out, "\" height=\"");
+    fw_text_fixed(p->out, BAR_UM, 6);
+    fw_text_add(p->out, "\"/>\n<text font-family=\"sans-serif\" font-size=\"80\" x=\"");
+    fw_text_fixed(p->out, MARGIN_UM, 6);
+    fw_text_add(p->out, "\" y=\"");
+    fw_text_fixed(p->out, y + 90, 6);
+    fw_text_add(p->out, "\">");
+    fw_text_number(p->out, length, 6);
+    fw_text_add(p->out, " um</text>\n</g>\n");
+}
+
+static void head(const page *p, const fw_mask *mask) {
+    fw_text_add(p->out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                        "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"");
+    fw_text_fixed(p->out, p->width / 1000, 9);
+    fw_text_add(p->out, "mm\" height=\"");
+    fw_text_fixed(p->out, p->height / 1000, 9);
+    fw_text_add(p->out, "mm\" viewBox=\"0 0 ");
+    fw_text_fixed(p->out, p->width, 6);
+    fw_text_add(p->out, " ");
+    fw_text_fixed(p->out, p->height, 6);
+    fw_text_add(p->out, "\">\n<title>");
+    if (mask->rejected) fw_text_add(p->out, "REJECTED: ");
+    fw_text_escaped(p->out, mask->title);
+    fw_text_add(p->out, ", ");
+    fw_text_escaped(p->out, mask->flow);
+    fw_text_add(p->out, "</title>\n<desc>1 unit = 1 um; ");
+    fw_text_escaped(p->out, mask->table->reading);
+    fw_text_add(p->out, "; bias per edge ");
+    fw_text_number(p->out, mask->bias_m * 1e6, 6);
+    fw_text_add(p->out, " um, included; flexwright " FW_VERSION "</desc>\n");
+}
+
+fw_status fw_mask_write_svg(const fw_mask *mask, fw_text *out) {
+    double width = (mask->box.x1 - mask->box.x0) * 1e6,
+           height = (mask->box.y1 - mask->box.y0) * 1e6;
+    page p = {out, mask->box.x0 - MARGIN_UM * 1e-6, mask->box.y1 + MARGIN_UM * 1e-6,
+              width + 2 * MARGIN_UM, height + 2 * MARGIN_UM + LEGEND_UM};
+    head(&p, mask);
+    for (int k = 0; k < mask->table->nlayer; k++)
+        if (mask->table->layer[k].roles) layer(&p, mask, k);
+    scale_bar(&p, width);
+    if (mask->rejected)
+        fw_text_add(out, "<text id=\"rejected\" x=\"50%\" y=\"50%\" text-anchor=\"middle\" "
+                         "font-family=\"sans-serif\" font-size=\"500\" fill=\"#c00000\" "
+                         "fill-opacity=\"0.6\">REJECTED</text>\n");
+    fw_text_add(out, "</svg>\n");
+    return fw_text_end(out);
+}

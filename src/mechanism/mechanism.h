@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The mechanism as the equations of motion see it: bodies with mass, revolute joints with springs
+   and dampers, point-to-point springs. Built from the description, the laid-out shapes (mass) and
+   the flexures (stiffness) for one variant: a material and a thickness.
+
+   Explicit masses, stiffnesses and dampings of the file hold for the device's own material and
+   thickness; another flow scales them with rho h, E h and sqrt(E h rho h) (same modal damping). */
+#ifndef FW_MECHANISM_MECHANISM_H
+#define FW_MECHANISM_MECHANISM_H
+#include "device/device.h"
+#include "flexure/flexure.h"
+#include "layout/layout.h"
+
+typedef struct fw_variant { /* what the device is made of, in one flow */
+    const char *flow;       /* flow id or NULL */
+    fw_material material;
+    double thickness_m;
+    double explicit_mass_scale, explicit_stiffness_scale, explicit_damping_scale;
+} fw_variant;
+
+typedef struct fw_mass { /* per body */
+    const char *id;
+    double mass_kg, inertia_kg_m2;
+    double x_m, y_m, phi_rad; /* initial pose of the centre of mass */
+} fw_mass;
+
+typedef struct fw_pin { /* per revolute joint; local points in the body frames (ground: world) */
+    const char *id;
+    int body_a, body_b;
+    double ax_m, ay_m, bx_m, by_m;
+    double stiffness_Nm_per_rad, damping_Nms_per_rad, free_angle_rad;
+    int hinge; /* index into mechanism->hinge, or FW_NONE */
+} fw_pin;
+
+typedef struct fw_hinge { /* a pin that is a flexure */
+    int pin, flexure;
+    fw_flexure_result closed_form;
+} fw_hinge;
+
+typedef struct fw_mechanism {
+    const fw_device *device;
+    const fw_variant *variant;
+    fw_mass *body;     /* (nbody) */
+    fw_pin *pin;       /* (npin) */
+    fw_spring *spring; /* (nspring) local points refer to centres of mass */
+    fw_hinge *hinge;   /* (nhinge) */
+    int nbody, npin, nspring, nhinge;
+} fw_mechanism;
+
+fw_status fw_mechanism_build(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                             const fw_variant *variant, fw_diags *diags,
+                             const fw_mechanism **mechanism);
+
+#endif

@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the answer rests on, in sentences: every material number that is not measured, every
+   scaling, every model with its error. */
+#include "plan/stages.h"
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+fw_status fw_plan_assume(fw_plan *plan, const char *format, ...) {
+    if (plan->nassumption == plan->assumption_capacity) {
+        int more = plan->assumption_capacity ? 2 * plan->assumption_capacity : 16;
+        const char **grown = fw_arena_grow(plan->arena, plan->assumption, (size_t)plan->nassumption,
+                                           (size_t)more, sizeof *plan->assumption);
+        FW_NEED(grown);
+        plan->assumption = grown;
+        plan->assumption_capacity = more;
+    }
+    char buffer[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(buffer, sizeof buffer, format, arguments);
+    va_end(arguments);
+    FW_NEED(plan->assumption[plan->nassumption++] = fw_arena_strdup(plan->arena, buffer));
+    return FW_OK;
+}
+
+static fw_status of_variant(fw_plan *plan, const fw_variant_verdict *judged) {
+    const fw_variant *v = judged->variant;
+    bool scaled =
+        fabs(v->explicit_stiffness_scale - 1.0) > 1e-9 || fabs(v->explicit_mass_scale - 1.0) > 1e-9;
+    if (scaled) {
+        char k[32], mass[32], c[32];
+        FW_TRY(
+            fw_plan_assume(plan,
+                           "Flow %s: masses, stiffnesses and dampings that the device file states "
+                           "hold for its own material and thickness; here they are scaled by "
+                           "rho h (%s), E h (%s) and sqrt(E h rho h) (%s, the same modal "
+                           "damping).",
+                           v->flow, fw_number_text(mass, sizeof mass, v->explicit_mass_scale, 4),
+                           fw_number_text(k, sizeof k, v->explicit_stiffness_scale, 4),
+                           fw_number_text(c, sizeof c, v->explicit_damping_scale, 4)));
+    }
+    return FW_OK;
+}
+
+/* a strength above the pack's own is the number that the verdict rests on most: say so twice */
+static fw_status strength_override(fw_plan *plan) {
+    const fw_device *d = plan->device;
+    const fw_material *pack = fw_material_find(&plan->materials, d->material_ref);
+    const fw_quantity *own = &d->material.strength;
+    if (!pack || own->unknown || pack->strength.unknown || own->value <= pack->strength.value)
+        return FW_OK;
+    char mine[32], theirs[32];
+    fw_number_text(mine, sizeof mine, own->value * 1e-9, 3);
+    fw_number_text(theirs, sizeof theirs, pack->strength.value * 1e-9, 3);
+    fw_diag_note(&plan->diags, 231, own->place,
+                 "strength of %s is stated as %s GPa, the pack has %s GPa (%s): the verdict rests "
+                 "on it, so measure it on coupons",
+                 pack->id, mine, theirs, pack->strength.source ? pack->strength.source : "");
+    return fw_plan_assume(
+        plan,
+        "The device file states a strength of %s GPa for %s where the pack has %s "
+        "GPa; with the pack's value every utilisation would be %.2f times as "
+        "high. Measure the strength of your own sidewalls.",
+        mine, pack->id, theirs, own->value / pack->strength.value);
+}
+
+fw_status fw_plan_assumptions(fw_plan *plan) {
+    const fw_model_error *e = &fw_verdict_model_error;
+    char sf[32];
+    for (int i = 0; i < plan->verdict.nvariant; i++)
+        FW_TRY(of_variant(plan, &plan->verdict.variant[i]));
+    FW_TRY(strength_override(plan));
+    FW_TRY(fw_plan_assume(plan, "Safety factor %s on the strength (%s:%d:%d).",
+                          fw_number_text(sf, sizeof sf, plan->device->safety_factor, 4),
+                          fw_place_file(plan->device->limits_place),
+                          plan->device->limits_place.line, plan->device->limits_place.column));
+    FW_TRY(fw_plan_assume(plan,
+                          "Hinges are revolute joints at the centres of elastic weights. Against "
+                          "geometrically exact flexures the peak moment of a hinge, joint force "
+                          "included, differs by up to %.1f %% in four reference load cases; the "
+                          "band of every utilisation holds this.",
+                          100.0 * e->motion));
+    FW_TRY(fw_plan_assume(plan,
+                          "Peak strain is the closed form with root fillets, depth and curved-beam "
+                          "factors, with the joint force's own bending added; 3-D finite elements "
+                          "on held-out shapes are within %.1f %%.",
+                          100.0 * e->strain));
+    for (int i = 0; i < plan->verdict.nvariant; i++)
+        if (plan->verdict.variant[i].workspace.required) {
+            FW_TRY(fw_plan_assume(plan,
+                                  "Over the required workspace only the rotations are known, not "
+                                  "the forces that hold the pose: the band is widened by %.0f %%, "
+                                  "the most that joint forces added in the reference load cases. "
+                                  "The search is dense, not an interval proof.",
+                                  100.0 * e->workspace));
+            break;
+        }
+    return fw_plan_assume(plan,
+                          "The check is of the drawn geometry; what etching or plating makes of "
+                          "it is in each flow's judgement.");
+}

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "plan/stages.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+fw_status fw_plan_judge(fw_plan *plan) {
+    fw_verdict *verdict = &plan->verdict;
+    *verdict = (fw_verdict){.nvariant = plan->nflow};
+    FW_NEED(verdict->variant =
+                fw_arena_array(plan->arena, fw_variant_verdict, (size_t)plan->nflow));
+    for (int i = 0; i < plan->nflow; i++)
+        verdict->variant[i].variant = &plan->flow[i].variant;
+    FW_TRY(fw_verdict_run(plan->arena, plan->device, &plan->options.verdict, &plan->diags, verdict,
+                          &plan->layout));
+    return fw_plan_compute_flows(plan);
+}
+
+static const fw_scene *find_scene(fw_plan *plan) {
+    const fw_device *d = plan->device;
+    const char *wanted = plan->options.scene;
+    for (int i = 0; i < d->nscene; i++)
+        if (!wanted || strcmp(d->scene[i].name, wanted) == 0) return &d->scene[i];
+    fw_text names = fw_text_new(plan->arena);
+    for (int i = 0; i < d->nscene; i++)
+        fw_text_printf(&names, " %s", d->scene[i].name);
+    fw_diag_error(&plan->diags, 229, (fw_place){.file = d->file},
+                  wanted ? "no scene '%s' in the device; it has%s" : "%sthe device has no scene%s",
+                  wanted ? wanted : "", d->nscene && !names.failed ? names.data : " none");
+    return NULL;
+}
+
+/* a scene that belongs to one flow is run in that flow, else in the first one */
+static const fw_variant *variant_of(const fw_plan *plan, const fw_scene *scene) {
+    for (int i = 0; scene->flow && i < plan->nflow; i++)
+        if (plan->flow[i].variant.flow && strcmp(plan->flow[i].variant.flow, scene->flow) == 0)
+            return &plan->flow[i].variant;
+    return &plan->flow[0].variant;
+}
+
+fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mechanism **mechanism,
+                           const fw_scene **scene) {
+    *scene = find_scene(plan);
+    if (!*scene) return FW_INPUT;
+    bool from_shapes = false; /* only then is the drawing needed */
+    for (int i = 0; i < plan->device->nbody; i++)
+        from_shapes = from_shapes || isnan(plan->device->body[i].mass_kg) ||
+                      isnan(plan->device->body[i].inertia_kg_m2) ||
+                      isnan(plan->device->body[i].x_m) || isnan(plan->device->body[i].y_m);
+    fw_diags drawing = fw_diags_new(plan->arena);
+    fw_status status = fw_layout_build(plan->arena, plan->device,
+                                       from_shapes ? &plan->diags : &drawing, &plan->layout);
+    if (status != FW_OK && (from_shapes || (status != FW_GEOMETRY && status != FW_INPUT)))
+        return status;
+    if (status != FW_OK) plan->layout = NULL;
+    FW_TRY(fw_mechanism_build(plan->arena, plan->device, plan->layout, variant_of(plan, *scene),
+                              &plan->diags, mechanism));
+    return fw_simulate(plan->arena, *mechanism, *scene, &plan->options.verdict.motion, &plan->diags,
+                       motion);
+}

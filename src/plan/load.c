@@ -1,0 +1,197 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/hash.h"
+#include "base/output.h"
+#include "plan/stages.h"
+#include <math.h>
+#include <string.h>
+
+enum { MOST_BYTES = 8 * 1024 * 1024 };
+
+fw_plan_options fw_plan_options_default(void) {
+    return (fw_plan_options){
+        .verdict = {.motion = {.accuracy = 1e-3, .samples = 1001}, .with_advice = true}};
+}
+
+fw_plan *fw_plan_new(const fw_plan_options *options) {
+    fw_arena *arena = fw_arena_new(options->memory_cap);
+    if (!arena) return NULL;
+    fw_plan *plan = fw_arena_one(arena, fw_plan);
+    if (!plan) {
+        fw_arena_free(arena);
+        return NULL;
+    }
+    *plan = (fw_plan){.arena = arena, .options = *options, .diags = fw_diags_new(arena)};
+    return plan;
+}
+
+void fw_plan_free(fw_plan *plan) {
+    if (plan) fw_arena_free(plan->arena);
+}
+
+static fw_status remember_input(fw_plan *plan, const char *name, const char *data, size_t n) {
+    if (plan->ninput == (int)(sizeof plan->input / sizeof plan->input[0])) return FW_OK;
+    char hash[65];
+    fw_sha256(data, n, hash);
+    fw_input_file *input = &plan->input[plan->ninput];
+    *input = (fw_input_file){name, fw_arena_strdup(plan->arena, hash), n};
+    FW_NEED(input->sha256);
+    plan->ninput++;
+    return FW_OK;
+}
+
+/* a file below the data directory; its name in messages and the manifest is the relative one */
+static fw_status read_data(fw_plan *plan, const char *name, fw_place asked, char **data,
+                           size_t *n) {
+    const char *path = fw_data_path(plan->arena, plan->options.data_directory, name);
+    if (!path) {
+        fw_diag_error(&plan->diags, 224, asked,
+                      "data file %s was not found: set FLEXWRIGHT_DATA to the directory that holds "
+                      "processes/ and masks/, or correct the name",
+                      name);
+        return FW_INPUT;
+    }
+    FW_TRY(fw_input_read(plan->arena, path, MOST_BYTES, &plan->diags, data, n));
+    return remember_input(plan, name, *data, *n);
+}
+
+/* the variant of the description itself: what explicit masses and stiffnesses refer to */
+static fw_status own_material(fw_plan *plan, fw_material *material) {
+    const fw_device *d = plan->device;
+    const fw_material *found = fw_material_find(&plan->materials, d->material_ref);
+    if (!found)
+        return fw_diag_error(&plan->diags, 225, d->material_place, "material '%s' is not in %s: %s",
+                             d->material_ref, plan->base_file, fw_plan_material_names(plan));
+    *material = fw_material_with(found, &d->material);
+    return FW_OK;
+}
+
+const char *fw_plan_material_names(fw_plan *plan) {
+    fw_text names = fw_text_new(plan->arena);
+    fw_text_add(&names, "choose one of");
+    for (int i = 0; i < plan->materials.count; i++)
+        if (!plan->materials.item[i].youngs.unknown)
+            fw_text_printf(&names, " %s", plan->materials.item[i].id);
+    return names.failed ? "" : names.data;
+}
+
+static bool same(const char *a, const char *b) {
+    return a && b && strcmp(a, b) == 0;
+}
+
+/* thickness of the variant: of the <flow>, else of the device, else of the pack */
+static double thickness_of(const fw_device *d, const fw_flow_use *use, const fw_flow *flow) {
+    if (use && !isnan(use->thickness_m)) return use->thickness_m;
+    if (!isnan(d->thickness_m)) return d->thickness_m;
+    if (flow && flow->thickness && !flow->thickness->unknown) return flow->thickness->value;
+    return NAN;
+}
+
+static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_material *own) {
+    const fw_device *d = plan->device;
+    const fw_flow_use *use = pf->use;
+    fw_variant *v = &pf->variant;
+    fw_place place = use ? use->place : d->material_place;
+    *v = (fw_variant){.flow = use ? use->ref : NULL,
+                      .material = *own,
+                      .thickness_m = thickness_of(d, use, pf->flow)};
+    if (use && use->material && !same(use->material, d->material_ref)) {
+        const fw_material *other = fw_material_find(&plan->materials, use->material);
+        if (!other)
+            return fw_diag_error(&plan->diags, 225, place, "material '%s' is not in %s: %s",
+                                 use->material, plan->base_file, fw_plan_material_names(plan));
+        v->material = *other;
+    }
+    if (isnan(v->thickness_m))
+        return fw_diag_error(&plan->diags, 226, place,
+                             "the thickness of the device layer is not known: give thickness on "
+                             "<material> or <flow>");
+    const fw_material *m = &v->material;
+    if (m->youngs.unknown || m->density.unknown || m->strength.unknown || m->poisson.unknown)
+        return fw_diag_error(
+            &plan->diags, 225, place,
+            "material '%s' has no modulus, Poisson number, density or strength: it "
+            "cannot be the device layer; %s",
+            m->id, fw_plan_material_names(plan));
+    if (pf->flow && pf->flow->material && !same(pf->flow->material, m->id))
+        fw_diag_warning(&plan->diags, 227, place,
+                        "flow '%s' makes devices of %s, but %s is asked for: give "
+                        "material=\"%s\" on <flow>",
+                        use->ref, pf->flow->material, m->id, pf->flow->material);
+    double own_thickness = isnan(d->thickness_m) ? v->thickness_m : d->thickness_m;
+    double stiff = m->youngs.value * v->thickness_m / (own->youngs.value * own_thickness);
+    double mass = m->density.value * v->thickness_m / (own->density.value * own_thickness);
+    v->explicit_stiffness_scale = stiff;
+    v->explicit_mass_scale = mass;
+    v->explicit_damping_scale = sqrt(stiff * mass);
+    return FW_OK;
+}
+
+static fw_status load_flow(fw_plan *plan, fw_plan_flow *pf) {
+    const char *name = fw_arena_printf(plan->arena, "processes/%s.xml", pf->use->ref);
+    FW_NEED(name);
+    char *xml;
+    size_t n;
+    FW_TRY(read_data(plan, name, pf->use->place, &xml, &n));
+    pf->flow_sha256 = plan->input[plan->ninput - 1].sha256;
+    FW_TRY(fw_flow_read(plan->arena, plan->base_file, plan->base_xml, plan->base_length, name, xml,
+                        n, &plan->diags, &pf->flow));
+    name = fw_arena_printf(plan->arena, "masks/%s.xml", pf->use->ref);
+    FW_NEED(name);
+    FW_TRY(read_data(plan, name, pf->use->place, &xml, &n));
+    fw_mask_table *table = fw_arena_one(plan->arena, fw_mask_table);
+    FW_NEED(table);
+    FW_TRY(fw_mask_table_read(plan->arena, name, xml, n, &plan->diags, table));
+    pf->table = table;
+    return FW_OK;
+}
+
+static const char *flow_names(fw_plan *plan) {
+    fw_text names = fw_text_new(plan->arena);
+    fw_text_add(&names, "it has");
+    for (int i = 0; i < plan->device->nflow; i++)
+        fw_text_printf(&names, "%s %s", i ? "," : "", plan->device->flow[i].ref);
+    return names.failed || !plan->device->nflow ? "it has none" : names.data;
+}
+
+static fw_status load_flows(fw_plan *plan) {
+    const fw_device *d = plan->device;
+    int most = d->nflow > 0 ? d->nflow : 1;
+    FW_NEED(plan->flow = fw_arena_array(plan->arena, fw_plan_flow, (size_t)most));
+    fw_material own;
+    FW_TRY(own_material(plan, &own));
+    if (d->nflow == 0) {
+        plan->nflow = 1;
+        return make_variant(plan, &plan->flow[0], &own);
+    }
+    for (int i = 0; i < d->nflow; i++) {
+        if (plan->options.flow && !same(plan->options.flow, d->flow[i].ref)) continue;
+        fw_plan_flow *pf = &plan->flow[plan->nflow++];
+        pf->use = &d->flow[i];
+        FW_TRY(load_flow(plan, pf));
+        FW_TRY(make_variant(plan, pf, &own));
+    }
+    if (plan->nflow == 0)
+        return fw_diag_error(&plan->diags, 228, (fw_place){.file = d->file},
+                             "the device has no flow '%s': %s", plan->options.flow,
+                             flow_names(plan));
+    return FW_OK;
+}
+
+fw_status fw_plan_load(fw_plan *plan, const char *path) {
+    char *xml;
+    size_t n;
+    FW_TRY(fw_input_read(plan->arena, path, MOST_BYTES, &plan->diags, &xml, &n));
+    const char *file = strcmp(path, "-") == 0 ? "standard input" : path;
+    const char *base = strrchr(file, '/');
+    FW_TRY(remember_input(plan, base ? base + 1 : file, xml, n));
+    FW_TRY(fw_device_read(plan->arena, file, xml, n, plan->options.set, plan->options.nset,
+                          &plan->diags, &plan->device));
+    char *base_xml;
+    plan->base_file = "processes/base.xml";
+    FW_TRY(
+        read_data(plan, plan->base_file, (fw_place){.file = file}, &base_xml, &plan->base_length));
+    plan->base_xml = base_xml;
+    FW_TRY(fw_materials_read(plan->arena, plan->base_file, base_xml, plan->base_length,
+                             &plan->diags, &plan->materials));
+    return load_flows(plan);
+}

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "plan/stages.h"
+#include <jansson.h>
+#include <stdlib.h>
+
+static json_t *file_list(const fw_plan *plan) {
+    json_t *list = json_array();
+    for (int i = 0; i < plan->ninput; i++)
+        json_array_append_new(list, json_pack("{s:s, s:I, s:s}", "name", plan->input[i].name,
+                                              "bytes", (json_int_t)plan->input[i].size, "sha256",
+                                              plan->input[i].sha256));
+    return list;
+}
+
+static json_t *output_list(const fw_output_file *file, size_t count) {
+    json_t *list = json_array();
+    for (size_t i = 0; i < count; i++)
+        json_array_append_new(list, json_pack("{s:s, s:I, s:s}", "name", file[i].name, "bytes",
+                                              (json_int_t)file[i].size, "sha256", file[i].sha256));
+    return list;
+}
+
+static json_t *option_list(const fw_plan *plan) {
+    static const char *const effects[] = {"auto", "all", "none", "list"};
+    const fw_plan_options *o = &plan->options;
+    json_t *set = json_array();
+    for (int i = 0; i < o->nset; i++)
+        json_array_append_new(
+            set, json_pack("{s:s, s:s}", "path", o->set[i].path, "value", o->set[i].value));
+    const fw_effect_choice *e = &o->verdict.motion.effects;
+    return json_pack("{s:f, s:s, s:s?, s:b, s:s?, s:s?, s:o}", "accuracy",
+                     o->verdict.motion.accuracy, "effects",
+                     e->mode == FW_EFFECTS_LIST && e->list ? e->list : effects[e->mode], "flow",
+                     o->flow, "force", (int)o->force, "method", o->verdict.motion.method,
+                     "integrator", o->verdict.motion.integrator, "set", set);
+}
+
+/* hash of every input and output, the options, the version; no clock, no machine */
+fw_status fw_plan_manifest(const fw_plan *plan, const fw_output_file *file, size_t count,
+                           fw_text *out) {
+    json_t *json = json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:o}", "schema",
+                             "flexwright.manifest/1", "program", "flexwright", "version",
+                             FW_VERSION, "device", plan->device->name, "options", option_list(plan),
+                             "inputs", file_list(plan), "outputs", output_list(file, count));
+    char *text = json ? json_dumps(json, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) : NULL;
+    json_decref(json);
+    FW_NEED(text);
+    fw_text_add(out, text);
+    fw_text_add(out, "\n");
+    free(text);
+    return fw_text_end(out);
+}

@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The pipeline: description -> model -> motion -> verdict -> layout -> masks -> process -> recipe
+   -> report. One plan owns everything it computed until it is freed; plans do not share state.
+
+   Usage: fw_plan_new, fw_plan_load, then fw_plan_judge and what is wanted of fw_plan_fabricate and
+   fw_plan_write. Every stage returns FW_OK or what went wrong; diagnostics are in fw_plan_diags. */
+#ifndef FW_PLAN_PLAN_H
+#define FW_PLAN_PLAN_H
+#include "report/report.h"
+
+typedef struct fw_plan_options {
+    const char *data_directory; /* packs and layer tables; NULL: installed, else source tree */
+    const char *flow;           /* only this flow; NULL: all of the device */
+    const char *scene;          /* for simulate; NULL: the first */
+    fw_verdict_options verdict; /* motion, accuracy, effects */
+    double mask_tolerance_m;    /* 0: 5 nm */
+    const fw_set *set;          /* (nset) */
+    int nset;
+    bool force;        /* masks and recipes of a rejected design too */
+    size_t memory_cap; /* 0: 256 MiB */
+} fw_plan_options;
+fw_plan_options fw_plan_options_default(void);
+
+typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, mask and recipe */
+    const fw_flow_use *use;   /* NULL: the device's own material without a flow */
+    fw_variant variant;
+    fw_flow *flow; /* NULL: none */
+    const fw_mask_table *table;
+    const fw_mask *mask;
+    const char *mask_error;
+    const char *flow_sha256, *mask_sha256;
+} fw_plan_flow;
+
+typedef struct fw_input_file { /* for the manifest */
+    const char *name, *sha256;
+    size_t size;
+} fw_input_file;
+
+typedef struct fw_plan {
+    fw_arena *arena;
+    fw_plan_options options;
+    fw_diags diags;
+    const fw_device *device;
+    fw_materials materials;
+    fw_plan_flow *flow; /* (nflow) at least one after fw_plan_load */
+    int nflow;
+    const fw_layout *layout; /* NULL: cannot be drawn */
+    fw_verdict verdict;
+    const char **assumption; /* (nassumption) */
+    int nassumption, assumption_capacity;
+    fw_input_file input[16];
+    int ninput;
+    const char *base_file, *base_xml;
+    size_t base_length;
+} fw_plan;
+
+fw_plan *fw_plan_new(const fw_plan_options *options); /* NULL: out of memory */
+void fw_plan_free(fw_plan *plan);                     /* NULL allowed */
+/* reads the device ("-": standard input) and the packs it refers to */
+fw_status fw_plan_load(fw_plan *plan, const char *path);
+/* layout, mechanism, motion, workspace, verdict (and advice); times and judgement of the flows */
+fw_status fw_plan_judge(fw_plan *plan);
+/* masks with each flow's bias; a rejected design gets none unless forced */
+fw_status fw_plan_fabricate(fw_plan *plan);
+
+enum { /* what fw_plan_write writes */
+       FW_WRITE_VERDICT = 1,
+       FW_WRITE_MASKS = 2,
+       FW_WRITE_RECIPES = 4,
+       FW_WRITE_MOTION = 8,
+       FW_WRITE_REPORT = 16,
+       FW_WRITE_ALL = 31
+};
+/* the directory appears complete or not at all, with its manifest */
+fw_status fw_plan_write(fw_plan *plan, const char *directory, unsigned what);
+/* one scene of one variant, for simulate; *mechanism too */
+fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mechanism **mechanism,
+                           const fw_scene **scene);
+fw_status fw_plan_verdict_json(fw_plan *plan, fw_text *out);
+
+#endif

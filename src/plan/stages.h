@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Shared by the stages of the pipeline. Private to the room. */
+#ifndef FW_PLAN_STAGES_H
+#define FW_PLAN_STAGES_H
+#include "base/output.h"
+#include "plan/plan.h"
+
+const char *fw_plan_material_names(fw_plan *plan);
+fw_status fw_plan_assume(fw_plan *plan, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+/* times, bias and judgement of every flow, from the exact outlines */
+fw_status fw_plan_compute_flows(fw_plan *plan);
+fw_status fw_plan_assumptions(fw_plan *plan);
+fw_status fw_plan_manifest(const fw_plan *plan, const fw_output_file *file, size_t count,
+                           fw_text *out);
+fw_report_input fw_plan_report_input(fw_plan *plan);
+
+#endif

@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "plan/stages.h"
+#include "recipe/recipe.h"
+#include "report/json.h"
+#include <jansson.h>
+
+static fw_report_flow *report_flows(fw_plan *plan) {
+    fw_report_flow *flow = fw_arena_array(plan->arena, fw_report_flow, (size_t)plan->nflow);
+    for (int i = 0; flow && i < plan->nflow; i++)
+        flow[i] = (fw_report_flow){&plan->verdict.variant[i], plan->flow[i].flow,
+                                   plan->flow[i].mask, plan->flow[i].mask_error};
+    return flow;
+}
+
+fw_report_input fw_plan_report_input(fw_plan *plan) {
+    return (fw_report_input){.device = plan->device,
+                             .layout = plan->layout,
+                             .verdict = &plan->verdict,
+                             .flow = report_flows(plan),
+                             .nflow = plan->nflow,
+                             .version = FW_VERSION,
+                             .assumption = plan->assumption,
+                             .nassumption = plan->nassumption,
+                             .diags = &plan->diags};
+}
+
+fw_status fw_plan_verdict_json(fw_plan *plan, fw_text *out) {
+    fw_report_input input = fw_plan_report_input(plan);
+    FW_NEED(input.flow);
+    return fw_report_verdict_json(&input, out);
+}
+
+typedef struct writer {
+    fw_plan *plan;
+    fw_output *output;
+} writer;
+
+static fw_status put(writer *w, const char *folder, const char *name, const char *ending,
+                     const fw_text *text) {
+    FW_TRY(fw_text_end(text));
+    const char *path = fw_arena_printf(w->plan->arena, "%s%s%s", folder, name, ending);
+    FW_NEED(path);
+    return fw_output_write(w->output, path, text->data, text->length);
+}
+
+static fw_status write_mask(writer *w, const fw_plan_flow *pf) {
+    static const struct {
+        const char *ending;
+        fw_status (*write)(const fw_mask *mask, fw_text *out);
+    } format[] = {
+        {".gds", fw_mask_write_gds}, {".svg", fw_mask_write_svg}, {".lyp", fw_mask_write_lyp}};
+    for (size_t i = 0; i < sizeof format / sizeof format[0]; i++) {
+        fw_text text = fw_text_new(w->plan->arena);
+        FW_TRY(format[i].write(pf->mask, &text));
+        FW_TRY(put(w, "masks/", pf->use->ref, format[i].ending, &text));
+    }
+    fw_text text = fw_text_new(w->plan->arena);
+    FW_TRY(fw_mask_write_certificate(pf->mask, pf->mask_sha256, &text));
+    return put(w, "masks/", pf->use->ref, ".json", &text);
+}
+
+static fw_status write_recipe(writer *w, const fw_plan_flow *pf) {
+    static const struct {
+        const char *ending;
+        fw_status (*write)(const fw_flow *flow, const fw_recipe_header *header, fw_text *out);
+    } format[] = {{".html", fw_recipe_write_html},
+                  {".csv", fw_recipe_write_csv},
+                  {".ics", fw_recipe_write_ics},
+                  {".json", fw_recipe_write_json}};
+    fw_recipe_header header = {.device = w->plan->device->name,
+                               .flow_sha256 = pf->flow_sha256,
+                               .mask_sha256 = pf->mask_sha256,
+                               .program_version = FW_VERSION,
+                               .rejected = w->plan->verdict.decision == FW_REJECT};
+    for (size_t i = 0; i < sizeof format / sizeof format[0]; i++) {
+        fw_text text = fw_text_new(w->plan->arena);
+        FW_TRY(format[i].write(pf->flow, &header, &text));
+        FW_TRY(put(w, "recipes/", pf->use->ref, format[i].ending, &text));
+    }
+    return FW_OK;
+}
+
+/* SCENE.csv and SCENE.svg; where a scene runs in several flows: SCENE.FLOW.csv for the later ones
+ */
+static fw_status write_motions(writer *w) {
+    fw_plan *plan = w->plan;
+    for (int s = 0; s < plan->device->nscene; s++) {
+        const fw_scene *scene = &plan->device->scene[s];
+        int written = 0;
+        for (int i = 0; i < plan->verdict.nvariant; i++) {
+            const fw_variant_verdict *v = &plan->verdict.variant[i];
+            if (!v->motion || !v->motion[s]) continue;
+            const char *name = scene->name;
+            if (written++ > 0)
+                FW_NEED(name =
+                            fw_arena_printf(plan->arena, "%s.%s", scene->name, v->variant->flow));
+            fw_text csv = fw_text_new(plan->arena), svg = fw_text_new(plan->arena);
+            FW_TRY(fw_report_motion_csv(v->mechanism, v->motion[s], &csv));
+            FW_TRY(put(w, "motion/", name, ".csv", &csv));
+            FW_TRY(fw_report_motion_svg(plan->arena, plan->device, v->mechanism, v->motion[s],
+                                        scene, &svg));
+            FW_TRY(put(w, "motion/", name, ".svg", &svg));
+        }
+    }
+    return FW_OK;
+}
+
+/* the drawing by itself: exact SVG, and a preview for places that show no SVG */
+static fw_status write_drawing(writer *w) {
+    fw_plan *plan = w->plan;
+    fw_text svg = fw_text_new(plan->arena), png = fw_text_new(plan->arena);
+    FW_TRY(fw_report_device_svg(plan->arena, plan->device, plan->layout, &plan->verdict, &svg));
+    FW_TRY(put(w, "", "device", ".svg", &svg));
+    FW_TRY(fw_report_device_png(plan->arena, plan->device, plan->layout, &plan->verdict, 800, &png));
+    return put(w, "", "device", ".png", &png);
+}
+
+static fw_status write_report(writer *w) {
+    fw_report_input input = fw_plan_report_input(w->plan);
+    FW_NEED(input.flow);
+    fw_text html = fw_text_new(w->plan->arena);
+    FW_TRY(fw_report_write_html(w->plan->arena, &input, &html));
+    return put(w, "", "report", ".html", &html);
+}
+
+static fw_status write_all(writer *w, unsigned what) {
+    fw_plan *plan = w->plan;
+    FW_TRY(fw_plan_assumptions(plan));
+    if (what & FW_WRITE_VERDICT) {
+        fw_text json = fw_text_new(plan->arena);
+        FW_TRY(fw_plan_verdict_json(plan, &json));
+        FW_TRY(put(w, "", "verdict", ".json", &json));
+    }
+    bool given = plan->verdict.decision != FW_REJECT || plan->options.force;
+    for (int i = 0; given && i < plan->nflow; i++) {
+        if ((what & FW_WRITE_MASKS) && plan->flow[i].mask) FW_TRY(write_mask(w, &plan->flow[i]));
+        if ((what & FW_WRITE_RECIPES) && plan->flow[i].flow)
+            FW_TRY(write_recipe(w, &plan->flow[i]));
+    }
+    if (what & FW_WRITE_MOTION) FW_TRY(write_motions(w));
+    if (what & FW_WRITE_REPORT) {
+        FW_TRY(write_report(w));
+        FW_TRY(write_drawing(w));
+    }
+    size_t count;
+    const fw_output_file *file = fw_output_files(w->output, &count);
+    fw_text manifest = fw_text_new(plan->arena);
+    FW_TRY(fw_plan_manifest(plan, file, count, &manifest));
+    return put(w, "", "manifest", ".json", &manifest);
+}
+
+fw_status fw_plan_write(fw_plan *plan, const char *directory, unsigned what) {
+    writer w = {.plan = plan};
+    FW_TRY(fw_output_open(plan->arena, directory, &plan->diags, &w.output));
+    fw_status status = write_all(&w, what);
+    if (status == FW_OK) status = fw_output_commit(w.output);
+    if (status != FW_OK) fw_output_abort(w.output);
+    return status;
+}

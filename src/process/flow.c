@@ -1,0 +1,257 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "process/judge.h"
+#include "process/law.h"
+#include <math.h>
+#include <string.h>
+
+static fw_quantity *find(const fw_flow *flow, const char *id) {
+    for (int i = flow->nquantity - 1; i >= 0; i--) /* the flow's own come after the shared ones */
+        if (flow->quantity[i]->id && strcmp(flow->quantity[i]->id, id) == 0)
+            return flow->quantity[i];
+    return NULL;
+}
+
+const fw_quantity *fw_flow_quantity(const fw_flow *flow, const char *id) {
+    return find(flow, id);
+}
+
+const char *fw_flow_material_name(const fw_flow *flow, const char *id) {
+    for (int i = flow->nprocess_material - 1; i >= 0; i--)
+        if (strcmp(flow->process_material[i].id, id) == 0) return flow->process_material[i].name;
+    return id;
+}
+
+static bool usable(double x) {
+    return isfinite(x) && x > 0.0;
+}
+
+static fw_status bad_fact(const fw_flow *flow, fw_diags *diags, const char *name, double value) {
+    char text[32];
+    return fw_diag_error(diags, 179, flow->place, "the mask's %s is %s; it must be above zero",
+                         name, fw_number_text(text, sizeof text, value, 6));
+}
+
+static fw_status check_facts(const fw_flow *flow, const fw_mask_facts *m, fw_diags *diags) {
+    const struct {
+        const char *name;
+        double value;
+    } must[] = {{"structure area", m->structure_area_m2}, {"die area", m->die_area_m2},
+                {"edge length", m->perimeter_m},          {"narrowest slot", m->narrowest_slot_m},
+                {"narrowest line", m->narrowest_line_m},  {"number of dies", m->dies}};
+    fw_status status = FW_OK;
+    for (size_t i = 0; i < sizeof must / sizeof must[0]; i++)
+        if (!usable(must[i].value)) status = bad_fact(flow, diags, must[i].name, must[i].value);
+    if (m->structure_area_m2 > m->die_area_m2)
+        status = bad_fact(flow, diags, "area outside the structure",
+                          m->die_area_m2 - m->structure_area_m2);
+    double flexure = m->deepest_hinge_width_m;
+    if (flexure != 0.0 && !isnan(flexure) && !usable(flexure))
+        status = bad_fact(flow, diags, "narrowest flexure", flexure);
+    double thickness = m->device_thickness_m;
+    if (thickness != 0.0 && !isnan(thickness) && !usable(thickness))
+        status = bad_fact(flow, diags, "device thickness", thickness);
+    return status;
+}
+
+/* a quantity that the pack leaves to the mask; absent in packs that do not need it */
+static void fill(fw_flow *flow, const char *id, double value, double uncertainty) {
+    fw_quantity *q = find(flow, id);
+    if (!q) return;
+    q->unknown = !isfinite(value) || !isfinite(uncertainty);
+    q->value = q->unknown ? 0.0 : value;
+    q->uncertainty = q->unknown ? 0.0 : uncertainty;
+    q->status = FW_DERIVED;
+    q->source = "this device's own mask";
+}
+
+/* A = n A_die + ring + thief; u^2 = (P u_edge)^2 + u_ring^2 + u_thief^2, since A(b) = A + P b for
+   an edge that prints b further out. The mask's own area is exact. All m2. */
+static void fill_plated(fw_flow *flow, const fw_mask_facts *m) {
+    static const char *const extra[] = {"ring.area", "thief.area"};
+    const fw_quantity *edge = find(flow, "litho.edge");
+    double area = m->structure_area_m2 * m->dies;
+    double u = edge && !edge->unknown ? edge->uncertainty * m->perimeter_m * m->dies : 0.0;
+    for (int i = 0; i < 2; i++) {
+        const fw_quantity *q = find(flow, extra[i]);
+        if (!q) continue;
+        area += q->unknown ? (double)NAN : q->value;
+        u = hypot(u, q->uncertainty);
+    }
+    fill(flow, "mask.plated-area", area, u);
+}
+
+static void fill_mask(fw_flow *flow, const fw_mask_facts *m) {
+    const fw_quantity *edge = find(flow, "litho.edge");
+    double u = edge && !edge->unknown ? 2.0 * edge->uncertainty : 0.0; /* of a width: two edges */
+    double flexure = usable(m->deepest_hinge_width_m) ? m->deepest_hinge_width_m : (double)NAN;
+    fill(flow, "mask.structure-area", m->structure_area_m2 * m->dies, 0.0);
+    fill(flow, "mask.open-area", (m->die_area_m2 - m->structure_area_m2) * m->dies, 0.0);
+    fill(flow, "mask.perimeter", m->perimeter_m * m->dies, 0.0);
+    fill(flow, "mask.dies", m->dies, 0.0);
+    fill(flow, "mask.narrowest-slot", m->narrowest_slot_m, u);
+    fill(flow, "mask.narrowest-line", m->narrowest_line_m, u);
+    fill(flow, "mask.narrowest-flexure", flexure, u);
+    fill_plated(flow, m);
+}
+
+static void forget_mask(fw_flow *flow) {
+    for (int i = 0; i < flow->nquantity; i++)
+        if (flow->quantity[i]->id && strncmp(flow->quantity[i]->id, "mask.", 5) == 0)
+            fill(flow, flow->quantity[i]->id, NAN, NAN);
+}
+
+/* the device file may ask for another thickness than the pack's own */
+static fw_status set_thickness(fw_arena *arena, fw_flow *flow, const fw_mask_facts *m) {
+    fw_quantity *q = find(flow, flow->thickness->id);
+    if (!q || !usable(m->device_thickness_m) ||
+        fabs(m->device_thickness_m - q->value) < 1e-9 * q->value)
+        return FW_OK;
+    char was[32];
+    fw_number_text(was, sizeof was, q->unknown ? 0.0 : fw_quantity_in_unit(q), 6);
+    FW_NEED(q->note = fw_arena_printf(arena, "the pack's own value is %s %s (%s)", was, q->unit,
+                                      fw_value_status_text(q->status)));
+    q->uncertainty *= q->unknown || q->value == 0.0 ? 0.0 : m->device_thickness_m / q->value;
+    q->value = m->device_thickness_m;
+    q->unknown = false;
+    q->status = FW_ASSUMED;
+    q->source = "device file";
+    return FW_OK;
+}
+
+static fw_status derive_all(fw_arena *arena, fw_step *s) {
+    for (int i = 0; i < s->nderive; i++) {
+        const fw_derive *d = &s->derive[i];
+        fw_law_use use = {.law = fw_law_find(d->law),
+                          .shape = d->shape,
+                          .expression = d->expression,
+                          .wanted = d->dimension,
+                          .argument = d->argument,
+                          .nargument = d->nargument,
+                          .setting = s->setting,
+                          .nsetting = s->nsetting};
+        fw_law_answer answer;
+        FW_TRY(fw_law_evaluate(arena, &use, &answer));
+        double value = answer.computable ? answer.value : (double)NAN;
+        const char *source = "";
+        FW_NEED(source =
+                    fw_arena_printf(arena, "computed: %s",
+                                    use.law == &fw_law_expr ? d->expression : use.law->formula));
+        FW_TRY(fw_step_derive(arena, s, d->name, value, answer.uncertainty, d->dimension, d->unit,
+                              answer.status, source));
+        fw_quantity *shown = (fw_quantity *)s->derived[s->nderived - 1];
+        for (int j = 0; j < answer.nmissing && !shown->note; j++)
+            FW_NEED(shown->note = fw_arena_printf(arena, "missing: %s", answer.missing[j]));
+        if (d->q) {
+            const char *id = d->q->id;
+            *d->q = *shown;
+            d->q->id = id;
+        }
+        int before = s->nderived;
+        if (use.law->derive) FW_TRY(use.law->derive(arena, &use, &answer, s));
+        for (int j = before; j < s->nderived; j++) {
+            fw_quantity *more = (fw_quantity *)s->derived[j];
+            FW_NEED(more->id = fw_arena_printf(arena, "%s: %s", d->name, more->id));
+        }
+    }
+    return FW_OK;
+}
+
+static fw_status compute_step(fw_arena *arena, fw_step *s) {
+    s->derived = NULL;
+    s->nderived = 0;
+    FW_TRY(derive_all(arena, s));
+    fw_law_use use = {.law = fw_law_find(s->law),
+                      .shape = s->shape,
+                      .expression = s->expression,
+                      .wanted = FW_DIM_TIME,
+                      .argument = s->argument,
+                      .nargument = s->nargument,
+                      .need = s->need,
+                      .nneed = s->nneed,
+                      .setting = s->setting,
+                      .nsetting = s->nsetting};
+    fw_law_answer answer;
+    FW_TRY(fw_law_evaluate(arena, &use, &answer));
+    fw_law_window(&answer, s->k, s->overrun, &s->time);
+    return use.law->derive ? use.law->derive(arena, &use, &answer, s) : FW_OK;
+}
+
+static void forget_derived(fw_flow *flow) {
+    for (int i = 0; i < flow->nstep; i++)
+        for (int j = 0; j < flow->step[i].nderive; j++)
+            if (flow->step[i].derive[j].q) flow->step[i].derive[j].q->unknown = true;
+}
+
+static bool seen(const fw_quantity **list, int n, const fw_quantity *q) {
+    for (int i = 0; i < n; i++)
+        if (list[i] == q) return true;
+    return false;
+}
+
+static void count_one(fw_flow *flow, const fw_quantity **list, int *n, const fw_quantity *q) {
+    if (seen(list, *n, q)) return;
+    list[(*n)++] = q;
+    if (q->unknown)
+        flow->unknown++;
+    else
+        flow->count[q->status]++;
+}
+
+/* every quantity that a step sets, computes with or needs, once */
+static fw_status count_quantities(fw_arena *arena, fw_flow *flow) {
+    const fw_quantity **list = fw_arena_array(arena, const fw_quantity *, (size_t)flow->nquantity);
+    FW_NEED(list);
+    int n = 0;
+    memset(flow->count, 0, sizeof flow->count);
+    flow->unknown = 0;
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_step *s = &flow->step[i];
+        for (int j = 0; j < s->nsetting; j++)
+            count_one(flow, list, &n, s->setting[j].q);
+        for (int j = 0; j < s->nargument; j++)
+            count_one(flow, list, &n, s->argument[j].q);
+        for (int j = 0; j < s->nneed; j++)
+            count_one(flow, list, &n, s->need[j].q);
+    }
+    return FW_OK;
+}
+
+static fw_status tell(fw_arena *arena, const fw_flow *flow, fw_diags *diags) {
+    if (flow->not_computable == 0) return FW_OK;
+    fw_text text = fw_text_new(arena);
+    for (int i = 0; i < flow->nstep; i++)
+        if (!flow->step[i].time.computable) {
+            fw_text_add(&text, text.length ? ", " : "");
+            fw_text_add(&text, flow->step[i].id);
+        }
+    FW_TRY(fw_text_end(&text));
+    fw_diag_note(diags, 176, flow->place,
+                 "%d of %d steps of '%s' are NOT COMPUTABLE (%s): what is missing is named in the "
+                 "run sheet; enter it in a laboratory pack",
+                 flow->not_computable, flow->nstep, flow->id, text.data);
+    return FW_OK;
+}
+
+fw_status fw_flow_compute(fw_arena *arena, fw_flow *flow, const fw_mask_facts *facts,
+                          fw_diags *diags) {
+    forget_mask(flow);
+    forget_derived(flow);
+    if (facts) {
+        FW_TRY(check_facts(flow, facts, diags));
+        FW_TRY(set_thickness(arena, flow, facts));
+        fill_mask(flow, facts);
+    }
+    flow->total_s = 0.0;
+    flow->not_computable = 0;
+    for (int i = 0; i < flow->nstep; i++) {
+        FW_TRY(compute_step(arena, &flow->step[i]));
+        if (flow->step[i].time.computable)
+            flow->total_s += flow->step[i].time.nominal_s;
+        else
+            flow->not_computable++;
+    }
+    FW_TRY(count_quantities(arena, flow));
+    FW_TRY(fw_flow_judge(arena, flow, facts));
+    FW_TRY(tell(arena, flow, diags));
+    return diags->failed ? FW_NOMEM : FW_OK;
+}

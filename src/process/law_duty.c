@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "process/law.h"
+#include <math.h>
+
+enum { TIME, PULSE, PAUSE };
+
+/* more than 1e-9 into the next pulse counts as one more, so that 40 s in pulses of 20 s is two */
+static double pulses(double time_s, double pulse_s) {
+    return fmax(1.0, ceil(time_s / pulse_s * (1.0 - 1e-9)));
+}
+
+/* t = time + (n - 1) pause, n = ceil(time/pulse): light or plasma in n parts with pauses between.
+   The slope in `time` is that of a constant n. Test: test_law.c, duty. */
+static fw_status evaluate(fw_law_call *call, const double *x, double *result) {
+    if (x[PULSE] <= 0.0) {
+        call->why = "the pulse has no length";
+        return FW_INPUT;
+    }
+    *result = x[TIME] + (pulses(x[TIME], x[PULSE]) - 1.0) * x[PAUSE];
+    return FW_OK;
+}
+
+static void slope(const double *x, double result, double *dx) {
+    (void)result;
+    dx[TIME] = 1.0;
+    dx[PULSE] = 0.0;
+    dx[PAUSE] = pulses(x[TIME], x[PULSE]) - 1.0;
+}
+
+static fw_status derive(fw_arena *arena, const fw_law_use *use, const fw_law_answer *answer,
+                        fw_step *step) {
+    const fw_quantity *time = fw_law_input(use, "time"), *pulse = fw_law_input(use, "pulse");
+    if (!answer->computable || !time || !pulse) return FW_OK;
+    return fw_step_derive(arena, step, "number of parts", pulses(time->value, pulse->value), 0.0,
+                          (fw_dimension)FW_DIM_NONE, "1", answer->status, "computed: duty law");
+}
+
+static const fw_law_argument argument[] = {
+    [TIME] = {"time", FW_DIM_TIME, FW_LAW_REQUIRED, false},
+    [PULSE] = {"pulse", FW_DIM_TIME, FW_LAW_REQUIRED, false},
+    [PAUSE] = {"pause", FW_DIM_TIME, FW_LAW_REQUIRED, false}};
+const fw_law fw_law_duty = {
+    "duty", "t = time + (n - 1) pause, n = ceil(time/pulse)", argument, 3, evaluate, slope, derive};

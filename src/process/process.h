@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Process packs (XML in processes/), time laws and the computed flow. A number that is not known is
+   `unknown`, and what needs it is NOT COMPUTABLE with the name of what is missing. */
+#ifndef FW_PROCESS_PROCESS_H
+#define FW_PROCESS_PROCESS_H
+#include "device/material.h"
+#include "device/xml.h"
+#include "quantity/quantity.h"
+#include <stdbool.h>
+
+typedef struct fw_source {
+    const char *id, *kind, *date, *text;
+} fw_source;
+
+typedef struct fw_hazard {
+    const char *id, *ghs, *ppe, *first_aid, *waste_stream, *waste;
+    const char **incompatible; /* (nincompatible) */
+    int nincompatible;
+    bool buddy; /* never alone: a step with it needs a second signature and first aid */
+    fw_place place;
+} fw_hazard;
+
+typedef struct fw_equipment {
+    const char *id, *class_, *text;
+    int capacity;
+    fw_place place;
+} fw_equipment;
+
+typedef struct fw_process_material { /* for the wafer's layer stack */
+    const char *id, *name;
+    fw_place place;
+} fw_process_material;
+
+typedef struct fw_argument {
+    const char *name;
+    const fw_quantity *q;
+} fw_argument;
+
+typedef struct fw_setting {
+    const char *name;
+    const fw_quantity *q;
+    const char *tolerance_low, *tolerance_high; /* as written, unit of q; "" = none */
+} fw_setting;
+
+typedef struct fw_change {
+    const char *kind, *material;   /* add remove convert pattern */
+    const fw_quantity *thickness;  /* may be NULL */
+    const char *where;             /* "all", "structure" (what stays of the device), "field" */
+    const char *from;              /* convert: the material that is turned into `material`; "" */
+    bool back;                     /* on the back of the wafer */
+    bool isotropic;                /* undercuts the mask by thickness (1 + overrun) per edge */
+    const fw_quantity *anisotropy; /* of a masked etch, A = 1 - lateral/vertical; may be NULL */
+    fw_place place;
+} fw_change;
+
+typedef struct fw_accept {
+    const char *measure, *low, *high, *unit;
+    int sites, every;
+} fw_accept;
+
+typedef struct fw_on_fail {
+    const char *condition, *then, *go_to, *text;
+} fw_on_fail;
+
+typedef struct fw_lag {
+    const char *from;
+    double min_s, max_s; /* NaN = none */
+    fw_place place;
+} fw_lag;
+
+typedef struct fw_derive { /* <derive>: another law on the way, for orientation or as an input */
+    const char *name, *unit, *law, *shape, *expression;
+    fw_argument *argument; /* (nargument) */
+    int nargument;
+    fw_dimension dimension;
+    fw_quantity *q; /* when it has an id: where the value goes, so that later laws can use it */
+} fw_derive;
+
+typedef struct fw_time { /* what a law returns */
+    bool computable;
+    double nominal_s, first_look_s, clear_by_s, stop_s;
+    double relative_uncertainty;
+    fw_value_status status; /* worst of the inputs */
+    const char **missing;   /* (nmissing) names of unknown inputs */
+    int nmissing;
+    const char **contribution; /* (ncontribution) "area 5 %", largest first */
+    int ncontribution;
+} fw_time;
+
+typedef struct fw_step {
+    const char *id, *op, *title, *purpose, *mask;
+    const fw_equipment *equipment;
+    bool in_source;
+    int batch;
+    fw_change *change;
+    fw_setting *setting;
+    const char *law, *expression;
+    double overrun, k;
+    fw_argument *argument;
+    const char **endpoint;
+    fw_accept *accept;
+    const fw_hazard **hazard;
+    fw_on_fail *on_fail;
+    fw_lag *lag;
+    bool second_signature;
+    int nchange, nsetting, nargument, nendpoint, naccept, nhazard, non_fail, nlag;
+    fw_time time; /* computed */
+    const fw_quantity *
+        *derived; /* (nderived) computed on the way: current, charge, mass, rpm ... */
+    int nderived;
+    fw_place place;
+    const char *shape; /* of the law: "slot", "cylinder", "linear" or "" */
+    fw_argument *need; /* (nneed) inputs that must be known although the law does not take them */
+    fw_derive *derive; /* (nderive) */
+    int nneed, nderive;
+    double attended_s; /* somebody must be there for this long; 0: unattended */
+} fw_step;
+
+typedef struct fw_flow {
+    const char *id, *version, *title, *file, *sha256;
+    const char *material;         /* id of the structural material */
+    const fw_quantity *thickness; /* of the device layer */
+    fw_source *source;
+    fw_hazard *hazard;
+    fw_equipment *equipment;
+    fw_quantity **quantity;
+    fw_step *step;
+    int nsource, nhazard, nequipment, nquantity, nstep;
+    double total_s;        /* sum over computable steps */
+    int not_computable;    /* steps */
+    double bias_m;         /* per edge that the mask must add to the drawn outline, known part */
+    const char *bias_note; /* what is in it, and what is not known */
+    int manufacturable;    /* 1 yes, 0 no, -1 not guaranteed until something is measured */
+    const char **reason;   /* (nreason) */
+    int nreason;
+    fw_process_material *process_material; /* (nprocess_material) */
+    const char **open_point; /* (nopen_point) what the source leaves open and cannot be computed */
+    int nprocess_material, nopen_point;
+    int count[FW_ASSUMED + 1]; /* quantities that the steps use, by status */
+    int unknown;               /* ... and that are unknown */
+    fw_place place;
+} fw_flow;
+
+typedef struct fw_mask_facts { /* what the mask hands to the flow */
+    double structure_area_m2;  /* of one die: what is plated, or masked by aluminium */
+    double die_area_m2;
+    double perimeter_m;
+    double narrowest_slot_m, narrowest_line_m;
+    double deepest_hinge_width_m; /* narrowest flexure, as drawn */
+    int dies;                     /* on the wafer or coupon */
+    double device_thickness_m;    /* as the device file wants it; 0 or NaN: the pack's own */
+} fw_mask_facts;
+
+/* reads base.xml and FLOW.xml; all mistakes in diags */
+fw_status fw_flow_read(fw_arena *arena, const char *base_file, const char *base_xml, size_t base_n,
+                       const char *file, const char *xml, size_t n, fw_diags *diags,
+                       fw_flow **flow);
+/* computes every step's time, the bias and the judgement from the mask's own numbers. May be called
+   again with other facts. facts NULL: no mask yet, what needs it is NOT COMPUTABLE. */
+fw_status fw_flow_compute(fw_arena *arena, fw_flow *flow, const fw_mask_facts *facts,
+                          fw_diags *diags);
+const fw_quantity *fw_flow_quantity(const fw_flow *flow, const char *id);
+const char *fw_flow_material_name(const fw_flow *flow, const char *id); /* the id when unknown */
+
+#endif

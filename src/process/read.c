@@ -1,0 +1,306 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/hash.h"
+#include "process/pack.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const fw_attribute *fw_pack_get(const fw_element *e, const char *name) {
+    return fw_xml_attribute(e, name);
+}
+
+const char *fw_pack_text(const fw_element *e, const char *name) {
+    const fw_attribute *a = fw_xml_attribute(e, name);
+    return a ? a->value : "";
+}
+
+int fw_pack_count(const fw_element *e, const char *child) {
+    int n = 0;
+    for (const fw_element *c = e->first_child; c; c = c->next)
+        n += strcmp(c->name, child) == 0;
+    return n;
+}
+
+double fw_pack_number(fw_pack *pack, const fw_element *e, const char *name, double absent) {
+    const fw_attribute *a = fw_xml_attribute(e, name);
+    double value = absent;
+    if (!a) return absent;
+    if (!fw_number_parse(a->value, strlen(a->value), &value) || value < 0.0 || value > 1e9) {
+        fw_diag_error(pack->diags, 171, a->place, "%s='%s' is not a number of 0 or more", name,
+                      a->value);
+        return absent;
+    }
+    return value;
+}
+
+static int by_id(const void *a, const void *b) {
+    const fw_id *s = a, *t = b;
+    int order = strcmp(s->id, t->id);
+    if (order == 0) order = (s->base ? 1 : 0) - (t->base ? 1 : 0);
+    return order ? order : s->order - t->order;
+}
+
+/* the flow's own one wins over the shared one */
+static const fw_id *find(const fw_pack *pack, const char *id) {
+    int low = 0, high = pack->nid;
+    while (low < high) {
+        int middle = low + (high - low) / 2;
+        if (strcmp(pack->id[middle].id, id) < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < pack->nid && strcmp(pack->id[low].id, id) == 0 ? &pack->id[low] : NULL;
+}
+
+static const char *nearest(const fw_pack *pack, const char *wrong, fw_id_kind kind) {
+    const char *best = NULL;
+    int least = 3;
+    for (int i = 0; i < pack->nid; i++) {
+        int d = pack->id[i].kind == kind ? fw_edit_distance(wrong, pack->id[i].id, 2) : 3;
+        if (d < least) {
+            least = d;
+            best = pack->id[i].id;
+        }
+    }
+    return best;
+}
+
+void *fw_pack_find(fw_pack *pack, const fw_attribute *attribute, fw_id_kind kind) {
+    static const char *const word[] = {"source", "material", "equipment",
+                                       "hazard", "quantity", "step"};
+    const fw_id *found = find(pack, attribute->value);
+    if (found && found->kind == kind) return found->item;
+    const char *best = nearest(pack, attribute->value, kind);
+    fw_diag_error(pack->diags, 165, attribute->place, "%s='%s': there is no %s with this id%s%s%s",
+                  attribute->name, attribute->value, word[kind], best ? "; did you mean '" : "",
+                  best ? best : "", best ? "'?" : "");
+    return NULL;
+}
+
+static void enter(fw_pack *pack, const char *id, fw_id_kind kind, bool base, void *item,
+                  fw_place place) {
+    pack->id[pack->nid] = (fw_id){id, kind, base, pack->nid, item, place};
+    pack->nid++;
+}
+
+static void read_source(fw_pack *pack, const fw_element *e, fw_source *s) {
+    *s = (fw_source){fw_pack_text(e, "id"), fw_pack_text(e, "kind"), fw_pack_text(e, "date"),
+                     e->text};
+    (void)pack;
+}
+
+static fw_status read_hazard(fw_pack *pack, const fw_element *e, fw_hazard *h) {
+    *h = (fw_hazard){.id = fw_pack_text(e, "id"),
+                     .ghs = fw_pack_text(e, "ghs"),
+                     .ppe = "",
+                     .first_aid = "",
+                     .waste_stream = "",
+                     .waste = "",
+                     .buddy = strcmp(fw_pack_text(e, "buddy"), "yes") == 0,
+                     .place = e->place};
+    size_t most = (size_t)fw_pack_count(e, "incompatible");
+    FW_NEED(h->incompatible = fw_arena_array(pack->arena, const char *, most));
+    for (const fw_element *c = e->first_child; c; c = c->next) {
+        if (strcmp(c->name, "ppe") == 0)
+            h->ppe = c->text;
+        else if (strcmp(c->name, "firstaid") == 0)
+            h->first_aid = c->text;
+        else if (strcmp(c->name, "waste") == 0) {
+            h->waste = c->text;
+            h->waste_stream = fw_pack_text(c, "stream");
+        } else if (strcmp(c->name, "incompatible") == 0)
+            h->incompatible[h->nincompatible++] = fw_pack_text(c, "with");
+    }
+    return FW_OK;
+}
+
+static fw_status read_one(fw_pack *pack, const fw_element *e, bool base) {
+    fw_flow *f = pack->flow;
+    const fw_attribute *id = fw_pack_get(e, "id");
+    if (strcmp(e->name, "open-point") == 0) {
+        f->open_point[f->nopen_point++] = e->text;
+        return FW_OK;
+    }
+    if (!id && strcmp(e->name, "q") == 0)
+        fw_diag_error(pack->diags, 162, e->place, "<q> needs the attribute 'id'");
+    if (!id) return FW_OK;
+    if (strcmp(e->name, "source") == 0) {
+        fw_source *s = &f->source[f->nsource++];
+        read_source(pack, e, s);
+        enter(pack, id->value, FW_ID_SOURCE, base, s, id->place);
+    } else if (strcmp(e->name, "material") == 0) {
+        fw_process_material *m = &f->process_material[f->nprocess_material++];
+        *m = (fw_process_material){id->value, fw_pack_text(e, "name"), e->place};
+        enter(pack, id->value, FW_ID_MATERIAL, base, m, id->place);
+    } else if (strcmp(e->name, "equipment") == 0) {
+        fw_equipment *q = &f->equipment[f->nequipment++];
+        int capacity = (int)fw_pack_number(pack, e, "capacity", 1.0);
+        *q = (fw_equipment){id->value, fw_pack_text(e, "class"), e->text, capacity, e->place};
+        enter(pack, id->value, FW_ID_EQUIPMENT, base, q, id->place);
+    } else if (strcmp(e->name, "hazard") == 0) {
+        fw_hazard *h = &f->hazard[f->nhazard++];
+        FW_TRY(read_hazard(pack, e, h));
+        enter(pack, id->value, FW_ID_HAZARD, base, h, id->place);
+    } else if (strcmp(e->name, "q") == 0) {
+        fw_quantity *q = fw_arena_one(pack->arena, fw_quantity);
+        FW_NEED(q);
+        fw_status status =
+            fw_quantity_read(pack->arena, e, pack->source, pack->nsource, pack->diags, q);
+        if (status != FW_OK && status != FW_INPUT) return status;
+        q->id = id->value;
+        f->quantity[f->nquantity++] = q;
+        enter(pack, id->value, FW_ID_QUANTITY, base, q, id->place);
+    }
+    return FW_OK;
+}
+
+/* <derive id> makes a quantity that is computed later */
+static fw_status read_derived_ids(fw_pack *pack, const fw_element *step) {
+    for (const fw_element *c = step->first_child; c; c = c->next) {
+        const fw_attribute *id = fw_pack_get(c, "id");
+        if (strcmp(c->name, "derive") != 0 || !id) continue;
+        fw_quantity *q = fw_arena_one(pack->arena, fw_quantity);
+        FW_NEED(q);
+        *q = (fw_quantity){.id = id->value,
+                           .unknown = true,
+                           .unit = fw_pack_text(c, "unit"),
+                           .status = FW_DERIVED,
+                           .source = "computed",
+                           .place = c->place};
+        fw_unit unit;
+        if (fw_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL))
+            q->dimension = unit.dimension;
+        pack->flow->quantity[pack->flow->nquantity++] = q;
+        enter(pack, id->value, FW_ID_QUANTITY, false, q, id->place);
+    }
+    return FW_OK;
+}
+
+static int count_ids(const fw_element *root) {
+    int n = 0;
+    for (const fw_element *c = root->first_child; c; c = c->next) {
+        n++;
+        if (strcmp(c->name, "step") == 0) n += fw_pack_count(c, "derive");
+    }
+    return n;
+}
+
+static fw_status make_room(fw_pack *pack) {
+    fw_flow *f = pack->flow;
+    size_t n = (size_t)count_ids(pack->base) + (size_t)count_ids(pack->root);
+    FW_NEED(pack->id = fw_arena_array(pack->arena, fw_id, n));
+    FW_NEED(f->source = fw_arena_array(pack->arena, fw_source, n));
+    FW_NEED(f->hazard = fw_arena_array(pack->arena, fw_hazard, n));
+    FW_NEED(f->equipment = fw_arena_array(pack->arena, fw_equipment, n));
+    FW_NEED(f->process_material = fw_arena_array(pack->arena, fw_process_material, n));
+    FW_NEED(f->quantity = fw_arena_array(pack->arena, fw_quantity *, n));
+    FW_NEED(f->open_point = fw_arena_array(pack->arena, const char *, n));
+    FW_NEED(f->step =
+                fw_arena_array(pack->arena, fw_step, (size_t)fw_pack_count(pack->root, "step")));
+    return FW_OK;
+}
+
+static fw_status read_sources(fw_pack *pack) {
+    fw_source_text *list[2];
+    int n[2];
+    FW_TRY(fw_sources_read(pack->arena, pack->root, pack->diags, &list[0], &n[0]));
+    FW_TRY(fw_sources_read(pack->arena, pack->base, pack->diags, &list[1], &n[1]));
+    pack->nsource = n[0] + n[1];
+    FW_NEED(pack->source = fw_arena_array(pack->arena, fw_source_text, (size_t)pack->nsource));
+    for (int i = 0; i < pack->nsource; i++)
+        pack->source[i] = i < n[0] ? list[0][i] : list[1][i - n[0]];
+    return FW_OK;
+}
+
+static void report_duplicates(fw_pack *pack) {
+    for (int i = 1; i < pack->nid; i++) {
+        const fw_id *a = &pack->id[i - 1], *b = &pack->id[i];
+        if (strcmp(a->id, b->id) != 0) continue;
+        if (a->base == b->base && b->kind != FW_ID_SOURCE)
+            fw_diag_error(pack->diags, 164, b->place,
+                          "id '%s' is used twice; it was given at line %d first", b->id,
+                          a->place.line);
+        else if (a->base != b->base && a->kind != b->kind)
+            fw_diag_error(pack->diags, 164, a->place,
+                          "id '%s' is something else in the shared pack (line %d); choose another",
+                          a->id, b->place.line);
+        else if (a->base != b->base)
+            fw_diag_note(pack->diags, 177, a->place,
+                         "'%s' replaces the one of the shared pack (line %d)", a->id,
+                         b->place.line);
+    }
+}
+
+static fw_status read_everything(fw_pack *pack) {
+    for (int part = 0; part < 2; part++) {
+        const fw_element *root = part == 0 ? pack->base : pack->root;
+        for (const fw_element *c = root->first_child; c; c = c->next) {
+            FW_TRY(read_one(pack, c, part == 0));
+            if (strcmp(c->name, "step") == 0) FW_TRY(read_derived_ids(pack, c));
+        }
+    }
+    fw_step *step = pack->flow->step;
+    for (const fw_element *c = pack->root->first_child; c; c = c->next)
+        if (strcmp(c->name, "step") == 0) {
+            const fw_attribute *id = fw_pack_get(c, "id");
+            if (id) enter(pack, id->value, FW_ID_STEP, false, step, id->place);
+            step++;
+        }
+    qsort(pack->id, (size_t)pack->nid, sizeof *pack->id, by_id);
+    report_duplicates(pack);
+    return FW_OK;
+}
+
+static void read_head(fw_pack *pack) {
+    fw_flow *f = pack->flow;
+    const fw_attribute *material = fw_pack_get(pack->root, "material"),
+                       *thickness = fw_pack_get(pack->root, "thickness");
+    f->id = fw_pack_text(pack->root, "id");
+    f->version = fw_pack_text(pack->root, "version");
+    f->title = fw_pack_text(pack->root, "title");
+    f->place = pack->root->place;
+    f->bias_note = "";
+    if (!material || !thickness) {
+        fw_diag_error(pack->diags, 162, pack->root->place,
+                      "a flow needs the attributes 'material' and 'thickness' of its device layer");
+        return;
+    }
+    f->material = material->value;
+    fw_pack_find(pack, material, FW_ID_MATERIAL);
+    f->thickness = fw_pack_find(pack, thickness, FW_ID_QUANTITY);
+    if (f->thickness && !fw_dimension_equal(f->thickness->dimension, (fw_dimension)FW_DIM_LENGTH))
+        fw_diag_error(pack->diags, 169, thickness->place, "'%s' is not a length", thickness->value);
+}
+
+fw_status fw_flow_read(fw_arena *arena, const char *base_file, const char *base_xml, size_t base_n,
+                       const char *file, const char *xml, size_t n, fw_diags *diags,
+                       fw_flow **flow) {
+    fw_element *base = NULL, *root = NULL;
+    size_t errors = diags->errors;
+    *flow = NULL;
+    fw_status first = fw_xml_read(arena, base_file, base_xml, base_n, diags, &base);
+    fw_status second = fw_xml_read(arena, file, xml, n, diags, &root);
+    if (first == FW_NOMEM || second == FW_NOMEM) return FW_NOMEM;
+    if (!base || !root || first != FW_OK || second != FW_OK)
+        return first != FW_OK ? first : second != FW_OK ? second : FW_INPUT;
+    fw_pack pack = {.arena = arena, .diags = diags, .base = base, .root = root};
+    FW_TRY(fw_pack_check(&pack, base, true));
+    FW_TRY(fw_pack_check(&pack, root, false));
+    FW_NEED(pack.flow = fw_arena_one(arena, fw_flow));
+    char hash[65];
+    fw_sha256(xml, n, hash);
+    FW_NEED(pack.flow->sha256 = fw_arena_strdup(arena, hash));
+    pack.flow->file = file;
+    fw_status status = read_sources(&pack);
+    if (status != FW_OK && status != FW_INPUT) return status;
+    FW_TRY(make_room(&pack));
+    FW_TRY(read_everything(&pack));
+    read_head(&pack);
+    FW_TRY(fw_pack_steps(&pack));
+    if (diags->errors == errors) FW_TRY(fw_pack_lint(&pack));
+    if (diags->failed) return FW_NOMEM;
+    if (diags->errors > errors) return FW_INPUT;
+    *flow = pack.flow;
+    return FW_OK;
+}

@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "process/stack.h"
+#include <math.h>
+#include <string.h>
+
+/* a tenfold thickness is drawn 2.5 units higher, so that 1 um and 500 um are both seen */
+static double drawn_height(const fw_quantity *thickness) {
+    if (!thickness || thickness->unknown || !(thickness->value > 0.0)) return 3.0;
+    return 1.5 + 2.5 * log10(1.0 + thickness->value / 0.1e-6);
+}
+
+static bool in_column(const fw_change *c, int column) {
+    if (strcmp(c->where, "all") == 0) return true;
+    return (strcmp(c->where, "structure") == 0) == (column == FW_STACK_STRUCTURE);
+}
+
+static double top_of(const fw_stack *s, int column) {
+    double top = 0.0;
+    for (int i = 0; i < s->n[column]; i++)
+        top = fmax(top, s->cell[column][i].bottom + s->cell[column][i].height);
+    return top;
+}
+
+static double bottom_of(const fw_stack *s) {
+    double bottom = 0.0;
+    for (int column = 0; column < FW_STACK_COLUMNS; column++)
+        for (int i = 0; i < s->n[column]; i++)
+            bottom = fmin(bottom, s->cell[column][i].bottom);
+    return bottom;
+}
+
+static void insert(fw_stack *s, int column, int at, fw_cell cell) {
+    fw_cell *list = s->cell[column];
+    memmove(list + at + 1, list + at, (size_t)(s->n[column] - at) * sizeof *list);
+    list[at] = cell;
+    s->n[column]++;
+}
+
+static bool add(fw_stack *s, int column, const fw_change *c, double below) {
+    double height = drawn_height(c->thickness);
+    double thickness = c->thickness && !c->thickness->unknown ? c->thickness->value : (double)NAN;
+    double bottom = c->back ? below - height : top_of(s, column);
+    insert(s, column, c->back ? 0 : s->n[column],
+           (fw_cell){c->material, thickness, bottom, height, false});
+    return true;
+}
+
+static bool take_away(fw_stack *s, int column, const fw_change *c) {
+    int kept = 0, before = s->n[column];
+    for (int i = 0; i < before; i++)
+        if (strcmp(s->cell[column][i].material, c->material) != 0)
+            s->cell[column][kept++] = s->cell[column][i];
+    s->n[column] = kept;
+    return kept < before;
+}
+
+static bool expose(fw_stack *s, int column, const fw_change *c) {
+    bool found = false;
+    for (int i = 0; i < s->n[column]; i++)
+        if (strcmp(s->cell[column][i].material, c->material) == 0)
+            s->cell[column][i].exposed = found = true;
+    return found;
+}
+
+/* the upper part of the topmost cell of material `from` becomes `material` */
+static bool convert(fw_stack *s, int column, const fw_change *c) {
+    int i = s->n[column] - 1;
+    while (i >= 0 && strcmp(s->cell[column][i].material, c->from) != 0)
+        i--;
+    if (i < 0) return false;
+    fw_cell *old = &s->cell[column][i];
+    double height = fmin(drawn_height(c->thickness), 0.6 * old->height);
+    double thickness = c->thickness && !c->thickness->unknown ? c->thickness->value : (double)NAN;
+    old->height -= height;
+    if (!isnan(thickness)) old->thickness_m -= thickness;
+    insert(s, column, i + 1,
+           (fw_cell){c->material, thickness, old->bottom + old->height, height, false});
+    return true;
+}
+
+static bool apply(fw_stack *s, const fw_change *c) {
+    bool found = false;
+    double below = bottom_of(s);
+    for (int column = 0; column < FW_STACK_COLUMNS; column++) {
+        if (!in_column(c, column)) continue;
+        if (strcmp(c->kind, "add") == 0)
+            found = add(s, column, c, below) || found;
+        else if (strcmp(c->kind, "remove") == 0)
+            found = take_away(s, column, c) || found;
+        else if (strcmp(c->kind, "pattern") == 0)
+            found = expose(s, column, c) || found;
+        else
+            found = convert(s, column, c) || found;
+    }
+    return found;
+}
+
+fw_status fw_flow_stack(fw_arena *arena, const fw_flow *flow, int index, fw_stack *stack,
+                        const fw_change **absent) {
+    int changes = 0;
+    for (int i = 0; i < flow->nstep && i <= index; i++)
+        changes += flow->step[i].nchange;
+    *stack = (fw_stack){.capacity = changes + 1};
+    if (absent) *absent = NULL;
+    for (int column = 0; column < FW_STACK_COLUMNS; column++)
+        FW_NEED(stack->cell[column] = fw_arena_array(arena, fw_cell, (size_t)changes + 1));
+    for (int i = 0; i < flow->nstep && i <= index; i++)
+        for (int j = 0; j < flow->step[i].nchange; j++)
+            if (!apply(stack, &flow->step[i].change[j]) && absent && !*absent)
+                *absent = &flow->step[i].change[j];
+    return FW_OK;
+}

@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/text.h"
+#include "quantity/lexer.h"
+#include <string.h>
+
+typedef struct named {
+    fw_dimension dimension;
+    const char *name, *unit;
+} named;
+
+/* what users of this program meet, with the unit that suits a 3 mm device */
+static const named known[] = {
+    {{0, 0, 0, 0, 0, 0, 0}, "pure number", NULL},
+    {{1, 0, 0, 0, 0, 0, 0}, "length", "um"},
+    {{2, 0, 0, 0, 0, 0, 0}, "area", "um^2"},
+    {{3, 0, 0, 0, 0, 0, 0}, "volume", "mL"},
+    {{4, 0, 0, 0, 0, 0, 0}, "second moment of area", "um^4"},
+    {{0, 1, 0, 0, 0, 0, 0}, "mass", "mg"},
+    {{0, 0, 1, 0, 0, 0, 0}, "time", "ms"},
+    {{0, 0, -1, 0, 0, 0, 0}, "frequency", "Hz"},
+    {{0, 0, 0, 1, 0, 0, 0}, "electric current", "mA"},
+    {{0, 0, 0, 0, 1, 0, 0}, "temperature", "Cel"},
+    {{0, 0, 0, 0, 0, 1, 0}, "amount of substance", "mol"},
+    {{0, 0, -1, 0, 0, 1, 0}, "gas flow", "{sccm}"},
+    {{0, 0, 0, 0, 0, 0, 1}, "angle", "deg"},
+    {{0, 0, -1, 0, 0, 0, 1}, "angular velocity", "rad/s"},
+    {{0, 0, -2, 0, 0, 0, 1}, "angular acceleration", "rad/s^2"},
+    {{1, 0, -1, 0, 0, 0, 0}, "velocity", "mm/s"},
+    {{1, 0, -2, 0, 0, 0, 0}, "acceleration", "m/s^2"},
+    {{1, 1, -2, 0, 0, 0, 0}, "force", "uN"},
+    {{2, 1, -2, 0, 0, 0, 0}, "torque or energy", "uN mm"},
+    {{2, 1, -3, 0, 0, 0, 0}, "power", "W"},
+    {{-1, 1, -2, 0, 0, 0, 0}, "pressure or stress", "GPa"},
+    {{-3, 1, 0, 0, 0, 0, 0}, "density", "g/cm3"},
+    {{2, 1, 0, 0, 0, 0, 0}, "moment of inertia", "mg mm^2"},
+    {{0, 1, -2, 0, 0, 0, 0}, "stiffness", "N/m"},
+    {{0, 1, -1, 0, 0, 0, 0}, "damping", "N s/m"},
+    {{2, 1, -2, 0, 0, 0, -1}, "torsional stiffness", "N m/rad"},
+    {{2, 1, -1, 0, 0, 0, -1}, "torsional damping", "N m s/rad"},
+    {{0, 0, 1, 1, 0, 0, 0}, "electric charge", "C"},
+    {{-2, 0, 0, 1, 0, 0, 0}, "current density", "mA/cm2"},
+    {{2, 1, -3, -1, 0, 0, 0}, "voltage", "V"},
+    {{2, 1, -3, -2, 0, 0, 0}, "electric resistance", "ohm"},
+    {{-2, -1, 4, 2, 0, 0, 0}, "capacitance", "pF"},
+    {{0, 1, 0, 0, 0, -1, 0}, "molar mass", "g/mol"},
+    {{-3, 0, 0, 0, 0, 1, 0}, "concentration", "mol/L"},
+    {{2, 1, -2, 0, 0, -1, 0}, "molar energy", "kJ/mol"},
+    {{2, 0, -1, 0, 0, 0, 0}, "diffusivity", "cm2/s"},
+    {{0, 1, -3, 0, 0, 0, 0}, "power density", "mW/cm2"},
+    {{0, 0, 0, 0, -1, 0, 0}, "thermal expansion", "K^-1"},
+};
+
+static const named *find(fw_dimension d) {
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
+        if (fw_dimension_equal(known[i].dimension, d)) return &known[i];
+    return NULL;
+}
+
+bool fw_dimension_equal(fw_dimension a, fw_dimension b) {
+    return a.m == b.m && a.kg == b.kg && a.s == b.s && a.A == b.A && a.K == b.K && a.mol == b.mol &&
+           a.rad == b.rad;
+}
+
+const char *fw_dimension_unit(fw_dimension d) {
+    const named *row = find(d);
+    return row ? row->unit : NULL;
+}
+
+const char *fw_dimension_text(fw_arena *arena, fw_dimension d) {
+    const named *row = find(d);
+    if (row) return row->name;
+    const struct {
+        const char *symbol;
+        int exponent;
+    } part[] = {{"m", d.m}, {"kg", d.kg},   {"s", d.s},    {"A", d.A},
+                {"K", d.K}, {"mol", d.mol}, {"rad", d.rad}};
+    fw_text text = fw_text_new(arena);
+    for (size_t i = 0; i < sizeof part / sizeof part[0]; i++) {
+        if (part[i].exponent == 0) continue;
+        fw_text_printf(&text, "%s%s", text.length ? " " : "", part[i].symbol);
+        if (part[i].exponent != 1) fw_text_printf(&text, "^%d", part[i].exponent);
+    }
+    return fw_text_end(&text) == FW_OK ? text.data : "unnamed dimension";
+}
+
+const char *fw_dimension_phrase(fw_arena *arena, fw_dimension d) {
+    const char *name = fw_dimension_text(arena, d);
+    const char *phrase = fw_arena_printf(arena, "%s %s", strchr("ae", name[0]) ? "an" : "a", name);
+    return phrase ? phrase : name;
+}
+
+static const char *const status_text[] = {"measured", "stated", "derived", "typical", "assumed"};
+
+const char *fw_value_status_text(fw_value_status status) {
+    return status_text[status];
+}
+
+bool fw_value_status_parse(const char *text, fw_value_status *status) {
+    for (int i = 0; i < 5; i++)
+        if (strcmp(text, status_text[i]) == 0) {
+            *status = (fw_value_status)i;
+            return true;
+        }
+    return false;
+}
+
+double fw_quantity_in_unit(const fw_quantity *q) {
+    fw_unit unit;
+    if (!q->unit || !fw_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL)) return q->value;
+    return fw_unit_from_si(&unit, q->value);
+}
+
+/* spellings from other habits, and what to write here */
+const char *fw_unit_suggestion(const char *symbol, size_t n) {
+    static const char *const other[][2] = {
+        {"\xc2\xb5m", "um"},
+        {"\xce\xbcm", "um"},
+        {"\xc2\xb5N", "uN"},
+        {"\xce\xbcN", "uN"},
+        {"\xc2\xb5s", "us"},
+        {"\xce\xbcs", "us"},
+        {"\xc2\xb0", "deg"},
+        {"\xc2\xb0"
+         "C",
+         "Cel"},
+        {"\xe2\x84\xab", "Ao"},
+        {"\xc3\x85", "Ao"},
+        {"\xce\xa9", "ohm"},
+        {"\xe2\x84\xa6", "ohm"},
+        {"micron", "um"},
+        {"microns", "um"},
+        {"degC", "Cel"},
+        {"degree", "deg"},
+        {"degrees", "deg"},
+        {"radian", "rad"},
+        {"radians", "rad"},
+        {"sec", "s"},
+        {"hr", "h"},
+        {"hour", "h"},
+        {"sccm", "{sccm}"},
+        {"Nm", "N m"},
+        {"mNm", "mN m"},
+        {"uNm", "uN m"},
+        {"Nmm", "N mm"},
+        {"mNmm", "mN mm"},
+        {"uNmm", "uN mm"},
+        {"Angstrom", "Ao"},
+        {"angstrom", "Ao"},
+        {"Ohm", "ohm"},
+        {"kOhm", "kohm"},
+        {"torr", "Torr"},
+        {"mtorr", "mTorr"},
+        {"hz", "Hz"},
+        {"mpa", "MPa"},
+        {"gpa", "GPa"},
+        {"pa", "Pa"},
+        {"n", "N"},
+        {"msec", "ms"},
+        {"usec", "us"},
+        {"meter", "m"},
+        {"metre", "m"},
+        {"Kg", "kg"},
+        {"KG", "kg"},
+        {"MM", "mm"},
+        {"v", "V"},
+    };
+    for (size_t i = 0; i < sizeof other / sizeof other[0]; i++)
+        if (strlen(other[i][0]) == n && memcmp(other[i][0], symbol, n) == 0) return other[i][1];
+    char word[32];
+    if (n == 0 || n >= sizeof word) return NULL;
+    memcpy(word, symbol, n);
+    word[n] = '\0';
+    size_t count;
+    const char *const *names = fw_unit_names(&count);
+    return fw_did_you_mean(word, names, count);
+}

@@ -1,0 +1,339 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Recursive descent: sum -> product -> signed -> power -> primary. */
+#include "base/text.h"
+#include "quantity/functions.h"
+#include <math.h>
+#include <string.h>
+
+enum { DEPTH_MOST = 64 };
+
+typedef struct parser {
+    fw_arena *arena;
+    fw_lexer lexer;
+    fw_token token; /* the one not yet used */
+    const fw_names *names;
+    fw_expression_error *error;
+    int depth;
+} parser;
+
+static const fw_dimension pure = {0};
+
+static bool fail(parser *p, size_t offset, int number, const char *message) {
+    *p->error = (fw_expression_error){offset, number, message};
+    return false;
+}
+
+static bool advance(parser *p) {
+    p->token = fw_lexer_next(&p->lexer);
+    return p->token.kind != FW_TOKEN_WRONG;
+}
+
+static bool is_mark(const parser *p, char mark) {
+    return p->token.kind == FW_TOKEN_MARK && p->token.mark == mark;
+}
+
+static const char *dimension(parser *p, fw_dimension d) {
+    return fw_dimension_phrase(p->arena, d);
+}
+
+static bool finite_at(parser *p, size_t offset, const fw_value *v) {
+    if (isfinite(v->value)) return true;
+    return fail(p, offset, 28,
+                "the result is too large for a number (beyond 1e308); check units and exponents");
+}
+
+static bool parse_sum(parser *p, fw_value *v);
+
+/* name( a, b, ... ): the token behind the name is '(' */
+static bool parse_call(parser *p, const fw_token *name, fw_value *v) {
+    const char *text = p->lexer.text + name->start;
+    int function = fw_function_find(text, name->length);
+    if (function < 0) {
+        const char *names[32];
+        size_t count = 0;
+        while (count < 32 && (names[count] = fw_function_name((int)count)) != NULL)
+            count++;
+        char *word = fw_arena_strndup(p->arena, text, name->length);
+        const char *better = word ? fw_did_you_mean(word, names, count) : NULL;
+        return fail(p, name->start, 23,
+                    fw_arena_printf(p->arena, "unknown function '%.*s'; %s%s%s", (int)name->length,
+                                    text,
+                                    better ? "did you mean '" : "known are sqrt exp ln sin cos ",
+                                    better ? better : "tan asin acos atan atan2 min max abs",
+                                    better ? "'?" : ""));
+    }
+    fw_value argument[FW_ARGUMENTS_MOST];
+    int n = 0;
+    do {
+        if (n == FW_ARGUMENTS_MOST)
+            return fail(p, p->token.start, 23, "more than 16 arguments; nest the calls");
+        if (!advance(p) || !parse_sum(p, &argument[n++])) return false;
+    } while (is_mark(p, ','));
+    if (!is_mark(p, ')'))
+        return fail(p, p->token.start, 32, "a ')' is missing behind the arguments");
+    int number;
+    const char *message;
+    if (!fw_function_apply(p->arena, function, argument, n, v, &number, &message))
+        return fail(p, name->start, number, message);
+    return finite_at(p, name->start, v) && advance(p);
+}
+
+static bool unknown_name(parser *p, const fw_token *name) {
+    const char *text = p->lexer.text + name->start;
+    int n = (int)name->length;
+    if (fw_unit_symbol(text, name->length))
+        return fail(p, name->start, 22,
+                    fw_arena_printf(p->arena, "the unit '%.*s' needs a number in front: '1 %.*s'",
+                                    n, text, n, text));
+    if (fw_function_find(text, name->length) >= 0)
+        return fail(
+            p, name->start, 23,
+            fw_arena_printf(p->arena, "'%.*s' is a function: write %.*s(...)", n, text, n, text));
+    size_t count = p->names ? p->names->count : 0;
+    const char **known = fw_arena_array(p->arena, const char *, count);
+    char *word = fw_arena_strndup(p->arena, text, name->length);
+    if (!known || !word) return fail(p, name->start, 22, NULL);
+    for (size_t i = 0; i < count; i++)
+        known[i] = p->names->item[i].name;
+    const char *better = fw_did_you_mean(word, known, count);
+    return fail(
+        p, name->start, 22,
+        better ? fw_arena_printf(p->arena, "no parameter '%s'; did you mean '%s'?", word, better)
+               : fw_arena_printf(p->arena,
+                                 "no parameter '%s'; declare it with <parameter name=\"%s\" "
+                                 "value=\"...\"/>",
+                                 word, word));
+}
+
+static bool parse_name(parser *p, fw_value *v) {
+    fw_token name = p->token;
+    const char *text = p->lexer.text + name.start;
+    if (!advance(p)) return false;
+    if (is_mark(p, '(')) return parse_call(p, &name, v);
+    for (size_t i = 0; p->names && i < p->names->count; i++) {
+        const fw_name_value *item = &p->names->item[i];
+        if (strlen(item->name) == name.length && memcmp(item->name, text, name.length) == 0) {
+            *v = (fw_value){.value = item->value, .dimension = item->dimension};
+            return finite_at(p, name.start, v);
+        }
+    }
+    if (name.length == 2 && memcmp(text, "pi", 2) == 0) {
+        *v = (fw_value){.value = 3.14159265358979323846};
+        return true;
+    }
+    return unknown_name(p, &name);
+}
+
+static bool parse_primary(parser *p, fw_value *v) {
+    if (p->token.kind == FW_TOKEN_NUMBER) {
+        *v = (fw_value){.value = p->token.value, .dimension = p->token.dimension};
+        return finite_at(p, p->token.start, v) && advance(p);
+    }
+    if (p->token.kind == FW_TOKEN_NAME) return parse_name(p, v);
+    if (is_mark(p, '(')) {
+        size_t open = p->token.start;
+        if (!advance(p) || !parse_sum(p, v)) return false;
+        if (!is_mark(p, ')'))
+            return fail(p, open, 32, "this '(' is never closed; add the missing ')'");
+        return advance(p);
+    }
+    if (p->token.kind == FW_TOKEN_END)
+        return fail(p, p->token.start, 20,
+                    "the expression stops too early; a number or a name is "
+                    "missing here");
+    return fail(
+        p, p->token.start, 20,
+        fw_arena_printf(p->arena, "a number or a name is wanted here, not '%c'", p->token.mark));
+}
+
+/* base^exponent; with a dimension only where every exponent of it stays whole */
+static bool raise(parser *p, size_t offset, fw_value *base, const fw_value *exponent) {
+    double e = exponent->value;
+    if (!fw_dimension_equal(exponent->dimension, pure))
+        return fail(p, offset, 30,
+                    fw_arena_printf(p->arena, "the exponent is %s; it must be a pure number",
+                                    dimension(p, exponent->dimension)));
+    if (base->value == 0.0 && e < 0.0)
+        return fail(p, offset, 27, "division by zero: zero to a negative power");
+    if (base->value < 0.0 && e != rint(e))
+        return fail(p, offset, 29,
+                    "a negative number to a broken power is not real; check the sign of the base");
+    int8_t *const part[] = {&base->dimension.m,  &base->dimension.kg, &base->dimension.s,
+                            &base->dimension.A,  &base->dimension.K,  &base->dimension.mol,
+                            &base->dimension.rad};
+    for (int i = 0; i < 7; i++) {
+        double raised = *part[i] * e;
+        if (raised != rint(raised) || fabs(raised) > 127.0)
+            return fail(p, offset, 30,
+                        fw_arena_printf(p->arena,
+                                        "%s to this power has no whole dimension; powers of "
+                                        "quantities must be whole and small",
+                                        dimension(p, base->dimension)));
+        *part[i] = (int8_t)raised;
+    }
+    base->value = pow(base->value, e);
+    return finite_at(p, offset, base);
+}
+
+static bool parse_signed(parser *p, fw_value *v);
+
+static bool parse_power(parser *p, fw_value *v) {
+    if (!parse_primary(p, v)) return false;
+    if (!is_mark(p, '^')) return true;
+    size_t offset = p->token.start;
+    fw_value exponent;
+    return advance(p) && parse_signed(p, &exponent) && raise(p, offset, v, &exponent);
+}
+
+/* -2^2 is -4; every path of nesting passes here, so here is the limit on depth */
+static bool parse_signed(parser *p, fw_value *v) {
+    if (++p->depth > DEPTH_MOST)
+        return fail(p, p->token.start, 31,
+                    "the expression is nested more than 64 deep; split it with a <parameter>");
+    bool minus = is_mark(p, '-'), ok;
+    if (minus || is_mark(p, '+')) {
+        ok = advance(p) && parse_signed(p, v);
+        if (ok && minus) v->value = -v->value;
+    } else
+        ok = parse_power(p, v);
+    p->depth--;
+    return ok;
+}
+
+static bool has_length_or_more(fw_dimension d) {
+    d.rad = 0;
+    return !fw_dimension_equal(d, pure);
+}
+
+static bool parse_product(parser *p, fw_value *v) {
+    if (!parse_signed(p, v)) return false;
+    while (is_mark(p, '*') || is_mark(p, '/')) {
+        bool over = is_mark(p, '/');
+        size_t offset = p->token.start;
+        fw_value right;
+        if (!advance(p) || !parse_signed(p, &right)) return false;
+        if (over && right.value == 0.0)
+            return fail(p, offset, 27, "division by zero; the divisor must not vanish");
+        v->composite = v->composite || right.composite || has_length_or_more(v->dimension) ||
+                       has_length_or_more(right.dimension);
+        v->value = over ? v->value / right.value : v->value * right.value;
+        if (!fw_dimension_combine(&v->dimension, right.dimension, over ? -1 : 1))
+            return fail(p, offset, 30, "the exponents of the dimension leave -127 to 127");
+        if (!finite_at(p, offset, v)) return false;
+    }
+    return true;
+}
+
+static bool parse_sum(parser *p, fw_value *v) {
+    if (!parse_product(p, v)) return false;
+    while (is_mark(p, '+') || is_mark(p, '-')) {
+        bool minus = is_mark(p, '-');
+        size_t offset = p->token.start;
+        fw_value right;
+        if (!advance(p) || !parse_product(p, &right)) return false;
+        fw_dimension common;
+        if (!fw_value_unify(v, &right, &common))
+            return fail(p, offset, 26,
+                        fw_arena_printf(p->arena,
+                                        "%s cannot be %s %s; give both sides the "
+                                        "same kind of unit",
+                                        dimension(p, minus ? right.dimension : v->dimension),
+                                        minus ? "subtracted from" : "added to",
+                                        dimension(p, minus ? v->dimension : right.dimension)));
+        v->value += minus ? -right.value : right.value;
+        v->dimension = common;
+        v->composite = v->composite && right.composite;
+        if (!finite_at(p, offset, v)) return false;
+    }
+    return true;
+}
+
+static bool parse_all(parser *p, fw_value *v) {
+    if (!advance(p)) return false;
+    if (p->token.kind == FW_TOKEN_END)
+        return fail(p, 0, 33, "the value is empty; write a number with its unit, or an expression");
+    if (!parse_sum(p, v)) return false;
+    if (is_mark(p, ')')) return fail(p, p->token.start, 32, "this ')' closes nothing; remove it");
+    if (p->token.kind != FW_TOKEN_END)
+        return fail(p, p->token.start, 20,
+                    "an operator (+ - * / ^) is missing here, or the rest is too much");
+    return true;
+}
+
+static fw_status run(fw_arena *arena, const char *text, size_t n, const fw_names *names,
+                     fw_value *v, fw_expression_error *error) {
+    *error = (fw_expression_error){0};
+    *v = (fw_value){0};
+    parser p = {.arena = arena,
+                .lexer = {.arena = arena, .text = text, .n = n, .error = error},
+                .names = names,
+                .error = error};
+    if (parse_all(&p, v)) return FW_OK;
+    return error->message ? FW_INPUT : FW_NOMEM;
+}
+
+static fw_status no_unit(fw_arena *arena, const char *text, size_t n, fw_dimension wanted,
+                         fw_expression_error *error) {
+    const char *unit = fw_dimension_unit(wanted), *kind = fw_dimension_phrase(arena, wanted);
+    size_t first = 0, last = n;
+    double ignored;
+    while (first < n && (unsigned char)text[first] <= ' ')
+        first++;
+    while (last > first && (unsigned char)text[last - 1] <= ' ')
+        last--;
+    error->number = 24;
+    error->offset = first;
+    if (unit && fw_number_parse(text + first, last - first, &ignored))
+        error->message = fw_arena_printf(arena,
+                                         "'%.*s' has no unit, and %s is wanted; write for example "
+                                         "'%.*s %s'",
+                                         (int)(last - first), text + first, kind,
+                                         (int)(last - first), text + first, unit);
+    else
+        error->message = fw_arena_printf(arena, "a pure number is given where %s is wanted%s%s%s",
+                                         kind, unit ? "; give it a unit, for example '" : "",
+                                         unit ? unit : "", unit ? "'" : "");
+    return error->message ? FW_INPUT : FW_NOMEM;
+}
+
+static fw_status wrong_dimension(fw_arena *arena, fw_dimension got, fw_dimension wanted,
+                                 fw_expression_error *error) {
+    const char *unit = fw_dimension_unit(wanted);
+    bool to_pure = fw_dimension_equal(wanted, pure);
+    error->number = 25;
+    error->offset = 0;
+    error->message = fw_arena_printf(
+        arena, "this is %s, and %s is wanted; %s%s%s", fw_dimension_phrase(arena, got),
+        fw_dimension_phrase(arena, wanted), to_pure ? "leave the unit out" : "use a unit such as '",
+        to_pure ? ""
+        : unit  ? unit
+                : fw_dimension_text(arena, wanted),
+        to_pure ? "" : "'");
+    return error->message ? FW_INPUT : FW_NOMEM;
+}
+
+fw_status fw_expression_evaluate(fw_arena *arena, const char *text, size_t n, const fw_names *names,
+                                 fw_dimension wanted, double *value, fw_expression_error *error) {
+    fw_value v;
+    *value = (double)NAN;
+    FW_TRY(run(arena, text, n, names, &v, error));
+    bool fits = fw_dimension_equal(v.dimension, wanted) ||
+                (v.composite && fw_dimension_differs_in_angle(v.dimension, wanted));
+    if (!fits && fw_dimension_equal(v.dimension, pure))
+        return no_unit(arena, text, n, wanted, error);
+    if (!fits) return wrong_dimension(arena, v.dimension, wanted, error);
+    *value = v.value;
+    return FW_OK;
+}
+
+fw_status fw_expression_evaluate_any(fw_arena *arena, const char *text, size_t n,
+                                     const fw_names *names, double *value,
+                                     fw_dimension *dimension_found, fw_expression_error *error) {
+    fw_value v;
+    *value = (double)NAN;
+    *dimension_found = pure;
+    FW_TRY(run(arena, text, n, names, &v, error));
+    *value = v.value;
+    *dimension_found = v.dimension;
+    return FW_OK;
+}

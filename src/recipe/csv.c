@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "recipe/words.h"
+#include <string.h>
+
+/* RFC 4180: quoted where needed; what a spreadsheet would take for a formula gets a quote in front
+ */
+static void field(fw_text *out, const char *text) {
+    bool formula = text[0] && strchr("=+-@\t", text[0]) != NULL;
+    if (!formula && !strpbrk(text, ",\"\r\n")) {
+        fw_text_add(out, text);
+        return;
+    }
+    fw_text_add(out, formula ? "\"'" : "\"");
+    for (const char *c = text; *c; c++)
+        fw_text_bytes(out, *c == '"' ? "\"\"" : *c == '\n' ? " " : c, *c == '"' ? 2 : 1);
+    fw_text_add(out, "\"");
+}
+
+static void head(fw_text *out, const fw_step *s, const char *name) {
+    field(out, s->id);
+    fw_text_add(out, ",");
+    field(out, s->title);
+    fw_text_add(out, ",");
+    field(out, name);
+    fw_text_add(out, ",");
+}
+
+static void quantity_row(fw_text *out, const fw_step *s, const fw_row *row) {
+    const fw_quantity *q = row->q;
+    head(out, s, row->name);
+    if (!q->unknown) fw_put_exact(out, fw_quantity_in_unit(q));
+    fw_text_add(out, ",");
+    field(out, q->unit);
+    fw_text_add(out, ",");
+    if (!q->unknown) fw_put_exact(out, fw_row_uncertainty(q));
+    fw_text_add(out, ",");
+    field(out, q->unknown ? "unknown" : fw_value_status_text(q->status));
+    fw_text_add(out, ",");
+    field(out, q->unknown && q->note ? q->note : q->source ? q->source : "");
+    fw_text_add(out, "\n");
+}
+
+static fw_status time_rows(fw_text *out, const fw_step *s) {
+    const fw_time *t = &s->time;
+    const struct {
+        const char *name;
+        double value_s, u_s;
+    } rows[] = {{"time, nominal", t->nominal_s, t->nominal_s * t->relative_uncertainty},
+                {"time, first look", t->first_look_s, 0.0},
+                {"time, clear by", t->clear_by_s, 0.0},
+                {"time, stop", t->stop_s, 0.0}};
+    if (!t->computable) {
+        const char *missing = fw_missing_list(out->arena, t);
+        FW_NEED(missing);
+        const char *text = fw_arena_printf(out->arena, "missing: %s", missing);
+        FW_NEED(text);
+        head(out, s, "time, nominal");
+        fw_text_add(out, ",s,,NOT COMPUTABLE,");
+        field(out, text);
+        fw_text_add(out, "\n");
+        return FW_OK;
+    }
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        head(out, s, rows[i].name);
+        fw_put_exact(out, rows[i].value_s);
+        fw_text_add(out, ",s,");
+        if (i == 0) fw_put_exact(out, rows[i].u_s);
+        fw_text_printf(out, ",%s,computed: law %s\n", fw_value_status_text(t->status), s->law);
+    }
+    return FW_OK;
+}
+
+fw_status fw_recipe_write_csv(const fw_flow *flow, const fw_recipe_header *header, fw_text *out) {
+    fw_text_add(out, "step,title,name,value,unit,uncertainty,status,source\n");
+    if (header->rejected)
+        fw_text_add(out, ",REJECTED,the verdict rejects this design: do not fabricate,,,,,\n");
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_step *s = &flow->step[i];
+        fw_row *row = NULL;
+        int n = 0;
+        FW_TRY(fw_step_rows(out->arena, s, &row, &n));
+        for (int j = 0; j < n; j++)
+            quantity_row(out, s, &row[j]);
+        FW_TRY(time_rows(out, s));
+    }
+    return fw_text_end(out);
+}

@@ -1,0 +1,264 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "recipe/words.h"
+#include <math.h>
+#include <string.h>
+
+static void tagged(fw_text *out, const char *text) {
+    fw_text_printf(out, "<span class=\"tag %s\">%s</span>", text, text);
+}
+
+static void step_head(const fw_step *s, fw_text *out) {
+    fw_text_add(out, "<header><h2><span class=\"box\"></span>");
+    fw_text_escaped(out, s->id);
+    fw_text_add(out, "&ensp;");
+    fw_text_escaped(out, s->title);
+    fw_text_printf(out, "</h2><div class=\"meta\">%s%s%s</div></header>\n",
+                   s->in_source ? "described in the source" : "added, not in the source",
+                   s->mask[0] ? "<br>mask " : "", s->mask);
+    fw_text_add(out, "<div class=\"pair\"><div><p>");
+    fw_text_escaped(out, s->purpose);
+    fw_text_add(out, "</p>\n");
+    if (s->equipment) {
+        fw_text_add(out, "<p class=\"small\"><b>Equipment:</b> ");
+        fw_text_escaped(out, s->equipment->class_);
+        if (s->equipment->text[0]) {
+            fw_text_add(out, "; ");
+            fw_text_escaped(out, s->equipment->text);
+        }
+        if (s->batch > 1 && s->batch < 99)
+            fw_text_printf(out, ". Up to %d wafers at once", s->batch);
+        if (s->batch >= 99) fw_text_add(out, ". Once per lot");
+        fw_text_add(out, ".</p>\n");
+    }
+    fw_text_add(out, "</div><div>");
+}
+
+static void tolerance(const fw_row *row, fw_text *out) {
+    if (row->low[0] && row->high[0]) {
+        fw_text_escaped(out, row->low);
+        fw_text_add(out, " to ");
+        fw_text_escaped(out, row->high);
+    } else if (row->low[0]) {
+        fw_text_add(out, "&ge; ");
+        fw_text_escaped(out, row->low);
+    } else if (row->high[0]) {
+        fw_text_add(out, "&le; ");
+        fw_text_escaped(out, row->high);
+    }
+}
+
+static void value_cell(const fw_quantity *q, fw_text *out) {
+    if (q->unknown) {
+        fw_text_add(out, "____________");
+        if (strcmp(q->unit, "1") != 0) {
+            fw_text_add(out, " ");
+            fw_put_unit(out, q->unit);
+        }
+        return;
+    }
+    fw_text_add(out, "<b>");
+    fw_put_value(out, fw_quantity_in_unit(q));
+    fw_text_add(out, "</b>");
+    double u = fw_row_uncertainty(q);
+    if (u > 0.0) {
+        fw_text_add(out, " ± ");
+        if (u >= 99.5 && u < 1e6)
+            fw_text_fixed(out, u, 0);
+        else
+            fw_text_number(out, u, 2);
+    }
+    fw_text_add(out, " ");
+    fw_put_unit(out, q->unit);
+}
+
+static void quantity_row(const fw_flow *flow, const fw_row *row, fw_text *out) {
+    const fw_quantity *q = row->q;
+    fw_text_add(out, "<tr><td>");
+    fw_text_escaped(out, row->name);
+    fw_text_add(out, "</td><td class=\"n\">");
+    value_cell(q, out);
+    fw_text_add(out, "</td><td>");
+    tolerance(row, out);
+    fw_text_add(out, "</td><td>");
+    tagged(out, q->unknown ? "unknown" : fw_value_status_text(q->status));
+    fw_text_add(out, " ");
+    fw_html_source(flow, q->source, out);
+    if (q->note) {
+        fw_text_add(out, " <span class=\"muted\">");
+        fw_text_escaped(out, q->note);
+        fw_text_add(out, "</span>");
+    }
+    fw_text_add(out, "</td><td></td></tr>\n");
+}
+
+static fw_status quantities(const fw_flow *flow, const fw_step *s, fw_text *out) {
+    fw_row *row = NULL;
+    int n = 0, derived = 0;
+    FW_TRY(fw_step_rows(out->arena, s, &row, &n));
+    if (n == 0) return FW_OK;
+    fw_text_add(out,
+                "<table class=\"small\"><thead><tr><th style=\"width:28%\">Setting</th><th "
+                "class=\"n\">Planned</th><th>Allowed</th><th style=\"width:36%\">Status, source"
+                "</th><th style=\"width:16mm\">Actual</th></tr>"
+                "</thead><tbody>\n");
+    for (int i = 0; i < n; i++) {
+        if (row[i].derived && derived++ == 0)
+            fw_text_add(out, "<tr><th colspan=\"5\">Computed for this step</th></tr>\n");
+        quantity_row(flow, &row[i], out);
+    }
+    fw_text_add(out, "</tbody></table>\n");
+    return FW_OK;
+}
+
+static fw_status time_box(const fw_step *s, fw_text *out) {
+    const fw_time *t = &s->time;
+    if (!t->computable) {
+        const char *missing = fw_missing_list(out->arena, t);
+        FW_NEED(missing);
+        fw_text_add(out, "<p class=\"nc\"><b>TIME NOT COMPUTABLE</b>, missing: ");
+        fw_text_escaped(out, missing);
+        fw_text_add(out, ".</p>\n");
+        return FW_OK;
+    }
+    const double value[] = {t->nominal_s, t->first_look_s, t->clear_by_s, t->stop_s};
+    fw_text_add(out,
+                "<table class=\"window\"><tr><th>Planned</th><th>First look</th><th>Clear by</th>"
+                "<th>Stop</th></tr><tr>");
+    for (int i = 0; i < 4; i++) {
+        fw_text_printf(out, "<td>%s", i == 0 ? "<b>" : "");
+        fw_put_duration(out, value[i]);
+        fw_text_add(out, i == 0 ? "</b></td>" : "</td>");
+    }
+    fw_text_add(out, "</tr></table>\n");
+    if (strcmp(s->law, "const") == 0) /* the row "time" above has said it all */
+        return FW_OK;
+    fw_text_add(out, "<p class=\"small\">Time: law <i>");
+    fw_text_escaped(out, s->law);
+    fw_text_add(out, "</i>, ");
+    tagged(out, fw_value_status_text(t->status));
+    if (t->ncontribution > 0) {
+        fw_text_add(out, ", uncertainty from ");
+        for (int i = 0; i < t->ncontribution && i < 4; i++) {
+            fw_text_add(out, i ? ", " : "");
+            fw_text_escaped(out, t->contribution[i]);
+        }
+    }
+    fw_text_add(out, ".</p>\n");
+    return FW_OK;
+}
+
+static void checks(const fw_step *s, fw_text *out) {
+    for (int i = 0; i < s->nendpoint; i++) {
+        fw_text_add(out, "<p><b>Endpoint:</b> ");
+        fw_text_escaped(out, s->endpoint[i]);
+        fw_text_add(out, "</p>\n");
+    }
+    if (s->naccept == 0) return;
+    fw_text_add(out,
+                "<table class=\"small\"><tr><th>Accept when</th><th>Limits</th><th>Sites, every"
+                "</th><th style=\"width:34%\">Measured</th></tr>\n");
+    for (int i = 0; i < s->naccept; i++) {
+        const fw_accept *a = &s->accept[i];
+        fw_row limits = {.low = a->low, .high = a->high};
+        fw_text_add(out, "<tr><td>");
+        fw_text_escaped(out, a->measure);
+        fw_text_add(out, "</td><td>");
+        tolerance(&limits, out);
+        fw_text_add(out, limits.low[0] || limits.high[0] ? " " : "");
+        fw_put_unit(out, a->unit);
+        fw_text_printf(out, "</td><td>%d, ", a->sites);
+        if (a->every == 1)
+            fw_text_add(out, "every wafer");
+        else if (a->every >= 99)
+            fw_text_add(out, "first wafer");
+        else
+            fw_text_printf(out, "first and every %dth", a->every);
+        fw_text_add(out, "</td><td></td></tr>\n");
+    }
+    fw_text_add(out, "</table>\n");
+}
+
+static void failures(const fw_step *s, fw_text *out) {
+    for (int i = 0; i < s->non_fail; i++) {
+        const fw_on_fail *f = &s->on_fail[i];
+        fw_text_add(out, "<p class=\"small\"><b>If</b> ");
+        fw_text_escaped(out, f->condition);
+        fw_text_add(out, ": <b>");
+        fw_text_escaped(out, f->then);
+        if (f->go_to[0]) {
+            fw_text_add(out, strcmp(f->go_to, s->id) == 0 ? ", repeat " : ", back to ");
+            fw_text_escaped(out, f->go_to);
+        }
+        fw_text_add(out, "</b>. ");
+        fw_text_escaped(out, f->text);
+        fw_text_add(out, "</p>\n");
+    }
+}
+
+static void holds(const fw_step *s, fw_text *out) {
+    for (int i = 0; i < s->nlag; i++) {
+        const fw_lag *l = &s->lag[i];
+        fw_text_add(out, "<p class=\"note\"><b>Hold:</b> start ");
+        if (!isnan(l->min_s)) {
+            fw_text_add(out, "not before ");
+            fw_put_duration(out, l->min_s);
+        }
+        fw_text_add(out, !isnan(l->min_s) && !isnan(l->max_s) ? " and " : "");
+        if (!isnan(l->max_s)) {
+            fw_text_add(out, "within ");
+            fw_put_duration(out, l->max_s);
+        }
+        fw_text_add(out, " after the end of ");
+        fw_text_escaped(out, l->from);
+        fw_text_add(out, ".</p>\n");
+    }
+}
+
+static void hazards(const fw_step *s, fw_text *out) {
+    for (int i = 0; i < s->nhazard; i++) {
+        const fw_hazard *h = s->hazard[i];
+        fw_text_add(out, "<div class=\"hazard\"><b>Hazard");
+        if (strcmp(h->ghs, "none") != 0) {
+            fw_text_add(out, " ");
+            fw_text_escaped(out, h->ghs);
+        }
+        fw_text_printf(out, "%s.</b> Wear and keep ready: ",
+                       h->buddy ? ". Never alone: buddy and second signature" : "");
+        fw_text_escaped(out, h->ppe);
+        fw_text_add(out, ".<br><b>First aid:</b> ");
+        fw_text_escaped(out, h->first_aid);
+        if (strcmp(h->waste_stream, "none") != 0) {
+            fw_text_add(out, "<br><b>Waste, ");
+            fw_text_escaped(out, h->waste_stream);
+            fw_text_add(out, ":</b> ");
+            fw_text_escaped(out, h->waste);
+            fw_text_add(out, ".");
+        }
+        fw_text_add(out, "</div>\n");
+    }
+}
+
+static void actuals(const fw_step *s, fw_text *out) {
+    fw_text_printf(
+        out,
+        "<table class=\"actual\"><tr><td>Start</td><td>End</td><td>Tool ID</td><td>Bath or "
+        "bottle lot</td><td>Initials</td><td>%s</td></tr></table>\n",
+        s->second_signature ? "<b>Second signature</b>" : "Remarks");
+}
+
+void fw_html_step(const fw_flow *flow, int index, fw_text *out) {
+    const fw_step *s = &flow->step[index];
+    fw_text_add(out, "<section class=\"step\" id=\"");
+    fw_text_escaped(out, s->id);
+    fw_text_add(out, "\">\n");
+    step_head(s, out);
+    if (fw_recipe_section_svg(flow, index, out) != FW_OK) out->failed = 1;
+    fw_text_add(out, "</div></div>\n");
+    holds(s, out);
+    if (quantities(flow, s, out) != FW_OK || time_box(s, out) != FW_OK) out->failed = 1;
+    checks(s, out);
+    failures(s, out);
+    hazards(s, out);
+    actuals(s, out);
+    fw_text_add(out, "</section>\n");
+}

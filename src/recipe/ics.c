@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* iCalendar (RFC 5545). Times start at a fixed Monday, so that the same plan gives the same bytes:
+   the calendar program moves it to the real day. */
+#include "recipe/words.h"
+#include <math.h>
+#include <string.h>
+
+static const char stamp[] = "20250101T000000Z";
+
+/* CRLF, and a break with one space before the 75th byte; never inside a UTF-8 character */
+static void line(fw_text *out, const char *text) {
+    size_t n = strlen(text), at = 0, most = 74;
+    while (n - at > most) {
+        size_t cut = at + most;
+        while (cut > at && ((unsigned char)text[cut] & 0xC0) == 0x80)
+            cut--;
+        fw_text_bytes(out, text + at, cut - at);
+        fw_text_add(out, "\r\n ");
+        at = cut;
+        most = 73;
+    }
+    fw_text_bytes(out, text + at, n - at);
+    fw_text_add(out, "\r\n");
+}
+
+/* 3.3.11: backslash, semicolon and comma are escaped; control characters become spaces */
+static void escaped(fw_text *out, const char *text) {
+    for (const char *c = text; *c; c++) {
+        if (strchr("\\;,", *c))
+            fw_text_printf(out, "\\%c", *c);
+        else
+            fw_text_bytes(out, (unsigned char)*c < 0x20 ? " " : c, 1);
+    }
+}
+
+/* days since 1970-01-01 to a civil date: Hinnant, chrono-compatible date algorithms */
+static void put_date(fw_text *out, long seconds) {
+    long day = seconds / 86400, rest = seconds % 86400;
+    long z = day + 719468, era = z / 146097, doe = z - era * 146097;
+    long yoe = (doe - doe / 1460 + doe / 36524 - doe / 146096) / 365;
+    long doy = doe - (365 * yoe + yoe / 4 - yoe / 100), mp = (5 * doy + 2) / 153;
+    long d = doy - (153 * mp + 2) / 5 + 1, m = mp < 10 ? mp + 3 : mp - 9;
+    long y = yoe + era * 400 + (m <= 2 ? 1 : 0);
+    fw_text_printf(out, "%04ld%02ld%02ldT%02ld%02ld%02ldZ", y, m, d, rest / 3600, rest / 60 % 60,
+                   rest % 60);
+}
+
+static fw_status property(fw_text *out, const char *name, const char *value, bool escape) {
+    fw_text text = fw_text_new(out->arena);
+    fw_text_printf(&text, "%s:", name);
+    if (escape)
+        escaped(&text, value);
+    else
+        fw_text_add(&text, value);
+    FW_TRY(fw_text_end(&text));
+    line(out, text.data);
+    return FW_OK;
+}
+
+static fw_status moment(fw_text *out, const char *name, long seconds) {
+    fw_text text = fw_text_new(out->arena);
+    put_date(&text, seconds);
+    FW_TRY(fw_text_end(&text));
+    return property(out, name, text.data, false);
+}
+
+static fw_status description(fw_text *out, const fw_step *s) {
+    fw_text text = fw_text_new(out->arena);
+    fw_text_printf(&text, "%s Equipment: %s. ", s->purpose,
+                   s->equipment ? s->equipment->class_ : "");
+    if (s->time.computable) {
+        fw_text_add(&text, "First look ");
+        fw_put_duration(&text, s->time.first_look_s);
+        fw_text_add(&text, ", clear by ");
+        fw_put_duration(&text, s->time.clear_by_s);
+        fw_text_add(&text, ", stop ");
+        fw_put_duration(&text, s->time.stop_s);
+        fw_text_add(&text, ".");
+    } else {
+        const char *missing = fw_missing_list(out->arena, &s->time);
+        FW_NEED(missing);
+        fw_text_printf(&text, "Time NOT COMPUTABLE, missing: %s.", missing);
+    }
+    FW_TRY(fw_text_end(&text));
+    return property(out, "DESCRIPTION", text.data, true);
+}
+
+static fw_status entry(fw_text *out, const fw_flow *flow, const fw_recipe_header *header,
+                       const fw_step *s, bool event, long start, long end) {
+    fw_arena *arena = out->arena;
+    const char *kind = event ? "VEVENT" : "VTODO";
+    const char *uid = fw_arena_printf(arena, "%s-%s-%.16s-%.16s@flexwright.invalid", s->id,
+                                      event ? "attended" : "step", flow->sha256,
+                                      header->mask_sha256 ? header->mask_sha256 : "");
+    const char *summary = fw_arena_printf(arena, "%s%s %s%s", header->rejected ? "REJECTED: " : "",
+                                          s->id, s->title, event ? " (attended)" : "");
+    FW_NEED(uid && summary);
+    FW_TRY(property(out, "BEGIN", kind, false));
+    FW_TRY(property(out, "UID", uid, false));
+    FW_TRY(property(out, "DTSTAMP", stamp, false));
+    FW_TRY(moment(out, "DTSTART", start));
+    if (end > start) FW_TRY(moment(out, event ? "DTEND" : "DUE", end));
+    FW_TRY(property(out, "SUMMARY", summary, true));
+    FW_TRY(description(out, s));
+    if (s->equipment) FW_TRY(property(out, "LOCATION", s->equipment->class_, true));
+    return property(out, "END", kind, false);
+}
+
+fw_status fw_recipe_write_ics(const fw_flow *flow, const fw_recipe_header *header, fw_text *out) {
+    long at = 20094L * 86400L + 8L * 3600L; /* 2025-01-06, a Monday, 08:00 */
+    const char *name = fw_arena_printf(out->arena, "%s%s: %s", header->rejected ? "REJECTED " : "",
+                                       flow->title, header->device ? header->device : "");
+    FW_NEED(name);
+    FW_TRY(property(out, "BEGIN", "VCALENDAR", false));
+    FW_TRY(property(out, "VERSION", "2.0", false));
+    FW_TRY(property(out, "PRODID", "-//Flexwright//Run sheet//EN", false));
+    FW_TRY(property(out, "X-WR-CALNAME", name, true));
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_step *s = &flow->step[i];
+        double run = s->time.computable ? fmin(s->time.nominal_s, 1e8) : 0.0;
+        long lasts = lround(ceil(run)), attended = lround(fmin(s->attended_s, 1e8));
+        long end = at + (lasts > attended ? lasts : attended);
+        FW_TRY(entry(out, flow, header, s, false, at, end));
+        if (attended > 0) FW_TRY(entry(out, flow, header, s, true, at, at + attended));
+        at = end;
+    }
+    FW_TRY(property(out, "END", "VCALENDAR", false));
+    return fw_text_end(out);
+}

@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cross-section of the wafer, not to scale: a narrow and a wide part of the structure between
+ * fields. */
+#include "process/stack.h"
+#include "recipe/words.h"
+#include <math.h>
+#include <string.h>
+
+enum { WIDTH = 310, SECTION = 150, HEIGHT = 118, BANDS = 7 };
+/* which column each band shows, and its width; two flexures, their slot, a body */
+static const int band_column[BANDS] = {1, 0, 1, 0, 1, 0, 1};
+static const int band_width[BANDS] = {26, 9, 12, 9, 16, 52, 26};
+
+static const struct {
+    const char *material, *fill;
+} palette[] = {
+    {"silicon-100", "#b9c2cf"},   {"silicon-substrate", "#b9c2cf"}, {"porous-silicon", "#e9dfc6"},
+    {"copper-plated", "#d98a52"}, {"copper-seed", "#8c4a21"},       {"aluminium", "#7d868f"},
+    {"resist", "#f4c4cc"},        {"carrier-wax", "#f3eaa5"},       {"carrier", "#e2e2e2"}};
+
+static const char *fill_of(const char *material) {
+    static const char *const others[] = {"#c7dcc1", "#d5c9e3", "#c6e0e4", "#eed2bb"};
+    unsigned sum = 0;
+    for (size_t i = 0; i < sizeof palette / sizeof palette[0]; i++)
+        if (strcmp(palette[i].material, material) == 0) return palette[i].fill;
+    for (const char *c = material; *c; c++)
+        sum = 31 * sum + (unsigned char)*c;
+    return others[sum % 4];
+}
+
+/* lowest and highest drawn edge over the whole flow, so that the picture does not jump */
+static fw_status extent(fw_arena *arena, const fw_flow *flow, double *low, double *high) {
+    *low = 0.0;
+    *high = 1.0;
+    for (int i = 0; i < flow->nstep; i++) {
+        fw_stack stack;
+        if (flow->step[i].nchange == 0) continue;
+        FW_TRY(fw_flow_stack(arena, flow, i, &stack, NULL));
+        for (int column = 0; column < FW_STACK_COLUMNS; column++)
+            for (int k = 0; k < stack.n[column]; k++) {
+                const fw_cell *c = &stack.cell[column][k];
+                *low = fmin(*low, c->bottom);
+                *high = fmax(*high, c->bottom + c->height);
+            }
+    }
+    return FW_OK;
+}
+
+static void rectangle(fw_text *out, double x, double y, double w, double h, const char *fill) {
+    fw_text_add(out, "<rect x=\"");
+    fw_text_fixed(out, x, 2);
+    fw_text_add(out, "\" y=\"");
+    fw_text_fixed(out, y, 2);
+    fw_text_add(out, "\" width=\"");
+    fw_text_fixed(out, w, 2);
+    fw_text_add(out, "\" height=\"");
+    fw_text_fixed(out, h, 2);
+    fw_text_printf(out, "\" fill=\"%s\"/>\n", fill);
+}
+
+/* outline of a cell: floor and ceiling always, walls only where the neighbour band differs */
+static void stroke(fw_text *out, double x0, double y0, double x1, double y1) {
+    fw_text_add(out, "M");
+    fw_text_fixed(out, x0, 2);
+    fw_text_add(out, " ");
+    fw_text_fixed(out, y0, 2);
+    fw_text_add(out, "L");
+    fw_text_fixed(out, x1, 2);
+    fw_text_add(out, " ");
+    fw_text_fixed(out, y1, 2);
+}
+
+static bool has_cell(const fw_stack *s, int column, const fw_cell *like) {
+    for (int i = 0; i < s->n[column]; i++) {
+        const fw_cell *c = &s->cell[column][i];
+        if (strcmp(c->material, like->material) == 0 && c->bottom == like->bottom &&
+            c->height == like->height && c->exposed == like->exposed)
+            return true;
+    }
+    return false;
+}
+
+static void draw_bands(fw_text *out, const fw_stack *s, double high, double scale, bool lines) {
+    double x = 0.0;
+    for (int band = 0; band < BANDS; band++) {
+        int column = band_column[band];
+        for (int i = 0; i < s->n[column]; i++) {
+            const fw_cell *c = &s->cell[column][i];
+            double top = (high - c->bottom - c->height) * scale,
+                   floor_y = (high - c->bottom) * scale, w = band_width[band];
+            bool edge = band == 0 || band == BANDS - 1;
+            bool same = has_cell(s, 1 - column, c);
+            if (!lines) {
+                rectangle(out, x, top, w, floor_y - top,
+                          c->exposed ? "#fdeef0" : fill_of(c->material));
+                continue;
+            }
+            stroke(out, x, top, x + w, top);
+            stroke(out, x, floor_y, x + w, floor_y);
+            if (!same && !(edge && band == 0)) stroke(out, x, top, x, floor_y);
+            if (!same && !(edge && band > 0)) stroke(out, x + w, top, x + w, floor_y);
+        }
+        x += band_width[band];
+    }
+}
+
+typedef struct legend {
+    const char *material;
+    double thickness_m, top;
+    bool exposed;
+} legend;
+
+/* one line per material, top first; two coats of one material add up within a column */
+static int collect(const fw_stack *s, legend *list, int most) {
+    int n = 0;
+    for (int column = 0; column < FW_STACK_COLUMNS; column++) {
+        double sum[16] = {0.0};
+        for (int i = 0; i < s->n[column]; i++) {
+            const fw_cell *c = &s->cell[column][i];
+            int at = 0;
+            while (at < n &&
+                   (strcmp(list[at].material, c->material) != 0 || list[at].exposed != c->exposed))
+                at++;
+            if (at == most) continue;
+            if (at == n) list[n++] = (legend){c->material, 0.0, c->bottom, c->exposed};
+            sum[at] += c->thickness_m;
+            list[at].top = fmax(list[at].top, c->bottom + c->height);
+        }
+        for (int i = 0; i < n; i++)
+            if (!(sum[i] <= list[i].thickness_m)) /* also when unknown */
+                list[i].thickness_m = sum[i];
+    }
+    for (int i = 1; i < n; i++)
+        for (int k = i; k > 0 && list[k].top > list[k - 1].top; k--) {
+            legend swap = list[k];
+            list[k] = list[k - 1];
+            list[k - 1] = swap;
+        }
+    return n;
+}
+
+static void label(fw_text *out, const fw_flow *flow, const legend *l, int y) {
+    fw_text_printf(out,
+                   "<rect x=\"%d\" y=\"%d\" width=\"9\" height=\"9\" fill=\"%s\" stroke=\"#222\" "
+                   "stroke-width=\"0.5\"/>\n<text x=\"%d\" y=\"%d\">",
+                   SECTION + 10, y, l->exposed ? "#fdeef0" : fill_of(l->material), SECTION + 23,
+                   y + 8);
+    const char *name = l->exposed ? l->material : fw_flow_material_name(flow, l->material);
+    size_t n = strcspn(name, ",(");
+    char shown[27];
+    while (n > 0 && name[n - 1] == ' ')
+        n--;
+    if (n > sizeof shown - 1) n = sizeof shown - 1;
+    while (n > 0 && ((unsigned char)name[n] & 0xC0) == 0x80)
+        n--;
+    memcpy(shown, name, n);
+    shown[n] = '\0';
+    fw_text_escaped(out, shown);
+    fw_text_add(out, l->exposed ? ", exposed" : "");
+    if (isnan(l->thickness_m))
+        fw_text_add(out, " ?");
+    else {
+        fw_text_add(out, " ");
+        fw_text_number(out, l->thickness_m * 1e6, 3);
+        fw_text_add(out, " µm");
+    }
+    fw_text_add(out, "</text>\n");
+}
+
+fw_status fw_recipe_section_svg(const fw_flow *flow, int index, fw_text *out) {
+    fw_stack stack;
+    legend list[8];
+    double low, high;
+    FW_TRY(extent(out->arena, flow, &low, &high));
+    FW_TRY(fw_flow_stack(out->arena, flow, index, &stack, NULL));
+    double scale = (HEIGHT - 4.0) / (high - low), top = -1e9, bottom = 1e9;
+    int n = collect(&stack, list, 8);
+    for (int column = 0; column < FW_STACK_COLUMNS; column++)
+        for (int i = 0; i < stack.n[column]; i++) {
+            const fw_cell *c = &stack.cell[column][i];
+            top = fmax(top, c->bottom + c->height);
+            bottom = fmin(bottom, c->bottom);
+        }
+    /* only as high as the layers or their names need */
+    int height = (int)ceil(fmax(fmax(top - bottom, 0.0) * scale + 4.0, 15.0 * n + 2.0));
+    fw_text_printf(out,
+                   "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" "
+                   "height=\"%d\" role=\"img\" font-family=\"Helvetica, Arial, sans-serif\" "
+                   "font-size=\"10\">\n<title>layers after this step, not to scale</title>\n",
+                   WIDTH, height, WIDTH, height);
+    high = top + 2.0 / scale; /* drawn from the top down */
+    draw_bands(out, &stack, high, scale, false);
+    fw_text_add(out, "<path fill=\"none\" stroke=\"#222\" stroke-width=\"0.6\" d=\"");
+    draw_bands(out, &stack, high, scale, true);
+    fw_text_add(out, "\"/>\n");
+    for (int i = 0; i < n; i++)
+        label(out, flow, &list[i], 2 + 15 * i);
+    fw_text_add(out, "</svg>\n");
+    return fw_text_end(out);
+}

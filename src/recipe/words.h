@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Numbers and names as the run sheet prints them; private to recipe/. */
+#ifndef FW_RECIPE_WORDS_H
+#define FW_RECIPE_WORDS_H
+#include "recipe/recipe.h"
+
+/* a row of a step: a setting, an input of the time law or a derived value */
+typedef struct fw_row {
+    const char *name, *low, *high; /* tolerances as written, "" = none */
+    const fw_quantity *q;
+    bool derived;
+} fw_row;
+
+/* every quantity of a step once: settings, then inputs that are no setting, then derived ones */
+fw_status fw_step_rows(fw_arena *arena, const fw_step *step, fw_row **row, int *n);
+
+/* standard uncertainty in the quantity's own unit */
+double fw_row_uncertainty(const fw_quantity *q);
+/* shortest of 15, 16, 17 digits that reads back as the same number */
+void fw_put_exact(fw_text *out, double value);
+void fw_put_value(fw_text *out, double value); /* up to 6 significant digits */
+/* unit for people: um as micrometre sign, Cel as degree sign; escaped for HTML */
+void fw_put_unit(fw_text *out, const char *unit);
+/* "45 s", "16 min 40 s", "1 h 30 min" */
+void fw_put_duration(fw_text *out, double seconds);
+const char *fw_missing_list(fw_arena *arena, const fw_time *time); /* NULL: no memory */
+
+/* one step of the run sheet */
+void fw_html_step(const fw_flow *flow, int index, fw_text *out);
+/* "[3]": number of the source in the list at the end; other text as it is */
+void fw_html_source(const fw_flow *flow, const char *source, fw_text *out);
+
+#endif

@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "report/page.h"
+#include <math.h>
+#include <string.h>
+
+static void band(fw_text *out, const fw_hinge_verdict *h) {
+    fw_report_markup(out, "{p}", h->utilisation);
+    if (isfinite(h->utilisation_low) && isfinite(h->utilisation_high))
+        fw_report_markup(out, " ({p} to {p})", h->utilisation_low, h->utilisation_high);
+}
+
+static void why(fw_text *out, const fw_verdict *v) {
+    static const char *const closing[] = {
+        [FW_ACCEPT] = "Every hinge stays inside its elastic range, error band included.",
+        [FW_INCONCLUSIVE] = "The error band straddles the limit: neither accepted nor rejected.",
+        [FW_REJECT] = "It leaves its elastic range.",
+    };
+    fw_text_add(out, "<p class=\"why\">");
+    if (v->governing >= 0 && v->governing < v->nhinge) {
+        const fw_hinge_verdict *h = &v->hinge[v->governing];
+        fw_report_markup(out, "Hinge {s} turns by {d}; {r}{d} is allowed: {p} of its limit. ",
+                         h->id, fabs(h->peak_angle_rad), v->decision == FW_REJECT ? "only " : "",
+                         h->limit_angle_rad, h->utilisation);
+        fw_text_add(out, closing[v->decision <= FW_REJECT ? v->decision : FW_INCONCLUSIVE]);
+    } else
+        fw_text_add(out, "No hinge of this device has a limit to be checked.");
+    fw_text_add(out, "</p>\n");
+}
+
+static void facts(fw_text *out, const fw_verdict *v) {
+    if (v->governing < 0 || v->governing >= v->nhinge) return;
+    const fw_hinge_verdict *h = &v->hinge[v->governing];
+    fw_report_markup(out,
+                     "<dl><div><dt>Governing hinge</dt><dd>{s}</dd></div>"
+                     "<div><dt>Utilisation (error band)</dt><dd>",
+                     h->id);
+    band(out, h);
+    fw_report_markup(out,
+                     "</dd></div><div><dt>Flow</dt><dd>{s}</dd></div><div><dt>Scene</dt>"
+                     "<dd>{s}</dd></div><div><dt>Instant</dt><dd>",
+                     h->flow ? h->flow : "\u2013", h->scene ? h->scene : "\u2013");
+    if (isfinite(h->t_s))
+        fw_report_markup(out, "{u}", h->t_s, "s");
+    else
+        fw_text_add(out, "any pose");
+    fw_report_markup(out,
+                     "</dd></div><div><dt>Peak strain (limit)</dt><dd>{p} ({p})</dd></div></dl>\n",
+                     h->peak_strain, h->strain_limit);
+}
+
+void fw_report_advice(fw_page *page) {
+    const fw_verdict *v = page->in->verdict;
+    fw_text *out = page->out;
+    if (v->nadvice == 0 && !v->advice_note) return;
+    fw_report_markup(out, "<aside class=\"advice\"><h2>{r}</h2>\n",
+                     v->nadvice ? "What would be accepted" : "Advice");
+    if (v->nadvice) {
+        fw_text_add(out, "<ul>\n");
+        for (int i = 0; i < v->nadvice; i++) {
+            const fw_advice *a = &v->advice[i];
+            fw_report_markup(out, "<li>{s}", a->text);
+            if (a->set_path && a->value_text)
+                fw_report_markup(out, " <code>--set &#39;{s}={s}&#39;</code>", a->set_path,
+                                 a->value_text);
+            fw_text_add(out, "</li>\n");
+        }
+        fw_text_add(out, "</ul>\n");
+        if (!v->advice_note)
+            fw_report_markup(out, "<p>{r}</p>\n",
+                             v->advice_verified
+                                 ? "All of these changes together were run and accepted."
+                                 : "These changes together were not confirmed by a run.");
+    }
+    if (v->advice_note) fw_report_markup(out, "<p>{s}</p>\n", v->advice_note);
+    fw_text_add(out, "</aside>\n");
+}
+
+void fw_report_banner(fw_page *page) {
+    const fw_verdict *v = page->in->verdict;
+    fw_text *out = page->out;
+    fw_report_markup(out,
+                     "<header style=\"background:{r}\"><div class=\"in\"><h1>{s}: elastic verdict"
+                     "</h1>\n<p class=\"word\">{r}</p>\n",
+                     fw_report_decision_colour(v->decision), page->in->device->name,
+                     fw_report_decision_word(v->decision));
+    why(out, v);
+    facts(out, v);
+    fw_text_add(out, "</div></header>\n");
+}
+
+fw_status fw_report_section_device(fw_page *page) {
+    const fw_device *device = page->in->device;
+    fw_text *out = page->out;
+    const fw_verdict *verdict = page->in->verdict;
+    fw_report_markup(out,
+                     "<div class=\"two\"><figure style=\"margin:0\"><svg "
+                     "xmlns=\"http://www.w3.org/2000/svg\" class=\"drawing\" role=\"img\" "
+                     "viewBox=\"0 0 {c} {c}\"><title>{s}: hinges coloured by utilisation</title>\n",
+                     page->view.width, page->view.height + 30.0, device->name);
+    fw_report_drawing(device, page->in->layout, verdict, &page->view, true, out);
+    fw_text_add(out, "</svg>\n");
+    if (!fw_report_drawn(page->in->layout))
+        fw_report_markup(out, "<figcaption class=\"soft\">Schematic. {s}</figcaption>\n",
+                         page->in->layout ? page->in->layout->why_not : NULL);
+    fw_text_add(out,
+                "</figure>\n<div><h3>What it is made of</h3><table><thead><tr><th scope=\"col\">"
+                "Flow</th><th scope=\"col\">Material</th><th scope=\"col\" class=\"n\">Thickness"
+                "</th><th scope=\"col\">Verdict</th></tr></thead><tbody>\n");
+    for (int i = 0; i < verdict->nvariant; i++) {
+        const fw_variant_verdict *v = &verdict->variant[i];
+        const fw_material *m = &v->variant->material;
+        fw_report_markup(out,
+                         "<tr><th scope=\"row\">{s}</th><td>{s}</td><td class=\"n\">{u}</td>"
+                         "<td><span class=\"tag\" style=\"background:{r}\">{r}</span></td></tr>\n",
+                         v->variant->flow ? v->variant->flow : "none", m->name ? m->name : m->id,
+                         v->variant->thickness_m, "m", fw_report_decision_colour(v->decision),
+                         fw_report_decision_word(v->decision));
+    }
+    fw_text_add(out, "</tbody></table>\n");
+    if (device->nparameter)
+        fw_text_add(out,
+                    "<h3>Parameters</h3><table><thead><tr><th scope=\"col\">Name</th>"
+                    "<th scope=\"col\" class=\"n\">Value</th><th scope=\"col\">Meaning</th></tr>"
+                    "</thead><tbody>\n");
+    for (int i = 0; i < device->nparameter; i++) {
+        const fw_parameter *p = &device->parameter[i];
+        fw_unit unit;
+        const char *name = p->unit ? p->unit : "";
+        bool known = name[0] && fw_unit_parse(name, strlen(name), &unit, NULL, NULL);
+        double value = known ? (p->value - unit.offset) / unit.factor : p->value;
+        fw_report_markup(out, "<tr><th scope=\"row\"><code>{s}</code></th><td class=\"n\">",
+                         p->name);
+        fw_report_number(out, value, 6);
+        fw_report_markup(out, " {s}</td><td>{s}{r}</td></tr>\n", known ? name : "", p->doc,
+                         p->overridden ? " <strong>(set on the command line)</strong>" : "");
+    }
+    if (device->nparameter) fw_text_add(out, "</tbody></table>\n");
+    fw_text_add(out, "</div></div>\n");
+    return fw_text_end(out);
+}

@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* JSON for programs: 17 digits, keys in a fixed order, null where a number is not finite. */
+#ifndef FW_REPORT_JSON_H
+#define FW_REPORT_JSON_H
+#include "report/report.h"
+
+/* schema flexwright.verdict/1 (verdict.json) */
+fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out);
+/* schema flexwright.simulate/1 */
+fw_status fw_report_simulate_json(const fw_mechanism *mechanism, const fw_motion *motion,
+                                  fw_text *out);
+#endif

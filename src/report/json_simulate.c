@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "report/json.h"
+#include "report/json_effects.h"
+
+static json_t *stats(const fw_motion *m, bool *failed) {
+    const fw_motion_stats *s = &m->stats;
+    json_t *o = json_object();
+    fw_json_put(o, "steps", json_integer(s->steps), failed);
+    fw_json_put(o, "rejected", json_integer(s->rejected), failed);
+    fw_json_put(o, "rhs", json_integer(s->rhs), failed);
+    fw_json_put(o, "projections", json_integer(s->projections), failed);
+    fw_json_put(o, "cpu_s", fw_json_real(s->cpu_s), failed);
+    fw_json_put(o, "max_constraint_norm", fw_json_real(s->max_constraint_norm), failed);
+    fw_json_put(o, "max_velocity_norm", fw_json_real(s->max_velocity_norm), failed);
+    fw_json_put(o, "energy_error", fw_json_real(s->energy_error), failed);
+    fw_json_put(o, "rtol", fw_json_real(s->rtol), failed);
+    fw_json_put(o, "assembly_moved_m", fw_json_real(s->assembly_moved_m), failed);
+    return o;
+}
+
+static json_t *peaks(const fw_mechanism *mechanism, const fw_motion *m, bool *failed) {
+    json_t *list = json_array();
+    for (int k = 0; k < m->npin; k++) {
+        json_t *o = json_object();
+        fw_json_put(o, "hinge", fw_json_text(mechanism->pin[k].id), failed);
+        fw_json_put(o, "angle_rad", fw_json_real(m->peak[k].angle_rad), failed);
+        fw_json_put(o, "t_s", fw_json_real(m->peak[k].t_s), failed);
+        fw_json_put(o, "error_rad", fw_json_real(m->peak[k].error_rad), failed);
+        fw_json_push(list, o, failed);
+    }
+    return list;
+}
+
+static json_t *by_body(const fw_mechanism *mechanism, const fw_motion *m, const double *table,
+                       bool *failed) {
+    json_t *o = json_object();
+    const double *last = table + 3 * (size_t)m->nbody * (size_t)(m->nsample - 1);
+    for (int b = 0; b < m->nbody; b++) {
+        json_t *triple = json_array();
+        for (int k = 0; k < 3; k++)
+            fw_json_push(triple, fw_json_real(last[3 * b + k]), failed);
+        fw_json_put(o, mechanism->body[b].id, triple, failed);
+    }
+    return o;
+}
+
+fw_status fw_report_simulate_json(const fw_mechanism *mechanism, const fw_motion *motion,
+                                  fw_text *out) {
+    bool failed = false;
+    json_t *root = json_object();
+    fw_json_put(root, "schema", fw_json_text("flexwright.simulate/1"), &failed);
+    fw_json_put(root, "method", fw_json_text(motion->method), &failed);
+    fw_json_put(root, "integrator", fw_json_text(motion->integrator), &failed);
+    fw_json_put(root, "reason", fw_json_text(motion->reason), &failed);
+    fw_json_put(root, "stats", stats(motion, &failed), &failed);
+    json_t *effects = json_array();
+    fw_json_effects(effects, &motion->ledger, NULL, NULL, &failed);
+    fw_json_put(root, "effects", effects, &failed);
+    fw_json_put(root, "peaks", peaks(mechanism, motion, &failed), &failed);
+    if (motion->nsample > 0) {
+        json_t *final = json_object();
+        fw_json_put(final, "t_s", fw_json_real(motion->t_s[motion->nsample - 1]), &failed);
+        fw_json_put(final, "q", by_body(mechanism, motion, motion->q, &failed), &failed);
+        fw_json_put(final, "v", by_body(mechanism, motion, motion->v, &failed), &failed);
+        fw_json_put(root, "final", final, &failed);
+    } else
+        fw_json_put(root, "final", json_null(), &failed);
+    return fw_json_write(root, failed, out);
+}

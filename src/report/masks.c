@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "report/page.h"
+#include <math.h>
+
+enum { THUMBNAIL = 520, SCALE_STRIP = 24, MOST_SEGMENTS = 12000 };
+
+/* one path per layer, from the exact outlines; text goes first when there is too much */
+static void thumbnail(fw_text *out, const fw_mask *mask) {
+    long segments = 0;
+    for (int i = 0; i < mask->nshape; i++)
+        segments += mask->shape[i].contour.count;
+    bool with_text = segments <= MOST_SEGMENTS;
+    fw_box box = mask->box;
+    fw_report_view view =
+        fw_report_view_fit(box, THUMBNAIL, 0.02 * fmax(box.x1 - box.x0, box.y1 - box.y0));
+    fw_report_markup(out,
+                     "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"drawing\" role=\"img\" "
+                     "viewBox=\"0 0 {c} {c}\"><title>Mask {s}, all layers</title>\n",
+                     view.width, view.height + SCALE_STRIP, mask->flow);
+    for (int layer = 0; layer < mask->table->nlayer; layer++) {
+        const char *colour = fw_report_layer_colour(mask->table->layer[layer].colour, layer);
+        fw_report_markup(out,
+                         "<path fill=\"{r}\" fill-opacity=\"0.6\" stroke=\"{r}\" "
+                         "stroke-width=\"0.4\" d=\"",
+                         colour, colour);
+        for (int i = 0; i < mask->nshape; i++) {
+            const fw_mask_shape *s = &mask->shape[i];
+            if (s->layer == layer && (with_text || !s->piece || s->piece->role != FW_ROLE_TEXT))
+                fw_report_path(out, &view, &s->contour);
+        }
+        fw_text_add(out, "\"/>\n");
+    }
+    view.height += SCALE_STRIP;
+    fw_report_scale_bar_svg(out, &view);
+    fw_text_add(out, "</svg>\n");
+}
+
+static void length_or_dash(fw_text *out, double value) {
+    if (value > 0.0 && isfinite(value))
+        fw_report_markup(out, "<td class=\"n\">{u}</td>", value, "m");
+    else
+        fw_text_add(out, "<td class=\"n\">\u2013</td>");
+}
+
+static void layers(fw_text *out, const fw_mask *mask) {
+    fw_text_add(out,
+                "<div class=\"wide\"><table><caption>Layers, with the least width and space found "
+                "on the exact outlines against the rule</caption><thead><tr><th scope=\"col\">"
+                "Layer</th><th scope=\"col\">Purpose</th><th scope=\"col\" class=\"n\">Shapes"
+                "</th><th scope=\"col\" class=\"n\">Vertices</th><th scope=\"col\" "
+                "class=\"n\">Area</th><th scope=\"col\" class=\"n\">Shortest edge</th><th "
+                "scope=\"col\" class=\"n\">Width</th><th scope=\"col\" class=\"n\">Rule</th><th "
+                "scope=\"col\" class=\"n\">Space</th><th scope=\"col\" class=\"n\">Rule</th>"
+                "</tr></thead><tbody>\n");
+    for (int i = 0; i < mask->table->nlayer; i++) {
+        const fw_mask_layer *l = &mask->table->layer[i];
+        const fw_mask_measure none = {0}, *m = mask->measure ? &mask->measure[i] : &none;
+        fw_report_markup(
+            out,
+            "<tr><th scope=\"row\"><span class=\"swatch\" style=\"background:{r}\"></span>"
+            "{i}/{i} {s}</th><td>{s}{r}{s}{r}</td><td class=\"n\">{i}</td><td "
+            "class=\"n\">{i}</td><td class=\"n\">{n} mm\u00b2</td>",
+            fw_report_layer_colour(l->colour, i), l->layer, l->datatype, l->name ? l->name : l->id,
+            l->purpose, l->tone && l->tone[0] ? ", " : "", l->tone, l->biased ? ", biased" : "",
+            m->shapes, m->vertices, m->area_m2 * 1e6);
+        length_or_dash(out, m->shortest_edge_m);
+        length_or_dash(out, m->width_m);
+        length_or_dash(out, l->min_width_m);
+        length_or_dash(out, m->space_m);
+        length_or_dash(out, l->min_space_m);
+        fw_text_add(out, "</tr>\n");
+    }
+    fw_text_add(out, "</tbody></table></div>\n");
+}
+
+static void one(fw_text *out, const fw_report_flow *f) {
+    const fw_mask *mask = f->mask;
+    fw_text_add(out, "<div class=\"two\">\n");
+    thumbnail(out, mask);
+    fw_text_add(out, "<div>");
+    if (mask->rejected)
+        fw_text_add(out, "<p><strong class=\"no\">REJECTED: made on request; every file says so."
+                         "</strong></p>\n");
+    fw_report_markup(out,
+                     "<table><tbody><tr><th scope=\"row\">Cell</th><td>{s}</td></tr>"
+                     "<tr><th scope=\"row\">Size</th><td>{u} \u00d7 {u}</td></tr>"
+                     "<tr><th scope=\"row\">Bias per edge</th><td>{u}</td></tr>"
+                     "<tr><th scope=\"row\">Arc tolerance</th><td>{u}, grid 1\u00a0nm</td></tr>"
+                     "<tr><th scope=\"row\">Reading</th><td>{s}</td></tr>"
+                     "<tr><th scope=\"row\">Polygons</th><td>{i}</td></tr></tbody></table>\n",
+                     mask->cell, mask->box.x1 - mask->box.x0, "m", mask->box.y1 - mask->box.y0, "m",
+                     mask->bias_m, "m", mask->tolerance_m, "m", mask->table->reading, mask->nshape);
+    if (f->flow && f->flow->bias_note)
+        fw_report_markup(out, "<p class=\"soft small\">{s}</p>\n", f->flow->bias_note);
+    if (mask->nnote) fw_text_add(out, "<p class=\"soft small\">Written on the mask: ");
+    for (int i = 0; i < mask->nnote; i++)
+        fw_report_markup(out, "{r}{s}", i ? "; " : "", mask->note[i]);
+    fw_text_add(out, mask->nnote ? "</p>\n" : "");
+    fw_text_add(out, "</div></div>\n");
+    layers(out, mask);
+}
+
+fw_status fw_report_section_masks(fw_page *page) {
+    fw_text *out = page->out;
+    for (int i = 0; i < page->in->nflow; i++) {
+        const fw_report_flow *f = &page->in->flow[i];
+        const char *flow = f->flow ? f->flow->id : f->mask ? f->mask->flow : NULL;
+        fw_report_markup(out, "<h3>{s}</h3>\n", flow ? flow : "flow");
+        if (f->mask)
+            one(out, f);
+        else if (f->mask_error)
+            fw_report_markup(out, "<p><strong class=\"no\">No mask:</strong> {s}</p>\n",
+                             f->mask_error);
+        else
+            fw_report_markup(out, "<p>No mask{r}.</p>\n",
+                             page->in->verdict->decision == FW_REJECT
+                                 ? ": a rejected design gets none unless it is forced"
+                                 : " was made");
+    }
+    if (page->in->nflow == 0) fw_text_add(out, "<p>The description names no flow.</p>\n");
+    return fw_text_end(out);
+}

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "report/page.h"
+
+fw_status fw_report_section_messages(fw_page *page) {
+    static const char *const word[] = {"note", "warning", "error"};
+    const fw_diags *diags = page->in->diags;
+    fw_text *out = page->out;
+    if (!diags || diags->count == 0) {
+        fw_text_add(out, "<p>No warnings.</p>\n");
+        return fw_text_end(out);
+    }
+    fw_text_add(out,
+                "<div class=\"wide\"><table><thead><tr><th scope=\"col\">Kind</th><th "
+                "scope=\"col\">Place</th><th scope=\"col\">Message</th><th scope=\"col\">Code</th>"
+                "</tr></thead><tbody>\n");
+    for (size_t i = 0; i < diags->count; i++) {
+        const fw_diag *d = &diags->item[i];
+        fw_report_markup(out, "<tr><td>{r}</td><td>{s}", word[d->severity],
+                         fw_place_file(d->place));
+        if (d->place.line > 0) fw_report_markup(out, ":{i}:{i}", d->place.line, d->place.column);
+        fw_report_markup(out, "</td><td>{s}</td><td>", d->message);
+        fw_text_printf(out, "FW-D%03d</td></tr>\n", d->number);
+    }
+    fw_text_add(out, "</tbody></table></div>\n");
+    if (diags->dropped)
+        fw_report_markup(out, "<p>{l} more are not shown.</p>\n", (long)diags->dropped);
+    return fw_text_end(out);
+}

@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Inside the report room: numbers for people, markup, drawing in picture coordinates, sections. */
+#ifndef FW_REPORT_PAGE_H
+#define FW_REPORT_PAGE_H
+#include "report/report.h"
+
+/* ---- markup.c: numbers and text for people ---- */
+
+/* writes `format`, replacing
+     {s} const char * escaped (NULL: nothing)   {r} const char * as it is, for our own markup
+     {i} int        {l} long        {c} double, picture coordinate, 2 decimals
+     {n} double, 4 digits           {e} double, 2 digits
+     {u} double, const char *: value with SI prefix and unit, 4 digits
+     {d} double, rad shown in degrees, 4 digits   {D} the same for columns: no sign, zeros at the
+   end kept {p} double, ratio shown in per cent {h} double, seconds shown as a duration A number
+   that is not finite becomes a dash (0 for {c}). */
+void fw_report_markup(fw_text *out, const char *format, ...);
+void fw_report_number(fw_text *out, double value, int digits);
+void fw_report_si(fw_text *out, double value, const char *unit, int digits);
+
+extern const char fw_report_style[];  /* style sheet of the page */
+extern const char fw_report_script[]; /* its player */
+
+/* ---- colour.c: Okabe-Ito, told apart by colour-blind readers ---- */
+typedef struct fw_report_class {
+    double below; /* utilisation */
+    const char *colour, *label;
+} fw_report_class;
+enum { FW_REPORT_CLASSES = 5 };
+extern const fw_report_class fw_report_classes[FW_REPORT_CLASSES]; /* last: no limit known */
+const char *fw_report_utilisation_colour(double utilisation);
+const char *fw_report_decision_colour(fw_decision decision);
+const char *fw_report_decision_word(fw_decision decision); /* "ACCEPT" ... */
+/* `colour` when it reads #rgb or #rrggbb, else entry `index` of the palette */
+const char *fw_report_layer_colour(const char *colour, int index);
+
+/* ---- shape.c: picture coordinates, y down ---- */
+typedef struct fw_report_view {
+    double x0_m, y1_m, scale; /* pixel per m */
+    double width, height;
+} fw_report_view;
+fw_report_view fw_report_view_fit(fw_box box, double width, double pad_m);
+double fw_report_x(const fw_report_view *view, double x_m);
+double fw_report_y(const fw_report_view *view, double y_m);
+void fw_report_path(fw_text *out, const fw_report_view *view, const fw_contour *contour);
+fw_box fw_report_box_empty(void);
+void fw_report_box_add(fw_box *box, double x_m, double y_m);
+/* what the pictures show: the mechanism at rest and, with `reach`, where its hinges get to */
+fw_report_view fw_report_device_view(const fw_device *device, const fw_layout *layout,
+                                     const fw_box *reach, double width);
+/* hinge point of a joint in the drawn position */
+fw_vec2 fw_report_hinge_point(const fw_device *device, const fw_layout *layout, int joint);
+bool fw_report_drawn(const fw_layout *layout);
+/* length of a scale bar that fills about a fifth of the view: 1, 2 or 5 times a power of ten */
+double fw_report_scale_bar(const fw_report_view *view);
+void fw_report_scale_bar_svg(fw_text *out, const fw_report_view *view);
+double fw_report_nice(double x); /* the 1, 2, 5 x 10^n at or above x */
+
+/* ---- pose.c: bodies and bending flexures at an instant ---- */
+typedef struct fw_report_bend_point { /* turns about the hinge point with `weight` of the upper body
+                                       */
+    double x_m, y_m, weight;
+} fw_report_bend_point;
+typedef struct fw_report_bend {
+    const fw_piece *piece;
+    fw_vec2 centre;   /* hinge point */
+    int lower, upper; /* bodies */
+    int joint;
+    fw_report_bend_point *point; /* (npoint) closed outline */
+    int npoint;
+} fw_report_bend;
+typedef struct fw_report_bends {
+    fw_report_bend *item; /* (count) */
+    int count;
+} fw_report_bends;
+fw_status fw_report_bends_make(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                               fw_report_bends *bends);
+/* pose of a body between the samples; ground rests at zero. q_part 3 numbers. */
+void fw_report_pose_at(const fw_motion *motion, int body, double t_s, double pose[3]);
+/* where the point (x, y) of the drawn position is when `body` has moved to its pose at t */
+fw_vec2 fw_report_moved(const fw_mechanism *mechanism, const fw_motion *motion, int body,
+                        double t_s, fw_vec2 drawn);
+fw_vec2 fw_report_bent(const fw_mechanism *mechanism, const fw_motion *motion,
+                       const fw_report_bend *bend, double t_s, fw_report_bend_point point);
+/* adds where the hinge points of all bodies get to */
+void fw_report_reach_add(fw_box *box, const fw_device *device, const fw_layout *layout,
+                         const fw_mechanism *mechanism, const fw_motion *motion);
+/* largest peak over limit of the scene, its instant; pin FW_NONE when nothing is limited */
+typedef struct fw_report_worst {
+    int pin;
+    double utilisation, t_s;
+} fw_report_worst;
+fw_report_worst fw_report_motion_worst(const fw_mechanism *mechanism, const fw_motion *motion);
+double fw_report_pin_limit(const fw_mechanism *mechanism, int pin); /* rad; NaN: none */
+
+/* ---- decimate.c ---- */
+/* at most `most` indices that keep the first, the last and every extreme; returns how many */
+int fw_report_decimate(const double *y, int stride, int count, int most, int *index);
+
+/* ---- plot.c ---- */
+/* one panel per pin; at most FW_REPORT_PANELS of them, the most used ones */
+enum { FW_REPORT_PANELS = 12, FW_REPORT_CURVE = 400 };
+typedef struct fw_report_figure {
+    int columns, curve_points;
+    bool standalone; /* a file of its own: with a heading */
+    const char *title;
+} fw_report_figure;
+fw_status fw_report_panels(fw_arena *arena, const fw_mechanism *mechanism, const fw_motion *motion,
+                           const fw_report_figure *figure, fw_text *out);
+
+/* ---- drawing.c ---- */
+/* everything inside the <svg> of the device drawing; `ids` adds ids that figures may <use> */
+void fw_report_drawing(const fw_device *device, const fw_layout *layout, const fw_verdict *verdict,
+                       const fw_report_view *view, bool ids, fw_text *out);
+/* path of all rigid pieces of a body */
+void fw_report_body_path(const fw_layout *layout, int body, const fw_report_view *view,
+                         fw_text *out);
+/* stick figure of body `body` for mechanisms without shapes */
+void fw_report_body_sticks(const fw_device *device, int body, const fw_report_view *view,
+                           fw_text *out);
+double fw_report_joint_utilisation(const fw_verdict *verdict, int joint); /* NaN: none */
+
+/* ---- sections of the page ---- */
+typedef struct fw_page {
+    fw_arena *arena;
+    fw_text *out;
+    const fw_report_input *in;
+    fw_report_view view; /* of the drawing and of all animations */
+    int nmotion;         /* motions in the whole page */
+} fw_page;
+void fw_report_banner(fw_page *page);
+void fw_report_advice(fw_page *page);
+fw_status fw_report_section_device(fw_page *page);
+fw_status fw_report_section_hinges(fw_page *page);
+fw_status fw_report_section_motion(fw_page *page);
+fw_status fw_report_section_workspace(fw_page *page);
+fw_status fw_report_section_flows(fw_page *page);
+fw_status fw_report_section_masks(fw_page *page);
+fw_status fw_report_section_recipes(fw_page *page);
+fw_status fw_report_section_effects(fw_page *page);
+fw_status fw_report_section_accuracy(fw_page *page);
+fw_status fw_report_section_assumptions(fw_page *page);
+fw_status fw_report_section_messages(fw_page *page);
+/* table of hinge verdicts; `with_flow` adds the column */
+void fw_report_hinge_table(fw_text *out, const fw_hinge_verdict *hinge, int nhinge, bool with_flow,
+                           const char *caption);
+/* player of one motion: still picture at the worst instant, controls, data for the script */
+fw_status fw_report_player(fw_page *page, const fw_variant_verdict *variant, int scene, int number);
+#endif

@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The moving picture of the page: a still at the worst instant, drawn here, and the numbers from
+   which the script moves it. */
+#include "report/page.h"
+#include <math.h>
+
+static const double DEGREES = 57.29577951308232;
+
+enum { FRAMES = 400, FEWEST_FRAMES = 30, NUMBERS = 60000 }; /* NUMBERS: in the whole page */
+
+/* translate(now) rotate translate(-then): picture coordinates, clockwise positive */
+static void body_transform(const fw_mechanism *mechanism, const fw_motion *motion, int body,
+                           double t_s, const fw_report_view *view, fw_text *out) {
+    double pose[3];
+    fw_report_pose_at(motion, body, t_s, pose);
+    const fw_mass *m = &mechanism->body[body];
+    fw_text_add(out, "translate(");
+    fw_report_markup(out, "{c} {c}) rotate(", fw_report_x(view, pose[0]),
+                     fw_report_y(view, pose[1]));
+    double turn = -DEGREES * (pose[2] - m->phi_rad);
+    fw_text_fixed(out, isfinite(turn) ? turn : 0.0, 4);
+    fw_report_markup(out, ") translate({c} {c})", -fw_report_x(view, m->x_m),
+                     -fw_report_y(view, m->y_m));
+}
+
+static void moving_bodies(const fw_page *page, const fw_mechanism *mechanism,
+                          const fw_motion *motion, double t_s) {
+    fw_text *out = page->out;
+    bool drawn = fw_report_drawn(page->in->layout);
+    for (int b = 0; b < motion->nbody; b++) {
+        bool platform = page->in->device->body[b].platform;
+        fw_report_markup(out, "<g class=\"body\" data-body=\"{i}\" transform=\"", b);
+        body_transform(mechanism, motion, b, t_s, &page->view, out);
+        if (drawn)
+            fw_report_markup(out,
+                             "\" fill=\"{r}\" stroke=\"#57606a\" stroke-width=\"0.7\"><use "
+                             "href=\"#fw-b{i}\"/></g>\n",
+                             platform ? "#bcd0e3" : "#d5dbe1", b);
+        else
+            fw_report_markup(out,
+                             "\" fill=\"none\" stroke=\"{r}\" stroke-width=\"7\" "
+                             "stroke-linecap=\"round\"><use href=\"#fw-b{i}\"/></g>\n",
+                             platform ? "#7f9fbd" : "#9aa4ae", b);
+    }
+}
+
+static void flexures(const fw_page *page, const fw_mechanism *mechanism, const fw_motion *motion,
+                     const fw_report_bends *bends, double t_s) {
+    fw_text *out = page->out;
+    for (int i = 0; i < bends->count; i++) {
+        const fw_report_bend *bend = &bends->item[i];
+        double limit = fw_report_pin_limit(mechanism, bend->joint);
+        double a[3], b[3];
+        fw_report_pose_at(motion, mechanism->pin[bend->joint].body_a, t_s, a);
+        fw_report_pose_at(motion, mechanism->pin[bend->joint].body_b, t_s, b);
+        double angle = b[2] - a[2] - mechanism->pin[bend->joint].free_angle_rad;
+        const char *colour = fw_report_utilisation_colour(fabs(angle) / limit);
+        fw_report_markup(out,
+                         "<path class=\"flexure\" fill=\"{r}\" stroke=\"{r}\" "
+                         "stroke-width=\"1.2\" d=\"",
+                         colour, colour);
+        for (int k = 0; k < bend->npoint; k++) {
+            fw_vec2 p = fw_report_bent(mechanism, motion, bend, t_s, bend->point[k]);
+            fw_report_markup(out, "{r}{c} {c}", k ? "L" : "M", fw_report_x(&page->view, p.x),
+                             fw_report_y(&page->view, p.y));
+        }
+        fw_text_add(out, "Z\"/>\n");
+    }
+}
+
+static void platform_trace(const fw_page *page, const fw_motion *motion) {
+    const fw_device *device = page->in->device;
+    for (int b = 0; b < motion->nbody; b++) {
+        if (!device->body[b].platform || motion->nsample < 2) continue;
+        int step = 1 + motion->nsample / FRAMES;
+        fw_text_add(page->out, "<path fill=\"none\" stroke=\"#0072B2\" stroke-width=\"1\" "
+                               "stroke-opacity=\"0.55\" d=\"");
+        for (int i = 0; i < motion->nsample; i += step) {
+            const double *q = motion->q + ((size_t)i * (size_t)motion->nbody + (size_t)b) * 3;
+            fw_report_markup(page->out, "{r}{c} {c}", i ? "L" : "M", fw_report_x(&page->view, q[0]),
+                             fw_report_y(&page->view, q[1]));
+        }
+        fw_text_add(page->out, "\"/>\n");
+    }
+}
+
+static void force_arrows(const fw_motion *motion, const fw_scene *scene, double t_s,
+                         const fw_report_view *view, fw_text *out) {
+    for (int i = 0; i < scene->nforce; i++) {
+        const fw_force *f = &scene->force[i];
+        double size = hypot(f->fx_N, f->fy_N), pose[3];
+        if (!(size > 0.0) || !isfinite(size) || f->body < 0 || f->body >= motion->nbody) continue;
+        fw_report_pose_at(motion, f->body, t_s, pose);
+        double c = cos(pose[2]), s = sin(pose[2]);
+        double x = pose[0] + c * f->x_m - s * f->y_m, y = pose[1] + s * f->x_m + c * f->y_m;
+        double dx = f->fx_N / size, dy = -f->fy_N / size;
+        /* the tip points at where the force acts */
+        fw_report_markup(
+            out,
+            "<g class=\"force\" data-force=\"{i}\" transform=\"translate({c} {c})\">"
+            "<path d=\"M{c} {c}L0 0M{c} {c}L0 0L{c} {c}\" fill=\"none\" "
+            "stroke=\"#8E3B6F\" stroke-width=\"2\"/><text x=\"{c}\" y=\"{c}\" "
+            "font-size=\"13\" fill=\"#8E3B6F\" text-anchor=\"middle\">{u}</text></g>\n",
+            i, fw_report_x(view, x), fw_report_y(view, y), -44.0 * dx, -44.0 * dy,
+            -9.0 * dx - 4.0 * dy, -9.0 * dy + 4.0 * dx, -9.0 * dx + 4.0 * dy, -9.0 * dy - 4.0 * dx,
+            -58.0 * dx, -54.0 * dy + 4.0, size, "N");
+    }
+}
+
+/* ---- numbers for the script: px and degrees, so that it needs no units ---- */
+
+static void plain(fw_text *out, double value, int decimals) {
+    fw_text_fixed(out, isfinite(value) ? value : 0.0, decimals);
+}
+
+static void frames_data(const fw_page *page, const fw_motion *motion, int frames) {
+    fw_text *out = page->out;
+    double end = motion->t_s[motion->nsample - 1];
+    fw_text_add(out, "{\"t\":[");
+    for (int i = 0; i < frames; i++) {
+        fw_text_add(out, i ? "," : "");
+        fw_text_number(out, end * i / (frames - 1), 6);
+    }
+    fw_text_add(out, "],\n\"q\":[");
+    for (int i = 0; i < frames; i++)
+        for (int b = 0; b < motion->nbody; b++) {
+            double pose[3];
+            fw_report_pose_at(motion, b, end * i / (frames - 1), pose);
+            fw_text_add(out, i + b ? "," : "");
+            plain(out, fw_report_x(&page->view, pose[0]), 2);
+            fw_text_add(out, ",");
+            plain(out, fw_report_y(&page->view, pose[1]), 2);
+            fw_text_add(out, ",");
+            plain(out, DEGREES * pose[2], 4);
+        }
+    fw_text_add(out, "],\n");
+}
+
+static void model_data(const fw_page *page, const fw_mechanism *mechanism,
+                       const fw_motion *motion) {
+    fw_text *out = page->out;
+    fw_text_add(out, "\"b\":[");
+    for (int b = 0; b < motion->nbody; b++) {
+        const fw_mass *m = &mechanism->body[b];
+        fw_report_markup(out, "{r}[{c},{c},", b ? "," : "", fw_report_x(&page->view, m->x_m),
+                         fw_report_y(&page->view, m->y_m));
+        plain(out, DEGREES * m->phi_rad, 4);
+        fw_text_add(out, "]");
+    }
+    fw_text_add(out, "],\n\"p\":[");
+    for (int k = 0; k < motion->npin; k++) {
+        const fw_pin *p = &mechanism->pin[k];
+        fw_report_markup(out, "{r}[{i},{i},", k ? "," : "", p->body_a, p->body_b);
+        plain(out, DEGREES * p->free_angle_rad, 6);
+        fw_text_add(out, ",");
+        plain(out, DEGREES * fw_report_pin_limit(mechanism, k), 6); /* 0: none */
+        fw_text_add(out, "]");
+    }
+}
+
+static void shape_data(const fw_page *page, const fw_report_bends *bends, const fw_scene *scene) {
+    fw_text *out = page->out;
+    const fw_report_view *view = &page->view;
+    fw_text_add(out, "],\n\"f\":[");
+    for (int i = 0; i < bends->count; i++) {
+        const fw_report_bend *bend = &bends->item[i];
+        fw_report_markup(out, "{r}[{i},{i},{i},{c},{c},[", i ? ",\n" : "", bend->joint, bend->lower,
+                         bend->upper, fw_report_x(view, bend->centre.x),
+                         fw_report_y(view, bend->centre.y));
+        for (int k = 0; k < bend->npoint; k++) {
+            fw_report_markup(out, "{r}{c},{c},", k ? "," : "",
+                             fw_report_x(view, bend->point[k].x_m),
+                             fw_report_y(view, bend->point[k].y_m));
+            plain(out, bend->point[k].weight, 3);
+        }
+        fw_text_add(out, "]]");
+    }
+    fw_text_add(out, "],\n\"a\":[");
+    for (int i = 0; i < scene->nforce; i++) {
+        const fw_force *f = &scene->force[i];
+        fw_report_markup(out, "{r}[{i},{c},{c}]", i ? "," : "", f->body, f->x_m * view->scale,
+                         f->y_m * view->scale);
+    }
+    fw_text_add(out, "],\n");
+}
+
+static int frames_of(const fw_page *page, const fw_motion *motion) {
+    if (motion->nsample < 2 || motion->nbody < 1) return 0;
+    int share = NUMBERS / (page->nmotion > 0 ? page->nmotion : 1) / (3 * motion->nbody);
+    int frames = share < FRAMES ? share : FRAMES;
+    frames = frames < motion->nsample ? frames : motion->nsample;
+    return frames >= FEWEST_FRAMES || frames == motion->nsample ? frames : 0;
+}
+
+static void controls(fw_text *out, int number) {
+    fw_report_markup(out,
+                     "<div class=\"controls\" hidden=\"hidden\"><button type=\"button\" "
+                     "class=\"play\">Play</button><label>Speed <select class=\"speed\">"
+                     "<option value=\"0.25\">\u00bc</option><option value=\"0.5\">\u00bd</option>"
+                     "<option value=\"1\" selected=\"selected\">1</option>"
+                     "<option value=\"2\">2</option><option value=\"4\">4</option></select></label>"
+                     "<input class=\"time\" type=\"range\" min=\"0\" max=\"1000\" step=\"1\" "
+                     "value=\"0\" aria-label=\"Time in scene {i}\"/><output class=\"now\"></output>"
+                     "</div>\n",
+                     number);
+}
+
+fw_status fw_report_player(fw_page *page, const fw_variant_verdict *variant, int scene,
+                           int number) {
+    const fw_motion *motion = variant->motion[scene];
+    const fw_mechanism *mechanism = variant->mechanism;
+    const fw_scene *s = &page->in->device->scene[scene];
+    fw_report_worst worst = fw_report_motion_worst(mechanism, motion);
+    fw_report_bends bends;
+    FW_TRY(fw_report_bends_make(page->arena, page->in->device, page->in->layout, &bends));
+    fw_text *out = page->out;
+    fw_report_markup(out,
+                     "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"stage\" role=\"img\" "
+                     "viewBox=\"0 0 {c} {c}\"><title>{s}: the mechanism at {u}</title>\n",
+                     page->view.width, page->view.height, s->name, worst.t_s, "s");
+    if (fw_report_drawn(page->in->layout))
+        fw_text_add(out, "<use href=\"#fw-fixed\" fill=\"#eceff2\" stroke=\"#b6bec7\" "
+                         "stroke-width=\"0.7\"/>\n");
+    fw_text_add(out, "<g fill=\"none\" stroke=\"#8c959f\" stroke-width=\"0.8\" "
+                     "stroke-dasharray=\"3 2\">");
+    for (int b = 0; b < motion->nbody; b++)
+        fw_report_markup(out, "<use href=\"#fw-b{i}\"/>", b);
+    fw_text_add(out, "</g>\n");
+    moving_bodies(page, mechanism, motion, worst.t_s);
+    flexures(page, mechanism, motion, &bends, worst.t_s);
+    platform_trace(page, motion);
+    force_arrows(motion, s, worst.t_s, &page->view, out);
+    fw_report_scale_bar_svg(out, &page->view);
+    fw_text_add(out, "</svg>\n");
+    int frames = frames_of(page, motion);
+    if (frames < 2) return fw_text_end(out);
+    controls(out, number);
+    fw_text_add(out, "<script type=\"application/json\">");
+    frames_data(page, motion, frames);
+    model_data(page, mechanism, motion);
+    shape_data(page, &bends, s);
+    fw_text_add(out, "\"at\":");
+    fw_text_number(out, worst.t_s, 6);
+    fw_text_add(out, "}</script>\n");
+    return fw_text_end(out);
+}

@@ -1,0 +1,259 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Hinge angles against time, one small panel per hinge, so that every curve has its own limit. */
+#include "report/page.h"
+#include <math.h>
+
+static const double DEGREES = 57.29577951308232;
+
+enum { PANEL_WIDTH = 344, PANEL_HEIGHT = 208, HEADING = 36 };
+enum { LEFT = 46, RIGHT = 10, TOP = 30, BOTTOM = 34 };
+
+typedef struct panel {
+    const fw_mechanism *mechanism;
+    const fw_motion *motion;
+    int pin, points;
+    double x, y; /* of the plot area, top left */
+    double width, height;
+    double t_end, time_unit; /* s */
+    const char *time_name;
+    double limit;     /* degrees; NaN: none */
+    double low, high; /* degrees */
+    bool limit_shown;
+} panel;
+
+static double place_x(const panel *p, double t_s) {
+    return p->t_end > 0.0 ? p->x + p->width * t_s / p->t_end : p->x;
+}
+
+static double place_y(const panel *p, double degrees) {
+    return p->y + p->height * (p->high - degrees) / (p->high - p->low);
+}
+
+static double angle(const panel *p, int sample) {
+    const fw_motion *m = p->motion;
+    return DEGREES * m->angle_rad[(size_t)sample * (size_t)m->npin + (size_t)p->pin];
+}
+
+static void range(panel *p) {
+    double peak = fabs(DEGREES * p->motion->peak[p->pin].angle_rad);
+    double least = 0.0, most = 0.0;
+    for (int i = 0; i < p->motion->nsample; i++) {
+        least = fmin(least, angle(p, i));
+        most = fmax(most, angle(p, i));
+    }
+    double size = fmax(isfinite(peak) ? peak : 0.0, fmax(-least, most));
+    p->limit = DEGREES * fw_report_pin_limit(p->mechanism, p->pin);
+    /* a limit far away would flatten the curve: said in words instead */
+    p->limit_shown = isfinite(p->limit) && size > 0.12 * p->limit;
+    if (p->limit_shown) size = fmax(size, p->limit);
+    if (!(size > 0.0)) size = isfinite(p->limit) ? p->limit : 1.0;
+    p->high = 1.12 * size;
+    p->low = -p->high;
+}
+
+static int decimals(double step) {
+    int n = 0;
+    for (; n < 12 && step < 0.999; n++)
+        step *= 10.0;
+    return n;
+}
+
+static void tick_text(fw_text *out, double value, int digits) {
+    if (value < 0.0) fw_text_add(out, "\u2212");
+    fw_text_fixed(out, fabs(value), digits);
+}
+
+static void axes(const panel *p, fw_text *out) {
+    double right = p->x + p->width, bottom = p->y + p->height;
+    double step = fw_report_nice((p->high - p->low) / 6.0);
+    fw_text_add(out, "<g font-size=\"10\" fill=\"#57606a\" stroke=\"none\">");
+    for (int k = -6; k <= 6; k++) {
+        double value = k * step, y = place_y(p, value);
+        if (value < p->low || value > p->high) continue;
+        fw_report_markup(out,
+                         "<path d=\"M{c} {c}H{c}\" stroke=\"{r}\"/><text x=\"{c}\" y=\"{c}\" "
+                         "text-anchor=\"end\">",
+                         p->x, y, right, k == 0 ? "#8c959f" : "#eaeef2", p->x - 5.0, y + 3.5);
+        tick_text(out, value, decimals(step));
+        fw_text_add(out, "</text>");
+    }
+    double t_step = fw_report_nice(p->t_end / p->time_unit / 5.5);
+    for (int k = 0; k <= 8; k++) {
+        double t = k * t_step * p->time_unit;
+        if (t > p->t_end * (1.0 + 1e-9)) break;
+        fw_report_markup(out,
+                         "<path d=\"M{c} {c}v4\" stroke=\"#8c959f\"/><text x=\"{c}\" "
+                         "y=\"{c}\" text-anchor=\"middle\">",
+                         place_x(p, t), bottom, place_x(p, t), bottom + 15.0);
+        tick_text(out, k * t_step, decimals(t_step));
+        fw_text_add(out, "</text>");
+    }
+    fw_report_markup(out,
+                     "<text x=\"{c}\" y=\"{c}\" text-anchor=\"end\">time ({r})</text>"
+                     "<path d=\"M{c} {c}V{c}H{c}\" fill=\"none\" stroke=\"#8c959f\"/></g>\n",
+                     right, bottom + 28.0, p->time_name, p->x, p->y, bottom, right);
+}
+
+static void limits(const panel *p, fw_text *out) {
+    if (!p->limit_shown) return;
+    double top = place_y(p, p->limit), low = place_y(p, -p->limit);
+    fw_report_markup(out,
+                     "<path d=\"M{c} {c}h{c}V{c}h-{c}zM{c} {c}h{c}V{c}h-{c}z\" fill=\"#D55E00\" "
+                     "fill-opacity=\"0.08\"/><path d=\"M{c} {c}h{c}M{c} {c}h{c}\" "
+                     "stroke=\"#D55E00\" stroke-dasharray=\"5 3\" fill=\"none\"/>\n",
+                     p->x, p->y, p->width, top, p->width, p->x, low, p->width, p->y + p->height,
+                     p->width, p->x, top, p->width, p->x, low, p->width);
+}
+
+static fw_status curve(fw_arena *arena, const panel *p, fw_text *out) {
+    const fw_motion *m = p->motion;
+    if (m->nsample == 0) return FW_OK;
+    int *index;
+    int most = p->points < 4 ? 4 : p->points;
+    FW_NEED(index = fw_arena_array(arena, int, (size_t)most));
+    int n = fw_report_decimate(m->angle_rad + p->pin, m->npin, m->nsample, most, index);
+    fw_text_add(out, "<path fill=\"none\" stroke=\"#0072B2\" stroke-width=\"1.4\" "
+                     "stroke-linejoin=\"round\" d=\"");
+    for (int i = 0; i < n; i++)
+        fw_report_markup(out, "{r}{c} {c}",
+                         i == 0   ? "M"
+                         : i == 1 ? "L"
+                                  : " ",
+                         place_x(p, m->t_s[index[i]]), place_y(p, angle(p, index[i])));
+    fw_text_add(out, "\"/>\n");
+    return FW_OK;
+}
+
+static void peak_mark(const panel *p, fw_text *out) {
+    const fw_peak *peak = &p->motion->peak[p->pin];
+    if (!isfinite(peak->angle_rad) || !isfinite(peak->t_s)) return;
+    double x = place_x(p, peak->t_s), y = place_y(p, DEGREES * peak->angle_rad);
+    bool left = x > p->x + 0.55 * p->width;
+    fw_report_markup(out,
+                     "<circle cx=\"{c}\" cy=\"{c}\" r=\"3\" fill=\"#1f2328\"/><text x=\"{c}\" "
+                     "y=\"{c}\" font-size=\"10.5\" fill=\"#1f2328\" stroke=\"#fff\" "
+                     "stroke-width=\"3\" paint-order=\"stroke\" text-anchor=\"{r}\">{D}\u00b0 at "
+                     "{n} {r}</text>\n",
+                     x, y, left ? x - 7.0 : x + 7.0,
+                     peak->angle_rad > 0.0 ? fmax(y - 5.0, p->y + 9.0) : y + 13.0,
+                     left ? "end" : "start", peak->angle_rad, peak->t_s / p->time_unit,
+                     p->time_name);
+}
+
+static void heading(const panel *p, fw_text *out) {
+    double u = fabs(DEGREES * p->motion->peak[p->pin].angle_rad) / p->limit;
+    fw_report_markup(
+        out,
+        "<text x=\"{c}\" y=\"{c}\" font-size=\"13\" font-weight=\"600\" "
+        "fill=\"#1f2328\">{s} <tspan class=\"readout\" font-size=\"11.5\" "
+        "font-weight=\"400\"></tspan></text><text x=\"{c}\" y=\"{c}\" font-size=\"10.5\" "
+        "text-anchor=\"end\" fill=\"#57606a\">",
+        p->x, p->y - 9.0, p->mechanism->pin[p->pin].id, p->x + p->width, p->y - 9.0);
+    if (isfinite(u))
+        fw_report_markup(out, "{p} of limit \u00b1{D}\u00b0{r}", u, p->limit / DEGREES,
+                         p->limit_shown ? "" : " (off scale)");
+    else
+        fw_text_add(out, "no limit");
+    fw_report_markup(
+        out,
+        "</text><text x=\"{c}\" y=\"{c}\" font-size=\"10\" fill=\"#57606a\" "
+        "text-anchor=\"end\" transform=\"rotate(-90 {c} {c})\">angle (\u00b0)</text>\n",
+        p->x - 36.0, p->y, p->x - 36.0, p->y);
+}
+
+static fw_status draw_panel(fw_arena *arena, const panel *p, fw_text *out) {
+    fw_report_markup(out, "<g class=\"panel\" data-pin=\"{i}\" data-x=\"{c}\" data-w=\"{c}\">\n",
+                     p->pin, p->x, p->width);
+    heading(p, out);
+    axes(p, out);
+    limits(p, out);
+    FW_TRY(curve(arena, p, out));
+    peak_mark(p, out);
+    fw_report_markup(out,
+                     "<path class=\"cursor\" d=\"M0 {c}v{c}\" stroke=\"#1f2328\" "
+                     "visibility=\"hidden\"/></g>\n",
+                     p->y, p->height);
+    return FW_OK;
+}
+
+/* the most used pins, in the order of the file */
+static int choose(const fw_mechanism *mechanism, const fw_motion *motion,
+                  int chosen[FW_REPORT_PANELS]) {
+    int n = 0;
+    for (int k = 0; k < motion->npin; k++) {
+        double u = fabs(motion->peak[k].angle_rad) / fw_report_pin_limit(mechanism, k);
+        int better = 0;
+        for (int j = 0; j < motion->npin && better < FW_REPORT_PANELS; j++) {
+            double v = fabs(motion->peak[j].angle_rad) / fw_report_pin_limit(mechanism, j);
+            if (j != k && isfinite(v) && (!isfinite(u) || v > u))
+                better++;
+            else if (j < k && (v == u || (!isfinite(v) && !isfinite(u))))
+                better++;
+        }
+        if (better < FW_REPORT_PANELS && n < FW_REPORT_PANELS) chosen[n++] = k;
+    }
+    return n;
+}
+
+static void time_scale(panel *p) {
+    double end = p->motion->nsample ? p->motion->t_s[p->motion->nsample - 1] : 0.0;
+    p->t_end = isfinite(end) && end > 0.0 ? end : 1.0;
+    p->time_unit = p->t_end < 2e-3 ? 1e-6 : p->t_end < 2.0 ? 1e-3 : 1.0;
+    p->time_name = p->t_end < 2e-3 ? "\u00b5s" : p->t_end < 2.0 ? "ms" : "s";
+}
+
+static void open_svg(const fw_report_figure *figure, int width, double height, fw_text *out) {
+    fw_report_markup(out,
+                     "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plots\" role=\"img\" "
+                     "viewBox=\"0 0 {i} {c}\" font-family=\"system-ui,'DejaVu Sans',sans-serif\"",
+                     width, height);
+    if (figure->standalone) fw_report_markup(out, " width=\"{i}\" height=\"{c}\"", width, height);
+    fw_report_markup(out, ">\n<title>{s}</title>\n", figure->title);
+    if (figure->standalone)
+        fw_report_markup(out,
+                         "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/><text x=\"{i}\" "
+                         "y=\"24\" font-size=\"15\" font-weight=\"600\">{s}</text>\n",
+                         LEFT, figure->title);
+}
+
+fw_status fw_report_panels(fw_arena *arena, const fw_mechanism *mechanism, const fw_motion *motion,
+                           const fw_report_figure *figure, fw_text *out) {
+    int chosen[FW_REPORT_PANELS];
+    int n = choose(mechanism, motion, chosen), columns = figure->columns;
+    double top = figure->standalone ? HEADING : 0.0;
+    double height = top + (double)((n + columns - 1) / columns) * PANEL_HEIGHT;
+    height += motion->npin > n ? 20.0 : 0.0;
+    open_svg(figure, columns * PANEL_WIDTH, height, out);
+    panel p = {.mechanism = mechanism, .motion = motion, .points = figure->curve_points};
+    time_scale(&p);
+    p.width = PANEL_WIDTH - LEFT - RIGHT;
+    p.height = PANEL_HEIGHT - TOP - BOTTOM;
+    for (int i = 0; i < n; i++) {
+        p.pin = chosen[i];
+        p.x = (i % columns) * PANEL_WIDTH + LEFT;
+        p.y = top + (i / columns) * PANEL_HEIGHT + TOP;
+        range(&p);
+        FW_TRY(draw_panel(arena, &p, out));
+    }
+    if (motion->npin > n)
+        fw_report_markup(out,
+                         "<text x=\"{i}\" y=\"{c}\" font-size=\"11\" fill=\"#57606a\">The {i} most "
+                         "used of {i} joints.</text>\n",
+                         LEFT, height - 6.0, n, motion->npin);
+    fw_text_add(out, "</svg>\n");
+    return fw_text_end(out);
+}
+
+fw_status fw_report_motion_svg(fw_arena *arena, const fw_device *device,
+                               const fw_mechanism *mechanism, const fw_motion *motion,
+                               const fw_scene *scene, fw_text *out) {
+    const char *flow = mechanism->variant ? mechanism->variant->flow : NULL;
+    char *title =
+        fw_arena_printf(arena, "%s, scene %s%s%s: hinge angles and their limits",
+                        device->name ? device->name : "device", scene->name ? scene->name : "",
+                        flow ? ", " : "", flow ? flow : "");
+    FW_NEED(title);
+    fw_text_add(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    const fw_report_figure figure = {3, 2 * FW_REPORT_CURVE, true, title};
+    return fw_report_panels(arena, mechanism, motion, &figure, out);
+}

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a person reads: the report page, plots, drawings, animations and preview pictures. All text
+   is escaped, all numbers are finite, and the same input gives the same bytes: no clock, no locale,
+   no measured run time. JSON for programs is in report/json.h. */
+#ifndef FW_REPORT_REPORT_H
+#define FW_REPORT_REPORT_H
+#include "base/text.h"
+#include "device/device.h"
+#include "dynamics/dynamics.h"
+#include "layout/layout.h"
+#include "mask/mask.h"
+#include "mechanism/mechanism.h"
+#include "process/process.h"
+#include "recipe/recipe.h"
+#include "verdict/verdict.h"
+
+typedef struct fw_report_flow { /* one process flow of the device */
+    const fw_variant_verdict *variant;
+    const fw_flow *flow;    /* NULL: not computed */
+    const fw_mask *mask;    /* NULL: not built, `mask_error` says why */
+    const char *mask_error; /* NULL: the design was rejected, or masks were not asked for */
+} fw_report_flow;
+
+typedef struct fw_report_input {
+    const fw_device *device;
+    const fw_layout *layout; /* NULL or not drawn: a schematic of pins and bodies instead */
+    const fw_verdict *verdict;
+    const fw_report_flow *flow; /* (nflow) */
+    int nflow;
+    const char *version;
+    const char **assumption; /* (nassumption) sentences */
+    int nassumption;
+    const fw_diags *diags; /* NULL: none */
+} fw_report_input;
+
+/* report.html: one file, needs nothing else, readable without script and on paper */
+fw_status fw_report_write_html(fw_arena *arena, const fw_report_input *input, fw_text *out);
+
+/* hinge angles against time with the limit lines */
+fw_status fw_report_motion_svg(fw_arena *arena, const fw_device *device,
+                               const fw_mechanism *mechanism, const fw_motion *motion,
+                               const fw_scene *scene, fw_text *out);
+/* every sample with 17 digits: t_s,BODY.x_m,BODY.y_m,BODY.phi_rad,BODY.vx_m_per_s,... */
+fw_status fw_report_motion_csv(const fw_mechanism *mechanism, const fw_motion *motion,
+                               fw_text *out);
+/* the mechanism moving through one scene, as an SVG that plays by itself */
+fw_status fw_report_animation_svg(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                                  const fw_mechanism *mechanism, const fw_motion *motion,
+                                  const fw_scene *scene, fw_text *out);
+/* the device as drawn, hinges coloured by utilisation. layout and verdict may be NULL. */
+fw_status fw_report_device_svg(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                               const fw_verdict *verdict, fw_text *out);
+/* the same as a PNG preview of width_px (16..8192, else FW_USAGE); never geometry of record.
+   `out` holds bytes, not text. */
+fw_status fw_report_device_png(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                               const fw_verdict *verdict, int width_px, fw_text *out);
+#endif

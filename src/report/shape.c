@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "report/page.h"
+#include <math.h>
+
+static const double PI = 3.14159265358979323846;
+
+bool fw_report_drawn(const fw_layout *layout) {
+    return layout && layout->drawn && layout->npiece;
+}
+
+fw_box fw_report_box_empty(void) {
+    return (fw_box){HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+}
+
+void fw_report_box_add(fw_box *box, double x_m, double y_m) {
+    if (!isfinite(x_m) || !isfinite(y_m)) return;
+    box->x0 = fmin(box->x0, x_m);
+    box->x1 = fmax(box->x1, x_m);
+    box->y0 = fmin(box->y0, y_m);
+    box->y1 = fmax(box->y1, y_m);
+}
+
+fw_report_view fw_report_view_fit(fw_box box, double width, double pad_m) {
+    if (!(box.x1 >= box.x0) || !(box.y1 >= box.y0)) box = (fw_box){0.0, 0.0, 1e-3, 1e-3};
+    double wide = box.x1 - box.x0 + 2.0 * pad_m, high = box.y1 - box.y0 + 2.0 * pad_m;
+    double size = fmax(wide, high);
+    if (!(size > 0.0)) size = 1e-3;
+    wide = fmax(wide, 0.25 * size);
+    high = fmax(high, 0.25 * size);
+    fw_report_view view = {.width = width};
+    view.scale = fmin(width / wide, 1.25 * width / high); /* never taller than 5:4 */
+    view.height = ceil(high * view.scale);
+    view.x0_m = 0.5 * (box.x0 + box.x1) - 0.5 * width / view.scale;
+    view.y1_m = 0.5 * (box.y0 + box.y1) + 0.5 * view.height / view.scale;
+    return view;
+}
+
+double fw_report_x(const fw_report_view *view, double x_m) {
+    return (x_m - view->x0_m) * view->scale;
+}
+
+double fw_report_y(const fw_report_view *view, double y_m) {
+    return (view->y1_m - y_m) * view->scale;
+}
+
+static void arc_to(fw_text *out, const fw_report_view *view, const fw_segment *s, double sweep,
+                   fw_vec2 to) {
+    double r = s->radius * view->scale;
+    /* y points down in the picture: counter-clockwise is SVG's negative sweep */
+    fw_report_markup(out, "A{c} {c} 0 {i} {i} {c} {c}", r, r, fabs(sweep) > PI ? 1 : 0,
+                     sweep > 0.0 ? 0 : 1, fw_report_x(view, to.x), fw_report_y(view, to.y));
+}
+
+static void segment(fw_text *out, const fw_report_view *view, const fw_segment *s) {
+    if (s->kind == FW_LINE) {
+        fw_report_markup(out, "L{c} {c}", fw_report_x(view, s->b.x), fw_report_y(view, s->b.y));
+        return;
+    }
+    if (fabs(s->sweep_rad) < 1.8 * PI) {
+        arc_to(out, view, s, s->sweep_rad, s->b);
+        return;
+    }
+    /* an arc that ends where it starts has no direction in SVG: two halves */
+    double c = cos(0.5 * s->sweep_rad), d = sin(0.5 * s->sweep_rad);
+    double x = s->a.x - s->centre.x, y = s->a.y - s->centre.y;
+    fw_vec2 half = {s->centre.x + c * x - d * y, s->centre.y + d * x + c * y};
+    arc_to(out, view, s, 0.5 * s->sweep_rad, half);
+    arc_to(out, view, s, 0.5 * s->sweep_rad, s->b);
+}
+
+void fw_report_path(fw_text *out, const fw_report_view *view, const fw_contour *contour) {
+    if (contour->count == 0) return;
+    fw_vec2 a = contour->segment[0].a;
+    fw_report_markup(out, "M{c} {c}", fw_report_x(view, a.x), fw_report_y(view, a.y));
+    for (int i = 0; i < contour->count; i++)
+        segment(out, view, &contour->segment[i]);
+    fw_text_add(out, "Z");
+}
+
+fw_vec2 fw_report_hinge_point(const fw_device *device, const fw_layout *layout, int joint) {
+    if (fw_report_drawn(layout) && layout->hinge && layout->hinge[joint].drawn)
+        return layout->hinge[joint].centre;
+    return (fw_vec2){device->joint[joint].x_m, device->joint[joint].y_m};
+}
+
+static fw_box rest_box(const fw_device *device, const fw_layout *layout) {
+    fw_box box = fw_report_box_empty();
+    for (int j = 0; j < device->njoint; j++) {
+        fw_vec2 p = fw_report_hinge_point(device, layout, j);
+        fw_report_box_add(&box, p.x, p.y);
+    }
+    for (int b = 0; b < device->nbody; b++)
+        fw_report_box_add(&box, device->body[b].x_m, device->body[b].y_m);
+    if (fw_report_drawn(layout) && !(fmax(box.x1 - box.x0, box.y1 - box.y0) > 0.0))
+        for (int i = 0; i < layout->npiece; i++) {
+            fw_box b = fw_contour_box(&layout->piece[i].contour);
+            fw_report_box_add(&box, b.x0, b.y0);
+            fw_report_box_add(&box, b.x1, b.y1);
+        }
+    return box;
+}
+
+/* hinge points, centres of the bodies, and room for links around them, less where they only pass;
+   tethers, which reach to the frame, run out of the picture */
+fw_report_view fw_report_device_view(const fw_device *device, const fw_layout *layout,
+                                     const fw_box *reach, double width) {
+    fw_box box = rest_box(device, layout);
+    double size = fmax(box.x1 - box.x0, box.y1 - box.y0);
+    if (!isfinite(size) || !(size > 0.0)) return fw_report_view_fit(box, width, 0.0);
+    double pad = 0.2 * size, less = 0.1 * size;
+    box = (fw_box){box.x0 - pad, box.y0 - pad, box.x1 + pad, box.y1 + pad};
+    if (reach && reach->x1 >= reach->x0 && reach->y1 >= reach->y0) {
+        fw_report_box_add(&box, reach->x0 - less, reach->y0 - less);
+        fw_report_box_add(&box, reach->x1 + less, reach->y1 + less);
+    }
+    return fw_report_view_fit(box, width, 0.0);
+}
+
+double fw_report_nice(double x) {
+    if (!isfinite(x) || x <= 0.0) return 1.0;
+    double power = pow(10.0, floor(log10(x)));
+    static const double step[] = {1.0, 2.0, 5.0, 10.0};
+    for (int i = 0; i < 4; i++)
+        if (x <= step[i] * power * (1.0 + 1e-9)) return step[i] * power;
+    return 10.0 * power;
+}
+
+double fw_report_scale_bar(const fw_report_view *view) {
+    return fw_report_nice(0.1 * view->width / view->scale);
+}
+
+void fw_report_scale_bar_svg(fw_text *out, const fw_report_view *view) {
+    double length = fw_report_scale_bar(view), px = length * view->scale;
+    double x = view->width - 16.0 - px, y = view->height - 14.0;
+    fw_report_markup(out,
+                     "<g class=\"scale\"><rect x=\"{c}\" y=\"{c}\" width=\"{c}\" "
+                     "height=\"30\" rx=\"3\" fill=\"#fff\" fill-opacity=\"0.85\"/><path d=\"M{c} "
+                     "{c}v-5M{c} {c}h{c}v-5\" fill=\"none\" "
+                     "stroke=\"#444\" stroke-width=\"1.5\"/>"
+                     "<text x=\"{c}\" y=\"{c}\" text-anchor=\"middle\" font-size=\"11\" "
+                     "fill=\"#444\">{u}</text></g>\n",
+                     x - 8.0, y - 22.0, px + 16.0, x, y, x, y, px, x + 0.5 * px, y - 7.0, length,
+                     "m");
+}

@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "verdict/compare.h"
+#include <math.h>
+#include <string.h>
+
+static void unreachable(const fw_device *device, const fw_variant_verdict *v, fw_diags *diags) {
+    char x[32], y[32], phi[32];
+    fw_diag_warning(
+        diags, 201, device->workspace[0].place,
+        "the required workspace holds a pose out of reach: dx = %s um, dy = %s um, "
+        "turned by %s deg; the design is rejected",
+        fw_number_text(x, sizeof x, v->workspace.fail_x_m * 1e6, 4),
+        fw_number_text(y, sizeof y, v->workspace.fail_y_m * 1e6, 4),
+        fw_number_text(phi, sizeof phi, v->workspace.fail_phi_rad * 180 / acos(-1.0), 3));
+}
+
+static bool judged(const fw_variant_verdict *v, const fw_device *device) {
+    bool any = v->workspace.required;
+    for (int i = 0; i < device->nscene; i++)
+        any = any || v->motion[i];
+    return any;
+}
+
+/* worst over the variants, joint by joint */
+static fw_status combine(fw_arena *arena, const fw_device *device, double accuracy_wanted,
+                         fw_verdict *verdict) {
+    size_t most = (size_t)device->njoint;
+    FW_NEED(verdict->hinge = fw_arena_array(arena, fw_hinge_verdict, most));
+    verdict->decision = FW_ACCEPT;
+    verdict->governing = FW_NONE;
+    verdict->accuracy_wanted = accuracy_wanted;
+    for (int j = 0; j < device->njoint; j++) {
+        fw_hinge_verdict *worst = &verdict->hinge[verdict->nhinge];
+        for (int i = 0; i < verdict->nvariant; i++)
+            for (int k = 0; k < verdict->variant[i].nhinge; k++) {
+                const fw_hinge_verdict *h = &verdict->variant[i].hinge[k];
+                if (h->joint == j && h->scene) fw_verdict_keep_worst(worst, h);
+            }
+        verdict->nhinge += worst->scene != NULL;
+    }
+    for (int k = 0; k < verdict->nhinge; k++) {
+        const fw_hinge_verdict *h = &verdict->hinge[k];
+        if (verdict->governing == FW_NONE ||
+            fw_verdict_governs(h, &verdict->hinge[verdict->governing]))
+            verdict->governing = k;
+        if (h->peak_angle_rad != 0.0)
+            verdict->accuracy_estimated =
+                fmax(verdict->accuracy_estimated, h->angle_error_rad / fabs(h->peak_angle_rad));
+    }
+    for (int i = 0; i < verdict->nvariant; i++)
+        if (verdict->variant[i].decision > verdict->decision)
+            verdict->decision = verdict->variant[i].decision;
+    return FW_OK;
+}
+
+static fw_status attempt(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                         const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict) {
+    for (int i = 0; i < verdict->nvariant; i++) {
+        fw_variant_verdict *v = &verdict->variant[i];
+        const fw_mechanism *m = NULL;
+        FW_TRY(fw_mechanism_build(arena, device, layout, v->variant, diags, &m));
+        if (m->nhinge == 0)
+            return fw_diag_error(diags, 203, (fw_place){.file = device->file},
+                                 "no joint of the mechanism is a flexure, so there is no elastic "
+                                 "limit to judge: name a flexure on the joints");
+        FW_TRY(fw_verdict_variant(arena, device, layout, m, options, diags, v));
+        if (!judged(v, device))
+            return fw_diag_error(diags, 202, (fw_place){.file = device->file},
+                                 "nothing to judge in flow %s: add a <scene> or a <workspace> that "
+                                 "holds for it",
+                                 v->variant->flow ? v->variant->flow : "(none)");
+        if (v->workspace.required && !v->workspace.reachable) unreachable(device, v, diags);
+    }
+    return combine(arena, device, options->motion.accuracy, verdict);
+}
+
+fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
+                         const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict,
+                         const fw_layout **layout) {
+    fw_diags drawing = fw_diags_new(arena);
+    *layout = NULL;
+    fw_status status = fw_layout_build(arena, device, &drawing, layout);
+    if (status == FW_GEOMETRY || status == FW_INPUT) { /* judge the mechanics all the same */
+        *layout = NULL;
+        for (size_t i = 0; i < drawing.count; i++)
+            fw_diag_warning(diags, drawing.item[i].number, drawing.item[i].place, "%s",
+                            drawing.item[i].message);
+    } else
+        FW_TRY(status);
+    int nvariant = verdict->nvariant;
+    fw_variant_verdict *variant = verdict->variant;
+    FW_TRY(attempt(arena, device, *layout, options, diags, verdict));
+
+    /* a band that straddles 1 because of the integrator: try tighter by itself, once */
+    if (verdict->decision == FW_INCONCLUSIVE && verdict->accuracy_estimated > 1e-5) {
+        fw_verdict_options tight = *options;
+        tight.motion.accuracy = 1e-6;
+        tight.motion.rtol = 0.0;
+        fw_diags again = fw_diags_new(arena); /* the same warnings a second time */
+        *verdict = (fw_verdict){.variant = variant, .nvariant = nvariant};
+        FW_TRY(attempt(arena, device, *layout, &tight, &again, verdict));
+        verdict->accuracy_wanted = options->motion.accuracy;
+    }
+    if (options->with_advice && verdict->decision != FW_ACCEPT)
+        FW_TRY(fw_verdict_advise(arena, device, options, verdict));
+    return FW_OK;
+}

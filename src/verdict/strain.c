@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "verdict/strain.h"
+#include <math.h>
+
+/* Wrench on the upper body at W, in the flexure's half-rotated frame:
+     M = K theta, F;  section moment M(b) = M + xW Fy + r (Fx sin b - Fy cos b), |b| <= a
+     extremum at b* = atan2(Fx, -Fy) or b* + pi where inside, else at an end
+   strain = (eps/rad / K) |M(b)| at the roots, without the fillet's concentration inside the arc
+   in: radius m, half angle rad, centre m, moment N m, force N; out: largest |M| at the roots and
+   inside, N m
+   source: docs/theory/verdict.md eq. 2; test_strain.c section_moments_of_a_whole_six_bar
+ */
+void fw_arc_moments(const fw_flexure *f, double centre_m, double M, double Fx, double Fy,
+                    double *root_Nm, double *inside_Nm) {
+    double r = f->radius_m, a = 0.5 * f->angle_rad, pi = acos(-1.0);
+    *root_Nm = *inside_Nm = 0.0;
+    for (int side = -1; side <= 1; side += 2) {
+        double b = side * a;
+        *root_Nm = fmax(*root_Nm, fabs(M + centre_m * Fy + r * (Fx * sin(b) - Fy * cos(b))));
+    }
+    double b0 = atan2(Fx, -Fy);
+    for (int k = -2; k <= 2; k++) {
+        double b = b0 + k * pi;
+        if (fabs(b) <= a)
+            *inside_Nm =
+                fmax(*inside_Nm, fabs(M + centre_m * Fy + r * (Fx * sin(b) - Fy * cos(b))));
+    }
+}
+
+/* no drawn axis, or a leaf: the force acts on its largest lever wherever it points */
+static double bounded_moment(const fw_flexure *f, double centre_m, double M, double force_N) {
+    double a = 0.5 * f->angle_rad;
+    double lever = f->kind == FW_FLEXURE_CSFH
+                       ? hypot(f->radius_m * cos(a) - centre_m, f->radius_m * sin(a))
+                       : 0.5 * f->length_m;
+    return fabs(M) + lever * force_N;
+}
+
+double fw_hinge_strain(const fw_mechanism *m, const fw_hinge *hinge, const fw_hinge_layout *drawn,
+                       const fw_hinge_load *load) {
+    const fw_pin *pin = &m->pin[hinge->pin];
+    const fw_flexure *f = &m->device->flexure[hinge->flexure];
+    const fw_flexure_result *c = &hinge->closed_form;
+    double per_moment = c->strain_per_rad / c->stiffness_Nm_per_rad;
+    double area = f->width_m * m->variant->thickness_m;
+    double force = hypot(load->fx_N, load->fy_N);
+    double axial = force / (m->variant->material.youngs.value * area);
+    double moment = c->stiffness_Nm_per_rad * load->angle_rad;
+    if (!drawn || !drawn->drawn || f->kind != FW_FLEXURE_CSFH)
+        return per_moment * bounded_moment(f, c->centre_m, moment, force) + axial;
+
+    /* what the flexure carries on the upper body is minus what the pin does to it */
+    double sign = drawn->upper == pin->body_b ? 1.0 : -1.0;
+    double turn = drawn->axis_rad + load->frame_rad, cs = cos(turn), sn = sin(turn);
+    double fx = -sign * load->fx_N, fy = -sign * load->fy_N, root, inside;
+    fw_arc_moments(f, c->centre_m, sign * moment, cs * fx + sn * fy, -sn * fx + cs * fy, &root,
+                   &inside);
+    return per_moment * fmax(root, inside / c->concentration) + axial;
+}

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Peak strain of a flexure under rotation and joint force. Private to the room and its tests. */
+#ifndef FW_VERDICT_STRAIN_H
+#define FW_VERDICT_STRAIN_H
+#include "layout/layout.h"
+#include "mechanism/mechanism.h"
+
+typedef struct fw_hinge_load {
+    double angle_rad;  /* of the pin: phi_b - phi_a - free angle */
+    double fx_N, fy_N; /* of the pin on body b, world axes */
+    double frame_rad;  /* half the sum of both bodies' rotations since the drawn pose */
+} fw_hinge_load;
+
+/* largest |strain|, fillets included */
+double fw_hinge_strain(const fw_mechanism *mechanism, const fw_hinge *hinge,
+                       const fw_hinge_layout *drawn, const fw_hinge_load *load);
+
+/* largest |section moment| at the roots and inside the arc; see strain.c */
+void fw_arc_moments(const fw_flexure *flexure, double centre_m, double moment_Nm, double fx_N,
+                    double fy_N, double *root_Nm, double *inside_Nm);
+
+#endif

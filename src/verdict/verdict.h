@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Does any hinge leave its elastic range? utilisation = peak angle / limit angle, with its error
+   band; above 1 rejects, a band that straddles 1 is inconclusive. */
+#ifndef FW_VERDICT_VERDICT_H
+#define FW_VERDICT_VERDICT_H
+#include "dynamics/dynamics.h"
+#include "workspace/workspace.h"
+
+typedef enum fw_decision { FW_ACCEPT, FW_INCONCLUSIVE, FW_REJECT } fw_decision; /* worst last */
+const char *fw_decision_text(fw_decision decision);
+
+typedef struct fw_hinge_verdict {
+    const char *id;    /* joint */
+    const char *flow;  /* of the governing variant, may be NULL */
+    const char *scene; /* that governs, or "workspace" */
+    double peak_angle_rad, angle_error_rad, limit_angle_rad;
+    double peak_strain, strain_limit;
+    double utilisation, utilisation_low, utilisation_high;
+    double t_s; /* NaN for the workspace */
+    fw_decision decision;
+    int joint;
+    double force_share; /* part of the peak strain that the joint force adds to the rotation's */
+    bool touches;       /* the drawn solids meet before the peak angle */
+} fw_hinge_verdict;
+
+typedef struct fw_variant_verdict { /* one flow: a material and a thickness */
+    const fw_variant *variant;
+    const fw_mechanism *mechanism;
+    const fw_motion **motion; /* (device->nscene) NULL where the scene is not for this flow */
+    fw_workspace_result workspace;
+    fw_hinge_verdict *hinge; /* (mechanism->nhinge) */
+    int nhinge;
+    fw_decision decision;
+    int governing; /* index into hinge, or FW_NONE */
+} fw_variant_verdict;
+
+typedef struct fw_advice {  /* one change that accepts, verified by running it */
+    const char *set_path;   /* "flexure[A]/@length" */
+    const char *text;       /* "flexure A: arc length >= 312 um accepts (now 75 um)" */
+    double value;           /* SI */
+    const char *value_text; /* "312 um" */
+} fw_advice;
+
+typedef struct fw_verdict {
+    fw_decision decision;
+    fw_variant_verdict *variant; /* (nvariant) */
+    int nvariant;
+    fw_hinge_verdict *hinge; /* (nhinge) worst over the variants, by joint */
+    int nhinge;
+    int governing; /* index into hinge, or FW_NONE */
+    double accuracy_wanted, accuracy_estimated;
+    fw_advice *advice; /* (nadvice) for a rejected or inconclusive design */
+    int nadvice;
+    bool advice_verified; /* the advised values together were run and accepted */
+    const char *advice_note;
+} fw_verdict;
+
+typedef struct fw_verdict_options {
+    fw_motion_options motion;
+    bool with_advice;
+} fw_verdict_options;
+
+/* what the model itself may be wrong by, relative, beside the numerical error
+ * (docs/theory/verdict.md) */
+typedef struct fw_model_error {
+    double motion;    /* revolute joints at the elastic centres against geometrically exact beams */
+    double strain;    /* closed-form peak strain against 3-D finite elements */
+    double workspace; /* joint forces are not known for a required pose */
+} fw_model_error;
+extern const fw_model_error fw_verdict_model_error;
+
+/* one variant: every scene's motion and the required workspace. layout may be NULL: joint forces
+   are then bounded instead of resolved along the flexure. */
+fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                             const fw_mechanism *mechanism, const fw_verdict_options *options,
+                             fw_diags *diags, fw_variant_verdict *verdict);
+/* lays out, builds and judges the device in every variant; verdict->variant must be an array of
+   nvariant with `variant` set. Layout trouble is no error here: `layout` is NULL then. */
+fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
+                         const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict,
+                         const fw_layout **layout);
+/* fills advice: which lengths accept, each one run */
+fw_status fw_verdict_advise(fw_arena *arena, const fw_device *device,
+                            const fw_verdict_options *options, fw_verdict *verdict);
+
+#endif

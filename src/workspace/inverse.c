@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "workspace/inverse.h"
+#include <math.h>
+
+static double wrapped(double angle_rad) {
+    return remainder(angle_rad, 2.0 * acos(-1.0));
+}
+
+/* world position, in the drawn pose, of the point of pin `i` on body a */
+static fw_vec2 pin_place(const fw_mechanism *m, int i) {
+    const fw_pin *pin = &m->pin[i];
+    if (pin->body_a == FW_GROUND) return (fw_vec2){pin->ax_m, pin->ay_m};
+    const fw_mass *body = &m->body[pin->body_a];
+    double c = cos(body->phi_rad), s = sin(body->phi_rad);
+    return (fw_vec2){body->x_m + c * pin->ax_m - s * pin->ay_m,
+                     body->y_m + s * pin->ax_m + c * pin->ay_m};
+}
+
+static fw_dyad dyad(fw_vec2 o, fw_vec2 elbow, fw_vec2 q) {
+    double ux = elbow.x - o.x, uy = elbow.y - o.y, wx = q.x - elbow.x, wy = q.y - elbow.y;
+    double cross = ux * wy - uy * wx, dot = ux * wx + uy * wy;
+    return (fw_dyad){.base = o,
+                     .l_m = hypot(ux, uy),
+                     .m_m = hypot(wx, wy),
+                     .alpha0_rad = atan2(uy, ux),
+                     .beta0_rad = atan2(cross, dot),
+                     .sign = cross < 0.0 ? -1.0 : 1.0};
+}
+
+bool fw_six_bar_set_up(const fw_mechanism *m, fw_six_bar *out) {
+    if (!m->device->six_bar || m->npin < FW_SIX || m->nbody < 5) return false;
+    fw_vec2 p[FW_SIX];
+    for (int i = 0; i < FW_SIX; i++)
+        p[i] = pin_place(m, i);
+    const fw_mass *platform = &m->body[2];
+    *out = (fw_six_bar){.left = dyad(p[0], p[1], p[2]), .right = dyad(p[5], p[4], p[3])};
+    out->centre = (fw_vec2){platform->x_m, platform->y_m};
+    out->to_c = (fw_vec2){p[2].x - platform->x_m, p[2].y - platform->y_m};
+    out->to_d = (fw_vec2){p[3].x - platform->x_m, p[3].y - platform->y_m};
+    for (int i = 0; i < FW_SIX; i++) { /* rotation already there in the drawn pose */
+        const fw_pin *pin = &m->pin[i];
+        double a = pin->body_a == FW_GROUND ? 0.0 : m->body[pin->body_a].phi_rad;
+        double b = pin->body_b == FW_GROUND ? 0.0 : m->body[pin->body_b].phi_rad;
+        out->start_rad[i] = b - a - pin->free_angle_rad;
+    }
+    return true;
+}
+
+/* elbow:  beta = +-acos((d^2 - l^2 - m^2)/(2 l m)), base: alpha = ang(v) - atan2(m sin b, l + m cos
+   b) out: rotations of the two links from the drawn pose; false when d is out of [|l-m|, l+m] */
+static bool solve(const fw_dyad *k, fw_vec2 q, double *base_rad, double *elbow_rad) {
+    double vx = q.x - k->base.x, vy = q.y - k->base.y;
+    double cosine = (vx * vx + vy * vy - k->l_m * k->l_m - k->m_m * k->m_m) / (2 * k->l_m * k->m_m);
+    if (!(fabs(cosine) <= 1.0)) return false;
+    double beta = k->sign * acos(cosine);
+    double alpha = atan2(vy, vx) - atan2(k->m_m * sin(beta), k->l_m + k->m_m * cos(beta));
+    *base_rad = wrapped(alpha - k->alpha0_rad);
+    *elbow_rad = wrapped(beta - k->beta0_rad);
+    return true;
+}
+
+/* two RRR dyads O-l-m to Q (O = A, Q = C and O = F, Q = D), branch of the drawn position
+   in: displacement of the platform's centre (m) and its rotation (rad); out: phi_b - phi_a - free
+   angle of A..F (6), rad; exact up to rounding (1e-15), cost two acos and four atan2 source:
+   docs/theory/workspace.md; test_inverse.c reference_poses */
+bool fw_six_bar_solve(const fw_six_bar *k, double x_m, double y_m, double phi_rad,
+                      double angle_rad[FW_SIX], int *leg) {
+    double c = cos(phi_rad), s = sin(phi_rad);
+    fw_vec2 centre = {k->centre.x + x_m, k->centre.y + y_m};
+    fw_vec2 at_c = {centre.x + c * k->to_c.x - s * k->to_c.y,
+                    centre.y + s * k->to_c.x + c * k->to_c.y};
+    fw_vec2 at_d = {centre.x + c * k->to_d.x - s * k->to_d.y,
+                    centre.y + s * k->to_d.x + c * k->to_d.y};
+    double a, b, f, e;
+    *leg = 0;
+    if (!solve(&k->left, at_c, &a, &b)) return false;
+    *leg = 1;
+    if (!solve(&k->right, at_d, &f, &e)) return false;
+    /* left leg counts from the ground up, right leg from the platform down */
+    const double turn[FW_SIX] = {a, b, wrapped(phi_rad - a - b), -wrapped(phi_rad - f - e), -e, -f};
+    for (int i = 0; i < FW_SIX; i++)
+        angle_rad[i] = turn[i] + k->start_rad[i];
+    return true;
+}
+
+bool fw_six_bar_inverse(const fw_mechanism *m, double x_m, double y_m, double phi_rad,
+                        double angle_rad[FW_SIX], int *leg) {
+    fw_six_bar k;
+    *leg = 0;
+    return fw_six_bar_set_up(m, &k) && fw_six_bar_solve(&k, x_m, y_m, phi_rad, angle_rad, leg);
+}

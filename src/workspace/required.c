@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "workspace/inverse.h"
+#include <math.h>
+#include <string.h>
+
+enum { COARSE = 9, FINE = 17 };
+
+typedef struct box3 {
+    double low[3], high[3]; /* x m, y m, phi rad */
+} box3;
+
+static double along(const box3 *box, int axis, int i, int n) {
+    return box->low[axis] + (box->high[axis] - box->low[axis]) * i / (n - 1);
+}
+
+/* largest |angle| of every joint over an n x n x n grid; false at a pose out of reach (in `at`) */
+static bool scan(const fw_six_bar *k, const box3 *box, int n, fw_workspace_peak peak[FW_SIX],
+                 double at[3]) {
+    for (int j = 0; j < FW_SIX; j++)
+        peak[j] = (fw_workspace_peak){0};
+    for (int i = 0; i < n * n * n; i++) {
+        int step[3] = {i % n, i / n % n, i / (n * n)};
+        double angle[FW_SIX];
+        int leg;
+        for (int axis = 0; axis < 3; axis++)
+            at[axis] = along(box, axis, step[axis], n);
+        if (!fw_six_bar_solve(k, at[0], at[1], at[2], angle, &leg)) return false;
+        for (int j = 0; j < FW_SIX; j++)
+            if (fabs(angle[j]) > fabs(peak[j].angle_rad))
+                peak[j] = (fw_workspace_peak){angle[j], 0, at[0], at[1], at[2]};
+    }
+    return true;
+}
+
+/* climbs from the best grid pose by steps that halve, staying inside the box */
+static void refine(const fw_six_bar *k, const box3 *box, int joint, fw_workspace_peak *peak) {
+    double at[3] = {peak->x_m, peak->y_m, peak->phi_rad};
+    for (double step = 1.0 / (FINE - 1); step > 1e-9;) {
+        bool better = false;
+        for (int move = 0; move < 6; move++) {
+            int axis = move / 2, leg;
+            double width = box->high[axis] - box->low[axis], angle[FW_SIX], to[3];
+            memcpy(to, at, sizeof to);
+            to[axis] += (move % 2 ? -step : step) * width;
+            to[axis] = fmin(fmax(to[axis], box->low[axis]), box->high[axis]);
+            if (fw_six_bar_solve(k, to[0], to[1], to[2], angle, &leg) &&
+                fabs(angle[joint]) > fabs(peak->angle_rad)) {
+                *peak = (fw_workspace_peak){angle[joint], 0, to[0], to[1], to[2]};
+                memcpy(at, to, sizeof at);
+                better = true;
+            }
+        }
+        if (!better) step *= 0.5;
+    }
+}
+
+/* Hinge rotations over the required box of platform poses: grid of 17^3 poses, best one climbed to
+   its local maximum. Not an interval proof: `certified` is false; the error is what the refinement
+   from a 9^3 to the 17^3 grid and the climb still changed. Cost about 6000 inverse kinematics, 1
+   ms. source: docs/theory/workspace.md; test_required.c corners_and_interior */
+static fw_status one_box(const fw_mechanism *m, const fw_six_bar *k, const fw_workspace_box *asked,
+                         fw_workspace_result *result) {
+    const box3 box = {{asked->x_min_m, asked->y_min_m, asked->phi_min_rad},
+                      {asked->x_max_m, asked->y_max_m, asked->phi_max_rad}};
+    fw_workspace_peak coarse[FW_SIX], fine[FW_SIX];
+    double at[3];
+    (void)m;
+    if (!scan(k, &box, COARSE, coarse, at) || !scan(k, &box, FINE, fine, at)) {
+        result->reachable = false;
+        result->fail_x_m = at[0];
+        result->fail_y_m = at[1];
+        result->fail_phi_rad = at[2];
+        return FW_OK;
+    }
+    for (int j = 0; j < FW_SIX; j++) {
+        refine(k, &box, j, &coarse[j]);
+        refine(k, &box, j, &fine[j]);
+        fine[j].error_rad = fabs(fabs(fine[j].angle_rad) - fabs(coarse[j].angle_rad)) +
+                            1e-9 * fabs(fine[j].angle_rad);
+        if (fabs(coarse[j].angle_rad) > fabs(fine[j].angle_rad)) {
+            coarse[j].error_rad = fine[j].error_rad;
+            fine[j] = coarse[j];
+        }
+        if (fabs(fine[j].angle_rad) > fabs(result->peak[j].angle_rad)) result->peak[j] = fine[j];
+    }
+    result->volume_m2_rad +=
+        (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]) * (box.high[2] - box.low[2]);
+    return FW_OK;
+}
+
+static bool same_flow(const char *asked, const char *flow) {
+    return !asked || (flow && strcmp(asked, flow) == 0);
+}
+
+fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *m, fw_diags *diags,
+                                fw_workspace_result *result) {
+    (void)arena;
+    *result = (fw_workspace_result){.reachable = true};
+    fw_six_bar k;
+    bool known = fw_six_bar_set_up(m, &k);
+    for (int i = 0; i < m->device->nworkspace && result->reachable; i++) {
+        const fw_workspace_box *asked = &m->device->workspace[i];
+        if (!same_flow(asked->flow, m->variant->flow)) continue;
+        if (!known) {
+            fw_diag_error(diags, 200, asked->place,
+                          "a required workspace needs the six-bar's inverse kinematics: describe "
+                          "the mechanism with <six-bar>, or state the motion as a scene");
+            return FW_INPUT;
+        }
+        result->required = true;
+        FW_TRY(one_box(m, &k, asked, result));
+    }
+    return FW_OK;
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Inverse kinematics of the six-bar ABCDEF and the hinge rotations over the required workspace. */
+#ifndef FW_WORKSPACE_WORKSPACE_H
+#define FW_WORKSPACE_WORKSPACE_H
+#include "mechanism/mechanism.h"
+
+enum { FW_SIX = 6 };
+
+/* joint rotations (phi_b - phi_a, from the drawn pose) for a platform pose given as displacement of
+   its centre of mass and rotation. false: out of reach, *leg is 0 (A-B-C) or 1 (F-E-D). */
+bool fw_six_bar_inverse(const fw_mechanism *mechanism, double x_m, double y_m, double phi_rad,
+                        double angle_rad[FW_SIX], int *leg);
+
+typedef struct fw_workspace_peak {
+    double angle_rad; /* with its sign */
+    double error_rad;
+    double x_m, y_m, phi_rad; /* where */
+} fw_workspace_peak;
+
+typedef struct fw_workspace_result {
+    bool required;                           /* the device asks for one in this flow */
+    bool reachable;                          /* all of it can be assembled */
+    bool certified;                          /* interval proof; sampled otherwise */
+    double volume_m2_rad;                    /* of the required box */
+    double fail_x_m, fail_y_m, fail_phi_rad; /* a pose out of reach */
+    fw_workspace_peak peak[FW_SIX];
+} fw_workspace_result;
+
+fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *mechanism, fw_diags *diags,
+                                fw_workspace_result *result);
+
+#endif

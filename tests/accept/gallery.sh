@@ -1,0 +1,13 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Masks of every gallery device, as the program writes them, against KLayout, gdspy and GEOS.
+set -eu
+program=$1
+cd "$(dirname "$0")/../.."
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+for device in docs/gallery/*/device.xml; do
+    name=$(basename "$(dirname "$device")")
+    "$program" mask "$device" -o "$work/$name" -q
+    tests/accept/run.sh "$work/$name/masks"
+done

@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The rooms and their arrows: a file includes only its own room and rooms on lower floors, third-party
+headers only where the design allows them, and no file grows past what a reader can hold."""
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+ROOMS = re.search(r"set\(FW_ROOMS ([^)]*)\)", (ROOT / "cmake/rooms.cmake").read_text()).group(1).split()
+FLOOR = {room: i for i, room in enumerate(ROOMS)}
+ALLOWED = {  # header prefix -> rooms that may include it
+    "libxml/": {"device", "process"},
+    "gsl/": {"maths"},
+    "lapacke": {"maths"},
+    "cblas": {"maths"},
+    "cairo": {"report"},
+    "geos_c": {"geometry"},
+    "jansson": set(ROOMS) - {"maths", "geometry", "quantity"},
+}
+MOST_LINES = 600
+BANNED = [(re.compile(r"\b(assert|abort|exit)\s*\("), "ends the process"),
+          (re.compile(r"\b(malloc|calloc|realloc)\s*\("), "takes memory outside the arena"),
+          (re.compile(r"\b(time|localtime|gmtime|gettimeofday)\s*\("), "reads the clock"),
+          (re.compile(r"\bsetlocale\s*\("), "changes the locale")]
+EXCUSED = {"base/arena.c", "cli/options.c", "cli/run.c"}
+
+
+def problems():
+    for path in sorted((ROOT / "src").rglob("*.[ch]")):
+        name = path.relative_to(ROOT / "src").as_posix()
+        room = name.split("/")[0]
+        if room not in FLOOR:
+            yield f"{name}: room '{room}' is not in cmake/rooms.cmake"
+            continue
+        text = path.read_text()
+        lines = text.splitlines()
+        if len(lines) > MOST_LINES:
+            yield f"{name}: {len(lines)} lines; split it (at most {MOST_LINES})"
+        if "SPDX-License-Identifier: GPL-3.0-or-later" not in lines[0]:
+            yield f"{name}:1: no SPDX line"
+        code = re.sub(r'/\*.*?\*/|"(\\.|[^"\\\n])*"', lambda m: "\n" * m.group(0).count("\n"), text, flags=re.S)
+        for number, line in enumerate(lines, 1):
+            include = re.match(r'\s*#\s*include\s+([<"])([^>"]+)', line)
+            if not include:
+                continue
+            target = include.group(2)
+            if include.group(1) == '"':
+                other = target.split("/")[0]
+                if other not in FLOOR:
+                    yield f'{name}:{number}: "{target}" is in no room'
+                elif FLOOR[other] > FLOOR[room]:
+                    yield f"{name}:{number}: {room} may not include {other} (a floor above)"
+            for prefix, rooms in ALLOWED.items():
+                if target.startswith(prefix) and room not in rooms:
+                    yield f"{name}:{number}: <{target}> belongs to {', '.join(sorted(rooms))}"
+        if name not in EXCUSED:
+            for number, line in enumerate(code.splitlines(), 1):
+                for pattern, why in BANNED:
+                    if pattern.search(line):
+                        yield f"{name}:{number}: {pattern.search(line).group(0)}...) {why}"
+
+
+def main():
+    found = list(problems())
+    for line in found:
+        print(line)
+    count = sum(1 for _ in (ROOT / "src").rglob("*.[ch]"))
+    print(f"{count} files in {len(ROOMS)} rooms, {len(found)} wrong")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,15 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Unit tests, and the whole program on the gallery, under AddressSanitizer and
+# UndefinedBehaviorSanitizer without recovery.
+set -eu
+cd "$(dirname "$0")/../.."
+. tools/setup.sh
+configure_and_build build-asan -DFW_SANITIZE=ON -DFW_TESTS=ON -DCMAKE_BUILD_TYPE=Debug
+ctest --test-dir build-asan -L quick --output-on-failure -j 2
+out=$(mktemp -d)
+trap 'rm -rf "$out"' EXIT
+for device in docs/gallery/*/device.xml; do
+    build-asan/flexwright plan "$device" -o "$out/plan" -q >/dev/null || [ $? -eq 1 ]
+    build-asan/flexwright simulate "$device" --json >/dev/null
+done

@@ -1,0 +1,280 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The program as a user meets it: commands, exit statuses, files, JSON, advice that works."""
+import csv
+import io
+import json
+import math
+import pathlib
+import re
+import tempfile
+import unittest
+
+from common import FLOWS, GALLERY, ROOT, run
+
+GALLERY_TEXT = GALLERY.read_text()
+
+
+class InTemporary(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.here = pathlib.Path(self.temporary.name)
+
+    def device(self, text, name="device.xml"):
+        path = self.here / name
+        path.write_text(text)
+        return path
+
+    def expect(self, result, status):
+        self.assertEqual(result.returncode, status, result.stdout[-2000:] + result.stderr[-4000:])
+        return result
+
+
+class Plan(InTemporary):
+    def test_gallery_is_accepted_and_complete(self):
+        out = self.here / "out"
+        result = self.expect(run("plan", GALLERY, "-o", out), 0)
+        self.assertIn("ACCEPT", result.stdout)
+        for name in ("verdict.json", "report.html", "manifest.json"):
+            self.assertTrue((out / name).stat().st_size > 100, name)
+        for flow in FLOWS:
+            for name in ("masks/{}.gds", "masks/{}.svg", "masks/{}.lyp", "recipes/{}.html",
+                         "recipes/{}.csv", "recipes/{}.ics"):
+                self.assertTrue((out / name.format(flow)).stat().st_size > 100, name.format(flow))
+        for scene in ("step-load", "gentle-step"):
+            self.assertTrue((out / f"motion/{scene}.csv").exists())
+            self.assertTrue((out / f"motion/{scene}.svg").exists())
+        verdict = json.loads((out / "verdict.json").read_text())
+        self.assertEqual(verdict["schema"], "flexwright.verdict/1")
+        self.assertEqual(verdict["verdict"], "accept")
+        self.assertEqual(sorted(h["id"] for h in verdict["hinges"]), list("ABCDEF"))
+        for hinge in verdict["hinges"]:
+            self.assertLess(hinge["utilisation"], 1)
+            self.assertGreater(hinge["utilisation"], 0)
+        self.assertEqual([f["id"] for f in verdict["flows"]], list(FLOWS))
+        self.assertIsNone(verdict["flows"][0]["manufacturable"])
+        self.assertTrue(any("anisotropy" in r for r in verdict["flows"][0]["reasons"]))
+        manifest = json.loads((out / "manifest.json").read_text())
+        import hashlib
+        listed = {o["name"]: o["sha256"] for o in manifest["outputs"]}
+        found = {p.relative_to(out).as_posix() for p in out.rglob("*") if p.is_file()}
+        self.assertEqual(found, set(listed) | {"manifest.json"})
+        for name, digest in listed.items():
+            self.assertEqual(hashlib.sha256((out / name).read_bytes()).hexdigest(), digest, name)
+        self.assertNotRegex((out / "report.html").read_text(), r"\b(nan|inf)\b(?!i)")
+
+    def shortened(self, factor):
+        def shorter(match):
+            return f'length="{float(match.group(1)) / factor:g} um"'
+        return re.sub(r'length="([0-9.]+) um"', shorter, GALLERY_TEXT)
+
+    def test_short_hinges_are_rejected_and_the_advice_accepts(self):
+        text = self.shortened(4)
+        device = self.device(text)
+        out = self.here / "out"
+        result = self.expect(run("plan", device, "-o", out), 1)
+        self.assertIn("REJECT", result.stdout)
+        self.assertTrue((out / "report.html").exists())
+        self.assertFalse((out / "masks").exists())
+        self.assertFalse((out / "recipes").exists())
+        verdict = json.loads((out / "verdict.json").read_text())
+        self.assertEqual(verdict["verdict"], "reject")
+        advice = re.findall(r"flexure (\w+): arc length >= ([0-9.]+) um accepts", result.stdout)
+        self.assertTrue(advice)
+        for name, length in advice:
+            text, n = re.subn(rf'(<flexure id="{name}"[^>]* length=)"[^"]*"', rf'\1"{length} um"', text)
+            self.assertEqual(n, 1)
+        self.expect(run("plan", self.device(text, "advised.xml"), "-o", self.here / "advised"), 0)
+        sets = re.findall(r'--set "([^"]*)"', result.stdout)
+        self.assertEqual(len(sets), len(advice))
+        arguments = [a for s in sets for a in ("--set", s)]
+        self.expect(run("check", device, *arguments), 0)
+
+    def test_forced_files_say_rejected(self):
+        device = self.device(self.shortened(1.5))
+        out = self.here / "out"
+        self.expect(run("plan", device, "-o", out, "--force"), 1)
+        for flow in FLOWS:
+            self.assertIn("REJECTED", (out / f"recipes/{flow}.html").read_text())
+            self.assertIn(b"REJECTED", (out / f"masks/{flow}.gds").read_bytes())
+            self.assertIn("REJECTED", (out / f"masks/{flow}.svg").read_text())
+            self.assertIn("REJECTED", (out / f"recipes/{flow}.csv").read_text())
+
+    def test_overstraining_workspace_rejects(self):
+        text = GALLERY_TEXT.replace('x-min="-150 um" x-max="150 um"', 'x-min="-900 um" x-max="900 um"')
+        result = self.expect(run("check", self.device(text), "--json"), 1)
+        verdict = json.loads(result.stdout)
+        self.assertEqual(verdict["verdict"], "reject")
+        text = GALLERY_TEXT.replace('x-min="-150 um" x-max="150 um"', 'x-min="-5 mm" x-max="5 mm"')
+        result = self.expect(run("check", self.device(text)), 1)
+        self.assertIn("FW-D201", result.stderr)
+
+    def test_one_flow_only(self):
+        out = self.here / "out"
+        self.expect(run("plan", GALLERY, "-o", out, "--flow", FLOWS[1]), 0)
+        self.assertFalse((out / f"masks/{FLOWS[0]}.gds").exists())
+        self.assertTrue((out / f"masks/{FLOWS[1]}.gds").exists())
+
+    def test_starter_is_accepted(self):
+        text = self.expect(run("init", "starter"), 0).stdout
+        self.expect(run("plan", self.device(text), "-o", self.here / "out"), 0)
+
+    def test_standard_input(self):
+        result = run("check", "-", "--json", input=GALLERY_TEXT)
+        self.expect(result, 0)
+        same = run("check", GALLERY, "--json")
+        self.assertEqual(json.loads(result.stdout)["hinges"], json.loads(same.stdout)["hinges"])
+
+
+class Simulate(InTemporary):
+    def reference(self):
+        for line in (ROOT / "tests/data/sixbar_ref_0p1ms.txt").read_text().splitlines():
+            if not line.startswith("#"):
+                numbers = [float(x) for x in line.split()]
+                yield numbers[0], numbers[1:16], numbers[16:31]
+
+    def test_reference_motion_to_1e_9(self):
+        csv_file = self.here / "m.csv"
+        self.expect(run("simulate", GALLERY, "--scene", "step-load", "--rtol", "1e-13",
+                        "--samples", "101", "--csv", csv_file), 0)
+        rows = list(csv.reader(io.StringIO(csv_file.read_text())))
+        bodies = ["AB", "BC", "CD", "DE", "EF"]
+        keys = ("x_m", "y_m", "phi_rad", "vx_m_per_s", "vy_m_per_s", "omega_rad_per_s")
+        self.assertEqual(rows[0], ["t_s"] + [f"{b}.{k}" for b in bodies for k in keys])
+        reference = list(self.reference())
+        self.assertEqual(len(rows) - 1, len(reference))
+        worst_q = worst_v = 0
+        top_v = max(abs(x) for _, _, v in reference for x in v)
+        for row, (t, q, v) in zip(rows[1:], reference):
+            x = [float(c) for c in row]
+            self.assertAlmostEqual(x[0] * 1e3, t, delta=1e-12)
+            for b in range(5):
+                for k in range(3):  # mm, ms, rad
+                    scale = (1e3, 1e3, 1)[k]
+                    worst_q = max(worst_q, abs(x[1 + 6 * b + k] * scale - q[3 * b + k]))
+                    worst_v = max(worst_v, abs(x[4 + 6 * b + k] * (1, 1, 1e-3)[k] - v[3 * b + k]))
+        self.assertLess(worst_q, 1e-9)
+        self.assertLess(worst_v, 1e-9 * top_v)
+
+    def test_json(self):
+        result = self.expect(run("simulate", GALLERY, "--json"), 0)
+        data = json.loads(result.stdout)
+        self.assertEqual(data["schema"], "flexwright.simulate/1")
+        self.assertLessEqual(data["stats"]["max_constraint_norm"], 1e-12)
+        self.assertEqual([p["hinge"] for p in data["peaks"]], list("ABCDEF"))
+        self.assertEqual(data["final"]["t_s"], 0.01)
+        self.assertEqual(set(data["final"]["q"]), {"AB", "BC", "CD", "DE", "EF"})
+
+    def test_csv_on_standard_output_is_only_csv(self):
+        result = self.expect(run("simulate", GALLERY, "--samples", "2", "--csv", "-"), 0)
+        rows = list(csv.reader(io.StringIO(result.stdout)))
+        self.assertEqual([len(r) for r in rows], [31, 31, 31])
+
+    def test_animation_is_one_svg(self):
+        svg = self.here / "a.svg"
+        self.expect(run("simulate", GALLERY, "--animate", svg), 0)
+        import xml.etree.ElementTree as tree
+        self.assertTrue(tree.parse(svg).getroot().tag.endswith("svg"))
+
+    def test_unknown_scene(self):
+        result = self.expect(run("simulate", GALLERY, "--scene", "stepload"), 3)
+        self.assertIn("step-load", result.stderr)
+
+    def test_effects_list(self):
+        both = run("simulate", GALLERY, "--effects", "all", "--json")
+        self.expect(both, 0)
+        none = self.expect(run("simulate", GALLERY, "--effects", "applied-load,joint-elasticity", "--json"), 0)
+        off = [e["id"] for e in json.loads(none.stdout)["effects"] if not e["active"]]
+        self.assertIn("joint-damping", off)
+        self.expect(run("simulate", GALLERY, "--effects", "magic"), 2)
+
+
+class Recipe(InTemporary):
+    def test_json_of_both_flows(self):
+        for flow in FLOWS:
+            data = json.loads(self.expect(run("recipe", GALLERY, "--flow", flow, "--json"), 0).stdout)
+            self.assertEqual(data["schema"], "flexwright.recipe/1")
+            self.assertEqual(data["flow"], flow)
+            self.assertGreater(len(data["steps"]), 20)
+            for step in data["steps"]:
+                self.assertTrue(step["time_s"] or step["not_computable"], step["id"])
+                if step["time_s"]:
+                    t = step["time_s"]
+                    self.assertLessEqual(t["first_look"], t["nominal"])
+                    self.assertLessEqual(t["nominal"], t["clear_by"])
+                    self.assertLessEqual(t["clear_by"], t["stop"])
+        everything = json.loads(run("recipe", GALLERY, "--json").stdout)
+        self.assertEqual([r["flow"] for r in everything["recipes"]], list(FLOWS))
+
+    def test_plating_time_and_current(self):
+        data = json.loads(run("recipe", GALLERY, "--flow", FLOWS[1], "--json").stdout)
+        times = [s["time_s"]["nominal"] for s in data["steps"] if s["time_s"]]
+        self.assertTrue(any(abs(t - 1262.268843) < 1e-3 for t in times), "9 um at 20 mA/cm2, eta .97")
+        data = json.loads(run("recipe", GALLERY, "--flow", FLOWS[0], "--json").stdout)
+        times = [s["time_s"]["nominal"] for s in data["steps"] if s["time_s"]]
+        self.assertTrue(any(abs(t - 1000) < 1e-6 for t in times), "1 um Al at 10 A/s")
+
+    def test_mask_writes_only_masks(self):
+        out = self.here / "out"
+        self.expect(run("mask", GALLERY, "-o", out), 0)
+        self.assertEqual(sorted(p.name for p in out.iterdir()), ["manifest.json", "masks"])
+
+
+class Usage(InTemporary):
+    def test_exit_status_2(self):
+        for arguments in ([], ["pln", "x"], ["plan"], ["plan", "a", "b"], ["plan", "--what", "a"],
+                          ["plan", "--set"], ["plan", "--set", "novalue", "a"],
+                          ["check", GALLERY, "--accuracy", "2"], ["check", GALLERY, "--accuracy", "x"],
+                          ["simulate", GALLERY, "--method", "magic"], ["explain", "FW-D999"],
+                          ["serve"], ["simulate", GALLERY, "--samples", "1"]):
+            result = self.expect(run(*arguments), 2)
+            self.assertIn("FW-D230", result.stderr)
+            self.assertEqual(result.stdout, "")
+        self.assertIn("did you mean plan", run("pln", "x").stderr)
+        self.assertIn("did you mean --accuracy", run("check", "--acuracy", "1", "x").stderr)
+
+    def test_exit_status_5(self):
+        self.expect(run("check", self.here / "none.xml"), 5)
+        self.expect(run("plan", GALLERY, "-o", "/proc/none"), 5)
+        (self.here / "mine").mkdir()
+        (self.here / "mine/thesis.tex").write_text("years")
+        result = self.expect(run("plan", GALLERY, "-o", self.here / "mine"), 5)
+        self.assertIn("FW-D223", result.stderr)
+        self.assertEqual((self.here / "mine/thesis.tex").read_text(), "years")
+
+    def test_invalid_input_names_every_place(self):
+        text = (GALLERY_TEXT.replace('width="8.5 um"', 'width="8.5 mn"')
+                .replace('gap="8 um"', 'gap="8 N"', 1).replace('on="AB"', 'on="AX"', 1))
+        result = self.expect(run("check", self.device(text)), 3)
+        places = re.findall(r"device\.xml:(\d+):(\d+): error: .* \[FW-D\d{3}\]", result.stderr)
+        self.assertEqual(len(places), 3, result.stderr)
+        for line, column in places:
+            shown = text.splitlines()[int(line) - 1][int(column) - 1:]
+            self.assertTrue(re.match(r"8.5 mn|mn|8 N|AX", shown), shown)
+
+    def test_set(self):
+        self.expect(run("check", GALLERY, "--set", "arc=250 deg"), 0)
+        self.expect(run("check", GALLERY, "--set", "arc=250 um"), 3)
+        self.expect(run("check", GALLERY, "--set", "arc=350 deg"), 3)
+        result = self.expect(run("check", GALLERY, "--set", "ark=250 deg"), 3)
+        self.assertIn("arc", result.stderr)
+        self.expect(run("check", GALLERY, "--set", "limits/@safety-factor=40"), 1)
+
+    def test_help_everywhere(self):
+        for arguments in (["--help"], ["-h"], ["help"], ["--version"], ["plan", "--help"],
+                          ["simulate", "-h"], ["doctor"], ["explain", "FW-D204"]):
+            result = self.expect(run(*arguments), 0)
+            self.assertEqual(result.stderr, "")
+            self.assertTrue(result.stdout)
+
+    def test_hinge(self):
+        data = json.loads(self.expect(run("hinge", GALLERY, "--json"), 0).stdout)
+        self.assertEqual(data["schema"], "flexwright.hinge/1")
+        first = data["hinges"][0]["levels"][0]
+        self.assertEqual(first["level"], "closed-form")
+        self.assertTrue(math.isclose(first["stiffness_Nm_per_rad"], 1.711e-6, rel_tol=0.05))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,44 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What README.md tells a newcomer to type works, and the files that it names exist. ./demo and ./test are
+not run from inside a test; everything else is."""
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+program = pathlib.Path(sys.argv[1]).resolve()
+text = (ROOT / "README.md").read_text()
+problems = []
+
+with tempfile.TemporaryDirectory() as here:
+    (pathlib.Path(here) / "build").mkdir()
+    (pathlib.Path(here) / "build/flexwright").symlink_to(program)
+    (pathlib.Path(here) / "out").mkdir()
+    commands = [line.strip() for line in text.splitlines() if line.startswith("    build/flexwright")]
+    if len(commands) < 4:
+        problems.append("README has lost its commands")
+    for command in commands:
+        done = subprocess.run(command, shell=True, cwd=here, capture_output=True, text=True, timeout=120)
+        if done.returncode != 0:
+            problems.append(f"{command}: status {done.returncode}\n{done.stderr}")
+
+for target in re.findall(r"\]\(([^)#:]+)\)", text):
+    if not (ROOT / target).exists():
+        problems.append(f"README links to {target}, which is not there")
+for page in [ROOT / "src/README.md", *ROOT.glob("docs/**/*.md")]:
+    for target in re.findall(r"\]\(([^)#:]+)\)", page.read_text()):
+        if not (page.parent / target).exists():
+            problems.append(f"{page.relative_to(ROOT)} links to {target}, which is not there")
+for script in ("demo", "test"):
+    if not shutil.which(f"./{script}", path=str(ROOT)) and not (ROOT / script).stat().st_mode & 0o100:
+        problems.append(f"./{script} is not executable")
+for room in re.search(r"FW_ROOMS ([^)]*)\)", (ROOT / "cmake/rooms.cmake").read_text()).group(1).split():
+    if f"`{room}/`" not in (ROOT / "src/README.md").read_text():
+        problems.append(f"src/README.md does not name the room {room}/")
+
+print("\n".join(problems) or f"{len(commands)} commands run, links good")
+sys.exit(1 if problems else 0)

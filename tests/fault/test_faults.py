@@ -1,0 +1,119 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Full disks, small memory, signals and kills: what was there before stays, or the new is complete."""
+import hashlib
+import json
+import os
+import pathlib
+import random
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+from common import GALLERY, PROGRAM, run  # noqa: E402
+
+
+def intact(out):
+    """every file that the manifest lists is there with its hash, and no other"""
+    manifest = json.loads((out / "manifest.json").read_text())
+    listed = {o["name"]: o["sha256"] for o in manifest["outputs"]}
+    found = {p.relative_to(out).as_posix() for p in out.rglob("*") if p.is_file()} - {"manifest.json"}
+    return found == set(listed) and all(
+        hashlib.sha256((out / n).read_bytes()).hexdigest() == h for n, h in listed.items())
+
+
+class Faults(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.here = pathlib.Path(self.temporary.name)
+        self.out = self.here / "out"
+
+    def left_alone(self):
+        self.assertEqual([p.name for p in self.here.iterdir()], ["out"])
+        self.assertTrue(intact(self.out))
+
+    def test_file_size_limit_at_many_sizes(self):
+        self.assertEqual(run("plan", GALLERY, "-o", self.out).returncode, 0)
+        before = (self.out / "manifest.json").read_bytes()
+        largest = max(p.stat().st_size for p in self.out.rglob("*") if p.is_file())
+        for i in range(20):
+            limit = 1 + largest * i // 20
+            result = run("plan", GALLERY, "-o", self.out, preexec_fn=lambda: resource.setrlimit(
+                resource.RLIMIT_FSIZE, (limit, limit)))
+            self.assertEqual(result.returncode, 5, f"limit {limit}: {result.stderr}")
+            self.assertIn("FW-D222", result.stderr)
+            self.left_alone()
+            self.assertEqual(before, (self.out / "manifest.json").read_bytes())
+
+    def test_standard_output_full(self):
+        with open("/dev/full", "w") as full:
+            result = subprocess.run([PROGRAM, "check", GALLERY, "--json"], stdout=full,
+                                    stderr=subprocess.PIPE, text=True, timeout=60)
+        self.assertEqual(result.returncode, 5)
+        self.assertIn("standard output", result.stderr)
+
+    def test_closed_pipe(self):
+        process = subprocess.Popen([PROGRAM, "simulate", GALLERY, "--samples", "100000", "--csv", "-"],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        process.stdout.close()
+        process.stderr.read()
+        self.assertEqual(process.wait(timeout=60), 5)
+
+    def test_read_only_target(self):
+        if os.geteuid() == 0:
+            self.skipTest("root writes everywhere")
+        self.here.chmod(0o500)
+        self.addCleanup(self.here.chmod, 0o700)
+        self.assertEqual(run("plan", GALLERY, "-o", self.out).returncode, 5)
+
+    def test_small_memory(self):
+        """from far too little to enough: a clean end with 6, or the whole result; never a torn one"""
+        statuses = set()
+        for megabytes in list(range(20, 140, 6)):
+            size = megabytes << 20
+            result = run("plan", GALLERY, "-o", self.out, preexec_fn=lambda: resource.setrlimit(
+                resource.RLIMIT_AS, (size, size)))
+            statuses.add(result.returncode)
+            # 127: the loader could not map the libraries, so the program never ran
+            self.assertIn(result.returncode, (0, 6, 127), f"{megabytes} MB: {result.stderr[-500:]}")
+            if result.returncode != 0:
+                self.assertFalse(self.out.exists())
+            else:
+                self.left_alone()
+                break
+        self.assertIn(0, statuses)
+
+    def test_kill_at_random_instants(self):
+        self.assertEqual(run("plan", GALLERY, "-o", self.out).returncode, 0)
+        start = time.monotonic()
+        run("plan", GALLERY, "-o", self.out)
+        whole = time.monotonic() - start
+        rng = random.Random(1)
+        for _ in range(40):
+            process = subprocess.Popen([PROGRAM, "plan", GALLERY, "-o", self.out],
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(rng.random() * whole * 1.1)
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+            self.assertTrue(intact(self.out))
+        self.assertEqual(run("plan", GALLERY, "-o", self.out).returncode, 0)
+        self.left_alone()  # and the leftovers of the killed are gone
+
+    def test_interrupt(self):
+        for number, status in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+            process = subprocess.Popen([PROGRAM, "simulate", GALLERY, "--rtol", "1e-13",
+                                        "--samples", "1000000", "--json"],
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(0.02)
+            process.send_signal(number)
+            self.assertIn(process.wait(timeout=60), (0, status, -number))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "device/xml.h"
+#include "test.h"
+
+static fw_element *parse(fw_arena *arena, const char *text) {
+    fw_diags diags = fw_diags_new(arena);
+    fw_element *root;
+    fw_status s = fw_xml_read(arena, "t.xml", text, strlen(text), &diags, &root);
+    if (s != FW_OK) fail_msg("%s", diags.count ? diags.item[0].message : fw_status_text(s));
+    return root;
+}
+
+static void assert_place(fw_place place, int line, int column) {
+    if (place.line != line || place.column != column)
+        fail_msg("place %d:%d, expected %d:%d", place.line, place.column, line, column);
+}
+
+static void places_of_everything(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const char *text = "<?xml version=\"1.0\"?>\n"
+                       "<!-- <not a=\"tag\"> -->\n"
+                       "<r xmlns=\"urn:x\"\n"
+                       "   first = 'one'  second=\"a > b\">\n"
+                       "  hello\n"
+                       "  <c\n"
+                       "\td=\"1\"/><![CDATA[<x y=\"z\">]]>\n"
+                       "  <c e=\"\xc3\xa9\" f=\"2\">  text </c>\n"
+                       "</r>\n";
+    fw_element *r = parse(arena, text);
+    assert_string_equal(r->name, "r");
+    assert_string_equal(r->space, "urn:x");
+    assert_place(r->place, 3, 1);
+    assert_int_equal(r->nattribute, 2); /* declarations of namespaces are not among them */
+    assert_place(r->attribute[0].place, 4, 13);
+    assert_place(r->attribute[0].name_place, 4, 4);
+    assert_place(r->attribute[1].place, 4, 27);
+    assert_string_equal(r->attribute[1].value, "a > b");
+    assert_int_equal(r->attribute[1].exact, 1);
+    assert_int_equal(memcmp(text + r->attribute[0].value_offset, "one", 3), 0);
+    assert_place(r->text_place, 5, 3);
+    assert_non_null(strstr(r->text, "<x y=\"z\">"));
+    fw_element *c = r->first_child, *d = c->next;
+    assert_place(c->place, 6, 3);
+    assert_place(c->attribute[0].place, 7, 5);
+    assert_string_equal(c->text, "");
+    assert_place(d->place, 8, 3);
+    assert_place(d->attribute[1].place, 8, 16); /* columns count bytes: the letter has two */
+    assert_string_equal(d->text, "text");
+    assert_place(d->text_place, 8, 21);
+    assert_ptr_equal(d, r->last_child);
+    assert_ptr_equal(d->parent, r);
+    assert_null(d->next);
+    assert_null(fw_xml_attribute(d, "nothing"));
+    assert_ptr_equal(fw_xml_attribute(d, "f"), &d->attribute[1]);
+    fw_arena_free(arena);
+}
+
+static void values_with_entities_are_not_exact(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_element *r = parse(arena, "<r a=\"1 &lt; 2\" b=\"x\ny\tz\" c=\"&#181;m\" d=\"\"/>");
+    const fw_attribute *a = r->attribute;
+    assert_string_equal(a[0].value, "1 < 2");
+    assert_int_equal(a[0].exact, 0);
+    assert_place(fw_xml_inside(&a[0], 3), 1, 7); /* only the value's own place is known */
+    assert_string_equal(a[1].value, "x y z");
+    assert_int_equal(a[1].exact, 1);
+    assert_place(fw_xml_inside(&a[1], 0), 1, 20);
+    assert_place(fw_xml_inside(&a[1], 4), 2, 3);
+    assert_string_equal(a[2].value, "\xc2\xb5m");
+    assert_int_equal(a[2].exact, 0);
+    assert_int_equal(a[3].exact, 1);
+    assert_place(fw_xml_inside(&a[3], 9), a[3].place.line, a[3].place.column);
+    fw_arena_free(arena);
+}
+
+static void a_mark_and_line_ends(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_element *r = parse(arena, "\xef\xbb\xbf<r>\r\n<c a=\"1\"/>\r\n</r>");
+    assert_place(r->place, 1, 4);
+    assert_place(r->first_child->place, 2, 1);
+    assert_place(r->first_child->attribute[0].place, 2, 7);
+    fw_arena_free(arena);
+}
+
+/* beyond 65535 lines, where libxml2's own counting may stop */
+static void many_lines(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_text text = fw_text_new(arena);
+    fw_text_add(&text, "<r>");
+    for (int i = 0; i < 70000; i++)
+        fw_text_add(&text, "\n");
+    fw_text_add(&text, " <c a='1'/></r>");
+    fw_element *r = parse(arena, text.data);
+    assert_place(r->first_child->place, 70001, 2);
+    assert_place(r->first_child->attribute[0].place, 70001, 8);
+    fw_arena_free(arena);
+}
+
+static void many_elements_keep_their_places(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_text text = fw_text_new(arena);
+    fw_text_add(&text, "<r>\n");
+    for (int i = 0; i < 19990; i++)
+        fw_text_printf(&text, "<c%d a='%d'>t</c%d>\n", i, i, i);
+    fw_text_add(&text, "</r>");
+    fw_element *r = parse(arena, text.data);
+    int i = 0;
+    for (fw_element *c = r->first_child; c; c = c->next, i++) {
+        char name[16], value[16];
+        snprintf(name, sizeof name, "c%d", i);
+        snprintf(value, sizeof value, "%d", i);
+        assert_string_equal(c->name, name);
+        assert_string_equal(c->attribute[0].value, value);
+        assert_place(c->place, i + 2, 1);
+        assert_place(c->attribute[0].place, i + 2, 7 + (int)strlen(value));
+        assert_int_equal(c->attribute[0].exact, 1);
+        assert_place(c->text_place, i + 2, 9 + 2 * (int)strlen(value));
+    }
+    assert_int_equal(i, 19990);
+    fw_arena_free(arena);
+}
+
+static void memory_runs_out(void **state) {
+    (void)state;
+    const char *text = "<r a='1' b='2'>x<c d='3'/>y</r>";
+    for (int ever = 0; ever < 2; ever++)
+        for (long n = 1;; n++) {
+            fw_arena *arena = fw_arena_new(0);
+            fw_diags diags = fw_diags_new(arena);
+            fw_element *root;
+            fw_arena_fail_at(n, ever);
+            fw_status s = fw_xml_read(arena, "t", text, strlen(text), &diags, &root);
+            long used = fw_arena_count();
+            fw_arena_fail_at(0, 0);
+            assert_int_equal(s, used >= n ? FW_NOMEM : FW_OK);
+            assert_true((root != NULL) == (s == FW_OK));
+            fw_arena_free(arena);
+            if (used < n) break;
+        }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(places_of_everything),
+        cmocka_unit_test(values_with_entities_are_not_exact),
+        cmocka_unit_test(a_mark_and_line_ends),
+        cmocka_unit_test(many_lines),
+        cmocka_unit_test(many_elements_keep_their_places),
+        cmocka_unit_test(memory_runs_out),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "effects/effects.h"
+#include "test.h"
+
+/* a lever on the ground: inertia about the pin j + m l^2, torsion k */
+typedef struct lever {
+    fw_mass body[1];
+    fw_pin pin[1];
+    fw_spring spring[1];
+    fw_force force[1];
+    fw_torque torque[1];
+    fw_initial initial[1];
+    fw_mechanism m;
+    fw_scene scene;
+} lever;
+
+static void lever_new(lever *s, double k, double c) {
+    memset(s, 0, sizeof *s);
+    s->body[0] = (fw_mass){"lever", 2e-8, 3e-15, 1e-3, 0, 0};
+    s->pin[0] = (fw_pin){.id = "O",
+                         .body_a = FW_GROUND,
+                         .body_b = 0,
+                         .bx_m = -1e-3,
+                         .stiffness_Nm_per_rad = k,
+                         .damping_Nms_per_rad = c,
+                         .hinge = FW_NONE};
+    s->m =
+        (fw_mechanism){.body = s->body, .pin = s->pin, .spring = s->spring, .nbody = 1, .npin = 1};
+    s->scene = (fw_scene){.name = "s",
+                          .duration_s = 1e-3,
+                          .force = s->force,
+                          .torque = s->torque,
+                          .initial = s->initial};
+}
+
+static fw_status compile(fw_arena *arena, const lever *s, fw_effect_mode mode, const char *list,
+                         double accuracy, fw_diags *diags, fw_effect_ledger *ledger,
+                         fw_terms *terms) {
+    const fw_effect_choice choice = {mode, list};
+    return fw_effects_compile(arena, &s->m, &s->scene, &choice, accuracy, diags, ledger, terms);
+}
+
+static const fw_effect_entry *entry(const fw_effect_ledger *ledger, const char *id) {
+    for (int i = 0; i < ledger->count; i++)
+        if (strcmp(ledger->item[i].id, id) == 0) return &ledger->item[i];
+    fail_msg("no effect %s", id);
+    return NULL;
+}
+
+static void test_table(void **state) {
+    (void)state;
+    size_t count;
+    const fw_effect_row *const *row = fw_effect_rows(&count);
+    assert_int_equal(count, 6);
+    for (size_t i = 0; i < count; i++) {
+        assert_non_null(row[i]->id);
+        assert_non_null(row[i]->summary);
+        for (size_t j = 0; j < i; j++)
+            assert_string_not_equal(row[i]->id, row[j]->id);
+    }
+}
+
+/* what a scene does not call for leaves nothing behind in the compiled arrays */
+static void test_absent_effects_cost_nothing(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    fw_effect_ledger ledger;
+    fw_terms terms;
+    lever s;
+    lever_new(&s, 0, 0);
+    assert_int_equal(compile(arena, &s, FW_EFFECTS_ALL, NULL, 1e-3, &diags, &ledger, &terms),
+                     FW_OK);
+    assert_int_equal(terms.ntorsion + terms.nload + terms.nspring, 0);
+    for (int i = 0; i < ledger.count; i++) {
+        assert_false(ledger.item[i].called_for);
+        assert_false(ledger.item[i].active);
+        assert_true(ledger.item[i].bound == 0);
+    }
+    for (int i = 0; i < 3; i++)
+        assert_true(terms.constant[i] == 0 && terms.velocity[i] == 0);
+    fw_arena_free(arena);
+}
+
+/* the lever under a torque T: static angle T/k; weight at arm l: m g l / k. Bound = 2 m g l / T */
+static void test_gravity_bound(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    fw_effect_ledger ledger;
+    fw_terms terms;
+    lever s;
+    lever_new(&s, 1e-6, 0);
+    s.scene.gravity = true;
+    s.scene.gy_m_per_s2 = -9.81;
+    s.torque[0] = (fw_torque){.body = 0, .value_Nm = 1e-7};
+    s.scene.ntorque = 1;
+    double exact = 2 * 2e-8 * 9.81 * 1e-3 / 1e-7;
+    assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1e-3, &diags, &ledger, &terms),
+                     FW_OK);
+    const fw_effect_entry *g = entry(&ledger, "gravity");
+    assert_near(g->bound, exact, 1e-9 * exact);
+    assert_true(g->called_for && g->active); /* 0.0039 > 0.001 */
+    assert_near(terms.constant[1], -2e-8 * 9.81, 1e-20);
+    assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1e-2, &diags, &ledger, &terms),
+                     FW_OK);
+    g = entry(&ledger, "gravity");
+    assert_true(g->called_for && !g->active);
+    assert_non_null(strstr(g->reason, "below the accuracy wanted"));
+    assert_true(terms.constant[1] == 0);
+    assert_true(entry(&ledger, "applied-load")->active);
+    assert_true(isinf(entry(&ledger, "applied-load")->bound));
+    /* without a spring or another load there is nothing to compare with */
+    s.scene.ntorque = 0;
+    assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1, &diags, &ledger, &terms), FW_OK);
+    assert_true(entry(&ledger, "gravity")->active);
+    s.scene.ntorque = 1;
+    s.pin[0].stiffness_Nm_per_rad = 0;
+    assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1, &diags, &ledger, &terms), FW_OK);
+    assert_true(isinf(entry(&ledger, "gravity")->bound));
+    fw_arena_free(arena);
+}
+
+/* the lever decays with c / (2 (j + m l^2)); the bound must not be below 1 - exp of that */
+static void test_damping_bound(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    fw_effect_ledger ledger;
+    fw_terms terms;
+    lever s;
+    for (double c = 1e-18; c < 1e-9; c *= 10) {
+        lever_new(&s, 1e-6, c);
+        assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1e-3, &diags, &ledger, &terms),
+                         FW_OK);
+        const fw_effect_entry *d = entry(&ledger, "joint-damping");
+        double rate = c / (2 * (3e-15 + 2e-8 * 1e-6));
+        assert_true(d->bound >= -expm1(-rate * 1e-3));
+        assert_true(d->bound <= 1);
+        assert_int_equal(d->active, d->bound >= 1e-3);
+        assert_true((terms.torsion[0].damping_Nms_per_rad > 0) == d->active);
+    }
+    fw_arena_free(arena);
+}
+
+static void test_choices(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    fw_effect_ledger ledger;
+    fw_terms terms;
+    lever s;
+    lever_new(&s, 1e-6, 1e-12);
+    s.torque[0] = (fw_torque){.body = 0, .value_Nm = 1e-7};
+    s.scene.ntorque = 1;
+    s.initial[0] = (fw_initial){.body = 0, .omega_rad_per_s = 3};
+    s.scene.ninitial = 1;
+    s.force[0] = (fw_force){.body = 0, .x_m = 1e-4, .fx_N = 1, .fy_N = 2};
+    s.scene.nforce = 1;
+    assert_int_equal(compile(arena, &s, FW_EFFECTS_NONE, NULL, 1e-3, &diags, &ledger, &terms),
+                     FW_OK);
+    assert_int_equal(terms.ntorsion + terms.nload, 0);
+    assert_true(entry(&ledger, "applied-load")->called_for);
+    assert_int_equal(compile(arena, &s, FW_EFFECTS_LIST, "joint-elasticity, initial-velocity", 1e-3,
+                             &diags, &ledger, &terms),
+                     FW_OK);
+    assert_int_equal(terms.ntorsion, 1);
+    assert_true(terms.torsion[0].stiffness_Nm_per_rad == 1e-6);
+    assert_true(terms.torsion[0].damping_Nms_per_rad == 0);
+    assert_true(terms.velocity[2] == 3);
+    assert_int_equal(terms.nload, 0);
+    assert_int_equal(compile(arena, &s, FW_EFFECTS_ALL, NULL, 1e-3, &diags, &ledger, &terms),
+                     FW_OK);
+    assert_int_equal(terms.nload, 1);
+    assert_true(terms.constant[2] == 1e-7);
+    assert_true(terms.torsion[0].damping_Nms_per_rad == 1e-12);
+    /* a mistake names what there is */
+    assert_int_equal(
+        compile(arena, &s, FW_EFFECTS_LIST, "gravity,frictoin", 1e-3, &diags, &ledger, &terms),
+        FW_USAGE);
+    assert_int_equal(diags.item[0].number, 110);
+    assert_non_null(strstr(diags.item[0].message, "frictoin"));
+    assert_non_null(strstr(diags.item[0].message, "joint-damping"));
+    fw_arena_free(arena);
+}
+
+/* two levers in a row: the linear response against the solution by hand */
+static void test_static_response(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_mass body[2] = {{"a", 1, 1, 1, 0, 0}, {"b", 1, 1, 3, 0, 0}};
+    fw_pin pin[2] = {{.body_a = FW_GROUND, .body_b = 0, .bx_m = -1},
+                     {.body_a = 0, .body_b = 1, .ax_m = 1, .bx_m = -1}};
+    fw_spring spring[1] = {{.body_a = FW_GROUND,
+                            .body_b = 1,
+                            .ax_m = 4,
+                            .ay_m = -2,
+                            .bx_m = 1,
+                            .stiffness_N_per_m = 5,
+                            .length_m = 2}};
+    const fw_mechanism m = {.body = body, .pin = pin, .spring = spring, .nbody = 2, .npin = 2};
+    fw_torsion torsion[2] = {{0, FW_GROUND, 0, 10, 0, 0}, {1, 0, 1, 20, 0, 0}};
+    const double force[6] = {0, 0, 0, 0, 3, 0}; /* at x = 3 */
+    double zero[6] = {0};
+    fw_terms terms = {
+        .nbody = 2, .constant = zero, .velocity = zero, .torsion = torsion, .ntorsion = 2};
+    double u[6], turn[2];
+    bool valid;
+    assert_int_equal(fw_static_response(arena, &m, &terms, force, u, turn, &valid), FW_OK);
+    assert_true(valid);
+    assert_near(turn[0], 3.0 * 3 / 10, 1e-12); /* moment at each hinge over its stiffness */
+    assert_near(turn[1], 3.0 * 1 / 20, 1e-12);
+    assert_near(u[4], 3 * turn[0] + turn[1], 1e-12);
+    /* the spring at the tip carries part of it: virtual work with tip = 4 t0 + 2 t1 */
+    terms.spring = spring;
+    terms.nspring = 1;
+    assert_int_equal(fw_static_response(arena, &m, &terms, force, u, turn, &valid), FW_OK);
+    assert_true(valid);
+    double tip = 4 * turn[0] + 2 * turn[1];
+    assert_near(10 * turn[0], 3.0 * 3 - 5 * tip * 4, 1e-11);
+    assert_near(20 * turn[1], 3.0 * 1 - 5 * tip * 2, 1e-11);
+    /* no spring at the second hinge: it can move freely, and that is said */
+    terms.nspring = 0;
+    terms.ntorsion = 1;
+    assert_int_equal(fw_static_response(arena, &m, &terms, force, u, turn, &valid), FW_OK);
+    assert_false(valid);
+    fw_arena_free(arena);
+}
+
+static void test_out_of_memory(void **state) {
+    (void)state;
+    lever s;
+    lever_new(&s, 1e-6, 1e-12);
+    s.scene.gravity = true;
+    s.scene.gx_m_per_s2 = 1;
+    s.torque[0] = (fw_torque){.body = 0, .value_Nm = 1e-7};
+    s.scene.ntorque = 1;
+    long count = 1000;
+    for (long n = 1; n <= count; n++) {
+        fw_arena *arena = fw_arena_new(0);
+        fw_diags diags = fw_diags_new(arena);
+        fw_effect_ledger ledger;
+        fw_terms terms;
+        fw_arena_fail_at(n, 0);
+        fw_status status = compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1e-3, &diags, &ledger, &terms);
+        long made = fw_arena_count();
+        fw_arena_fail_at(0, 0);
+        fw_arena_free(arena);
+        if (made < n) {
+            assert_int_equal(status, FW_OK);
+            return;
+        }
+        assert_int_equal(status, FW_NOMEM);
+    }
+    fail_msg("never went through");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_table),         cmocka_unit_test(test_absent_effects_cost_nothing),
+        cmocka_unit_test(test_gravity_bound), cmocka_unit_test(test_damping_bound),
+        cmocka_unit_test(test_choices),       cmocka_unit_test(test_static_response),
+        cmocka_unit_test(test_out_of_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,582 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "layout/draw.h"
+#include "fixture.h"
+#include "test.h"
+
+typedef struct drawn {
+    fw_arena *arena;
+    fw_diags diags;
+    const fw_layout *layout;
+    fw_status status;
+} drawn;
+
+static drawn draw(const fixture *f) {
+    drawn d = {.arena = fw_arena_new(0)};
+    assert_non_null(d.arena);
+    d.diags = fw_diags_new(d.arena);
+    d.status = fw_layout_build(d.arena, &f->device, &d.diags, &d.layout);
+    return d;
+}
+
+static drawn draw_well(const fixture *f) {
+    drawn d = draw(f);
+    if (d.status != FW_OK)
+        fail_msg("%s: %s", fw_status_text(d.status),
+                 d.diags.count ? d.diags.item[0].message : "no diagnostic");
+    assert_true(d.layout->drawn);
+    assert_int_equal(d.diags.errors, 0);
+    return d;
+}
+
+static bool is_device(const fw_piece *p) {
+    return p->role == FW_ROLE_STRUCTURE || p->role == FW_ROLE_FLEXURE || p->role == FW_ROLE_FRAME;
+}
+
+static bool same(fw_vec2 p, fw_vec2 q) {
+    return p.x == q.x && p.y == q.y;
+}
+
+/* pieces that share the JOINT edge k of piece i, reversed, bit for bit */
+static int partners(const fw_layout *l, int i, int k, int *who) {
+    const fw_segment *e = &l->piece[i].contour.segment[k];
+    int n = 0;
+    for (int j = 0; j < l->npiece; j++)
+        for (int m = 0; j != i && m < l->piece[j].contour.count; m++) {
+            const fw_segment *g = &l->piece[j].contour.segment[m];
+            if ((g->flags & FW_SEGMENT_JOINT) && same(e->a, g->b) && same(e->b, g->a)) {
+                *who = j;
+                n++;
+            }
+        }
+    return n;
+}
+
+/* closed, counter-clockwise, every JOINT edge shared with exactly one other piece, all in one part
+ */
+static void check_pieces(const fw_layout *l) {
+    int group[256];
+    assert_true(l->npiece < 256);
+    for (int i = 0; i < l->npiece; i++)
+        group[i] = i;
+    for (int i = 0; i < l->npiece; i++) {
+        const fw_contour *c = &l->piece[i].contour;
+        assert_true(fw_contour_area(c) > 0.0);
+        for (int k = 0; k < c->count; k++) {
+            assert_true(same(c->segment[k].b, c->segment[(k + 1) % c->count].a));
+            if (!is_device(&l->piece[i]) || !(c->segment[k].flags & FW_SEGMENT_JOINT)) continue;
+            int who = -1;
+            if (partners(l, i, k, &who) != 1)
+                fail_msg("joint edge %d of %s has no single partner", k, l->piece[i].label);
+            int from = group[who], to = group[i];
+            for (int j = 0; j < l->npiece; j++)
+                if (group[j] == from) group[j] = to;
+        }
+    }
+    for (int i = 0; i < l->npiece; i++)
+        if (is_device(&l->piece[i])) assert_int_equal(group[i], group[0]);
+}
+
+static bool share_a_joint(const fw_layout *l, int i, int j) {
+    for (int k = 0; k < l->piece[i].contour.count; k++) {
+        int who = -1;
+        if ((l->piece[i].contour.segment[k].flags & FW_SEGMENT_JOINT) &&
+            partners(l, i, k, &who) == 1 && who == j)
+            return true;
+    }
+    return false;
+}
+
+/* no piece has an edge point inside another; pieces without a common cut keep a distance */
+static void check_disjoint(const fw_layout *l) {
+    for (int i = 0; i < l->npiece; i++)
+        for (int j = 0; j < l->npiece; j++) {
+            const fw_piece *p = &l->piece[i], *q = &l->piece[j];
+            if (i == j || !is_device(p) || !is_device(q)) continue;
+            bool joined = share_a_joint(l, i, j);
+            if (!joined && i < j &&
+                !(fw_contour_distance(&p->contour, &q->contour, NULL, NULL) > 1e-6))
+                fail_msg("%s and %s touch", p->label, q->label);
+            for (int k = 0; k < p->contour.count; k++) {
+                const fw_segment *e = &p->contour.segment[k];
+                fw_vec2 middle = fw_v(0.5 * (e->a.x + e->b.x), 0.5 * (e->a.y + e->b.y));
+                if (e->kind == FW_LINE && !(e->flags & FW_SEGMENT_JOINT) &&
+                    fw_contour_contains(&q->contour, middle))
+                    fail_msg("%s lies inside %s", p->label, q->label);
+            }
+        }
+}
+
+static const fw_piece *find(const fw_layout *l, fw_role role, int body, int joint) {
+    for (int i = 0; i < l->npiece; i++)
+        if (l->piece[i].role == role && l->piece[i].joint == joint &&
+            (joint != FW_NONE || l->piece[i].body == body))
+            return &l->piece[i];
+    fail_msg("no piece of body %d, joint %d", body, joint);
+    return NULL;
+}
+
+static void the_reference_is_one_connected_device(void **state) {
+    (void)state;
+    fixture f;
+    fixture_six_bar(&f);
+    drawn d = draw_well(&f);
+    check_pieces(d.layout);
+    check_disjoint(d.layout);
+    assert_int_equal(d.diags.count, 0);
+    assert_near(d.layout->narrowest_gap_m, 8e-6, 1e-12);
+    assert_near(d.layout->die.x1 - d.layout->die.x0, 5.6e-3, 2e-9);
+    assert_near(d.layout->die.y1 - d.layout->die.y0, 5e-3, 2e-9);
+    for (int j = 0; j < 6; j++) {
+        assert_true(d.layout->hinge[j].free_rad >= 0.5);
+        assert_true(d.layout->hinge[j].facing_rad > 2.0);
+    }
+    fw_arena_free(d.arena);
+}
+
+/* total angle of the arcs of a contour about w with the given radius (m) */
+static double sector(const fw_contour *c, fw_vec2 w, double radius, double *worst) {
+    double sum = 0.0;
+    for (int i = 0; i < c->count; i++) {
+        const fw_segment *e = &c->segment[i];
+        if (e->kind != FW_ARC || !same(e->centre, w) || fabs(e->radius - radius) > 1e-9) continue;
+        *worst = fmax(*worst, fabs(e->radius - radius));
+        sum += fabs(e->sweep_rad);
+    }
+    return sum;
+}
+
+static void hinge_is_exact(void **state) {
+    (void)state;
+    fixture f;
+    fixture_six_bar(&f);
+    drawn d = draw_well(&f);
+    for (int j = 0; j < 6; j++) {
+        const fw_hinge_layout *h = &d.layout->hinge[j];
+        const fw_flexure *x = &f.flexure[j];
+        fw_flexure_input in = {x->kind,    x->length_m, x->angle_rad, x->radius_m,
+                               x->width_m, h->fillet_m, 50e-6,        169e9,
+                               0.22,       1e9,         1.5};
+        fw_flexure_result out;
+        fw_flexure_closed_form(&in, &out);
+        fw_vec2 w = fw_add(h->arc_centre, out.centre_m, fw_polar(h->axis_rad));
+        assert_near(w.x, f.joint[j].x_m, 1e-15);
+        assert_near(w.y, f.joint[j].y_m, 1e-15);
+        assert_near(h->fillet_m, x->width_m, 0.0);
+
+        const fw_contour *c = &find(d.layout, FW_ROLE_FLEXURE, 0, j)->contour;
+        int arcs = 0;
+        assert_int_equal(c->count, 4);
+        for (int i = 0; i < 4; i++) {
+            const fw_segment *e = &c->segment[i];
+            assert_int_equal(e->kind == FW_LINE, e->flags == FW_SEGMENT_JOINT);
+            if (e->kind == FW_LINE) {
+                assert_near(fw_norm(fw_sub(e->a, e->b)), x->width_m, 1e-16);
+                continue;
+            }
+            assert_true(same(e->centre, h->arc_centre));
+            double side = e->sweep_rad > 0.0 ? 0.5 : -0.5;
+            assert_near(e->radius, x->radius_m + side * x->width_m, 2e-18);
+            arcs++;
+        }
+        assert_int_equal(arcs, 2);
+
+        int concave = h->convex == h->upper ? h->lower : h->upper;
+        double worst = 0.0;
+        double a = sector(&find(d.layout, FW_ROLE_STRUCTURE, h->convex, FW_NONE)->contour,
+                          h->centre, h->surface_radius_m, &worst);
+        double b = sector(&find(d.layout, FW_ROLE_STRUCTURE, concave, FW_NONE)->contour, h->centre,
+                          h->surface_radius_m + h->gap_m, &worst);
+        assert_true(a > 2.0 && b > 2.0);
+        assert_true(worst <= 2e-18);
+    }
+    fw_arena_free(d.arena);
+}
+
+/* the two fillets beside a cut are tangent to what they join and have the radius that is reported
+ */
+static void root_fillets_are_tangent(void **state) {
+    (void)state;
+    fixture f;
+    fixture_six_bar(&f);
+    drawn d = draw_well(&f);
+    for (int j = 0; j < 6; j++) {
+        const fw_hinge_layout *h = &d.layout->hinge[j];
+        int found = 0;
+        for (int s = 0; s < 2; s++) {
+            int body = s ? h->upper : h->lower;
+            const fw_contour *c = &find(d.layout, FW_ROLE_STRUCTURE, body, FW_NONE)->contour;
+            for (int i = 0; i < c->count; i++) {
+                const fw_segment *e = &c->segment[i];
+                double away = fw_norm(fw_sub(e->centre, h->arc_centre));
+                double t = f.flexure[j].width_m, r = f.flexure[j].radius_m;
+                bool outer = fabs(away - (r + 0.5 * t + h->fillet_m)) < 1e-15;
+                bool inner = fabs(away - (r - 0.5 * t - h->fillet_m)) < 1e-15;
+                if (e->kind != FW_ARC || !(outer || inner)) continue;
+                assert_near(e->radius, h->fillet_m, 1e-15);
+                found++;
+            }
+        }
+        assert_int_equal(found, 4);
+    }
+    fw_arena_free(d.arena);
+}
+
+/* points of the plane in the order of the R2 sequence: 1/g, 1/g^2 with g^3 = g + 1 */
+static void areas_agree_with_counted_points(void **state) {
+    (void)state;
+    const double g = 1.32471795724474602596;
+    fixture f;
+    fixture_six_bar(&f);
+    f.device.die.tethers = false; /* tethers count in the piece, not in the body */
+    drawn d = draw_well(&f);
+    for (int b = 0; b < 5; b++) {
+        const fw_contour *c = &find(d.layout, FW_ROLE_STRUCTURE, b, FW_NONE)->contour;
+        const fw_body_layout *m = &d.layout->body[b];
+        fw_box box = fw_contour_box(c);
+        double w = box.x1 - box.x0, h = box.y1 - box.y0, n = 0, sx = 0, sy = 0, s2 = 0, x, y;
+        const int total = 150000;
+        for (int i = 0; i < total; i++) {
+            x = box.x0 + w * fmod(0.5 + i / g, 1.0);
+            y = box.y0 + h * fmod(0.5 + i / (g * g), 1.0);
+            if (!fw_contour_contains(c, fw_v(x, y))) continue;
+            n++;
+            sx += x;
+            sy += y;
+            s2 += (x - m->centroid.x) * (x - m->centroid.x) +
+                  (y - m->centroid.y) * (y - m->centroid.y);
+        }
+        double cell = w * h / total;
+        assert_relative(m->area_m2, n * cell, 3e-3);
+        assert_near(m->centroid.x, sx / n, 2e-6);
+        assert_near(m->centroid.y, sy / n, 2e-6);
+        assert_relative(m->polar_m4, s2 * cell, 5e-3);
+        assert_relative(m->perimeter_m, fw_contour_perimeter(c), 1e-15);
+    }
+    fw_arena_free(d.arena);
+}
+
+static void tethers_change_no_body(void **state) {
+    (void)state;
+    fixture with, without;
+    fixture_six_bar(&with);
+    fixture_six_bar(&without);
+    without.device.die.tethers = false;
+    drawn a = draw_well(&with), b = draw_well(&without);
+    for (int i = 0; i < 5; i++) {
+        assert_near(a.layout->body[i].area_m2, b.layout->body[i].area_m2, 0.0);
+        assert_near(a.layout->body[i].polar_m4, b.layout->body[i].polar_m4, 0.0);
+        double extra = fw_contour_area(&find(a.layout, FW_ROLE_STRUCTURE, i, FW_NONE)->contour) -
+                       b.layout->body[i].area_m2;
+        assert_true(extra > 20e-6 * 300e-6); /* every body of the reference is held */
+    }
+    fw_arena_free(a.arena);
+    fw_arena_free(b.arena);
+}
+
+/* turning one body by almost the free rotation about W, either way, leaves the two apart */
+static void free_rotation_is_free(void **state) {
+    (void)state;
+    fixture f;
+    fixture_six_bar(&f);
+    f.device.die.tethers = false;
+    drawn d = draw_well(&f);
+    for (int j = 0; j < 6; j++) {
+        const fw_hinge_layout *h = &d.layout->hinge[j];
+        const fw_contour *p = &find(d.layout, FW_ROLE_STRUCTURE, h->lower, FW_NONE)->contour;
+        const fw_contour *q = &find(d.layout, FW_ROLE_STRUCTURE, h->upper, FW_NONE)->contour;
+        for (int step = -10; step <= 10; step++) {
+            double turn = 0.097 * step * h->free_rad;
+            fw_vec2 w = h->centre;
+            fw_pose pose = {w.x - (cos(turn) * w.x - sin(turn) * w.y),
+                            w.y - (sin(turn) * w.x + cos(turn) * w.y), turn};
+            fw_contour turned;
+            assert_int_equal(fw_contour_transform(d.arena, q, pose, false, &turned), FW_OK);
+            if (!(fw_contour_distance(p, &turned, NULL, NULL) > 0.5e-6))
+                fail_msg("hinge %d touches at %.3f rad", j, turn);
+        }
+    }
+    fw_arena_free(d.arena);
+}
+
+static void free_rotation_of_two_sectors(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_contour p, q;
+    fw_vec2 w = {1e-3, -2e-3};
+    assert_int_equal(fw_contour_ring_sector(arena, w, 50e-6, 90e-6, 0.0, 1.0, &p), FW_OK);
+    assert_int_equal(fw_contour_ring_sector(arena, w, 70e-6, 120e-6, 1.4, 2.0, &q), FW_OK);
+    assert_near(fw_layout_free_rotation(w, &p, &q, 200e-6), 0.4, 1e-9);
+    assert_int_equal(fw_contour_ring_sector(arena, w, 95e-6, 120e-6, 1.4, 2.0, &q), FW_OK);
+    assert_near(fw_layout_free_rotation(w, &p, &q, 200e-6), M_PI, 0.0);
+    fw_arena_free(arena);
+}
+
+static void symmetric_device_gives_symmetric_layout(void **state) {
+    (void)state;
+    fixture f;
+    fixture_six_bar(&f);
+    for (int i = 0; i < 3; i++) { /* D E F from C B A, mirrored at x = 1.5 mm */
+        f.joint[5 - i].x_m = 3e-3 - f.joint[i].x_m;
+        f.joint[5 - i].y_m = f.joint[i].y_m;
+        f.flexure[5 - i].length_m = f.flexure[i].length_m;
+        f.flexure[5 - i].width_m = f.flexure[i].width_m;
+        f.flexure[5 - i].radius_m = f.flexure[i].radius_m;
+    }
+    drawn d = draw_well(&f);
+    for (int i = 0; i < 3; i++) {
+        const fw_hinge_layout *p = &d.layout->hinge[i], *q = &d.layout->hinge[5 - i];
+        assert_near(p->keep_out_m, q->keep_out_m, 1e-15);
+        assert_near(p->free_rad, q->free_rad, 1e-6);
+        assert_near(p->arc_centre.x + q->arc_centre.x, 3e-3, 1e-12);
+        assert_near(p->arc_centre.y, q->arc_centre.y, 1e-12);
+    }
+    for (int b = 0; b < 3; b++) {
+        const fw_body_layout *p = &d.layout->body[b], *q = &d.layout->body[4 - b];
+        assert_relative(p->area_m2, q->area_m2, 1e-9);
+        assert_relative(p->polar_m4, q->polar_m4, 1e-9);
+        assert_near(p->centroid.x + q->centroid.x, 3e-3, 1e-12);
+        assert_near(p->centroid.y, q->centroid.y, 1e-12);
+        assert_relative(
+            fw_contour_area(&find(d.layout, FW_ROLE_STRUCTURE, b, FW_NONE)->contour),
+            fw_contour_area(&find(d.layout, FW_ROLE_STRUCTURE, 4 - b, FW_NONE)->contour), 1e-9);
+    }
+    fw_arena_free(d.arena);
+}
+
+/* short and long arcs, all angles: drawn whole, or refused with the reason */
+static void variants_are_drawn_or_refused(void **state) {
+    (void)state;
+    static const double factor[] = {1.0, 0.5, 0.25};
+    int refused = 0;
+    for (int six = 0; six < 2; six++)
+        for (size_t i = 0; i < 3; i++)
+            for (double angle = 120.0; angle <= 300.0; angle += 30.0) {
+                fixture f;
+                if (six)
+                    fixture_six_bar(&f);
+                else
+                    fixture_four_bar(&f);
+                fixture_flexures(&f, factor[i], angle);
+                drawn d = draw(&f);
+                if (d.status == FW_OK) {
+                    check_pieces(d.layout);
+                    check_disjoint(d.layout);
+                    assert_true(d.layout->narrowest_gap_m >= 8e-6 * (1.0 - 1e-9));
+                    for (int j = 0; j < f.device.njoint; j++)
+                        assert_true(d.layout->hinge[j].free_rad > 0.1);
+                } else {
+                    assert_int_equal(d.status, FW_GEOMETRY);
+                    assert_int_equal(d.diags.item[0].number, 121);
+                    refused++;
+                    assert_true(factor[i] < 0.3 && angle > 250.0);
+                }
+                fw_arena_free(d.arena);
+            }
+    assert_true(refused > 0);
+}
+
+/* a body with three hinges and a base per ground hinge; a turned plate on one hinge */
+static void other_mechanisms_are_drawn(void **state) {
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        fixture f;
+        if (i)
+            fixture_stage(&f);
+        else
+            fixture_paddle(&f);
+        drawn d = draw_well(&f);
+        check_pieces(d.layout);
+        check_disjoint(d.layout);
+        for (int j = 0; j < f.device.njoint; j++)
+            assert_true(d.layout->hinge[j].free_rad > 0.4);
+        int bases = 0;
+        for (int k = 0; k < d.layout->npiece; k++)
+            bases += d.layout->piece[k].role == FW_ROLE_STRUCTURE &&
+                     d.layout->piece[k].body == FW_GROUND;
+        assert_int_equal(bases, i ? 3 : 1);
+        fw_arena_free(d.arena);
+    }
+}
+
+static void leaf_is_exact(void **state) {
+    (void)state;
+    fixture f;
+    fixture_six_bar(&f);
+    for (int i = 0; i < 6; i++) {
+        f.flexure[i].kind = FW_FLEXURE_LEAF;
+        f.flexure[i].angle_rad = f.flexure[i].radius_m = NAN;
+        f.flexure[i].length_m *= 0.8;
+    }
+    drawn d = draw_well(&f);
+    check_pieces(d.layout);
+    check_disjoint(d.layout);
+    for (int j = 0; j < 6; j++) {
+        const fw_hinge_layout *h = &d.layout->hinge[j];
+        const fw_contour *c = &find(d.layout, FW_ROLE_FLEXURE, 0, j)->contour;
+        fw_region region = {(fw_contour *)c, 1};
+        fw_moments m = fw_region_moments(&region);
+        double length = f.flexure[j].length_m - 2.0 * h->fillet_m;
+        assert_near(m.centroid.x, f.joint[j].x_m, 1e-15);
+        assert_near(m.centroid.y, f.joint[j].y_m, 1e-15);
+        assert_relative(m.area_m2, length * f.flexure[j].width_m, 1e-12);
+    }
+    fw_arena_free(d.arena);
+}
+
+static bool said(const drawn *d, int number, const char *a, const char *b) {
+    for (size_t i = 0; i < d->diags.count; i++)
+        if (d->diags.item[i].number == number && strstr(d->diags.item[i].message, a) &&
+            strstr(d->diags.item[i].message, b))
+            return true;
+    return false;
+}
+
+static void tight_devices_are_refused(void **state) {
+    (void)state;
+    fixture f;
+    fixture_six_bar(&f); /* the plate reaches over the links' hinges and the links */
+    f.body[2].plate_width_m = 2.0e-3;
+    f.body[2].plate_height_m = 1.4e-3;
+    f.body[2].plate_y_m = 2.4e-3;
+    drawn d = draw(&f);
+    assert_int_equal(d.status, FW_GEOMETRY);
+    assert_true(said(&d, 120, "link BC", "platform CD"));
+    fw_arena_free(d.arena);
+
+    fixture_six_bar(&f);
+    f.joint[2].x_m = 1.4e-3;
+    f.joint[3].x_m = 1.6e-3;
+    d = draw(&f);
+    assert_int_equal(d.status, FW_GEOMETRY);
+    assert_true(said(&d, 125, "hinges C and D", "um apart"));
+    fw_arena_free(d.arena);
+
+    fixture_six_bar(&f);
+    f.device.die.width_m = 3.5e-3;
+    d = draw(&f);
+    assert_int_equal(d.status, FW_GEOMETRY);
+    assert_true(said(&d, 124, "width", "3500 um"));
+    fw_arena_free(d.arena);
+
+    fixture_four_bar(&f);
+    f.joint[0].axis_rad = 130.0 * M_PI / 180.0; /* the crank leaves where the surfaces should be */
+    d = draw(&f);
+    assert_int_equal(d.status, FW_GEOMETRY);
+    assert_true(said(&d, 122, "hinge P", "conjugate"));
+    fw_arena_free(d.arena);
+}
+
+static void bulge_may_be_turned(void **state) {
+    (void)state;
+    fixture f;
+    for (int step = 0; step < 12; step++) {
+        fixture_six_bar(&f);
+        f.joint[1].axis_rad = step * M_PI / 6.0;
+        drawn d = draw(&f);
+        assert_true(d.status == FW_OK || d.diags.errors > 0);
+        if (d.status == FW_OK) {
+            check_pieces(d.layout);
+            check_disjoint(d.layout);
+        }
+        if (step == 0 || step == 6) assert_int_equal(d.status, FW_OK);
+        fw_arena_free(d.arena);
+    }
+}
+
+static void gap_may_be_small_or_absent(void **state) {
+    (void)state;
+    fixture f;
+    fixture_six_bar(&f);
+    for (int i = 0; i < 6; i++)
+        f.flexure[i].gap_m = i == 2 ? 3e-6 : 0.0;
+    drawn d = draw_well(&f);
+    check_pieces(d.layout);
+    assert_near(d.layout->narrowest_gap_m, 3e-6, 1e-12);
+    assert_near(d.layout->hinge[0].surface_radius_m, 0.0, 0.0);
+    assert_true(d.layout->hinge[2].surface_radius_m > 50e-6);
+    fw_arena_free(d.arena);
+}
+
+static void without_shapes_nothing_is_drawn(void **state) {
+    (void)state;
+    fixture f;
+    fixture_six_bar(&f);
+    f.body[3].width_m = NAN;
+    drawn d = draw(&f);
+    assert_int_equal(d.status, FW_OK);
+    assert_false(d.layout->drawn);
+    assert_non_null(strstr(d.layout->why_not, "DE"));
+    fw_arena_free(d.arena);
+    fixture_six_bar(&f);
+    f.joint[4].flexure = FW_NONE;
+    d = draw(&f);
+    assert_int_equal(d.status, FW_OK);
+    assert_false(d.layout->drawn);
+    assert_non_null(strstr(d.layout->why_not, "E"));
+    assert_near(d.layout->body[0].area_m2, 0.0, 0.0);
+    fw_arena_free(d.arena);
+}
+
+static void same_input_same_outlines(void **state) {
+    (void)state;
+    fixture f;
+    fixture_six_bar(&f);
+    drawn a = draw_well(&f), b = draw_well(&f);
+    assert_int_equal(a.layout->npiece, b.layout->npiece);
+    for (int i = 0; i < a.layout->npiece; i++) {
+        const fw_contour *p = &a.layout->piece[i].contour, *q = &b.layout->piece[i].contour;
+        assert_int_equal(p->count, q->count);
+        for (int k = 0; k < p->count; k++) {
+            assert_true(same(p->segment[k].a, q->segment[k].a));
+            assert_true(p->segment[k].sweep_rad == q->segment[k].sweep_rad);
+        }
+    }
+    fw_arena_free(a.arena);
+    fw_arena_free(b.arena);
+}
+
+static void out_of_memory_is_reported(void **state) {
+    (void)state;
+    fixture f;
+    fixture_six_bar(&f);
+    long before = fw_arena_count();
+    drawn whole = draw_well(&f);
+    long count = fw_arena_count() - before;
+    fw_arena_free(whole.arena);
+    for (long n = 1; n <= count; n += n < 200 ? 1 : 7) {
+        fw_arena *arena = fw_arena_new(0);
+        fw_diags diags = fw_diags_new(arena);
+        const fw_layout *layout = NULL;
+        fw_arena_fail_at(n, 1);
+        fw_status status = fw_layout_build(arena, &f.device, &diags, &layout);
+        fw_arena_fail_at(0, 0);
+        if (status == FW_OK)
+            assert_true(n > count - 3); /* the arena itself and the list of diagnostics */
+        else
+            assert_int_equal(status, FW_NOMEM);
+        fw_arena_free(arena);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_reference_is_one_connected_device),
+        cmocka_unit_test(hinge_is_exact),
+        cmocka_unit_test(root_fillets_are_tangent),
+        cmocka_unit_test(areas_agree_with_counted_points),
+        cmocka_unit_test(tethers_change_no_body),
+        cmocka_unit_test(free_rotation_is_free),
+        cmocka_unit_test(free_rotation_of_two_sectors),
+        cmocka_unit_test(symmetric_device_gives_symmetric_layout),
+        cmocka_unit_test(variants_are_drawn_or_refused),
+        cmocka_unit_test(other_mechanisms_are_drawn),
+        cmocka_unit_test(leaf_is_exact),
+        cmocka_unit_test(tight_devices_are_refused),
+        cmocka_unit_test(bulge_may_be_turned),
+        cmocka_unit_test(gap_may_be_small_or_absent),
+        cmocka_unit_test(without_shapes_nothing_is_drawn),
+        cmocka_unit_test(same_input_same_outlines),
+        cmocka_unit_test(out_of_memory_is_reported),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

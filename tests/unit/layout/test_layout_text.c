@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "layout/text.h"
+#include "test.h"
+
+static const char all[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.,-+=/_():%#*";
+
+typedef struct lettering {
+    fw_arena *arena;
+    fw_piece *piece;
+    int n, capacity;
+} lettering;
+
+static lettering write_text(const char *string, fw_vec2 at, double height, double stroke) {
+    lettering t = {.arena = fw_arena_new(0)};
+    assert_int_equal(fw_layout_text(t.arena, string, at, height, stroke, FW_ROLE_TEXT, "text",
+                                    &t.piece, &t.n, &t.capacity),
+                     FW_OK);
+    return t;
+}
+
+static bool drawn(const lettering *t, double x, double y) {
+    for (int i = 0; i < t->n; i++)
+        if (fw_contour_contains(&t->piece[i].contour, (fw_vec2){x, y})) return true;
+    return false;
+}
+
+enum { W = 9, H = 9 }; /* 7 x 7 cells with an empty rim */
+
+static void spread(int cell[H][W], int y, int x) {
+    if (y < 0 || y >= H || x < 0 || x >= W || cell[y][x] != 0) return;
+    cell[y][x] = 2;
+    spread(cell, y - 1, x);
+    spread(cell, y + 1, x);
+    spread(cell, y, x - 1);
+    spread(cell, y, x + 1);
+}
+
+static void no_hole_and_no_corner_contact(void **state) {
+    (void)state;
+    for (size_t k = 0; k < strlen(all); k++) {
+        const char letter[2] = {all[k], 0};
+        const double s = 8e-6;
+        lettering t = write_text(letter, (fw_vec2){0, 0}, 7 * s, s);
+        int cell[H][W] = {{0}}, count = 0;
+        for (int y = 0; y < 7; y++)
+            for (int x = 0; x < 7; x++) {
+                cell[y + 1][x + 1] = drawn(&t, (x + 0.5) * s, (y + 0.5) * s);
+                count += cell[y + 1][x + 1];
+            }
+        for (int y = 0; y + 1 < H; y++)
+            for (int x = 0; x + 1 < W; x++) {
+                int a = cell[y][x], b = cell[y][x + 1], c = cell[y + 1][x], d = cell[y + 1][x + 1];
+                if ((a && d && !b && !c) || (b && c && !a && !d))
+                    fail_msg("letter %c touches itself at a corner", all[k]);
+            }
+        spread(cell, 0, 0);
+        for (int y = 0; y < H; y++)
+            for (int x = 0; x < W; x++)
+                if (cell[y][x] == 0) fail_msg("letter %c has a hole", all[k]);
+        double area = 0;
+        for (int i = 0; i < t.n; i++)
+            area += fw_contour_area(&t.piece[i].contour);
+        assert_relative(area, count * s * s, 1e-12);
+        fw_arena_free(t.arena);
+    }
+}
+
+/* the edges at `place` along one axis: width and space of a row of letters are never below the
+   stroke, for strokes that are narrower than the gaps, too */
+static void widths_and_spaces(void **state) {
+    (void)state;
+    static const double height[] = {56e-6, 70e-6, 100.5e-6};
+    const double s = 8e-6, slack = 1e-15;
+    for (int h = 0; h < 3; h++) {
+        lettering t = write_text("R=1.5 um/%#*;QW(8)N", (fw_vec2){1.2345e-3, -2e-3}, height[h], s);
+        for (int i = 0; i < t.n; i++) {
+            const fw_contour *c = &t.piece[i].contour;
+            double inside = fw_contour_clearance(c, true, NULL, NULL);
+            double outside = fw_contour_clearance(c, false, NULL, NULL);
+            if (inside < s - slack || outside < s - slack)
+                fail_msg("piece %d: width %g, space %g", i, inside, outside);
+            for (int j = 0; j < i; j++) {
+                fw_vec2 p, q;
+                double d = fw_contour_distance(c, &t.piece[j].contour, &p, &q);
+                if (d < s - slack) fail_msg("pieces %d and %d: %g apart", i, j, d);
+            }
+            for (int k = 0; k < c->count; k++) { /* on the grid, along the axes */
+                const fw_segment *e = &c->segment[k];
+                assert_true(e->kind == FW_LINE && ((e->a.x == e->b.x) != (e->a.y == e->b.y)));
+                assert_near(e->a.x * 1e9, nearbyint(e->a.x * 1e9), 1e-6);
+                assert_near(e->a.y * 1e9, nearbyint(e->a.y * 1e9), 1e-6);
+            }
+        }
+        fw_arena_free(t.arena);
+    }
+}
+
+static void every_letter_differs(void **state) {
+    (void)state;
+    for (size_t k = 1; k < strlen(all); k++)
+        for (size_t m = 0; m < k; m++) {
+            const char a[2] = {all[k], 0}, b[2] = {all[m], 0};
+            const double s = 1e-6;
+            lettering t = write_text(a, (fw_vec2){0, 0}, 7 * s, s);
+            lettering u = write_text(b, (fw_vec2){0, 0}, 7 * s, s);
+            int differ = 0;
+            for (int y = 0; y < 7; y++)
+                for (int x = 0; x < 7; x++)
+                    differ += drawn(&t, (x + 0.5) * s, (y + 0.5) * s) !=
+                              drawn(&u, (x + 0.5) * s, (y + 0.5) * s);
+            if (differ < 1) fail_msg("%c and %c look the same", all[k], all[m]);
+            fw_arena_free(t.arena);
+            fw_arena_free(u.arena);
+        }
+}
+
+static void width_of_a_line(void **state) {
+    (void)state;
+    const double s = 5e-6;
+    /* H 5 cells, gap, I 3 cells; lower case alike */
+    assert_near(fw_layout_text_width("Hi", 7 * s, s), 9 * s, 1e-18);
+    assert_near(fw_layout_text_width("", 7 * s, s), 0, 0);
+    assert_near(fw_layout_text_width("H", 6 * s, s), 0, 0); /* refused size */
+    /* three strokes and two gaps of (100 - 4 * 5)/3 um, down to the grid */
+    assert_near(fw_layout_text_width("H", 100e-6, s), 3 * 5e-6 + 2 * 26.666e-6, 1e-15);
+    /* one foreign character of two bytes counts once, as '*' */
+    assert_near(fw_layout_text_width("\xc2\xb5", 7 * s, s), 5 * s, 1e-18);
+    lettering t = write_text("HI", (fw_vec2){0, 0}, 7 * s, s);
+    fw_box last = fw_contour_box(&t.piece[t.n - 1].contour);
+    assert_near(last.x1, 9 * s, 1e-15);
+    assert_near(last.y1, 7 * s, 1e-15);
+    fw_arena_free(t.arena);
+}
+
+static void refusals(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_piece *piece = NULL;
+    int n = 0, capacity = 0;
+    const struct {
+        double x, height, stroke;
+    } bad[] = {
+        {0, 6.9e-6, 1e-6},         {0, 7e-6, 0},    {0, (double)NAN, 1e-6}, {0, 7e-6, (double)NAN},
+        {(double)NAN, 7e-6, 1e-6}, {2, 7e-6, 1e-6}, {0, HUGE_VAL, 1e-6},    {0, 7e-6, -1e-6}};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
+        assert_int_equal(fw_layout_text(arena, "A", (fw_vec2){bad[i].x, 0}, bad[i].height,
+                                        bad[i].stroke, FW_ROLE_TEXT, "", &piece, &n, &capacity),
+                         FW_GEOMETRY);
+    assert_int_equal(n, 0);
+    fw_arena_free(arena);
+}
+
+static void short_memory(void **state) {
+    (void)state;
+    fw_status status = FW_NOMEM;
+    int failures = 0;
+    for (long at = 1; status != FW_OK && at < 1000; at++) {
+        fw_arena *arena = fw_arena_new(0);
+        fw_piece *piece = NULL;
+        int n = 0, capacity = 0;
+        fw_arena_fail_at(at, 1);
+        status = fw_layout_text(arena, "A-B", (fw_vec2){0, 0}, 7e-6, 1e-6, FW_ROLE_TEXT, "", &piece,
+                                &n, &capacity);
+        fw_arena_fail_at(0, 0);
+        assert_true(status == FW_OK || status == FW_NOMEM);
+        failures += status == FW_NOMEM;
+        fw_arena_free(arena);
+    }
+    assert_int_equal(status, FW_OK);
+    assert_true(failures >= 4);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(no_hole_and_no_corner_contact),
+        cmocka_unit_test(widths_and_spaces),
+        cmocka_unit_test(every_letter_differs),
+        cmocka_unit_test(width_of_a_line),
+        cmocka_unit_test(refusals),
+        cmocka_unit_test(short_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,274 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "mechanism/mechanism.h"
+#include "test.h"
+
+static const double unset = (double)NAN;
+
+static fw_quantity known(double value) {
+    return (fw_quantity){.value = value};
+}
+
+typedef struct desk { /* a lever with a csfh hinge to the ground and a second body behind it */
+    fw_body body[2];
+    fw_joint joint[2];
+    fw_flexure flexure[1];
+    fw_spring spring[1];
+    fw_device device;
+    fw_hinge_layout hinge[2];
+    fw_body_layout shape[2];
+    fw_layout layout;
+    fw_variant variant;
+    fw_arena *arena;
+    fw_diags diags;
+} desk;
+
+static void desk_new(desk *d) {
+    memset(d, 0, sizeof *d);
+    d->arena = fw_arena_new(0);
+    assert_non_null(d->arena);
+    d->diags = fw_diags_new(d->arena);
+    d->body[0] =
+        (fw_body){.id = "AB", .mass_kg = unset, .inertia_kg_m2 = unset, .x_m = unset, .y_m = unset};
+    d->body[1] = (fw_body){.id = "BC",
+                           .mass_kg = 2e-8,
+                           .inertia_kg_m2 = 3e-15,
+                           .x_m = 3e-3,
+                           .y_m = 1e-3,
+                           .phi_rad = 0.5};
+    d->joint[0] = (fw_joint){.id = "A",
+                             .body_a = FW_GROUND,
+                             .body_b = 0,
+                             .x_m = 0,
+                             .y_m = 0,
+                             .ax_m = unset,
+                             .ay_m = unset,
+                             .bx_m = unset,
+                             .by_m = unset,
+                             .stiffness_Nm_per_rad = unset,
+                             .damping_Nms_per_rad = unset,
+                             .flexure = 0,
+                             .place = {"d.xml", 7, 3}};
+    d->joint[1] = d->joint[0];
+    d->joint[1].id = "B";
+    d->joint[1].body_a = 0, d->joint[1].body_b = 1;
+    d->joint[1].x_m = 2e-3, d->joint[1].y_m = 1e-3;
+    d->joint[1].flexure = FW_NONE;
+    d->flexure[0] = (fw_flexure){.id = "A",
+                                 .kind = FW_FLEXURE_CSFH,
+                                 .length_m = 300e-6,
+                                 .angle_rad = 4.1887902047863905,
+                                 .radius_m = 300e-6 / 4.18879020478639,
+                                 .width_m = 9e-6,
+                                 .gap_m = 8e-6,
+                                 .fillet_m = unset};
+    d->spring[0] = (fw_spring){.id = "s",
+                               .body_a = FW_GROUND,
+                               .body_b = 1,
+                               .stiffness_N_per_m = 4,
+                               .damping_Ns_per_m = 5,
+                               .length_m = 1e-3};
+    d->device = (fw_device){.file = "d.xml",
+                            .body = d->body,
+                            .joint = d->joint,
+                            .flexure = d->flexure,
+                            .spring = d->spring,
+                            .nbody = 2,
+                            .njoint = 2,
+                            .nflexure = 1,
+                            .nspring = 1,
+                            .safety_factor = 1.5};
+    d->shape[0] = (fw_body_layout){2e-7, 1e-3, {1e-3, 0.5e-3}, 4e-14};
+    d->hinge[0] = (fw_hinge_layout){.drawn = true, .fillet_m = 6e-6};
+    d->layout = (fw_layout){.drawn = true, .hinge = d->hinge, .body = d->shape};
+    d->variant = (fw_variant){.thickness_m = 50e-6,
+                              .explicit_mass_scale = 1,
+                              .explicit_stiffness_scale = 1,
+                              .explicit_damping_scale = 1};
+    d->variant.material = (fw_material){.id = "silicon",
+                                        .youngs = known(169e9),
+                                        .poisson = known(0.06),
+                                        .density = known(2330),
+                                        .strength = known(2.5e9),
+                                        .loss = known(1e-3)};
+}
+
+static fw_status build(desk *d, const fw_mechanism **m) {
+    return fw_mechanism_build(d->arena, &d->device, &d->layout, &d->variant, &d->diags, m);
+}
+
+static void test_masses(void **state) {
+    (void)state;
+    desk d;
+    const fw_mechanism *m;
+    desk_new(&d);
+    d.variant.explicit_mass_scale = 3;
+    assert_int_equal(build(&d, &m), FW_OK);
+    assert_int_equal(d.diags.count, 0);
+    double surface = 2330 * 50e-6;
+    assert_near(m->body[0].mass_kg, surface * 2e-7, 1e-20);
+    assert_near(m->body[0].inertia_kg_m2, surface * 4e-14, 1e-28);
+    assert_near(m->body[0].x_m, 1e-3, 1e-18); /* the centroid */
+    assert_near(m->body[0].y_m, 0.5e-3, 1e-18);
+    assert_near(m->body[1].mass_kg, 6e-8, 1e-20); /* explicit ones scale */
+    assert_near(m->body[1].inertia_kg_m2, 9e-15, 1e-27);
+    fw_arena_free(d.arena);
+}
+
+/* the world point comes back from both local points */
+static void test_points(void **state) {
+    (void)state;
+    desk d;
+    const fw_mechanism *m;
+    desk_new(&d);
+    assert_int_equal(build(&d, &m), FW_OK);
+    const fw_pin *b = &m->pin[1];
+    assert_near(b->ax_m, 1e-3, 1e-18);
+    assert_near(b->ay_m, 0.5e-3, 1e-18);
+    double c = cos(0.5), s = sin(0.5);
+    assert_near(3e-3 + c * b->bx_m - s * b->by_m, 2e-3, 1e-17);
+    assert_near(1e-3 + s * b->bx_m + c * b->by_m, 1e-3, 1e-17);
+    /* the other way about: b's local point gives the world and a's */
+    d.joint[1].x_m = d.joint[1].y_m = unset;
+    d.joint[1].bx_m = b->bx_m, d.joint[1].by_m = b->by_m;
+    assert_int_equal(build(&d, &m), FW_OK);
+    assert_near(m->pin[1].ax_m, 1e-3, 1e-17);
+    d.joint[1].bx_m = unset;
+    assert_int_equal(build(&d, &m), FW_INPUT);
+    assert_int_equal(d.diags.item[0].number, 84);
+    fw_arena_free(d.arena);
+}
+
+static void test_stiffness_and_damping(void **state) {
+    (void)state;
+    desk d;
+    const fw_mechanism *m;
+    desk_new(&d);
+    assert_int_equal(build(&d, &m), FW_OK);
+    assert_int_equal(m->nhinge, 1);
+    assert_int_equal(m->pin[0].hinge, 0);
+    assert_int_equal(m->pin[1].hinge, FW_NONE);
+    double own = m->hinge[0].closed_form.stiffness_Nm_per_rad;
+    assert_near(m->pin[0].stiffness_Nm_per_rad, own, 0);
+    assert_near(own, 1.711e-6, 0.2e-6); /* E I / L with corrections */
+    double surface = 2330 * 50e-6;
+    double j = surface * 4e-14 + surface * 2e-7 * (1e-6 + 0.25e-6);
+    assert_near(m->pin[0].damping_Nms_per_rad, 1e-3 * sqrt(own * j), 1e-9 * sqrt(own * j));
+    assert_true(m->pin[1].stiffness_Nm_per_rad == 0 && m->pin[1].damping_Nms_per_rad == 0);
+    assert_near(m->spring[0].stiffness_N_per_m, 4, 0);
+    /* the drawn fillet is used, and the closed form stays when the stiffness is explicit */
+    const double limit = m->hinge[0].closed_form.limit_angle_rad;
+    d.hinge[0].fillet_m = 2e-6;
+    d.joint[0].stiffness_Nm_per_rad = 1.03 * own / 2;
+    d.joint[0].damping_Nms_per_rad = 7e-12;
+    d.variant.explicit_stiffness_scale = 2;
+    d.variant.explicit_damping_scale = 3;
+    assert_int_equal(build(&d, &m), FW_OK);
+    assert_near(m->pin[0].stiffness_Nm_per_rad, 1.03 * own, 1e-20);
+    assert_near(m->pin[0].damping_Nms_per_rad, 21e-12, 1e-26);
+    assert_near(m->spring[0].stiffness_N_per_m, 8, 1e-12);
+    assert_true(m->hinge[0].closed_form.limit_angle_rad < limit); /* sharper fillet */
+    assert_int_equal(d.diags.count, 0);
+    /* more than 10 % apart: one warning, not one per flow */
+    d.joint[0].stiffness_Nm_per_rad = own;
+    assert_int_equal(build(&d, &m), FW_OK);
+    assert_int_equal(build(&d, &m), FW_OK);
+    assert_int_equal(d.diags.count, 1);
+    assert_int_equal(d.diags.item[0].number, 86);
+    assert_int_equal(d.diags.item[0].severity, FW_WARNING);
+    assert_int_equal(d.diags.item[0].place.line, 7);
+    fw_arena_free(d.arena);
+}
+
+static void test_without_a_layout(void **state) {
+    (void)state;
+    desk d;
+    const fw_mechanism *m;
+    desk_new(&d);
+    assert_int_equal(fw_mechanism_build(d.arena, &d.device, NULL, &d.variant, &d.diags, &m),
+                     FW_INPUT);
+    assert_null(m);
+    assert_int_equal(d.diags.item[0].number, 82);
+    d.body[0] = (fw_body){.id = "AB", .mass_kg = 1e-8, .inertia_kg_m2 = 1e-15, .x_m = 1e-3};
+    assert_int_equal(fw_mechanism_build(d.arena, &d.device, NULL, &d.variant, &d.diags, &m), FW_OK);
+    assert_near(m->body[0].x_m, 1e-3, 0);
+    fw_arena_free(d.arena);
+}
+
+/* every mistake is an error with its number, and all of one kind of part are reported together */
+static void test_mistakes(void **state) {
+    (void)state;
+    for (int i = 0; i < 9; i++) {
+        static const int number[] = {80, 81, 83, 83, 87, 87, 88, 89, 81};
+        desk d;
+        const fw_mechanism *m = NULL;
+        desk_new(&d);
+        switch (i) {
+        case 0:
+            d.variant.thickness_m = 0;
+            break;
+        case 1:
+            d.variant.material.density.unknown = true;
+            break;
+        case 2:
+            d.body[1].mass_kg = 0;
+            break;
+        case 3:
+            d.body[1].phi_rad = (double)INFINITY;
+            break;
+        case 4:
+            d.joint[1].body_b = 0;
+            break;
+        case 5:
+            d.joint[1].body_b = 5;
+            break;
+        case 6:
+            d.joint[1].stiffness_Nm_per_rad = -1;
+            break;
+        case 7:
+            d.spring[0].body_b = FW_GROUND;
+            break;
+        default:
+            d.variant.material.youngs.unknown = true;
+            break;
+        }
+        assert_int_equal(build(&d, &m), FW_INPUT);
+        assert_null(m);
+        assert_int_equal(d.diags.item[0].number, number[i]);
+        assert_non_null(fw_diag_find(number[i]));
+        fw_arena_free(d.arena);
+    }
+    desk d;
+    const fw_mechanism *m;
+    desk_new(&d);
+    d.body[0].mass_kg = -1, d.body[1].mass_kg = -1;
+    assert_int_equal(build(&d, &m), FW_INPUT);
+    assert_int_equal(d.diags.errors, 2);
+    fw_arena_free(d.arena);
+}
+
+static void test_out_of_memory(void **state) {
+    (void)state;
+    for (long n = 1; n < 20; n++) {
+        desk d;
+        const fw_mechanism *m;
+        desk_new(&d);
+        fw_arena_fail_at(n, 0);
+        fw_status status = build(&d, &m);
+        long made = fw_arena_count();
+        fw_arena_fail_at(0, 0);
+        fw_arena_free(d.arena);
+        assert_int_equal(status, made < n ? FW_OK : FW_NOMEM);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_masses),
+        cmocka_unit_test(test_points),
+        cmocka_unit_test(test_stiffness_and_damping),
+        cmocka_unit_test(test_without_a_layout),
+        cmocka_unit_test(test_mistakes),
+        cmocka_unit_test(test_out_of_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

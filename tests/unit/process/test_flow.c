@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "packs.h"
+#include "process/stack.h"
+
+static fw_arena *arena;
+static fw_diags diags;
+
+static int setup(void **state) {
+    (void)state;
+    arena = fw_arena_new(0);
+    diags = fw_diags_new(arena);
+    return arena ? 0 : -1;
+}
+static int teardown(void **state) {
+    (void)state;
+    fw_arena_free(arena);
+    return 0;
+}
+
+static fw_flow *computed(const char *name, const char *from, const char *to,
+                         const fw_mask_facts *facts) {
+    fw_flow *f = read_pack(arena, name, from, to, &diags);
+    assert_non_null(f);
+    assert_int_equal(fw_flow_compute(arena, f, facts, &diags), FW_OK);
+    return f;
+}
+
+static const fw_quantity *derived(fw_flow *f, const char *step, const char *name) {
+    fw_step *s = step_of(f, step);
+    for (int i = 0; i < s->nderived; i++)
+        if (strcmp(s->derived[i]->id, name) == 0) return s->derived[i];
+    for (int i = 0; i < s->nderived; i++)
+        if (strstr(s->derived[i]->id, name)) return s->derived[i];
+    fail_msg("%s derives no '%s'", step, name);
+    return NULL;
+}
+
+static double shown(fw_flow *f, const char *step, const char *name) {
+    return fw_quantity_in_unit(derived(f, step, name));
+}
+
+static bool reason(const fw_flow *f, const char *text) {
+    for (int i = 0; i < f->nreason; i++)
+        if (strstr(f->reason[i], text)) return true;
+    return false;
+}
+
+static void copper(void **state) {
+    (void)state;
+    fw_flow *f = computed(COPPER, NULL, NULL, &plain_facts);
+    fw_step *s = step_of(f, "C22");
+    assert_relative(s->time.nominal_s, 1262.268843, 1e-9);
+    /* 30 dies of 5 mm2 and the contact ring of 2 cm2 */
+    assert_relative(fw_quantity_in_unit(fw_flow_quantity(f, "mask.plated-area")), 3.5, 1e-12);
+    assert_relative(shown(f, "C22", "current"), 70.0, 1e-12);
+    assert_relative(derived(f, "C22", "charge")->value, 0.07 * 1262.268843, 1e-9);
+    assert_relative(shown(f, "C22", "mass deposited"), 8.064 * 3.5, 1e-9);
+    assert_relative(shown(f, "C22", "least copper"), 0.7286395637, 1e-8);
+    assert_relative(shown(f, "C22", "local current"), 16.0 / 9.0, 1e-12);
+    /* edges within 0.5 um: u_A = P u_edge, and the ring's own 0.1 cm2 */
+    double u = hypot(0.08 * 30 * 1e-6 / sqrt(12.0), 0.1e-4);
+    assert_relative(fw_flow_quantity(f, "mask.plated-area")->uncertainty, u, 1e-9);
+    assert_string_equal(s->time.contribution[0], "area 2.86 %");
+    assert_relative(shown(f, "C05", "current"), 0.2770885, 1e-6);
+    assert_relative(shown(f, "C05", "time for 2 um"), 110.4149070, 1e-8);
+    assert_relative(shown(f, "C07", "sheet resistance"), 0.5333333, 1e-6);
+    assert_relative(step_of(f, "C15")->time.nominal_s, 4608.0, 1e-9);
+    assert_relative(shown(f, "C16", "light on"), 141.4285714, 1e-9);
+    assert_relative(shown(f, "C16", "with pauses"), 351.4285714, 1e-9);
+    assert_relative(shown(f, "C10", "spin speed"), 2402.5, 1e-9);
+    assert_near(f->bias_m, 0.0, 0.0);
+    assert_int_equal(f->manufacturable, -1);
+    assert_true(reason(f, "adhesion"));
+    assert_int_equal(f->not_computable, 7);
+}
+
+static void silicon(void **state) {
+    (void)state;
+    fw_flow *f = computed(SILICON, NULL, NULL, &plain_facts);
+    fw_step *s = step_of(f, "S18");
+    assert_relative(s->time.nominal_s / 60.0, 90.0, 1e-11);
+    assert_relative(s->time.stop_s / 60.0, 109.0961, 1e-6);
+    assert_relative(shown(f, "S18", "narrowest slot"), 98.8542, 1e-6);
+    assert_relative(shown(f, "S18", "share of O2"), 3.846153846, 1e-9);
+    assert_relative(shown(f, "S18", "SF6 used"), 29.32311857, 1e-6);
+    assert_relative(shown(f, "S18", "with breaks"), 110.0, 1e-9);
+    assert_relative(shown(f, "S04", "bow"), 1666.666667, 1e-8);
+    assert_relative(shown(f, "S14", "bath volume"), 95.0, 1e-12);
+    assert_relative(shown(f, "S14", "27 Cel"), 720.737, 1e-6);
+    assert_relative(step_of(f, "S14")->time.stop_s, 1326.7708, 1e-6);
+    assert_relative(step_of(f, "S21")->time.stop_s, 1447.386, 1e-6);
+    assert_relative(f->bias_m, 1.1e-6, 1e-12);
+    assert_non_null(strstr(f->bias_note, "NOT in the bias"));
+    assert_non_null(strstr(f->bias_note, "0.5, 2.5, 5 um"));
+    assert_int_equal(f->manufacturable, -1);
+    /* 10 um wide, 50 um deep */
+    assert_true(reason(f, "A = 0.9 in the nominal time and at A = 0.9167 with 20 % over-etch"));
+    assert_true(
+        reason(f, "A >= 0.993 (tapered wall, nominal time), 0.9942 (10 % over-etch), 0.9965"));
+    assert_true(reason(f, "reaches 45.81 of 50 um"));
+    assert_int_equal(f->not_computable, 3);
+    for (int i = 0; i < f->nstep; i++) { /* a time or names, never neither */
+        fw_time *t = &f->step[i].time;
+        assert_true(t->computable ? t->nominal_s > 0.0 && t->nmissing == 0 : t->nmissing > 0);
+        if (t->computable)
+            assert_true(t->first_look_s <= t->nominal_s && t->nominal_s <= t->clear_by_s &&
+                        t->clear_by_s <= t->stop_s);
+    }
+}
+
+static void missing_names(void **state) {
+    (void)state;
+    fw_flow *f = computed(SILICON, NULL, NULL, &plain_facts);
+    fw_time *t = &step_of(f, "S03")->time;
+    assert_false(t->computable);
+    assert_int_equal(t->nmissing, 2);
+    assert_string_equal(t->missing[0], "sputter rate (al.R)");
+    assert_string_equal(t->missing[1], "power (al.power)");
+    /* a laboratory enters what was missing */
+    f = computed(SILICON, "<q id=\"al.R\" unknown=\"true\"", "<q id=\"al.R\" value=\"50\" u=\"2\"",
+                 &plain_facts);
+    assert_int_equal(step_of(f, "S03")->time.nmissing, 1);
+}
+
+static void no_mask_yet(void **state) {
+    (void)state;
+    fw_flow *f = computed(COPPER, NULL, NULL, NULL);
+    fw_time *t = &step_of(f, "C22")->time;
+    assert_false(t->computable);
+    assert_string_equal(t->missing[0], "plated area in all (mask.plated-area)");
+    assert_int_equal(fw_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+    assert_true(t->computable);
+    int derived_before = step_of(f, "C22")->nderived, reasons = f->nreason;
+    double total = f->total_s;
+    assert_int_equal(fw_flow_compute(arena, f, &plain_facts, &diags), FW_OK); /* again: the same */
+    assert_int_equal(step_of(f, "C22")->nderived, derived_before);
+    assert_int_equal(f->nreason, reasons);
+    assert_near(f->total_s, total, 0.0);
+}
+
+static void device_thickness(void **state) {
+    (void)state;
+    fw_mask_facts facts = plain_facts;
+    facts.device_thickness_m = 12e-6;
+    fw_flow *f = computed(COPPER, NULL, NULL, &facts);
+    assert_relative(step_of(f, "C22")->time.nominal_s, 1262.268843 * 12.0 / 9.0, 1e-9);
+    assert_int_equal(f->thickness->status, FW_ASSUMED);
+    facts.device_thickness_m = 30e-6;
+    f = computed(COPPER, NULL, NULL, &facts);
+    assert_int_equal(f->manufacturable, 0);
+    assert_true(reason(f, "do not fit into a mould of 16 um"));
+    facts.device_thickness_m = 9e-6; /* the pack's own: nothing changes */
+    f = computed(COPPER, NULL, NULL, &facts);
+    assert_int_equal(f->thickness->status, FW_STATED);
+}
+
+static void lithography(void **state) {
+    (void)state;
+    fw_mask_facts facts = plain_facts;
+    facts.narrowest_slot_m = 2.6e-6;
+    fw_flow *f = computed(COPPER, NULL, NULL, &facts);
+    assert_int_equal(f->manufacturable, 0);
+    assert_true(reason(f, "1.5 sqrt(lambda h/2) = 2.7 um"));
+    assert_true(reason(f, "Nearest change: draw it 4.05 um wide"));
+    facts.narrowest_slot_m = 3.5e-6; /* prints in perfect contact only */
+    f = computed(COPPER, NULL, NULL, &facts);
+    assert_int_equal(f->manufacturable, -1);
+    assert_true(reason(f, "only in perfect contact"));
+    facts.narrowest_slot_m = 2.1e-6; /* silicon: the aluminium bias of 1.1 um per edge closes it */
+    f = computed(SILICON, NULL, NULL, &facts);
+    assert_int_equal(f->manufacturable, 0);
+    assert_true(reason(f, "closes the narrowest slot"));
+}
+
+static void measured_anisotropy(void **state) {
+    (void)state;
+    fw_mask_facts facts = plain_facts;
+    fw_flow *f = computed(SILICON, "<q id=\"rie.A\" unknown=\"true\"",
+                          "<q id=\"rie.A\" value=\"0.95\" u=\"0.01\"", &facts);
+    /* 1.1 um of the aluminium and (1 - A)(E - D/2) = 0.05 (55 - 25) um */
+    assert_relative(f->bias_m, 2.6e-6, 1e-9);
+    assert_true(reason(f, "7.5 um wide at the top"));
+    f = computed(SILICON, "<q id=\"rie.A\" unknown=\"true\"",
+                 "<q id=\"rie.A\" value=\"0.75\" u=\"0.01\"", &facts);
+    assert_int_equal(f->manufacturable, 0);
+}
+
+static void wrong_facts(void **state) {
+    (void)state;
+    const fw_mask_facts bad[] = {{0, 28e-6, 0.08, 8e-6, 8e-6, 8e-6, 30, 0},
+                                 {5e-6, -1, 0.08, 8e-6, 8e-6, 8e-6, 30, 0},
+                                 {5e-6, 28e-6, NAN, 8e-6, 8e-6, 8e-6, 30, 0},
+                                 {5e-6, 28e-6, 0.08, INFINITY, 8e-6, 8e-6, 30, 0},
+                                 {5e-6, 28e-6, 0.08, 8e-6, 8e-6, 8e-6, 0, 0},
+                                 {5e-6, 28e-6, 0.08, 8e-6, 8e-6, -8e-6, 30, 0},
+                                 {5e-6, 28e-6, 0.08, 8e-6, 8e-6, 8e-6, 30, -1},
+                                 {9e-6, 8e-6, 0.08, 8e-6, 8e-6, 8e-6, 30, 0}};
+    fw_flow *f = read_pack(arena, COPPER, NULL, NULL, &diags);
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        diags = fw_diags_new(arena);
+        assert_int_equal(fw_flow_compute(arena, f, &bad[i], &diags), FW_INPUT);
+        assert_int_equal(diags.item[0].number, 179);
+    }
+}
+
+static int count(const fw_stack *s, int column, const char *material) {
+    int n = 0;
+    for (int i = 0; i < s->n[column]; i++)
+        n += strcmp(s->cell[column][i].material, material) == 0;
+    return n;
+}
+
+static void layers(void **state) {
+    (void)state;
+    fw_stack s;
+    const fw_change *absent = NULL;
+    fw_flow *f = read_pack(arena, COPPER, NULL, NULL, &diags);
+    assert_int_equal(fw_flow_stack(arena, f, 12, &s, &absent), FW_OK); /* after C13: two coats */
+    assert_int_equal(count(&s, FW_STACK_STRUCTURE, "resist"), 2);
+    assert_int_equal(fw_flow_stack(arena, f, 21, &s, &absent), FW_OK); /* after C22 */
+    assert_int_equal(count(&s, FW_STACK_STRUCTURE, "resist"), 0);
+    assert_int_equal(count(&s, FW_STACK_FIELD, "resist"), 2);
+    assert_int_equal(count(&s, FW_STACK_STRUCTURE, "copper-plated"), 1);
+    assert_int_equal(count(&s, FW_STACK_FIELD, "copper-plated"), 0);
+    assert_int_equal(fw_flow_stack(arena, f, 27, &s, &absent), FW_OK);
+    assert_int_equal(count(&s, FW_STACK_STRUCTURE, "porous-silicon"), 0);
+    assert_int_equal(count(&s, FW_STACK_FIELD, "copper-seed"), 0);
+    assert_null(absent);
+    f = read_pack(arena, SILICON, NULL, NULL, &diags);
+    assert_int_equal(fw_flow_stack(arena, f, 22, &s, &absent), FW_OK); /* silicon alone is left */
+    assert_int_equal(s.n[FW_STACK_STRUCTURE], 1);
+    assert_int_equal(s.n[FW_STACK_FIELD], 0);
+    assert_int_equal(fw_flow_stack(arena, f, -1, &s, &absent), FW_OK);
+    assert_int_equal(s.n[FW_STACK_STRUCTURE], 0);
+}
+
+static void counted(void **state) {
+    (void)state;
+    fw_flow *f = computed(SILICON, NULL, NULL, &plain_facts);
+    int sum = f->unknown;
+    for (int i = FW_MEASURED; i <= FW_ASSUMED; i++)
+        sum += f->count[i];
+    assert_true(f->unknown >= 10 && f->count[FW_STATED] == 14 && f->count[FW_ASSUMED] > 5);
+    assert_true(sum <= f->nquantity);
+    assert_int_equal(diags.item[0].number, 176);
+    assert_non_null(strstr(diags.item[0].message, "S03, S07, S09"));
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        TEST(copper),           TEST(silicon),     TEST(missing_names),       TEST(no_mask_yet),
+        TEST(device_thickness), TEST(lithography), TEST(measured_anisotropy), TEST(wrong_facts),
+        TEST(layers),           TEST(counted)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

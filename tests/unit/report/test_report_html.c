@@ -1,0 +1,271 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "test.h"
+#include "report/fixture.h"
+#include <ctype.h>
+#include <libxml/parser.h>
+
+typedef struct page_writer {
+    const char *name;
+    fw_status (*write)(fw_arena *arena, const fixture *f, fw_text *out);
+    bool xml;
+} page_writer;
+
+static fw_status html(fw_arena *arena, const fixture *f, fw_text *out) {
+    return fw_report_write_html(arena, &f->input, out);
+}
+
+static fw_status plot(fw_arena *arena, const fixture *f, fw_text *out) {
+    return fw_report_motion_svg(arena, &f->device, &f->mechanism[0],
+                                f->variant_verdict[0].motion[0], &f->device.scene[0], out);
+}
+
+static fw_status animation(fw_arena *arena, const fixture *f, fw_text *out) {
+    return fw_report_animation_svg(arena, &f->device, &f->layout, &f->mechanism[0],
+                                   f->variant_verdict[0].motion[0], &f->device.scene[0], out);
+}
+
+static fw_status drawing(fw_arena *arena, const fixture *f, fw_text *out) {
+    return fw_report_device_svg(arena, &f->device, &f->layout, &f->verdict, out);
+}
+
+static fw_status picture(fw_arena *arena, const fixture *f, fw_text *out) {
+    return fw_report_device_png(arena, &f->device, &f->layout, &f->verdict, 320, out);
+}
+
+static const page_writer writers[] = {
+    {"report.html", html, true},        {"motion.svg", plot, true},
+    {"animation.svg", animation, true}, {"device.svg", drawing, true},
+    {"device.png", picture, false},
+};
+enum { WRITERS = sizeof writers / sizeof writers[0] };
+
+static bool is_word(char c) {
+    return isalnum((unsigned char)c) || c == '_';
+}
+
+/* "nan" and "inf" as words, in any case */
+static const char *find_nonfinite(const char *text) {
+    for (const char *s = text; *s; s++) {
+        bool start = s == text || !is_word(s[-1]);
+        if (start && (!strncasecmp(s, "nan", 3) || !strncasecmp(s, "inf", 3)) && !is_word(s[3]))
+            return s;
+    }
+    return NULL;
+}
+
+static void check(fw_arena *arena, const fixture *f) {
+    for (int i = 0; i < WRITERS; i++) {
+        fw_text out = fw_text_new(arena);
+        fw_status status = writers[i].write(arena, f, &out);
+        if (status != FW_OK) fail_msg("%s: status %d", writers[i].name, (int)status);
+        if (!writers[i].xml) continue;
+        const char *bad = find_nonfinite(out.data);
+        if (bad) fail_msg("%s: %.60s", writers[i].name, bad);
+        xmlDocPtr doc = xmlReadMemory(out.data, (int)out.length, writers[i].name, NULL,
+                                      XML_PARSE_NONET | XML_PARSE_HUGE);
+        if (!doc) fail_msg("%s is not well-formed", writers[i].name);
+        xmlFreeDoc(doc);
+    }
+}
+
+static void every_picture_is_well_formed(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    static const double limit[] = {0.05, 0.12, 0.3};
+    for (int i = 0; i < 3; i++)
+        check(arena, fixture_new(arena, limit[i]));
+    fixture *f = fixture_new(arena, 0.12);
+    f->layout.drawn = false;
+    f->layout.why_not = "link AB has no width";
+    check(arena, f);
+    fw_arena_free(arena);
+}
+
+static void banner_says_the_verdict(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    static const double limit[] = {0.05, 0.12, 0.3};
+    static const char *const word[] = {">REJECT<", ">INCONCLUSIVE<", ">ACCEPT<"};
+    for (int i = 0; i < 3; i++) {
+        fixture *f = fixture_new(arena, limit[i]);
+        fw_text out = fw_text_new(arena);
+        assert_int_equal(html(arena, f, &out), FW_OK);
+        char *header_end = strstr(out.data, "</header>");
+        assert_non_null(header_end);
+        assert_true((strstr(out.data, "length=312 um&#39;</code>") != NULL) == (i < 2));
+        assert_non_null(strstr(out.data, "NOT COMPUTABLE"));
+        assert_non_null(strstr(out.data, "dose to clear"));
+        *header_end = '\0';
+        assert_non_null(strstr(out.data, word[i]));
+        assert_true(out.length < 1000000);
+    }
+    fw_arena_free(arena);
+}
+
+static void hostile_names_are_text(void **state) {
+    (void)state;
+    static const char evil[] = "\"'><script>alert(1)</script><img src=x onerror=y>]]>";
+    fw_arena *arena = fw_arena_new(0);
+    fixture *f = fixture_new(arena, 0.05);
+    fw_text clean = fw_text_new(arena), out = fw_text_new(arena);
+    assert_int_equal(html(arena, f, &clean), FW_OK);
+    f->device.name = f->device.file = evil;
+    f->device.parameter[0].name = f->device.parameter[0].doc = evil;
+    f->device.parameter[0].unit = evil;
+    for (int k = 0; k < 2; k++)
+        f->device.scene[k].name = evil;
+    for (int b = 0; b < FIVE; b++)
+        f->device.body[b].id = f->mechanism[0].body[b].id = evil;
+    for (int j = 0; j < SIX; j++) {
+        f->device.joint[j].id = f->mechanism[0].pin[j].id = evil;
+        f->verdict.hinge[j].id = f->verdict.hinge[j].scene = f->verdict.hinge[j].flow = evil;
+    }
+    f->variant[0].flow = f->variant[0].material.name = f->variant[0].material.youngs.source = evil;
+    f->variant[0].material.youngs.unit = evil;
+    f->process[0].id = f->process[0].title = f->process[0].reason[0] = evil;
+    f->process[0].step[0].title = f->process[0].step[1].time.missing[0] = evil;
+    f->process[0].bias_note = f->flow[1].mask_error = f->mask.cell = f->mask.flow = evil;
+    f->mask.table->layer[0].name = f->mask.table->layer[0].purpose = evil;
+    f->verdict.advice[0].text = f->verdict.advice[0].set_path = evil;
+    f->verdict.advice_note = f->input.assumption[0] = f->input.version = evil;
+    f->diags.item[0].message = f->diags.item[0].place.file = evil;
+    check(arena, f);
+    assert_int_equal(html(arena, f, &out), FW_OK);
+    assert_null(strstr(out.data, "<img"));
+    assert_null(strstr(out.data, "<script>alert"));
+    int scripts[2] = {0, 0};
+    for (const char *s = clean.data; (s = strstr(s, "<script")); s++)
+        scripts[0]++;
+    for (const char *s = out.data; (s = strstr(s, "<script")); s++)
+        scripts[1]++;
+    assert_int_equal(scripts[0], scripts[1]);
+    fw_arena_free(arena);
+}
+
+static void numbers_that_are_not_finite_do_not_show(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fixture *f = fixture_new(arena, 0.12);
+    fw_motion *m = (fw_motion *)(uintptr_t)f->variant_verdict[0].motion[0];
+    double bad = (double)NAN;
+    m->q[100] = m->angle_rad[60] = m->peak[1].angle_rad = m->peak[2].t_s = bad;
+    m->stats.energy_error = HUGE_VAL;
+    f->mechanism[0].hinge[3].closed_form.limit_angle_rad = bad;
+    f->verdict.hinge[0].t_s = f->verdict.hinge[1].utilisation = bad;
+    f->verdict.hinge[2].utilisation_high = HUGE_VAL;
+    f->verdict.accuracy_estimated = bad;
+    f->variant_verdict[0].workspace.peak[0].angle_rad = -HUGE_VAL;
+    f->process[0].total_s = bad;
+    f->process[0].step[2].time.stop_s = HUGE_VAL;
+    f->variant[0].thickness_m = bad;
+    f->mask.bias_m = bad;
+    f->layout.piece[0].contour.segment[0].a.x = bad;
+    check(arena, f);
+    fw_arena_free(arena);
+}
+
+static void little_input_is_enough(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_device device = {.name = "empty", .safety_factor = 1.5};
+    fw_verdict verdict = {.governing = FW_NONE};
+    fw_report_input input = {.device = &device, .verdict = &verdict, .version = "0"};
+    fw_text out = fw_text_new(arena);
+    assert_int_equal(fw_report_write_html(arena, &input, &out), FW_OK);
+    assert_null(find_nonfinite(out.data));
+    xmlDocPtr doc = xmlReadMemory(out.data, (int)out.length, "r", NULL, XML_PARSE_NONET);
+    assert_non_null(doc);
+    xmlFreeDoc(doc);
+    fw_text svg = fw_text_new(arena), png = fw_text_new(arena);
+    assert_int_equal(fw_report_device_svg(arena, &device, NULL, NULL, &svg), FW_OK);
+    assert_int_equal(fw_report_device_png(arena, &device, NULL, NULL, 64, &png), FW_OK);
+    assert_int_equal(fw_report_device_png(arena, &device, NULL, NULL, 8, &png), FW_USAGE);
+    assert_int_equal(fw_report_device_png(arena, &device, NULL, NULL, 10000, &png), FW_USAGE);
+    fw_arena_free(arena);
+}
+
+static void no_address_outside(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fixture *f = fixture_new(arena, 0.12);
+    fw_text out = fw_text_new(arena);
+    assert_int_equal(html(arena, f, &out), FW_OK);
+    for (const char *s = out.data; (s = strstr(s, "http")); s++) {
+        bool known = !strncmp(s, "http://www.w3.org/", 18) || !strncmp(s, "http-equiv", 10);
+        if (!known) fail_msg("%.80s", s);
+    }
+    assert_null(strstr(out.data, "src="));
+    assert_null(strstr(out.data, "@import"));
+    fw_arena_free(arena);
+}
+
+static void same_input_same_bytes(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    for (int i = 0; i < WRITERS; i++) {
+        fw_text a = fw_text_new(arena), b = fw_text_new(arena);
+        fixture *f = fixture_new(arena, 0.12), *g = fixture_new(arena, 0.12);
+        ((fw_motion *)(uintptr_t)g->variant_verdict[0].motion[0])->stats.cpu_s = 77.0;
+        assert_int_equal(writers[i].write(arena, f, &a), FW_OK);
+        assert_int_equal(writers[i].write(arena, g, &b), FW_OK);
+        assert_int_equal(a.length, b.length);
+        assert_memory_equal(a.data, b.data, a.length);
+    }
+    fw_arena_free(arena);
+}
+
+static void png_is_a_png(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fixture *f = fixture_new(arena, 0.12);
+    fw_text out = fw_text_new(arena);
+    assert_int_equal(picture(arena, f, &out), FW_OK);
+    static const unsigned char head[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0, 0,
+                                         0,    13,  'I', 'H', 'D',  'R',  0,    0,    1, 0x40};
+    assert_true(out.length > 1000);
+    assert_memory_equal(out.data, head, sizeof head); /* 320 wide */
+    fw_arena_free(arena);
+}
+
+/* every allocation fails in turn, once and ever after: FW_NOMEM or the whole output */
+static void out_of_memory_is_said(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fixture *f = fixture_new(arena, 0.05);
+    for (int w = 0; w < WRITERS; w++)
+        for (int ever_after = 0; ever_after < 2; ever_after++) {
+            long failures = 0;
+            for (long n = 1;; n++) {
+                fw_arena *scratch = fw_arena_new(0);
+                assert_non_null(scratch);
+                fw_text out = fw_text_new(scratch);
+                fw_arena_fail_at(n, ever_after);
+                fw_status status = writers[w].write(scratch, f, &out);
+                fw_arena_fail_at(0, 0);
+                fw_arena_free(scratch);
+                if (status == FW_OK) break;
+                assert_int_equal(status, FW_NOMEM);
+                failures++;
+                assert_true(failures < 2000);
+            }
+            assert_true(failures > 0);
+        }
+    fw_arena_free(arena);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_picture_is_well_formed),
+        cmocka_unit_test(banner_says_the_verdict),
+        cmocka_unit_test(hostile_names_are_text),
+        cmocka_unit_test(numbers_that_are_not_finite_do_not_show),
+        cmocka_unit_test(little_input_is_enough),
+        cmocka_unit_test(no_address_outside),
+        cmocka_unit_test(same_input_same_bytes),
+        cmocka_unit_test(png_is_a_png),
+        cmocka_unit_test(out_of_memory_is_said),
+    };
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    xmlCleanupParser();
+    return failed;
+}

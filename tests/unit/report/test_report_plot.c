@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "test.h"
+#include "report/page.h"
+#include "report/fixture.h"
+
+static uint64_t seed = 88172645463325252u;
+static double uniform(void) {
+    seed ^= seed << 13;
+    seed ^= seed >> 7;
+    seed ^= seed << 17;
+    return (double)(seed >> 11) / 9007199254740992.0;
+}
+
+static void decimation_keeps_ends_and_extremes(void **state) {
+    (void)state;
+    enum { LONGEST = 5000, MOST = 400 };
+    static double y[2 * LONGEST];
+    int index[MOST];
+    for (int trial = 0; trial < 200; trial++) {
+        int n = 1 + (int)(uniform() * LONGEST), most = 4 + (int)(uniform() * (MOST - 4));
+        int low = 0, high = 0;
+        for (int i = 0; i < n; i++) {
+            y[2 * i] = uniform() - 0.5;
+            low = y[2 * i] < y[2 * low] ? i : low;
+            high = y[2 * i] > y[2 * high] ? i : high;
+        }
+        int got = fw_report_decimate(y, 2, n, most, index);
+        assert_true(got >= 1 && got <= most);
+        assert_int_equal(index[0], 0);
+        assert_int_equal(index[got - 1], n - 1);
+        int found = 0;
+        for (int k = 0; k < got; k++) {
+            if (k) assert_true(index[k] > index[k - 1]);
+            found += (index[k] == low) + (index[k] == high && high != low);
+        }
+        assert_int_equal(found, n == 1 ? 1 : 2);
+    }
+}
+
+static void nice_steps(void **state) {
+    (void)state;
+    for (int trial = 0; trial < 1000; trial++) {
+        double x = pow(10.0, 12.0 * uniform() - 6.0), s = fw_report_nice(x);
+        assert_true(s >= x * (1.0 - 1e-9) && s < 2.51 * x);
+        double digit = s / pow(10.0, floor(log10(s) + 1e-9));
+        assert_true(fabs(digit - 1.0) < 1e-9 || fabs(digit - 2.0) < 1e-9 ||
+                    fabs(digit - 5.0) < 1e-9);
+    }
+    assert_true(fw_report_nice((double)NAN) == 1.0);
+    assert_true(fw_report_nice(0.0) == 1.0);
+}
+
+/* the flexure meets both bodies: ends move as points of the body on that side */
+static void bent_flexure_meets_both_bodies(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fixture *f = fixture_new(arena, 0.12);
+    const fw_motion *m = f->variant_verdict[0].motion[0];
+    fw_report_bends bends;
+    assert_int_equal(fw_report_bends_make(arena, &f->device, &f->layout, &bends), FW_OK);
+    assert_int_equal(bends.count, SIX);
+    for (int i = 0; i < bends.count; i++) {
+        const fw_report_bend *b = &bends.item[i];
+        int ends = 0;
+        for (int k = 0; k < b->npoint; k++) {
+            double w = b->point[k].weight;
+            assert_true(w >= 0.0 && w <= 1.0);
+            if (w > 1e-9 && w < 1.0 - 1e-9) continue;
+            ends++;
+            for (int t = 0; t < SAMPLES; t += 50) {
+                fw_vec2 p = fw_report_bent(&f->mechanism[0], m, b, m->t_s[t], b->point[k]);
+                fw_vec2 q = fw_report_moved(&f->mechanism[0], m, w < 0.5 ? b->lower : b->upper,
+                                            m->t_s[t], (fw_vec2){b->point[k].x_m, b->point[k].y_m});
+                assert_near(p.x, q.x, 1e-12);
+                assert_near(p.y, q.y, 1e-12);
+            }
+        }
+        assert_true(ends >= 4);
+    }
+    fw_arena_free(arena);
+}
+
+static void pose_is_the_sample_at_a_sample(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fixture *f = fixture_new(arena, 0.12);
+    const fw_motion *m = f->variant_verdict[0].motion[0];
+    double pose[3];
+    for (int i = 0; i < SAMPLES; i += 7)
+        for (int b = 0; b < FIVE; b++) {
+            fw_report_pose_at(m, b, m->t_s[i], pose);
+            for (int k = 0; k < 3; k++)
+                assert_near(pose[k], m->q[(i * FIVE + b) * 3 + k], 1e-15);
+        }
+    fw_report_pose_at(m, FW_GROUND, 1e-3, pose);
+    assert_true(pose[0] == 0.0 && pose[1] == 0.0 && pose[2] == 0.0);
+    fw_report_pose_at(m, 0, 1.0, pose); /* beyond the end: the last sample */
+    assert_true(pose[0] == m->q[(SAMPLES - 1) * FIVE * 3]);
+    fw_arena_free(arena);
+}
+
+static void picture_keeps_points_where_they_are(void **state) {
+    (void)state;
+    for (int trial = 0; trial < 200; trial++) {
+        fw_box box = {uniform(), uniform(), 0.0, 0.0};
+        box.x1 = box.x0 + 1e-6 + uniform();
+        box.y1 = box.y0 + 1e-6 + uniform();
+        fw_report_view v = fw_report_view_fit(box, 640.0, 0.1 * (box.x1 - box.x0));
+        assert_true(v.height <= 801.0 && v.height > 0.0);
+        assert_true(fw_report_x(&v, box.x0) >= -1e-6 && fw_report_x(&v, box.x1) <= 640.0 + 1e-6);
+        assert_true(fw_report_y(&v, box.y1) >= -1e-6 && fw_report_y(&v, box.y0) <= v.height + 1e-6);
+    }
+    fw_report_view none = fw_report_view_fit(fw_report_box_empty(), 640.0, 0.0);
+    assert_true(isfinite(none.scale) && none.scale > 0.0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(decimation_keeps_ends_and_extremes),
+        cmocka_unit_test(nice_steps),
+        cmocka_unit_test(bent_flexure_meets_both_bodies),
+        cmocka_unit_test(pose_is_the_sample_at_a_sample),
+        cmocka_unit_test(picture_keeps_points_where_they_are),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

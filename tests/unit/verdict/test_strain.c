@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "verdict/strain.h"
+#include "test.h"
+
+/* A whole six-bar of six equal arcs (r 100 um, 270 deg, t 8 um, h 50 um, E 147.08 GPa) under four
+   loads. Angle, joint force and half-rotated frame from an independent statics of ideal pins; the
+   last column is the largest section moment of the geometrically exact solution (uN um). */
+static const struct {
+    const char *name;
+    double angle_rad, fx_uN, fy_uN, turned_rad, moment;
+} reference[] = {
+    {"L1 A", 0.126513013, -33.3271777, 31.9585347, 1.63405283, 88144.0699},
+    {"L1 B", -0.0821794128, -33.3271777, 31.9585347, 0.0854233062, 60117.7415},
+    {"L1 C", -0.00851517877, -33.3271777, 31.9585347, -1.53072032, 9456.68071},
+    {"L1 D", 0.0313006143, -33.3271777, 31.9585347, -1.5193276, 26103.7788},
+    {"L1 E", 0.0395946772, -33.3271777, 31.9585347, 3.22850903, 31793.4952},
+    {"L1 F", -0.106713712, -33.3271777, 31.9585347, 1.62415318, 76278.983},
+    {"L2 A", -0.0529705564, 176.059523, 2.91532745e-15, 1.54431105, 49006.199},
+    {"L2 B", 0.126580847, 176.059523, 2.91532745e-15, 0.0103198671, 101212.558},
+    {"L2 C", -0.0736102905, 176.059523, 2.91532745e-15, -1.53399118, 65411.4427},
+    {"L2 D", -0.0736102905, 176.059523, 2.91532745e-15, -1.60760147, 66252.8174},
+    {"L2 E", 0.126580847, 176.059523, 2.91532745e-15, 3.13127279, 102369.418},
+    {"L2 F", -0.0529705564, 176.059523, 2.91532745e-15, 1.5972816, 48357.1935},
+    {"L3 A", -0.114398159, -80.5220656, -72.6570829, 1.51359725, 89946.2909},
+    {"L3 B", 0.0544309992, -80.5220656, -72.6570829, -0.0871826597, 48448.6051},
+    {"L3 C", 0.0414133644, -80.5220656, -72.6570829, -1.6100568, 40260.3927},
+    {"L3 D", -0.0460103828, 69.4779344, -72.6570829, -1.61235531, 42496.0067},
+    {"L3 E", -0.049921705, 69.4779344, -72.6570829, 3.05206762, 44121.9335},
+    {"L3 F", 0.114485884, 69.4779344, -72.6570829, 1.51355339, 89019.9569},
+    {"L6 A", 0.052793319, -4.79495597, 164.955242, 1.59719299, 51905.7868},
+    {"L6 B", -0.077003859, -4.79495597, 164.955242, 0.0142913895, 66396.6692},
+    {"L6 C", 0.130273143, -4.79495597, 164.955242, -1.5298703, 102855.848},
+    {"L6 D", -0.122652099, -4.79495597, 164.955242, -1.52605977, 98150.3464},
+    {"L6 E", 0.067541252, -4.79495597, 164.955242, 3.15877378, 60316.1832},
+    {"L6 F", -0.0509517562, -4.79495597, 164.955242, 1.5962722, 50784.8996},
+};
+
+static fw_flexure arc(void) {
+    double angle = 1.5 * acos(-1.0);
+    return (fw_flexure){.id = "H1",
+                        .kind = FW_FLEXURE_CSFH,
+                        .length_m = 100e-6 * angle,
+                        .angle_rad = angle,
+                        .radius_m = 100e-6,
+                        .width_m = 8e-6};
+}
+
+static void section_moments_of_a_whole_six_bar(void **state) {
+    (void)state;
+    fw_flexure f = arc();
+    double K = 764912.2e-12 * 147079.09 / 169000.0, W = 30.0105e-6;
+    for (size_t i = 0; i < sizeof reference / sizeof reference[0]; i++) {
+        double c = cos(reference[i].turned_rad), s = sin(reference[i].turned_rad);
+        double fx = -reference[i].fx_uN * 1e-6, fy = -reference[i].fy_uN * 1e-6, root, inside;
+        fw_arc_moments(&f, W, K * reference[i].angle_rad, c * fx + s * fy, -s * fx + c * fy, &root,
+                       &inside);
+        double largest = fmax(root, inside) * 1e12;
+        if (!(fabs(largest / reference[i].moment - 1.0) < 0.029))
+            fail_msg("%s: %g, exact %g", reference[i].name, largest, reference[i].moment);
+    }
+}
+
+/* the closed-form extremum is not below any sampled section */
+static void no_section_carries_more(void **state) {
+    (void)state;
+    fw_flexure f = arc();
+    uint64_t seed = 3;
+    for (int i = 0; i < 2000; i++) {
+        double u[4];
+        for (int k = 0; k < 4; k++) {
+            seed = seed * 6364136223846793005u + 1442695040888963407u;
+            u[k] = 2.0 * (double)(seed >> 11) / 9007199254740992.0 - 1.0;
+        }
+        f.angle_rad = 3.2 + 2.4 * u[3];
+        double M = u[0] * 1e-7, fx = u[1] * 1e-3, fy = u[2] * 1e-3, W = 25e-6, root, inside,
+               most = 0;
+        fw_arc_moments(&f, W, M, fx, fy, &root, &inside);
+        for (int k = 0; k <= 2000; k++) {
+            double b = f.angle_rad * (k / 2000.0 - 0.5);
+            most = fmax(most, fabs(M + W * fy + f.radius_m * (fx * sin(b) - fy * cos(b))));
+        }
+        assert_true(most <= fmax(root, inside) * (1 + 1e-12));
+        assert_true(most >= fmax(root, inside) * (1 - 1e-5));
+    }
+}
+
+/* without force the strain is strain per radian times angle; a bound without drawing is never lower
+ */
+static void pure_rotation_and_bound(void **state) {
+    (void)state;
+    fw_flexure f = arc();
+    fw_device device = {.flexure = &f, .nflexure = 1};
+    fw_variant variant = {.thickness_m = 50e-6};
+    variant.material.youngs.value = 147.08e9;
+    fw_pin pin = {.id = "A", .body_a = FW_GROUND, .body_b = 0, .hinge = 0};
+    fw_hinge hinge = {0};
+    fw_flexure_input in = {FW_FLEXURE_CSFH, f.length_m, f.angle_rad, f.radius_m, f.width_m, 4e-6,
+                           50e-6,           147.08e9,   0.22,        500e6,      1.0};
+    fw_flexure_closed_form(&in, &hinge.closed_form);
+    fw_mechanism m = {.device = &device,
+                      .variant = &variant,
+                      .pin = &pin,
+                      .npin = 1,
+                      .hinge = &hinge,
+                      .nhinge = 1};
+    fw_hinge_layout drawn = {.drawn = true, .axis_rad = 1.0, .lower = FW_GROUND, .upper = 0};
+    fw_hinge_load load = {0.1, 0, 0, 0};
+    assert_relative(fw_hinge_strain(&m, &hinge, &drawn, &load),
+                    0.1 * hinge.closed_form.strain_per_rad, 1e-12);
+    for (int i = 0; i < 360; i++) {
+        load.fx_N = 2e-4 * cos(i / 57.3);
+        load.fy_N = 2e-4 * sin(i / 57.3);
+        assert_true(fw_hinge_strain(&m, &hinge, NULL, &load) >=
+                    fw_hinge_strain(&m, &hinge, &drawn, &load));
+        /* which of the two bodies is called b does not matter */
+        fw_pin swapped = {.id = "A", .body_a = 0, .body_b = FW_GROUND, .hinge = 0};
+        fw_mechanism n = m;
+        n.pin = &swapped;
+        fw_hinge_load back = {-load.angle_rad, -load.fx_N, -load.fy_N, 0};
+        assert_relative(fw_hinge_strain(&n, &hinge, &drawn, &back),
+                        fw_hinge_strain(&m, &hinge, &drawn, &load), 1e-12);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(section_moments_of_a_whole_six_bar),
+        cmocka_unit_test(no_section_carries_more),
+        cmocka_unit_test(pure_rotation_and_bound),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/arena.h"
+#include "six_bar_fixture.h"
+#include "test.h"
+
+static fw_workspace_result run(six_bar_fixture *f, double x, double y, double phi) {
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    f->box = (fw_workspace_box){.x_min_m = -x,
+                                .x_max_m = x,
+                                .y_min_m = -y,
+                                .y_max_m = y,
+                                .phi_min_rad = -phi,
+                                .phi_max_rad = phi};
+    f->device.nworkspace = 1;
+    fw_workspace_result result;
+    assert_int_equal(fw_workspace_required(arena, &f->mechanism, &diags, &result), FW_OK);
+    fw_arena_free(arena);
+    return result;
+}
+
+/* no random pose of the box turns a hinge further than what is reported, within its error */
+static void corners_and_interior(void **state) {
+    (void)state;
+    six_bar_fixture f;
+    six_bar_make(&f, six_bar_reference);
+    const double box[][3] = {{50e-6, 30e-6, 0.02}, {300e-6, 100e-6, 0.1}, {1e-6, 300e-6, 0.3}};
+    uint64_t seed = 1;
+    for (size_t b = 0; b < 3; b++) {
+        fw_workspace_result r = run(&f, box[b][0], box[b][1], box[b][2]);
+        assert_true(r.required && r.reachable && !r.certified);
+        assert_relative(r.volume_m2_rad, 8 * box[b][0] * box[b][1] * box[b][2], 1e-12);
+        for (int i = 0; i < 50000; i++) {
+            double u[3], angle[FW_SIX];
+            int leg;
+            for (int k = 0; k < 3; k++) {
+                seed = seed * 6364136223846793005u + 1442695040888963407u;
+                u[k] = (2.0 * (double)(seed >> 11) / 9007199254740992.0 - 1.0) * box[b][k];
+            }
+            assert_true(fw_six_bar_inverse(&f.mechanism, u[0], u[1], u[2], angle, &leg));
+            for (int j = 0; j < FW_SIX; j++)
+                assert_true(fabs(angle[j]) <= fabs(r.peak[j].angle_rad) + r.peak[j].error_rad);
+        }
+    }
+}
+
+static void unreachable_pose_is_named(void **state) {
+    (void)state;
+    six_bar_fixture f;
+    six_bar_make(&f, six_bar_reference);
+    fw_workspace_result r = run(&f, 3e-3, 1e-6, 0.01);
+    assert_true(r.required && !r.reachable);
+    assert_true(fabs(r.fail_x_m) > 0.5e-3);
+}
+
+static void symmetric_design_gives_symmetric_hinges(void **state) {
+    (void)state;
+    six_bar_fixture f;
+    six_bar_make(&f, six_bar_reference);
+    fw_workspace_result r = run(&f, 100e-6, 50e-6, 0.05);
+    for (int j = 0; j < 3; j++)
+        assert_relative(fabs(r.peak[j].angle_rad), fabs(r.peak[5 - j].angle_rad), 1e-9);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(corners_and_interior),
+        cmocka_unit_test(unreachable_pose_is_named),
+        cmocka_unit_test(symmetric_design_gives_symmetric_hinges),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

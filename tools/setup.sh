@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Sourced by ./demo and ./test: installs the Debian packages that are missing, then configures.
+# FLEXWRIGHT_NO_INSTALL=1 leaves the system alone and only says what is missing.
+
+build_packages="gcc libc6-dev cmake ninja-build pkg-config libxml2-dev libcairo2-dev libgsl-dev
+liblapacke-dev liblapack-dev libjansson-dev libcmocka-dev"
+test_packages="clang libclang-rt-14-dev libxml2-utils python3 klayout python3-gdspy python3-tk libgeos-dev"
+
+say() { printf '%s\n' "$*" >&2; }
+
+# packages of "$@" that dpkg does not know as installed
+missing_packages() {
+    for package in "$@"; do
+        status=$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null)
+        [ "$status" = "install ok installed" ] || printf '%s ' "$package"
+    done
+}
+
+install_packages() {
+    command -v dpkg-query >/dev/null || {
+        say "not a Debian system: install these yourself: $*"
+        return 0
+    }
+    missing=$(missing_packages "$@")
+    [ -n "$missing" ] || return 0
+    if [ -n "${FLEXWRIGHT_NO_INSTALL:-}" ]; then
+        say "missing packages: $missing"
+        return 1
+    fi
+    as_root=
+    if [ "$(id -u)" -ne 0 ]; then
+        command -v sudo >/dev/null || {
+            say "missing packages: $missing- install them as root, then run this again"
+            return 1
+        }
+        as_root=sudo
+    fi
+    say "installing: $missing"
+    # shellcheck disable=SC2086
+    $as_root apt-get update -qq >/dev/null &&
+        $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq \
+            --no-install-recommends $missing >/dev/null
+}
+
+# configure_and_build DIRECTORY [cmake options]
+configure_and_build() {
+    directory=$1
+    shift
+    log=$directory.log
+    if ! { cmake -S . -B "$directory" -G Ninja "$@" && cmake --build "$directory"; } >"$log" 2>&1; then
+        tail -40 "$log" >&2
+        say "the build failed; the whole log is $log"
+        return 1
+    fi
+    rm -f "$log"
+}
