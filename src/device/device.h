@@ -136,7 +136,7 @@ typedef struct fw_device {
     fw_scene *scene;
     fw_workspace_box *workspace;
     int nparameter, nflow, nflexure, nbody, njoint, nspring, nscene, nworkspace;
-    const char *material_ref;
+    const char *material_ref; /* NULL only where nothing needs one: no flexures, all masses given */
     fw_place material_place;
     /* overrides of <material>; unknown = take the pack's value */
     fw_material_override material;

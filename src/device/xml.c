@@ -19,10 +19,10 @@ typedef struct reader {
     fw_bytes xml;
     fw_diags *diags;
     xmlParserCtxtPtr parser;
-    size_t body;    /* offset of what libxml2 sees */
-    size_t tag_end; /* search for the next start tag from here */
-    size_t line_start;
-    int line; /* of tag_end: places only move forward */
+    size_t body;                /* offset of what libxml2 sees */
+    size_t tag_end;             /* search for the next start tag from here */
+    size_t counted, line_start; /* lines are counted up to here; where the present one starts */
+    int line;
     node *root, *current;
     int refused, no_memory; /* own flags: wellFormed is not to be trusted */
 } reader;
@@ -41,12 +41,16 @@ static fw_place place_at(const reader *r, size_t offset) {
     return fw_place_at(r->file, r->xml, offset);
 }
 
-/* places of start tags and attributes come in file order, so lines are counted only once */
+/* places of start tags, attributes and texts come in file order, so every byte is counted only once
+ */
 static fw_place next_place(reader *r, size_t offset) {
-    while (r->line_start <= offset) {
-        const char *end = memchr(r->xml.data + r->line_start, '\n', offset - r->line_start);
-        if (!end) break;
-        r->line_start = (size_t)(end - r->xml.data) + 1;
+    while (r->counted < offset) {
+        const char *end = memchr(r->xml.data + r->counted, '\n', offset - r->counted);
+        if (!end) {
+            r->counted = offset;
+            break;
+        }
+        r->counted = r->line_start = (size_t)(end - r->xml.data) + 1;
         r->line++;
     }
     return (fw_place){r->file, r->line, (int)(offset - r->line_start) + 1};

@@ -9,7 +9,7 @@ typedef struct guard {
     fw_bytes xml;
     fw_diags *diags;
     size_t at;
-    int depth, elements;
+    int depth, elements, attributes;
 } guard;
 
 static fw_place place(const guard *g, size_t offset) {
@@ -148,6 +148,11 @@ static fw_status check_tag(guard *g) {
         if (count == FW_XML_ATTRIBUTES_MOST)
             return fw_diag_error(g->diags, 9, place(g, a.name),
                                  "more than %d attributes in one element", FW_XML_ATTRIBUTES_MOST);
+        if (++g->attributes > FW_XML_ALL_ATTRIBUTES_MOST)
+            return fw_diag_error(
+                g->diags, 9, place(g, a.name),
+                "more than %d attributes in the file; the limit keeps reading small",
+                FW_XML_ALL_ATTRIBUTES_MOST);
         FW_TRY(check_value(g, &a));
         FW_TRY(check_twice(g, seen, count, &a));
         seen[count++] = a;

@@ -31,25 +31,30 @@ static fw_status bad_fact(const fw_flow *flow, fw_diags *diags, const char *name
                          name, fw_number_text(text, sizeof text, value, 6));
 }
 
+static double none_if_zero(double x) {
+    return x == 0.0 || isnan(x) ? HUGE_VAL : x;
+}
+
 static fw_status check_facts(const fw_flow *flow, const fw_mask_facts *m, fw_diags *diags) {
     const struct {
         const char *name;
         double value;
-    } must[] = {{"structure area", m->structure_area_m2}, {"die area", m->die_area_m2},
-                {"edge length", m->perimeter_m},          {"narrowest slot", m->narrowest_slot_m},
-                {"narrowest line", m->narrowest_line_m},  {"number of dies", m->dies}};
+        bool may_lack; /* infinite or, for a flexure and the thickness, 0: there is none */
+    } must[] = {{"structure area", m->structure_area_m2, false},
+                {"die area", m->die_area_m2, false},
+                {"edge length", m->perimeter_m, false},
+                {"number of dies", m->dies, false},
+                {"narrowest slot", m->narrowest_slot_m, true},
+                {"narrowest line", m->narrowest_line_m, true},
+                {"narrowest flexure", none_if_zero(m->deepest_hinge_width_m), true},
+                {"device thickness", none_if_zero(m->device_thickness_m), true}};
     fw_status status = FW_OK;
     for (size_t i = 0; i < sizeof must / sizeof must[0]; i++)
-        if (!usable(must[i].value)) status = bad_fact(flow, diags, must[i].name, must[i].value);
+        if (!usable(must[i].value) && !(must[i].may_lack && must[i].value > 0.0))
+            status = bad_fact(flow, diags, must[i].name, must[i].value);
     if (m->structure_area_m2 > m->die_area_m2)
         status = bad_fact(flow, diags, "area outside the structure",
                           m->die_area_m2 - m->structure_area_m2);
-    double flexure = m->deepest_hinge_width_m;
-    if (flexure != 0.0 && !isnan(flexure) && !usable(flexure))
-        status = bad_fact(flow, diags, "narrowest flexure", flexure);
-    double thickness = m->device_thickness_m;
-    if (thickness != 0.0 && !isnan(thickness) && !usable(thickness))
-        status = bad_fact(flow, diags, "device thickness", thickness);
     return status;
 }
 
@@ -97,7 +102,7 @@ static void fill_mask(fw_flow *flow, const fw_mask_facts *m) {
 static void forget_mask(fw_flow *flow) {
     for (int i = 0; i < flow->nquantity; i++)
         if (flow->quantity[i]->id && strncmp(flow->quantity[i]->id, "mask.", 5) == 0)
-            fill(flow, flow->quantity[i]->id, NAN, NAN);
+            fill(flow, flow->quantity[i]->id, (double)NAN, (double)NAN);
 }
 
 /* the device file may ask for another thickness than the pack's own */
@@ -236,9 +241,11 @@ fw_status fw_flow_compute(fw_arena *arena, fw_flow *flow, const fw_mask_facts *f
                           fw_diags *diags) {
     forget_mask(flow);
     forget_derived(flow);
+    if (facts) FW_TRY(set_thickness(arena, flow, facts));
+    if (facts && facts->structure_area_m2 == 0.0 && facts->die_area_m2 == 0.0)
+        facts = NULL; /* nothing was drawn */
     if (facts) {
         FW_TRY(check_facts(flow, facts, diags));
-        FW_TRY(set_thickness(arena, flow, facts));
         fill_mask(flow, facts);
     }
     flow->total_s = 0.0;

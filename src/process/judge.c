@@ -35,8 +35,14 @@ __attribute__((format(printf, 3, 4))) static fw_status say(judge *j, answer weig
     char text[1200];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
+    int length = vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    if (length >= (int)sizeof text) { /* cut a very long list, never inside a character */
+        size_t end = sizeof text - 4;
+        while (end > 0 && ((unsigned char)text[end] & 0xC0) == 0x80)
+            end--;
+        memcpy(text + end, "...", 4);
+    }
     fw_flow *f = j->flow;
     const char **grown = fw_arena_grow(j->arena, f->reason, (size_t)f->nreason,
                                        (size_t)f->nreason + 1, sizeof *f->reason);
@@ -53,7 +59,8 @@ static double known(const fw_quantity *q) {
 }
 
 static bool has_flexure(const judge *j) {
-    return j->facts && j->facts->deepest_hinge_width_m > 0.0;
+    return j->facts && j->facts->deepest_hinge_width_m > 0.0 &&
+           isfinite(j->facts->deepest_hinge_width_m);
 }
 
 /* a masked wet etch runs under its mask by d (1 + overrun) at every edge: known, so compensated */
@@ -131,7 +138,7 @@ static fw_status anisotropy_known(judge *j, const fw_step *s, double depth, doub
 static fw_status slot_lag(judge *j, const fw_step *s, double depth) {
     numbers t = {0};
     double S = known(fw_flow_quantity(j->flow, "rie.S"));
-    if (!j->facts || isnan(S)) return FW_OK;
+    if (!j->facts || isnan(S) || !isfinite(j->facts->narrowest_slot_m)) return FW_OK;
     double w = j->facts->narrowest_slot_m, low = 0.0, high = depth;
     for (int i = 0; i < 60; i++) {
         double d = 0.5 * (low + high);

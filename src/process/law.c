@@ -47,7 +47,7 @@ static void collect(const fw_law_use *use, input *in) {
     *in = (input){.n = law->argument ? law->nargument : use->nargument};
     if (in->n > FW_LAW_ARGUMENTS) in->n = FW_LAW_ARGUMENTS;
     for (int i = 0; i < in->n; i++) {
-        in->x[i] = NAN;
+        in->x[i] = (double)NAN;
         if (!law->argument) {
             in->name[i] = use->argument[i].name;
             in->q[i] = use->argument[i].q;
@@ -156,7 +156,7 @@ static fw_status uncertainty(fw_arena *arena, const fw_law *law, fw_law_call *ca
     share part[FW_LAW_ARGUMENTS];
     int n = 0;
     for (int i = 0; i < FW_LAW_ARGUMENTS; i++)
-        dx[i] = NAN;
+        dx[i] = (double)NAN;
     if (law->slope) law->slope(in->x, answer->value, dx);
     for (int i = 0; i < in->n; i++) {
         if (!in->q[i] || !(in->q[i]->uncertainty > 0.0)) continue;

@@ -145,10 +145,10 @@ typedef struct fw_mask_facts { /* what the mask hands to the flow */
     double structure_area_m2;  /* of one die: what is plated, or masked by aluminium */
     double die_area_m2;
     double perimeter_m;
-    double narrowest_slot_m, narrowest_line_m;
-    double deepest_hinge_width_m; /* narrowest flexure, as drawn */
-    int dies;                     /* on the wafer or coupon */
-    double device_thickness_m;    /* as the device file wants it; 0 or NaN: the pack's own */
+    double narrowest_slot_m, narrowest_line_m; /* as drawn; INFINITY: none */
+    double deepest_hinge_width_m;              /* narrowest flexure, as drawn; 0: none */
+    int dies;                                  /* on the wafer or coupon */
+    double device_thickness_m; /* as the device file wants it; 0 or NaN: the pack's own */
 } fw_mask_facts;
 
 /* reads base.xml and FLOW.xml; all mistakes in diags */
@@ -156,7 +156,8 @@ fw_status fw_flow_read(fw_arena *arena, const char *base_file, const char *base_
                        const char *file, const char *xml, size_t n, fw_diags *diags,
                        fw_flow **flow);
 /* computes every step's time, the bias and the judgement from the mask's own numbers. May be called
-   again with other facts. facts NULL: no mask yet, what needs it is NOT COMPUTABLE. */
+   again with other facts. facts NULL or without any area: no mask yet, what needs it is NOT
+   COMPUTABLE. */
 fw_status fw_flow_compute(fw_arena *arena, fw_flow *flow, const fw_mask_facts *facts,
                           fw_diags *diags);
 const fw_quantity *fw_flow_quantity(const fw_flow *flow, const char *id);

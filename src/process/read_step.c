@@ -195,8 +195,8 @@ static void read_lag(fw_pack *pack, const fw_element *e, fw_lag *lag) {
         fw_diag_error(pack->diags, 169, unit->place, "'%s' is not a unit of time", unit->value);
     lag->from = from ? from->value : "";
     lag->place = e->place;
-    lag->min_s = fw_pack_number(pack, e, "min", NAN) * parsed.factor;
-    lag->max_s = fw_pack_number(pack, e, "max", NAN) * parsed.factor;
+    lag->min_s = fw_pack_number(pack, e, "min", (double)NAN) * parsed.factor;
+    lag->max_s = fw_pack_number(pack, e, "max", (double)NAN) * parsed.factor;
     if (from) fw_pack_find(pack, from, FW_ID_STEP);
     if (lag->min_s > lag->max_s)
         fw_diag_error(pack->diags, 171, e->place, "<lag>: min is longer than max");

@@ -112,7 +112,7 @@ static bool parse_name(parser *p, fw_value *v) {
     if (is_mark(p, '(')) return parse_call(p, &name, v);
     for (size_t i = 0; p->names && i < p->names->count; i++) {
         const fw_name_value *item = &p->names->item[i];
-        if (strlen(item->name) == name.length && memcmp(item->name, text, name.length) == 0) {
+        if (strncmp(item->name, text, name.length) == 0 && item->name[name.length] == '\0') {
             *v = (fw_value){.value = item->value, .dimension = item->dimension};
             return finite_at(p, name.start, v);
         }

@@ -127,7 +127,8 @@ static int collect(const fw_stack *s, legend *list, int most) {
             list[at].top = fmax(list[at].top, c->bottom + c->height);
         }
         for (int i = 0; i < n; i++)
-            if (!(sum[i] <= list[i].thickness_m)) /* also when unknown */
+            if (!isnan(list[i].thickness_m) &&
+                !(sum[i] <= list[i].thickness_m)) /* also when unknown */
                 list[i].thickness_m = sum[i];
     }
     for (int i = 1; i < n; i++)

@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* libFuzzer: any bytes as a device file, as a pack, and as an expression. A status that contradicts the
-   diagnostics is a crash, too. Run: fuzz_device -dict=tests/fuzz/device.dict CORPUS tests/bad */
+/* libFuzzer: any bytes as a device file, as a pack, and as an expression. A status that contradicts
+   the diagnostics is a crash, too. Run: fuzz_device -dict=tests/fuzz/device.dict CORPUS tests/bad
+ */
 #include "device/device.h"
 #include <stdint.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n);
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n)
-{
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n) {
     fw_arena *arena = fw_arena_new((size_t)64 * 1024 * 1024);
-    if (!arena)
-        return 0;
+    if (!arena) return 0;
     const char *text = (const char *)data;
     const fw_set set[] = {{"link", "100 um"}, {"flexure[A]/@length", "312 um"}};
     for (int nset = 0; nset <= 2; nset += 2) {
@@ -24,14 +23,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n)
     fw_diags diags = fw_diags_new(arena);
     fw_materials materials;
     fw_status s = fw_materials_read(arena, "fuzz", text, n, &diags, &materials);
-    if (s == FW_INPUT && diags.errors == 0)
-        __builtin_trap();
+    if (s == FW_INPUT && diags.errors == 0) __builtin_trap();
     if (n < 5000) {
         double value;
         fw_expression_error error;
         s = fw_expression_evaluate(arena, text, n, NULL, (fw_dimension){.m = 1}, &value, &error);
-        if (s == FW_INPUT && (!error.message || error.offset > n))
-            __builtin_trap();
+        if (s == FW_INPUT && (!error.message || error.offset > n)) __builtin_trap();
     }
     fw_arena_free(arena);
     return 0;

@@ -6,6 +6,8 @@
 #include "layout/layout.h"
 #include <math.h>
 
+#define NONE ((double)NAN) /* not given */
+
 typedef struct fixture {
     fw_device device;
     fw_body body[10];
@@ -15,15 +17,15 @@ typedef struct fixture {
 
 static inline fw_body fixture_body(const char *id, double width_m) {
     return (fw_body){.id = id,
-                     .mass_kg = NAN,
-                     .inertia_kg_m2 = NAN,
-                     .x_m = NAN,
-                     .y_m = NAN,
+                     .mass_kg = NONE,
+                     .inertia_kg_m2 = NONE,
+                     .x_m = NONE,
+                     .y_m = NONE,
                      .width_m = width_m,
-                     .plate_width_m = NAN,
-                     .plate_height_m = NAN,
-                     .plate_x_m = NAN,
-                     .plate_y_m = NAN};
+                     .plate_width_m = NONE,
+                     .plate_height_m = NONE,
+                     .plate_x_m = NONE,
+                     .plate_y_m = NONE};
 }
 
 static inline void fixture_hinge(fixture *f, int i, const char *id, int a, int b, double x_m,
@@ -35,20 +37,20 @@ static inline void fixture_hinge(fixture *f, int i, const char *id, int a, int b
                                  .radius_m = length_m / angle_rad,
                                  .width_m = width_m,
                                  .gap_m = 8e-6,
-                                 .fillet_m = NAN};
+                                 .fillet_m = NONE};
     f->joint[i] = (fw_joint){.id = id,
                              .body_a = a,
                              .body_b = b,
                              .x_m = x_m,
                              .y_m = y_m,
-                             .ax_m = NAN,
-                             .ay_m = NAN,
-                             .bx_m = NAN,
-                             .by_m = NAN,
-                             .stiffness_Nm_per_rad = NAN,
-                             .damping_Nms_per_rad = NAN,
+                             .ax_m = NONE,
+                             .ay_m = NONE,
+                             .bx_m = NONE,
+                             .by_m = NONE,
+                             .stiffness_Nm_per_rad = NONE,
+                             .damping_Nms_per_rad = NONE,
                              .flexure = i,
-                             .axis_rad = NAN};
+                             .axis_rad = NONE};
 }
 
 static inline void fixture_finish(fixture *f, const char *name, int nbody, int njoint) {
@@ -62,7 +64,7 @@ static inline void fixture_finish(fixture *f, const char *name, int nbody, int n
                             .nflexure = njoint,
                             .thickness_m = 50e-6,
                             .safety_factor = 1.5,
-                            .die = {NAN, NAN, NAN, NAN, NAN, NULL, true}};
+                            .die = {NONE, NONE, NONE, NONE, NONE, NULL, true}};
 }
 
 static inline void fixture_six_bar(fixture *f) {
@@ -75,7 +77,7 @@ static inline void fixture_six_bar(fixture *f) {
     *f = (fixture){.device = {.file = "test.xml"}};
     for (int i = 0; i < 5; i++)
         f->body[i] = fixture_body(body[i], 120e-6);
-    f->body[2].width_m = NAN;
+    f->body[2].width_m = NONE;
     f->body[2].platform = true;
     f->body[2].plate_width_m = 1.4e-3;
     f->body[2].plate_height_m = 0.4e-3;
@@ -139,7 +141,7 @@ static inline void fixture_stage(fixture *f) {
 /* a plate on one hinge, turned by 30 degrees */
 static inline void fixture_paddle(fixture *f) {
     *f = (fixture){.device = {.file = "test.xml"}};
-    f->body[0] = fixture_body("paddle", NAN);
+    f->body[0] = fixture_body("paddle", NONE);
     f->body[0].plate_width_m = 0.8e-3;
     f->body[0].plate_height_m = 0.5e-3;
     f->body[0].plate_x_m = 0.5e-3;

@@ -404,7 +404,7 @@ static void leaf_is_exact(void **state) {
     fixture_six_bar(&f);
     for (int i = 0; i < 6; i++) {
         f.flexure[i].kind = FW_FLEXURE_LEAF;
-        f.flexure[i].angle_rad = f.flexure[i].radius_m = NAN;
+        f.flexure[i].angle_rad = f.flexure[i].radius_m = NONE;
         f.flexure[i].length_m *= 0.8;
     }
     drawn d = draw_well(&f);
@@ -501,7 +501,7 @@ static void without_shapes_nothing_is_drawn(void **state) {
     (void)state;
     fixture f;
     fixture_six_bar(&f);
-    f.body[3].width_m = NAN;
+    f.body[3].width_m = NONE;
     drawn d = draw(&f);
     assert_int_equal(d.status, FW_OK);
     assert_false(d.layout->drawn);

@@ -189,8 +189,8 @@ static void wrong_facts(void **state) {
     (void)state;
     const fw_mask_facts bad[] = {{0, 28e-6, 0.08, 8e-6, 8e-6, 8e-6, 30, 0},
                                  {5e-6, -1, 0.08, 8e-6, 8e-6, 8e-6, 30, 0},
-                                 {5e-6, 28e-6, NAN, 8e-6, 8e-6, 8e-6, 30, 0},
-                                 {5e-6, 28e-6, 0.08, INFINITY, 8e-6, 8e-6, 30, 0},
+                                 {5e-6, 28e-6, (double)NAN, 8e-6, 8e-6, 8e-6, 30, 0},
+                                 {5e-6, 28e-6, 0.08, (double)NAN, 8e-6, 8e-6, 30, 0},
                                  {5e-6, 28e-6, 0.08, 8e-6, 8e-6, 8e-6, 0, 0},
                                  {5e-6, 28e-6, 0.08, 8e-6, 8e-6, -8e-6, 30, 0},
                                  {5e-6, 28e-6, 0.08, 8e-6, 8e-6, 8e-6, 30, -1},
@@ -200,6 +200,20 @@ static void wrong_facts(void **state) {
         diags = fw_diags_new(arena);
         assert_int_equal(fw_flow_compute(arena, f, &bad[i], &diags), FW_INPUT);
         assert_int_equal(diags.item[0].number, 179);
+    }
+}
+
+/* a rigid mechanism without flexures and slots is no mistake */
+static void nothing_narrow(void **state) {
+    (void)state;
+    const double none = (double)INFINITY;
+    const fw_mask_facts facts = {5e-6, 28e-6, 0.08, none, none, 0.0, 1, (double)NAN};
+    for (int i = 0; i < 2; i++) {
+        fw_flow *f = computed(i ? SILICON : COPPER, NULL, NULL, &facts);
+        assert_int_equal(f->manufacturable, -1);
+        for (int k = 0; k < f->nreason; k++)
+            if (strstr(f->reason[k], " inf") || strstr(f->reason[k], "nan "))
+                fail_msg("%s", f->reason[k]);
     }
 }
 
@@ -248,9 +262,16 @@ static void counted(void **state) {
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        TEST(copper),           TEST(silicon),     TEST(missing_names),       TEST(no_mask_yet),
-        TEST(device_thickness), TEST(lithography), TEST(measured_anisotropy), TEST(wrong_facts),
-        TEST(layers),           TEST(counted)};
+    const struct CMUnitTest tests[] = {TEST(copper),
+                                       TEST(silicon),
+                                       TEST(missing_names),
+                                       TEST(no_mask_yet),
+                                       TEST(device_thickness),
+                                       TEST(lithography),
+                                       TEST(measured_anisotropy),
+                                       TEST(wrong_facts),
+                                       TEST(nothing_narrow),
+                                       TEST(layers),
+                                       TEST(counted)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

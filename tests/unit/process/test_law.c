@@ -353,7 +353,8 @@ static void expr(void **state) {
 
 static void missing_inputs(void **state) {
     (void)state;
-    fw_law_answer a = TIME_OF("rate", {"thickness", "um", NAN, 0}, {"rate", "Ao/s", NAN, 0});
+    fw_law_answer a =
+        TIME_OF("rate", {"thickness", "um", (double)NAN, 0}, {"rate", "Ao/s", (double)NAN, 0});
     assert_false(a.computable);
     assert_int_equal(a.nmissing, 2);
     assert_string_equal(a.missing[0], "thickness (thickness)");
