@@ -23,7 +23,8 @@ fw_script_test(accept.masks COMMAND tests/accept/gallery.sh ${FW_PROGRAM} TIMEOU
 fw_script_test(docs.readme COMMAND ${Python3_EXECUTABLE} tests/docs/readme.py ${FW_PROGRAM})
 fw_script_test(build.clang COMMAND tests/build/clang.sh TIMEOUT 600)
 fw_script_test(build.sanitized COMMAND tests/build/sanitized.sh TIMEOUT 900)
-set_tests_properties(build.clang build.sanitized PROPERTIES RUN_SERIAL ON)
+fw_script_test(fuzz.device COMMAND tests/build/fuzz.sh TIMEOUT 600)
+set_tests_properties(build.clang build.sanitized fuzz.device PROPERTIES RUN_SERIAL ON)
 
 add_executable(fault_memory fault/memory.c)
 target_link_libraries(fault_memory PRIVATE fw_plan)

@@ -112,7 +112,8 @@ static int in_file_order(const void *left, const void *right) {
     return a < b ? -1 : a > b;
 }
 
-void fw_diags_print(const fw_diags *diags, fw_text *out, const char *source, size_t n, int colour) {
+void fw_diags_print(const fw_diags *diags, fw_text *out, const char *file, const char *source,
+                    size_t n, int colour) {
     static const char *const word[] = {"note", "warning", "error"};
     static const char *const paint[] = {"\033[36m", "\033[35m", "\033[1;31m"};
     const fw_diag *order[FW_DIAG_MOST];
@@ -126,7 +127,7 @@ void fw_diags_print(const fw_diags *diags, fw_text *out, const char *source, siz
         fw_text_printf(out, "%s%s%s%s: %s [FW-D%03d]\n", d->place.file ? " " : "",
                        colour ? paint[d->severity] : "", word[d->severity], colour ? "\033[0m" : "",
                        d->message, d->number);
-        if (source && d->place.line > 0) show_line(out, source, n, d->place);
+        if (source && d->place.line > 0 && d->place.file && strcmp(d->place.file, file) == 0) show_line(out, source, n, d->place);
     }
     if (diags->dropped) fw_text_printf(out, "%zu more not shown\n", diags->dropped);
 }

@@ -53,8 +53,9 @@ void fw_diag_note(fw_diags *diags, int number, fw_place place, const char *forma
     __attribute__((format(printf, 4, 5)));
 
 /* "FILE:LINE:COLUMN: error: message [FW-D041]", one line each, in file order.
-   `source` (may be NULL, n bytes) is the file's text: the line with a caret is then shown. */
-void fw_diags_print(const fw_diags *diags, fw_text *out, const char *source, size_t n, int colour);
+   `source` (may be NULL, n bytes) is the text of `file`: places in it are shown with a caret. */
+void fw_diags_print(const fw_diags *diags, fw_text *out, const char *file, const char *source,
+                    size_t n, int colour);
 
 const fw_diag_entry *fw_diag_table(size_t *count);
 const fw_diag_entry *fw_diag_find(int number); /* NULL when there is none */

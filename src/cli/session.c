@@ -50,8 +50,7 @@ int fw_session_close(fw_plan *plan, const fw_cli_options *options, fw_status sta
                      int result_if_ok) {
     fw_text text = fw_text_new(plan->arena);
     keep_serious(&plan->diags, options);
-    const fw_device *d = plan->device;
-    fw_diags_print(&plan->diags, &text, d ? d->source : NULL, d ? d->source_length : 0,
+    fw_diags_print(&plan->diags, &text, plan->source_file, plan->source, plan->source_length,
                    use_colour(options, STDERR_FILENO));
     if (text.length) fwrite(text.data, 1, text.length, stderr);
     int exit_status = status == FW_OK ? result_if_ok : fw_status_exit(status);

@@ -17,6 +17,8 @@ typedef struct fw_motion_options {
     double accuracy;        /* relative error wanted on the peak hinge deflection; default 1e-3 */
     int samples; /* rows of `sample`, evenly over the scene, first at 0, last at the end */
     fw_effect_choice effects;
+    double most_angle_rad;  /* ends the run when a joint has turned further: the verdict needs no more;
+                               0: never */
 } fw_motion_options;
 
 typedef struct fw_peak { /* per pin: extreme of |phi_b - phi_a - free angle| over the scene */
@@ -47,6 +49,8 @@ typedef struct fw_motion {
     fw_peak *peak;      /* (npin) */
     fw_motion_stats stats;
     fw_effect_ledger ledger;
+    bool ended;         /* by most_angle_rad, before the scene's end */
+    double end_s;       /* the scene's duration, or where it was ended */
     const char *integrator, *method; /* used, and why: `reason` */
     const char *reason;
 } fw_motion;

@@ -24,6 +24,8 @@ typedef struct run {
     double amplitude; /* scaled size of the motion: the absolute tolerance is rtol times this */
     fw_energy first;
     double drift, largest;
+    double most_angle; /* rad; HUGE_VAL: no end before the end */
+    long steps;        /* over all tries */
 } run;
 
 static double cpu_seconds(void) {
@@ -203,6 +205,12 @@ static fw_status stopped(const run *r, const fw_dop853 *s, fw_ode_result why) {
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
 
+static bool turned_too_far(const run *r, const fw_peaks *peaks) {
+    for (int i = 0; i < peaks->npin; i++)
+        if (fabs(peaks->peak[i].angle_rad) > r->most_angle) return true;
+    return false;
+}
+
 static fw_status too_long(const run *r) {
     fw_status status = fw_diag_error(r->diags, 108, r->scene->place,
                                      "scene %s needs more than 2 million steps; shorten it",
@@ -237,7 +245,13 @@ static fw_status integrate(run *r, fw_dop853 *s, fw_peaks *peaks, bool full) {
             watch_energy(r, s->y);
             if (!take_samples(r, s, &row)) return stopped(r, s, FW_ODE_SMALL);
         }
-        if (s->steps > fw_most_steps) return too_long(r);
+        if (++r->steps > fw_most_steps) return too_long(r);
+        if (turned_too_far(r, peaks)) break;
+    }
+    if (full) {
+        r->motion->ended = s->t < s->t_end;
+        r->motion->end_s = r->motion->ended ? s->t * m->scale.time_s : r->scene->duration_s;
+        r->motion->nsample = row;
     }
     return FW_OK;
 }
@@ -287,7 +301,9 @@ static bool good_enough(const run *r, const fw_motion_options *o) {
 
 static fw_status solve(run *r, const fw_motion_options *o) {
     double rtol = chosen_rtol(o);
+    int rows = r->motion->nsample;
     for (;;) {
+        r->motion->nsample = rows;
         fw_peaks fine, coarse;
         fw_dop853 *s, *check;
         double began = cpu_seconds();
@@ -305,7 +321,8 @@ static fw_status solve(run *r, const fw_motion_options *o) {
         stats->estimate_cpu_s = cpu_seconds() - between;
         estimate_errors(r, &fine, &coarse, s, check);
         /* a tolerance of our own choosing is tightened until the estimate is good enough */
-        if (o->rtol > 0 || good_enough(r, o) || rtol <= fw_tightest) return FW_OK;
+        if (o->rtol > 0 || r->motion->ended || good_enough(r, o) || rtol <= fw_tightest)
+            return FW_OK;
         rtol = fmax(fw_tightest, rtol / 100);
     }
 }
@@ -351,6 +368,7 @@ fw_status fw_simulate(fw_arena *arena, const fw_mechanism *mechanism, const fw_s
     FW_NEED(r.start = fw_arena_array(arena, double, (size_t)r.model->ny));
     FW_NEED(r.state = fw_arena_array(arena, double, (size_t)r.model->ny));
     FW_NEED(r.rate = fw_arena_array(arena, double, (size_t)r.model->ny));
+    r.most_angle = options->most_angle_rad > 0 ? options->most_angle_rad : HUGE_VAL;
     FW_TRY(prepare(&r, &terms));
     FW_TRY(motion_size(&r, &terms));
     FW_TRY(solve(&r, options));

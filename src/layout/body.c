@@ -157,10 +157,12 @@ fw_status fw_body_unite(fw_drawing *d, int body, const fw_contour *part, int npa
 
 /* Corners of 10 um; where the parts are too small for that, 5, 2.5 or 1.25 um for the whole body.
    Fillets at the roots and conjugate surfaces meet their neighbours smoothly or keep their arcs. */
-fw_status fw_body_round(fw_drawing *d, int body, const fw_contour *in, fw_contour *out) {
+fw_status fw_body_round(fw_drawing *d, int body, const fw_contour *in, fw_contour *out,
+                        double *radius_m) {
     fw_vec2 where = fw_v(0.0, 0.0);
     for (double radius = FW_CORNER_M; radius > 1e-6; radius *= 0.5) {
         fw_status status = fw_contour_round(d->arena, in, radius, radius, out, &where);
+        *radius_m = radius;
         if (status != FW_GEOMETRY) return status;
     }
     char x[32], y[32];
@@ -212,7 +214,7 @@ fw_status fw_body_draw(fw_drawing *d, int body, int only, const fw_contour *extr
             FW_TRY(fw_body_unite(d, body, pair, 2, &d->raw[slot]));
         }
     }
-    FW_TRY(fw_body_round(d, body, &d->raw[slot], &d->plain[slot]));
+    FW_TRY(fw_body_round(d, body, &d->raw[slot], &d->plain[slot], &d->corner_m[slot]));
     if (body < 0) return FW_OK;
     fw_region region = {&d->plain[slot], 1};
     fw_moments m = fw_region_moments(&region);

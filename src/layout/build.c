@@ -41,18 +41,17 @@ static const char *missing(fw_arena *arena, const fw_device *device, bool *faile
 static fw_status add_bodies(fw_drawing *d) {
     for (int s = 0; s < d->nslot; s++) {
         int body = s < d->device->nbody ? s : FW_GROUND;
-        fw_contour whole = d->plain[s];
-        if (whole.count == 0) continue;
-        bool held = false;
-        fw_contour pair[2] = {d->raw[s], whole};
-        for (int i = 0; i < d->nattachment; i++) {
-            if (d->attachment[i].body != body || d->attachment[i].finger.count == 0) continue;
-            held = true;
-            pair[1] = d->attachment[i].finger;
-            FW_TRY(fw_body_unite(d, body, pair, 2, &pair[0]));
-        }
-        if (held) FW_TRY(fw_body_round(d, body, &pair[0], &whole));
-        FW_TRY(fw_drawing_add(d, FW_ROLE_STRUCTURE, body, FW_NONE, fw_body_label(d, body), &whole));
+        const fw_contour *whole = fw_drawing_outline(d, s);
+        if (whole->count == 0) continue;
+        FW_TRY(fw_drawing_add(d, FW_ROLE_STRUCTURE, body, FW_NONE, fw_body_label(d, body), whole));
+    }
+    for (int i = 0; i < d->nattachment; i++) {
+        const fw_attachment *a = &d->attachment[i];
+        if (a->tether.count == 0) continue;
+        const char *label = fw_body_label(d, a->body);
+        FW_NEED(label);
+        label = fw_arena_printf(d->arena, "tether of %s", label);
+        FW_TRY(fw_drawing_add(d, FW_ROLE_TETHER, FW_GROUND, FW_NONE, label, &a->tether));
     }
     for (int j = 0; j < d->device->njoint; j++) {
         const char *label =
@@ -66,8 +65,8 @@ static fw_status add_bodies(fw_drawing *d) {
 static void measure_free_rotation(fw_drawing *d) {
     for (int j = 0; j < d->device->njoint; j++) {
         fw_hinge_layout *h = &d->layout->hinge[j];
-        const fw_contour *p = &d->plain[fw_drawing_slot(d, h->lower, j)];
-        const fw_contour *q = &d->plain[fw_drawing_slot(d, h->upper, j)];
+        const fw_contour *p = fw_drawing_outline(d, fw_drawing_slot(d, h->lower, j));
+        const fw_contour *q = fw_drawing_outline(d, fw_drawing_slot(d, h->upper, j));
         h->free_rad = fw_layout_free_rotation(h->centre, p, q, 4.0 * h->keep_out_m);
     }
 }
@@ -82,6 +81,8 @@ static fw_status draw(fw_drawing *d) {
         d->centre = fw_add(d->centre, 1.0 / device->njoint, fw_joint_point(device, j));
     FW_NEED(d->raw = fw_arena_array(d->arena, fw_contour, slots));
     FW_NEED(d->plain = fw_arena_array(d->arena, fw_contour, slots));
+    FW_NEED(d->held = fw_arena_array(d->arena, fw_contour, slots));
+    FW_NEED(d->corner_m = fw_arena_array(d->arena, double, slots));
     FW_TRY(fw_hinges_plan(d));
     for (int b = 0; b < device->nbody; b++) { /* all refusals in one run */
         fw_status status = fw_body_draw(d, b, FW_NONE, NULL, 0);

@@ -119,7 +119,7 @@ fw_status fw_clearance_check(fw_drawing *d) {
         if (d->plain[s].count == 0) continue;
         FW_NEED((all[n].label = fw_body_label(d, body)));
         all[n].body = body;
-        all[n++].contour = &d->plain[s];
+        all[n++].contour = fw_drawing_outline(d, s);
     }
     for (int i = 0; i < d->layout->npiece; i++) {
         const fw_piece *piece = &d->layout->piece[i];

@@ -81,6 +81,10 @@ int fw_drawing_slot(const fw_drawing *d, int body, int joint) {
     return device->nbody + n;
 }
 
+const fw_contour *fw_drawing_outline(const fw_drawing *d, int slot) {
+    return d->held[slot].count > 0 ? &d->held[slot] : &d->plain[slot];
+}
+
 fw_status fw_drawing_add(fw_drawing *d, fw_role role, int body, int joint, const char *label,
                          const fw_contour *contour) {
     fw_piece piece = {role, body, joint, label, *contour};

@@ -19,8 +19,8 @@
 #define FW_CLEARANCE_M   150e-6 /* mechanism to frame */
 #define FW_STUB_M        20e-6 /* of the frame towards the base, so that the cut has square sides */
 #define FW_TETHER_M      20e-6
-#define FW_TETHER_NECK_M 8e-6
-#define FW_TETHER_STUB_M 10e-6
+#define FW_TETHER_NECK_M 8e-6  /* at the body, where it breaks */
+#define FW_TETHER_STUB_M 12e-6 /* of the frame; longer than its rounded corners, as at the base */
 
 /* ---- small vectors ---- */
 static inline fw_vec2 fw_v(double x, double y) {
@@ -130,7 +130,8 @@ typedef struct fw_attachment { /* what meets the frame, from `low` to `high` alo
     int body;
     fw_window_side side;
     double low_m, high_m, stub_m;
-    fw_contour finger; /* of a tether; count 0 for the base */
+    fw_contour finger; /* the way of a tether, from inside the body; count 0 for the base */
+    fw_contour tether; /* from the neck to the frame; count 0 for the base */
 } fw_attachment;
 
 typedef struct fw_drawing {
@@ -145,6 +146,8 @@ typedef struct fw_drawing {
     fw_contour *raw;      /* (nslot) united, not rounded: bodies, then one base for all ground
                              hinges, or one for each when there are more than two */
     fw_contour *plain;    /* (nslot) rounded, without tethers */
+    fw_contour *held;     /* (nslot) rounded, with the stubs that tethers leave; count 0: none */
+    double *corner_m;     /* (nslot) radius of the rounded corners */
     int nslot;
     fw_contour *lug; /* (nlug) of the platforms, for the tethers to avoid */
     int nlug;
@@ -152,11 +155,14 @@ typedef struct fw_drawing {
     int nattachment;
 } fw_drawing;
 
-/* index into raw and plain; the joint tells bases apart */
+/* index into raw, plain and held; the joint tells bases apart */
 int fw_drawing_slot(const fw_drawing *d, int body, int joint);
-const char *fw_body_label(fw_drawing *d, int body); /* NULL: out of memory */
+const fw_contour *fw_drawing_outline(const fw_drawing *d, int slot); /* held, else plain */
+const char *fw_body_label(fw_drawing *d, int body);                  /* NULL: out of memory */
 fw_place fw_body_place(const fw_drawing *d, int body);
 fw_vec2 fw_joint_point(const fw_device *device, int joint);
+/* joints between a body and the ground, 1 for the ground itself */
+int fw_steps_to_ground(const fw_device *device, int body);
 int fw_body_joints(const fw_device *device, int body, int *joint, int most);
 fw_status fw_drawing_add(fw_drawing *d, fw_role role, int body, int joint, const char *label,
                          const fw_contour *contour);
@@ -166,17 +172,16 @@ const char *fw_layout_um(char buffer[32], double metres);
 /* a point `depth` inside the window, at `along` on a side; sides run along +x or +y */
 fw_vec2 fw_window_point(const fw_layout *layout, fw_window_side side, double along, double depth);
 fw_vec2 fw_window_outward(fw_window_side side);
-/* strip from `start` (inside the body) to the stub of the frame, cut off by a JOINT segment;
-   narrows to 2 neck_m over its last part when neck_m < half_m */
+/* strip from `start` (inside the body) to the stub of the frame, cut off by a JOINT segment */
 fw_status fw_strip_draw(fw_drawing *d, fw_window_side side, double low_start, double high_start,
-                        double along, double half_m, double neck_m, double stub_m,
-                        fw_attachment *out);
+                        double along, double half_m, double stub_m, fw_attachment *out);
 fw_status fw_attachment_add(fw_drawing *d, const fw_attachment *item);
 
 fw_status fw_hinges_plan(fw_drawing *d);
 /* joint: the only one of several bases, or FW_NONE */
 fw_status fw_body_draw(fw_drawing *d, int body, int joint, const fw_contour *extra, int nextra);
-fw_status fw_body_round(fw_drawing *d, int body, const fw_contour *in, fw_contour *out);
+fw_status fw_body_round(fw_drawing *d, int body, const fw_contour *in, fw_contour *out,
+                        double *radius_m);
 fw_status fw_body_unite(fw_drawing *d, int body, const fw_contour *part, int npart,
                         fw_contour *out);
 fw_status fw_platform_lugs(fw_drawing *d, int body, fw_contour *lug, int *nlug);

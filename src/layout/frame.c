@@ -39,36 +39,19 @@ fw_status fw_attachment_add(fw_drawing *d, const fw_attachment *item) {
 
 /* low_start, high_start: coordinate across the side where the two edges of the strip begin */
 fw_status fw_strip_draw(fw_drawing *d, fw_window_side side, double low_start, double high_start,
-                        double along, double half_m, double neck_m, double stub_m,
-                        fw_attachment *out) {
-    const fw_layout *l = d->layout;
-    bool up = upright(side);
-    fw_vec2 inward = fw_window_outward(side), p[8];
-    inward = fw_v(-inward.x, -inward.y);
+                        double along, double half_m, double stub_m, fw_attachment *out) {
+    const fw_local world = {{0.0, 0.0}, 1.0, 0.0, false};
     double at = fw_layout_to_grid(along), half = fw_layout_to_grid(half_m);
-    double neck = fw_layout_to_grid(fmin(neck_m, half_m)), widen = half - neck;
+    bool up = upright(side);
     out->side = side;
     out->stub_m = stub_m;
-    out->low_m = at - neck;
-    out->high_m = at + neck;
-    fw_vec2 low = fw_window_point(l, side, out->low_m, stub_m);
-    fw_vec2 high = fw_window_point(l, side, out->high_m, stub_m);
-    int n = 0, joint;
-    p[n++] = up ? fw_v(low_start, at - half) : fw_v(at - half, low_start);
-    if (widen > 0.0) {
-        p[n++] = fw_add(fw_window_point(l, side, at - half, stub_m), stub_m + 2.0 * widen, inward);
-        p[n++] = fw_add(low, stub_m, inward);
-    }
-    joint = n;
-    p[n++] = low;
-    p[n++] = high;
-    if (widen > 0.0) {
-        p[n++] = fw_add(high, stub_m, inward);
-        p[n++] = fw_add(fw_window_point(l, side, at + half, stub_m), stub_m + 2.0 * widen, inward);
-    }
-    p[n++] = up ? fw_v(high_start, at + half) : fw_v(at + half, high_start);
-    const fw_local world = {{0.0, 0.0}, 1.0, 0.0, false};
-    return fw_layout_polygon(d->arena, &world, p, n, joint, &out->finger);
+    out->low_m = at - half;
+    out->high_m = at + half;
+    fw_vec2 p[4] = {up ? fw_v(low_start, out->low_m) : fw_v(out->low_m, low_start),
+                    fw_window_point(d->layout, side, out->low_m, stub_m),
+                    fw_window_point(d->layout, side, out->high_m, stub_m),
+                    up ? fw_v(high_start, out->high_m) : fw_v(out->high_m, high_start)};
+    return fw_layout_polygon(d->arena, &world, p, 4, 1, &out->finger);
 }
 
 /* ---- window ---- */

@@ -91,7 +91,7 @@ static fw_status draw_base(fw_drawing *d, const int *joint, int n, int only) {
         double at = fw_layout_to_grid(along);
         double low = across + slope * (at - half - along),
                high = across + slope * (at + half - along);
-        FW_TRY(fw_strip_draw(d, side, low, high, at, half, half, FW_STUB_M, &a));
+        FW_TRY(fw_strip_draw(d, side, low, high, at, half, FW_STUB_M, &a));
         if (!clear_of_all(d, &a.finger)) continue;
         fw_contour pedestal = a.finger;
         a.finger = (fw_contour){NULL, 0};

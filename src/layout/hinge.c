@@ -246,7 +246,7 @@ static double half_width(const fw_drawing *d, int body) {
 }
 
 /* joints between a body and the ground, so that mirrored hinges get mirrored rings */
-static int steps_to_ground(const fw_device *device, int body) {
+int fw_steps_to_ground(const fw_device *device, int body) {
     enum { MOST = 64 };
     unsigned char level[MOST + 1] = {0}; /* 1 + steps; 0: not reached */
     if (device->nbody > MOST) return body;
@@ -294,8 +294,8 @@ static void choose_sides(fw_drawing *d, int joint, fw_hinge_plan *plan, double *
         side->own_rad = atan2(i == 0 ? -up : up, along);
         if (side->own_rad < -0.5 * M_PI) side->own_rad += 2.0 * M_PI;
     }
-    int low = steps_to_ground(d->device, plan->side[0].body);
-    int high = steps_to_ground(d->device, plan->side[1].body);
+    int low = fw_steps_to_ground(d->device, plan->side[0].body);
+    int high = fw_steps_to_ground(d->device, plan->side[1].body);
     plan->convex = low == high ? plan->side[1].body > plan->side[0].body : high > low;
 }
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tethers: fingers that hold the moving bodies on the frame until they are broken at their necks.
- */
+/* Tethers: fingers of the frame that hold the moving bodies by a neck until it is broken. The body
+   keeps a short stub; everything beyond the neck stays on the frame. */
 #include "layout/draw.h"
+#include "layout/text.h"
 #include <math.h>
 
 static bool finger_is_clear(const fw_drawing *d, const fw_contour *finger, int body) {
@@ -45,16 +46,95 @@ static bool leaves_once(const fw_drawing *d, const fw_attachment *a, fw_vec2 fro
     return fw_contour_contains(body, from);
 }
 
+/* where a line straight outwards leaves the body, as depth in the window: inside at `deep`, outside
+   at the window's edge, once in between */
+static double edge_depth(const fw_drawing *d, const fw_attachment *a, double along, double deep) {
+    double in = deep, out = 0.0;
+    const fw_contour *body = &d->plain[a->body];
+    if (!fw_contour_contains(body, fw_window_point(d->layout, a->side, along, in))) return deep;
+    while (in - out > 1e-9) {
+        double middle = 0.5 * (in + out);
+        if (fw_contour_contains(body, fw_window_point(d->layout, a->side, along, middle)))
+            in = middle;
+        else
+            out = middle;
+    }
+    return in;
+}
+
+/* Depth of the neck's cut. The stub's corners at a body's edge of slope m (against the side) are
+   rounded by r; the farther one ends r sqrt(1 + m2) outside the edge at r from the stub. 2 um more
+   stay straight, so that the cut is square. Exact for a straight edge. test_layout.c
+   tethers_break_at_the_body */
+static double neck_depth(const fw_drawing *d, const fw_attachment *a, double at, double deep) {
+    double r = d->corner_m[a->body], far = 0.5 * FW_TETHER_NECK_M + r;
+    double low = edge_depth(d, a, at - far, deep), high = edge_depth(d, a, at + far, deep);
+    double middle = edge_depth(d, a, at, deep), slope = (high - low) / (2.0 * far);
+    double cut = fmin(middle, fmin(low, high)) - r * hypot(1.0, slope) - 2e-6;
+    return middle - cut < 50e-6 ? fw_layout_to_grid(cut) : -1.0; /* else: no straight edge */
+}
+
+/* the tether's own outline: 4 um of neck, widened to the finger on 12 um, to the frame's stub */
+static fw_status draw_tether(fw_drawing *d, double at, double cut, fw_attachment *a) {
+    const fw_local world = {{0.0, 0.0}, 1.0, 0.0, false};
+    double neck = 0.5 * FW_TETHER_NECK_M, wide = cut - 4e-6 - (FW_TETHER_M - FW_TETHER_NECK_M);
+    double along[8] = {at - neck, at - neck, a->low_m,  a->low_m,
+                       a->high_m, a->high_m, at + neck, at + neck};
+    double depth[8] = {cut, cut - 4e-6, wide, a->stub_m, a->stub_m, wide, cut - 4e-6, cut};
+    fw_sketch sketch = {.local = &world};
+    fw_contour sharp;
+    fw_vec2 where;
+    for (int i = 0; i <= 8; i++) {
+        fw_vec2 p = fw_window_point(d->layout, a->side, along[i % 8], depth[i % 8]);
+        if (i == 0)
+            sketch = fw_sketch_start(d->arena, &world, p);
+        else
+            fw_sketch_line(&sketch, p, i == 4 || i == 8 ? FW_SEGMENT_JOINT : 0);
+    }
+    FW_TRY(fw_sketch_close(&sketch, &sharp));
+    return fw_contour_round(d->arena, &sharp, FW_CORNER_M, FW_CORNER_M, &a->tether, &where);
+}
+
+/* body with one more stub, rounded as without it; not done when the stub does not fit there */
+static fw_status add_stub(fw_drawing *d, int body, double at, double cut, double deep,
+                          fw_window_side side, bool *done) {
+    const fw_local world = {{0.0, 0.0}, 1.0, 0.0, false};
+    double neck = 0.5 * FW_TETHER_NECK_M, r = d->corner_m[body];
+    fw_vec2 p[4] = {fw_window_point(d->layout, side, at - neck, deep),
+                    fw_window_point(d->layout, side, at - neck, cut),
+                    fw_window_point(d->layout, side, at + neck, cut),
+                    fw_window_point(d->layout, side, at + neck, deep)};
+    fw_contour stub, held;
+    fw_region raw = {&d->raw[body], 1}, add = {&stub, 1}, both;
+    fw_vec2 where;
+    *done = false;
+    FW_TRY(fw_layout_polygon(d->arena, &world, p, 4, 1, &stub));
+    fw_status status = fw_region_boolean(d->arena, &raw, &add, FW_UNION, &both);
+    if (status == FW_OK && both.count == 1)
+        status = fw_contour_round(d->arena, &both.contour[0], r, r, &held, &where);
+    if (status == FW_GEOMETRY || (status == FW_OK && both.count != 1)) return FW_OK;
+    FW_TRY(status);
+    d->raw[body] = both.contour[0];
+    d->held[body] = held;
+    *done = true;
+    return FW_OK;
+}
+
 static fw_status try_finger(fw_drawing *d, int body, fw_window_side side, fw_vec2 from,
                             bool *done) {
     fw_attachment a = {.body = body};
     bool up = side == FW_LEFT || side == FW_RIGHT;
     double start = up ? from.x : from.y, along = up ? from.y : from.x;
     *done = false;
-    FW_TRY(fw_strip_draw(d, side, start, start, along, 0.5 * FW_TETHER_M, 0.5 * FW_TETHER_NECK_M,
-                         FW_TETHER_STUB_M, &a));
+    FW_TRY(fw_strip_draw(d, side, start, start, along, 0.5 * FW_TETHER_M, FW_TETHER_STUB_M, &a));
     if (!leaves_once(d, &a, from) || !finger_is_clear(d, &a.finger, body)) return FW_OK;
-    *done = true;
+    fw_vec2 edge = fw_window_point(d->layout, side, along, 0.0);
+    double at = fw_layout_to_grid(along), deep = fw_norm(fw_sub(edge, from));
+    double cut = neck_depth(d, &a, at, deep);
+    if (cut < 50e-6) return FW_OK; /* no length for neck, finger and the frame's stub */
+    FW_TRY(add_stub(d, body, at, cut, deep, side, done));
+    if (!*done) return FW_OK;
+    FW_TRY(draw_tether(d, at, cut, &a));
     return fw_attachment_add(d, &a);
 }
 
@@ -113,26 +193,38 @@ static fw_status hold_bar(fw_drawing *d, int body, int *held) {
     return FW_OK;
 }
 
-/* platforms first. A body that no finger reaches freely stays without; a platform without is worth
-   a warning. */
+/* what a broken tether leaves standing is in nobody's way and everything is held: the platforms,
+   or, without one, the bodies furthest from the ground; the links between hang on their hinges */
+static bool needs_tether(const fw_device *device, int body) {
+    int most = 0;
+    bool plates = false;
+    for (int b = 0; b < device->nbody; b++) {
+        plates = plates || !isnan(device->body[b].plate_width_m);
+        int steps = fw_steps_to_ground(device, b);
+        most = steps > most ? steps : most;
+    }
+    return plates ? !isnan(device->body[body].plate_width_m)
+                  : fw_steps_to_ground(device, body) == most;
+}
+
+/* a body that no finger reaches freely stays without; a platform without is worth a warning */
 fw_status fw_tethers_draw(fw_drawing *d) {
     if (!d->device->die.tethers) return FW_OK;
-    for (int pass = 0; pass < 2; pass++)
-        for (int b = 0; b < d->device->nbody; b++) {
-            bool plate = !isnan(d->device->body[b].plate_width_m);
-            int held = 0;
-            if (plate != (pass == 0)) continue;
-            if (plate)
-                FW_TRY(hold_plate(d, b, &held));
-            else
-                FW_TRY(hold_bar(d, b, &held));
-            if (!plate || held > 0) continue;
-            const char *label = fw_body_label(d, b);
-            FW_NEED(label);
-            fw_diag_warning(d->diags, 127, d->device->body[b].place,
-                            "%s has no tether: none of the window's sides is reached without "
-                            "crossing another part; handle the released device with care",
-                            label);
-        }
+    for (int b = 0; b < d->device->nbody; b++) {
+        bool plate = !isnan(d->device->body[b].plate_width_m);
+        int held = 0;
+        if (!needs_tether(d->device, b)) continue;
+        if (plate)
+            FW_TRY(hold_plate(d, b, &held));
+        else
+            FW_TRY(hold_bar(d, b, &held));
+        if (!plate || held > 0) continue;
+        const char *label = fw_body_label(d, b);
+        FW_NEED(label);
+        fw_diag_warning(d->diags, 127, d->device->body[b].place,
+                        "%s has no tether: none of the window's sides is reached without "
+                        "crossing another part; handle the released device with care",
+                        label);
+    }
     return FW_OK;
 }

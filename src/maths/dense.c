@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "maths/dense.h"
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
 #include <lapacke.h>
 #include <math.h>
 #include <string.h>
@@ -57,28 +59,38 @@ static fw_status least_squares(fw_arena *arena, int n, const double *a, double *
     return info == 0 ? FW_OK : FW_SOLVER;
 }
 
+/* LU with partial pivoting by GSL, which needs no memory of its own; false: exactly singular */
+static bool lu(int n, double *copy, size_t *order, double *x) {
+    size_t m = (size_t)n;
+    int sign;
+    gsl_matrix_view a = gsl_matrix_view_array(copy, m, m);
+    gsl_vector_view right = gsl_vector_view_array(x, m);
+    gsl_permutation permutation = {m, order};
+    gsl_set_error_handler_off(); /* statuses, not aborts */
+    return gsl_linalg_LU_decomp(&a.matrix, &permutation, &sign) == GSL_SUCCESS &&
+           gsl_linalg_LU_svx(&a.matrix, &permutation, &right.vector) == GSL_SUCCESS;
+}
+
 /* a x = b; a (n x n) symmetric, b (n), x (n), any unit that balances the rows. Error: round-off
-   times the condition; a singular consistent system gives the minimum-norm x. Cost n^3/3, and a
-   singular value decomposition when that fails. Source: LAPACK dsysv, dgelsd. Test: test_dense.c.
- */
+   times the condition; a singular consistent system gives the minimum-norm x. Cost 2 n^3/3, and a
+   singular value decomposition when that fails. GSL first: some BLAS wait for ever when memory is
+   short. Source: GSL LU, LAPACK dgelsd. Test: test_dense.c. */
 fw_status fw_dense_solve_symmetric(fw_arena *arena, int n, const double *a, const double *b,
                                    double *x, bool *consistent) {
     size_t m = n > 0 ? (size_t)n : 0;
     *consistent = finite_all(a, m * m) && finite_all(b, m); /* LAPACK may loop on a NaN */
     if (m == 0 || !*consistent) return FW_OK;
-    double *copy, *right, *work;
-    lapack_int *pivot;
+    double *copy, *right;
+    size_t *order;
     fw_mark mark = fw_arena_mark(arena);
     FW_NEED(right = fw_arena_array(arena, double, m));
     FW_NEED(copy = fw_arena_array(arena, double, m *m));
-    FW_NEED(work = fw_arena_array(arena, double, 64 * m));
-    FW_NEED(pivot = fw_arena_array(arena, lapack_int, m));
+    FW_NEED(order = fw_arena_array(arena, size_t, m));
     memcpy(right, b, m * sizeof *b);
     memcpy(copy, a, m * m * sizeof *a);
     memcpy(x, right, m * sizeof *x);
-    int info = LAPACKE_dsysv_work(LAPACK_COL_MAJOR, 'L', n, 1, copy, n, pivot, x, n, work, 64 * n);
     fw_status status = FW_OK;
-    if (info != 0 || !solves(n, a, x, right) || !bounded(n, a, x, right)) {
+    if (!lu(n, copy, order, x) || !solves(n, a, x, right) || !bounded(n, a, x, right)) {
         memcpy(x, right, m * sizeof *x);
         status = least_squares(arena, n, a, x);
         *consistent = status == FW_OK && solves(n, a, x, right);

@@ -91,10 +91,14 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
 }
 
 fw_status fw_plan_compute_flows(fw_plan *plan) {
+    bool drawn = plan->layout && plan->layout->drawn;
     fw_mask_facts facts = facts_of(plan->device, plan->layout);
-    for (int i = 0; i < plan->nflow; i++)
-        if (plan->flow[i].flow)
-            FW_TRY(fw_flow_compute(plan->arena, plan->flow[i].flow, &facts, &plan->diags));
+    for (int i = 0; i < plan->nflow; i++) {
+        fw_plan_flow *pf = &plan->flow[i];
+        if (!pf->flow) continue;
+        facts.device_thickness_m = pf->variant.thickness_m;
+        FW_TRY(fw_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, &plan->diags));
+    }
     return FW_OK;
 }
 

@@ -182,6 +182,9 @@ fw_status fw_plan_load(fw_plan *plan, const char *path) {
     size_t n;
     FW_TRY(fw_input_read(plan->arena, path, MOST_BYTES, &plan->diags, &xml, &n));
     const char *file = strcmp(path, "-") == 0 ? "standard input" : path;
+    plan->source_file = file;
+    plan->source = xml;
+    plan->source_length = n;
     const char *base = strrchr(file, '/');
     FW_TRY(remember_input(plan, base ? base + 1 : file, xml, n));
     FW_TRY(fw_device_read(plan->arena, file, xml, n, plan->options.set, plan->options.nset,

@@ -40,6 +40,8 @@ typedef struct fw_plan {
     fw_arena *arena;
     fw_plan_options options;
     fw_diags diags;
+    const char *source_file, *source; /* the device file as read, for carets */
+    size_t source_length;
     const fw_device *device;
     fw_materials materials;
     fw_plan_flow *flow; /* (nflow) at least one after fw_plan_load */

@@ -53,6 +53,21 @@ static void fixed_parts(const fw_layout *layout, const fw_report_view *view, boo
     fw_text_add(out, "\"/></g>\n");
 }
 
+/* in a path of their own: figures that move leave them out */
+static void tethers(const fw_layout *layout, const fw_report_view *view, fw_text *out) {
+    bool any = false;
+    for (int i = 0; i < layout->npiece; i++) {
+        const fw_piece *p = &layout->piece[i];
+        if (p->role != FW_ROLE_TETHER) continue;
+        if (!any)
+            fw_text_add(out, "<path class=\"tethers\" fill=\"#eceff2\" stroke=\"#b6bec7\" "
+                             "stroke-width=\"0.7\" d=\"");
+        any = true;
+        fw_report_path(out, view, &p->contour);
+    }
+    if (any) fw_text_add(out, "\"/>\n");
+}
+
 static void bodies(const fw_device *device, const fw_layout *layout, const fw_report_view *view,
                    bool ids, fw_text *out) {
     bool drawn = fw_report_drawn(layout);
@@ -156,7 +171,10 @@ static void body_labels(const fw_device *device, const fw_layout *layout,
 
 void fw_report_drawing(const fw_device *device, const fw_layout *layout, const fw_verdict *verdict,
                        const fw_report_view *view, bool ids, fw_text *out) {
-    if (fw_report_drawn(layout)) fixed_parts(layout, view, ids, out);
+    if (fw_report_drawn(layout)) {
+        fixed_parts(layout, view, ids, out);
+        tethers(layout, view, out);
+    }
     bodies(device, layout, view, ids, out);
     hinges(device, layout, verdict, view, out);
     body_labels(device, layout, view, out);

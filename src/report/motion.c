@@ -19,7 +19,7 @@ static void loads(fw_text *out, const fw_device *device, const fw_scene *s) {
                 ". Dashed: as drawn. Blue trace: centre of the platform. The still picture shows "
                 "the worst instant.");
     if (device->die.tethers)
-        fw_text_add(out, " Tethers are drawn with their bodies; they are broken before use.");
+        fw_text_add(out, " Tethers are not drawn here: they are broken at the bodies before use.");
     fw_text_add(out, "</p>\n");
 }
 

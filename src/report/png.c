@@ -47,7 +47,8 @@ static void pieces(cairo_t *c, const fw_device *device, const fw_layout *layout,
     for (int i = 0; i < layout->npiece; i++) {
         const fw_piece *p = &layout->piece[i];
         bool fixed = p->role == FW_ROLE_FRAME || p->body == FW_GROUND;
-        if (p->role != FW_ROLE_FRAME && p->role != FW_ROLE_STRUCTURE && p->role != FW_ROLE_FLEXURE)
+        if (p->role != FW_ROLE_FRAME && p->role != FW_ROLE_STRUCTURE &&
+            p->role != FW_ROLE_FLEXURE && p->role != FW_ROLE_TETHER)
             continue;
         trace(c, view, &p->contour);
         if (p->role == FW_ROLE_FLEXURE) {

@@ -93,6 +93,14 @@ fw_status fw_verdict_advise(fw_arena *arena, const fw_device *device,
                                    "change that; make the links longer or the workspace smaller";
             return FW_OK;
         }
+    for (int i = 0; i < verdict->nvariant; i++)
+        for (int k = 0; k < device->nscene; k++)
+            if (verdict->variant[i].motion[k] && verdict->variant[i].motion[k]->ended) {
+                verdict->advice_note =
+                    "a scene turns a joint by more than a whole turn: no flexure "
+                    "can follow; lower its load";
+                return FW_OK;
+            }
     fw_device *trial = copy_with_flexures(arena, device);
     bool *changed = fw_arena_array(arena, bool, (size_t)device->nflexure + 1);
     FW_NEED(trial);

@@ -140,15 +140,30 @@ static bool in_flow(const char *asked, const char *flow) {
     return !asked || (flow && strcmp(asked, flow) == 0);
 }
 
+/* a hinge that has turned once is past every limit: the rest of the scene is not needed */
+static const double whole_turn = 6.283185307179586;
+
+static void warn_ended(const fw_scene *scene, const fw_motion *motion, fw_diags *diags) {
+    char t[32];
+    fw_diag_warning(diags, 205, scene->place,
+                    "scene %s was ended after %s ms, when a joint had turned by more than a whole "
+                    "turn: the load is far beyond what these hinges can take; lower it",
+                    scene->name, fw_number_text(t, sizeof t, motion->end_s * 1e3, 4));
+}
+
 static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_mechanism *m,
                             const fw_verdict_options *options, fw_diags *diags,
                             fw_variant_verdict *v) {
     size_t n = (size_t)device->nscene;
+    fw_motion_options motion = options->motion;
+    if (motion.most_angle_rad <= 0) motion.most_angle_rad = whole_turn;
     FW_NEED(v->motion = fw_arena_alloc(arena, n, sizeof *v->motion));
-    for (size_t i = 0; i < n; i++)
-        if (in_flow(device->scene[i].flow, m->variant->flow))
-            FW_TRY(
-                fw_simulate(arena, m, &device->scene[i], &options->motion, diags, &v->motion[i]));
+    for (size_t i = 0; i < n; i++) {
+        const fw_scene *scene = &device->scene[i];
+        if (!in_flow(scene->flow, m->variant->flow)) continue;
+        FW_TRY(fw_simulate(arena, m, scene, &motion, diags, &v->motion[i]));
+        if (v->motion[i]->ended) warn_ended(scene, v->motion[i], diags);
+    }
     return FW_OK;
 }
 

@@ -11,13 +11,15 @@ static void printed_in_file_order_with_caret(void **state) {
                      FW_INPUT);
     fw_diag_warning(&diags, 40, (fw_place){"f.xml", 1, 1}, "odd");
     fw_text out = fw_text_new(arena);
-    fw_diags_print(&diags, &out, source, strlen(source), 0);
+    fw_diag_note(&diags, 42, (fw_place){"other.xml", 3, 1}, "elsewhere");
+    fw_diags_print(&diags, &out, "f.xml", source, strlen(source), 0);
     assert_string_equal(out.data, "f.xml:1:1: warning: odd [FW-D040]\n"
                                   "     1 | <a>\n"
                                   "       | ^\n"
                                   "f.xml:2:11: error: wrong x [FW-D041]\n"
                                   "     2 |   <b c=\"\xc3\xa4x\"/>\n"
-                                  "       |          ^\n");
+                                  "       |          ^\n"
+                                  "other.xml:3:1: note: elsewhere [FW-D042]\n");
     assert_int_equal(diags.errors, 1);
     fw_arena_free(arena);
 }

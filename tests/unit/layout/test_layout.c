@@ -29,7 +29,8 @@ static drawn draw_well(const fixture *f) {
 }
 
 static bool is_device(const fw_piece *p) {
-    return p->role == FW_ROLE_STRUCTURE || p->role == FW_ROLE_FLEXURE || p->role == FW_ROLE_FRAME;
+    return p->role == FW_ROLE_STRUCTURE || p->role == FW_ROLE_FLEXURE || p->role == FW_ROLE_FRAME ||
+           p->role == FW_ROLE_TETHER;
 }
 
 static bool same(fw_vec2 p, fw_vec2 q) {
@@ -227,7 +228,7 @@ static void areas_agree_with_counted_points(void **state) {
     const double g = 1.32471795724474602596;
     fixture f;
     fixture_six_bar(&f);
-    f.device.die.tethers = false; /* tethers count in the piece, not in the body */
+    f.device.die.tethers = false; /* stubs count in the piece, not in the body */
     drawn d = draw_well(&f);
     for (int b = 0; b < 5; b++) {
         const fw_contour *c = &find(d.layout, FW_ROLE_STRUCTURE, b, FW_NONE)->contour;
@@ -255,6 +256,13 @@ static void areas_agree_with_counted_points(void **state) {
     fw_arena_free(d.arena);
 }
 
+static int joints(const fw_contour *c) {
+    int n = 0;
+    for (int i = 0; i < c->count; i++)
+        n += (c->segment[i].flags & FW_SEGMENT_JOINT) != 0;
+    return n;
+}
+
 static void tethers_change_no_body(void **state) {
     (void)state;
     fixture with, without;
@@ -265,12 +273,96 @@ static void tethers_change_no_body(void **state) {
     for (int i = 0; i < 5; i++) {
         assert_near(a.layout->body[i].area_m2, b.layout->body[i].area_m2, 0.0);
         assert_near(a.layout->body[i].polar_m4, b.layout->body[i].polar_m4, 0.0);
-        double extra = fw_contour_area(&find(a.layout, FW_ROLE_STRUCTURE, i, FW_NONE)->contour) -
-                       b.layout->body[i].area_m2;
-        assert_true(extra > 20e-6 * 300e-6); /* every body of the reference is held */
+        const fw_contour *p = &find(a.layout, FW_ROLE_STRUCTURE, i, FW_NONE)->contour;
+        const fw_contour *q = &find(b.layout, FW_ROLE_STRUCTURE, i, FW_NONE)->contour;
+        double extra = fw_contour_area(p) - fw_contour_area(q);
+        assert_near(fw_contour_area(q), b.layout->body[i].area_m2, 1e-20);
+        bool platform = i == 2; /* the links hang on their hinges */
+        assert_true(platform ? extra > 100e-12 : extra == 0.0);
+        assert_true(extra < 0.003 * fw_contour_area(q));
+        assert_true(joints(p) == joints(q) + (platform ? 2 : 0));
     }
+    assert_near(a.layout->narrowest_gap_m, b.layout->narrowest_gap_m, 0.0);
+    for (int i = 0; i < b.layout->npiece; i++)
+        assert_true(b.layout->piece[i].role != FW_ROLE_TETHER);
     fw_arena_free(a.arena);
     fw_arena_free(b.arena);
+}
+
+/* one cut with one moving body, exactly a neck wide, one with the frame, exactly a finger wide */
+static void check_tether(const fw_layout *l, int i, const fixture *f) {
+    const fw_piece *t = &l->piece[i];
+    int bodies = 0, frames = 0, sides = 0;
+    for (int k = 0; k < t->contour.count; k++) {
+        const fw_segment *e = &t->contour.segment[k];
+        if (!(e->flags & FW_SEGMENT_JOINT)) continue;
+        int who = -1;
+        assert_int_equal(partners(l, i, k, &who), 1);
+        const fw_piece *p = &l->piece[who];
+        double width = fw_norm(fw_sub(e->a, e->b));
+        assert_true(e->a.x == e->b.x || e->a.y == e->b.y);
+        if (p->role == FW_ROLE_FRAME) {
+            assert_near(width, 20e-6, 1e-15);
+            frames++;
+            continue;
+        }
+        assert_int_equal(p->role, FW_ROLE_STRUCTURE);
+        assert_true(p->body >= 0);
+        assert_non_null(strstr(t->label, f->body[p->body].id));
+        assert_near(width, 8e-6, 1e-15);
+        bodies++;
+        for (int s = 0; s < p->contour.count; s++) { /* straight and square on both sides */
+            const fw_segment *g = &p->contour.segment[s];
+            if (!same(g->b, e->b) && !same(g->a, e->a)) continue;
+            if (g->flags & FW_SEGMENT_JOINT) continue;
+            sides++;
+            assert_int_equal(g->kind, FW_LINE);
+            assert_true(fw_norm(fw_sub(g->a, g->b)) > 1.99e-6);
+            assert_near(fw_dot(fw_sub(g->a, g->b), fw_sub(e->a, e->b)), 0.0, 1e-22);
+        }
+    }
+    assert_int_equal(bodies, 1);
+    assert_int_equal(sides, 2);
+    assert_int_equal(frames, 1);
+    /* nothing narrower than the neck */
+    assert_near(fw_contour_clearance(&t->contour, true, NULL, NULL), 8e-6, 1e-12);
+}
+
+/* gallery device, general four-bar, turned plate; as drawn and under both signs of bias */
+static void tethers_break_at_the_body(void **state) {
+    (void)state;
+    static const int expected[] = {2, 1, 2};
+    for (int which = 0; which < 3; which++) {
+        fixture f;
+        if (which == 0)
+            fixture_six_bar(&f);
+        else if (which == 1)
+            fixture_four_bar(&f);
+        else
+            fixture_paddle(&f);
+        drawn d = draw_well(&f);
+        int n = 0;
+        for (int i = 0; i < d.layout->npiece; i++) {
+            const fw_piece *p = &d.layout->piece[i];
+            fw_contour grown;
+            if (p->role == FW_ROLE_TETHER) {
+                n++;
+                assert_int_equal(p->body, FW_GROUND);
+                check_tether(d.layout, i, &f);
+            }
+            if (!is_device(p)) continue;
+            for (int sign = -1; sign <= 1; sign += 2) {
+                assert_int_equal(
+                    fw_contour_offset(d.arena, &p->contour, sign * 1.1e-6, &grown, NULL, NULL),
+                    FW_OK);
+                if (p->role == FW_ROLE_TETHER)
+                    assert_near(fw_contour_clearance(&grown, true, NULL, NULL),
+                                8e-6 + sign * 2.2e-6, 1e-12);
+            }
+        }
+        assert_int_equal(n, expected[which]);
+        fw_arena_free(d.arena);
+    }
 }
 
 /* turning one body by almost the free rotation about W, either way, leaves the two apart */
@@ -565,6 +657,7 @@ int main(void) {
         cmocka_unit_test(root_fillets_are_tangent),
         cmocka_unit_test(areas_agree_with_counted_points),
         cmocka_unit_test(tethers_change_no_body),
+        cmocka_unit_test(tethers_break_at_the_body),
         cmocka_unit_test(free_rotation_is_free),
         cmocka_unit_test(free_rotation_of_two_sectors),
         cmocka_unit_test(symmetric_device_gives_symmetric_layout),

@@ -47,7 +47,7 @@ static void test_singular(void **state) {
     assert_near(x[1], 2, 1e-12);
     assert_int_equal(fw_dense_solve_symmetric(arena, 2, a, no, x, &consistent), FW_OK);
     assert_false(consistent);
-    for (long n = 1; n <= 8; n++) {
+    for (long n = 1; n <= 7; n++) { /* LU takes three, least squares four */
         fw_arena_fail_at(n, 0);
         fw_status status = fw_dense_solve_symmetric(arena, 2, a, yes, x, &consistent);
         assert_int_equal(status, FW_NOMEM);

@@ -71,7 +71,14 @@ static void copper(void **state) {
     assert_near(f->bias_m, 0.0, 0.0);
     assert_int_equal(f->manufacturable, -1);
     assert_true(reason(f, "adhesion"));
-    assert_int_equal(f->not_computable, 7);
+    /* two spins to 16 um by a typical spin curve; the dose needs the resist's name */
+    for (int i = 0; i < 2; i++) {
+        const fw_time *spin = &step_of(f, i ? "C12" : "C10")->time;
+        assert_true(spin->computable && spin->status >= FW_TYPICAL);
+        assert_near(spin->nominal_s, 60.0, 0.0);
+    }
+    assert_false(step_of(f, "C16")->time.computable);
+    assert_int_equal(f->not_computable, 5);
 }
 
 static void silicon(void **state) {
@@ -98,7 +105,7 @@ static void silicon(void **state) {
     assert_true(
         reason(f, "A >= 0.993 (tapered wall, nominal time), 0.9942 (10 % over-etch), 0.9965"));
     assert_true(reason(f, "reaches 45.81 of 50 um"));
-    assert_int_equal(f->not_computable, 3);
+    assert_int_equal(f->not_computable, 2);
     for (int i = 0; i < f->nstep; i++) { /* a time or names, never neither */
         fw_time *t = &f->step[i].time;
         assert_true(t->computable ? t->nominal_s > 0.0 && t->nmissing == 0 : t->nmissing > 0);
@@ -257,7 +264,7 @@ static void counted(void **state) {
     assert_true(f->unknown >= 10 && f->count[FW_STATED] == 14 && f->count[FW_ASSUMED] > 5);
     assert_true(sum <= f->nquantity);
     assert_int_equal(diags.item[0].number, 176);
-    assert_non_null(strstr(diags.item[0].message, "S03, S07, S09"));
+    assert_non_null(strstr(diags.item[0].message, "S03, S09"));
 }
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)

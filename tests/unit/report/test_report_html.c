@@ -227,6 +227,43 @@ static void png_is_a_png(void **state) {
     fw_arena_free(arena);
 }
 
+/* in the drawing of the device once, in no picture that moves */
+static void tethers_stay_out_of_motion(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fixture *f = fixture_new(arena, 0.12);
+    fw_text still[2], film[2], page[2];
+    fw_contour tether;
+    f->device.die.tethers = true;
+    for (int i = 0; i < 2; i++) {
+        still[i] = fw_text_new(arena);
+        film[i] = fw_text_new(arena);
+        page[i] = fw_text_new(arena);
+        assert_int_equal(drawing(arena, f, &still[i]), FW_OK);
+        assert_int_equal(animation(arena, f, &film[i]), FW_OK);
+        assert_int_equal(html(arena, f, &page[i]), FW_OK);
+        fw_box box = {1.49e-3, 3.05e-3, 1.51e-3, 3.7e-3};
+        assert_int_equal(fw_contour_rectangle(arena, box, &tether), FW_OK);
+        fixture_piece(&f->layout, FW_ROLE_TETHER, FW_GROUND, FW_NONE, "tether", tether);
+    }
+    const char *mark = "<path class=\"tethers\"";
+    assert_string_equal(film[0].data, film[1].data);
+    assert_null(strstr(still[0].data, mark));
+    assert_non_null(strstr(still[1].data, mark));
+    assert_null(strstr(page[0].data, mark));
+    const char *at = strstr(page[1].data, mark);
+    assert_non_null(at);
+    assert_null(strstr(at + 1, mark));
+    const char *end = strstr(at, "/>");
+    assert_non_null(end);
+    size_t before = (size_t)(at - page[1].data), after = strlen(end + 3);
+    assert_memory_equal(page[0].data, page[1].data, before); /* nothing else changed */
+    assert_string_equal(page[0].data + before, end + 3);
+    assert_int_equal(page[0].length, before + after);
+    assert_non_null(strstr(page[1].data, "broken at the bodies before use"));
+    fw_arena_free(arena);
+}
+
 /* every allocation fails in turn, once and ever after: FW_NOMEM or the whole output */
 static void out_of_memory_is_said(void **state) {
     (void)state;
@@ -263,6 +300,7 @@ int main(void) {
         cmocka_unit_test(no_address_outside),
         cmocka_unit_test(same_input_same_bytes),
         cmocka_unit_test(png_is_a_png),
+        cmocka_unit_test(tethers_stay_out_of_motion),
         cmocka_unit_test(out_of_memory_is_said),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,34 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# gallery.sh PROGRAM [--update]: the committed masks, recipes, drawings and verdicts of the gallery are
+# what the program makes today, byte for byte (verdicts: the words and the percentages that it prints).
+set -eu
+program=$1
+update=${2:-}
+cd "$(dirname "$0")/../.."
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+status=0
+keep() { # keep NEW COMMITTED
+    if [ -n "$update" ]; then
+        mkdir -p "$(dirname "$2")"
+        cp "$1" "$2"
+    elif ! cmp -s "$1" "$2"; then
+        echo "$2 is not what the program makes: tests/golden/gallery.sh PROGRAM --update, and look"
+        status=1
+    fi
+}
+for device in docs/gallery/*/device.xml; do
+    name=$(basename "$(dirname "$device")")
+    "$program" plan "$device" -o "$work/$name" >"$work/$name.all" 2>/dev/null || [ $? -eq 1 ]
+    sed '/^results:/d' "$work/$name.all" >"$work/$name.txt"
+    keep "$work/$name.txt" "docs/gallery/$name/verdict.txt"
+    keep "$work/$name/device.svg" "docs/gallery/$name/device.svg"
+    for file in "$work/$name"/masks/*.gds "$work/$name"/masks/*.svg "$work/$name"/masks/*.lyp; do
+        [ -f "$file" ] && keep "$file" "masks/gallery/$name/$(basename "$file")"
+    done
+    for file in "$work/$name"/recipes/*.html "$work/$name"/recipes/*.csv; do
+        [ -f "$file" ] && keep "$file" "recipes/gallery/$name/$(basename "$file")"
+    done
+done
+exit $status
