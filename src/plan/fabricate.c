@@ -31,7 +31,7 @@ static fw_mask_facts facts_of(const fw_device *device, const fw_layout *layout) 
         }
     facts.die_area_m2 = (layout->die.x1 - layout->die.x0) * (layout->die.y1 - layout->die.y0);
     facts.narrowest_slot_m = layout->narrowest_gap_m;
-    facts.narrowest_line_m = INFINITY;
+    facts.narrowest_line_m = (double)INFINITY;
     for (int j = 0; j < device->njoint; j++)
         if (device->joint[j].flexure != FW_NONE)
             facts.narrowest_line_m =

@@ -83,7 +83,7 @@ static double thickness_of(const fw_device *d, const fw_flow_use *use, const fw_
     if (use && !isnan(use->thickness_m)) return use->thickness_m;
     if (!isnan(d->thickness_m)) return d->thickness_m;
     if (flow && flow->thickness && !flow->thickness->unknown) return flow->thickness->value;
-    return NAN;
+    return (double)NAN;
 }
 
 static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_material *own) {

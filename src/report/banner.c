@@ -18,9 +18,16 @@ static void why(fw_text *out, const fw_verdict *v) {
     fw_text_add(out, "<p class=\"why\">");
     if (v->governing >= 0 && v->governing < v->nhinge) {
         const fw_hinge_verdict *h = &v->hinge[v->governing];
-        fw_report_markup(out, "Hinge {s} turns by {d}; {r}{d} is allowed: {p} of its limit. ",
-                         h->id, fabs(h->peak_angle_rad), v->decision == FW_REJECT ? "only " : "",
-                         h->limit_angle_rad, h->utilisation);
+        fw_report_markup(out, "Hinge {s} turns by {d}; {r}{d} is allowed", h->id,
+                         fabs(h->peak_angle_rad), v->decision == FW_REJECT ? "only " : "",
+                         h->limit_angle_rad);
+        if (h->force_share > 0.0) /* rotation alone would be less: say where the rest comes from */
+            fw_report_markup(out,
+                             " when nothing else loads it. With the force that it carries it "
+                             "uses {p} of its limit. ",
+                             h->utilisation);
+        else
+            fw_report_markup(out, ": {p} of its limit. ", h->utilisation);
         fw_text_add(out, closing[v->decision <= FW_REJECT ? v->decision : FW_INCONCLUSIVE]);
     } else
         fw_text_add(out, "No hinge of this device has a limit to be checked.");

@@ -17,6 +17,7 @@ static json_t *hinge(const fw_hinge_verdict *h, bool *failed) {
     fw_json_put(o, "peak_strain", fw_json_real(h->peak_strain), failed);
     fw_json_put(o, "strain_limit", fw_json_real(h->strain_limit), failed);
     fw_json_put(o, "utilisation", fw_json_real(h->utilisation), failed);
+    fw_json_put(o, "force_share", fw_json_real(h->force_share), failed);
     fw_json_put(o, "scene", fw_json_text(h->scene), failed);
     fw_json_put(o, "t_s", fw_json_real(h->t_s), failed);
     fw_json_put(o, "flow", fw_json_text(h->flow), failed);

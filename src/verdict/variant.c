@@ -126,7 +126,7 @@ static void judge_workspace(const fw_mechanism *m, const fw_hinge *hinge,
                               .scene = "workspace",
                               .peak_angle_rad = peak->angle_rad,
                               .angle_error_rad = peak->error_rad,
-                              .t_s = NAN};
+                              .t_s = (double)NAN};
     out->utilisation = angle / c->limit_angle_rad;
     out->peak_strain = out->utilisation * out->strain_limit;
     double numeric = angle > 0.0 ? peak->error_rad / angle : 0.0;

@@ -35,9 +35,8 @@ static void verdict_has_the_keys_of_the_contract(void **state) {
     json_t *hinges = json_object_get(root, "hinges");
     assert_int_equal(json_array_size(hinges), SIX);
     static const char *const keys[] = {
-        "id",          "peak_angle_rad", "angle_error_rad", "limit_angle_rad",
-        "peak_strain", "strain_limit",   "utilisation",     "scene",
-        "t_s"};
+        "id",           "peak_angle_rad", "angle_error_rad", "limit_angle_rad", "peak_strain",
+        "strain_limit", "utilisation",    "force_share",     "scene",           "t_s"};
     keys_in_order(json_array_get(hinges, 0), keys, sizeof keys / sizeof keys[0]);
     for (int j = 0; j < SIX; j++) {
         const json_t *h = json_array_get(hinges, (size_t)j);
