@@ -8,7 +8,10 @@ add_compile_options(-Wall -Wextra -Wconversion -Wshadow -Wstrict-prototypes -Wvl
 add_compile_definitions(_GNU_SOURCE FW_VERSION="${PROJECT_VERSION}"
                         FW_SOURCE_DATA_DIR="${PROJECT_SOURCE_DIR}"
                         FW_INSTALL_DATA_DIR="${CMAKE_INSTALL_PREFIX}/share/flexwright")
-include_directories(${PROJECT_SOURCE_DIR}/src)
+include_directories(${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)
+# the rooms go into the program and into the shared library, which shows only what FW_API marks
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_C_VISIBILITY_PRESET hidden)
 if(FW_SANITIZE)
     add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
     add_link_options(-fsanitize=address,undefined)

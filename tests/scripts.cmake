@@ -16,6 +16,8 @@ function(fw_script_test name)
 endfunction()
 
 fw_script_test(arch.rooms LABEL quick COMMAND ${Python3_EXECUTABLE} tests/arch/rooms.py)
+fw_script_test(library.symbols LABEL quick COMMAND ${Python3_EXECUTABLE} tests/build/symbols.py
+               $<TARGET_FILE:flexwright_library>)
 fw_script_test(cli.program COMMAND ${Python3_EXECUTABLE} tests/cli/test_program.py ${FW_PROGRAM})
 fw_script_test(cli.reproducible COMMAND ${Python3_EXECUTABLE} tests/cli/test_reproducible.py ${FW_PROGRAM})
 fw_script_test(fault.files COMMAND ${Python3_EXECUTABLE} tests/fault/test_faults.py ${FW_PROGRAM})
@@ -31,3 +33,6 @@ target_link_libraries(fault_memory PRIVATE fw_plan)
 fw_script_test(fault.memory COMMAND fault_memory docs/gallery/reference-six-bar/device.xml TIMEOUT 600)
 fw_script_test(golden.gallery COMMAND tests/golden/gallery.sh ${FW_PROGRAM})
 set_tests_properties(accept.masks PROPERTIES SKIP_RETURN_CODE 77)
+if(NOT FW_SANITIZE) # a sanitized library wants a sanitized user
+    fw_script_test(library.consumer COMMAND tests/consumer/run.sh ${PROJECT_BINARY_DIR} ${FW_PROGRAM})
+endif()

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/arena.h"
+#include <stdatomic.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,8 +20,10 @@ struct fw_arena {
     size_t held;             /* bytes asked of malloc */
 };
 
-static long fault_at, allocations;
-static int fault_ever_after;
+/* of the process, so that a test can fail the n-th of any arena; atomic since designs run in
+   parallel */
+static atomic_long fault_at, allocations;
+static atomic_int fault_ever_after;
 
 void fw_arena_fail_at(long n, int ever_after) {
     fault_at = n;
@@ -33,9 +36,10 @@ long fw_arena_count(void) {
 }
 
 static int injected_fault(void) {
-    allocations++;
-    if (fault_at == 0) return 0;
-    return allocations == fault_at || (fault_ever_after && allocations > fault_at);
+    long n = atomic_fetch_add_explicit(&allocations, 1, memory_order_relaxed) + 1;
+    long at = atomic_load_explicit(&fault_at, memory_order_relaxed);
+    if (at == 0) return 0;
+    return n == at || (fault_ever_after && n > at);
 }
 
 fw_arena *fw_arena_new(size_t cap_bytes) {

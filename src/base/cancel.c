@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/cancel.h"
-#include <signal.h>
+#include <stdatomic.h>
 
-static volatile sig_atomic_t requested;
+/* lock-free, hence fit for signal handlers, and for other threads too */
+static atomic_int requested;
+_Static_assert(ATOMIC_INT_LOCK_FREE == 2, "a signal handler may not wait for a lock");
 
 void fw_cancel_request(int signal_number) {
     requested = signal_number;

@@ -4,6 +4,9 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <jansson.h>
+#include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -82,6 +85,95 @@ static fw_status make_parents(fw_arena *arena, const char *path, fw_diags *diags
     return FW_OK;
 }
 
+/* sha256 that the manifest lists for `name`, or NULL */
+static const char *listed(const json_t *manifest, const char *name) {
+    const json_t *outputs = json_object_get(manifest, "outputs"), *entry;
+    size_t i;
+    json_array_foreach(outputs, i, entry) {
+        const char *text = json_string_value(json_object_get(entry, "name"));
+        if (text && strcmp(text, name) == 0)
+            return json_string_value(json_object_get(entry, "sha256"));
+    }
+    return NULL;
+}
+
+static fw_status unchanged(fw_output *o, const json_t *manifest, const char *name) {
+    const char *path = fw_arena_printf(o->arena, "%s/%s", o->path, name);
+    const char *hash = listed(manifest, name);
+    FW_NEED(path);
+    fw_place place = {.file = path};
+    if (!hash) {
+        fw_diag_error(
+            o->diags, 223, place,
+            "was not written by flexwright, and replacing %s would delete it: move it, or "
+            "choose another directory with -o",
+            o->path);
+        return FW_IO;
+    }
+    char *data, now[65];
+    size_t n;
+    fw_mark mark = fw_arena_mark(o->arena);
+    FW_TRY(fw_input_read(o->arena, path, SIZE_MAX / 4, o->diags, &data, &n));
+    fw_sha256(data, n, now);
+    fw_arena_rewind(o->arena, mark);
+    if (strcmp(hash, now) == 0) return FW_OK;
+    fw_diag_error(
+        o->diags, 223, place,
+        "was changed since flexwright wrote it, and replacing %s would lose that: move it, "
+        "or choose another directory with -o",
+        o->path);
+    return FW_IO;
+}
+
+/* every file below the directory is one that the manifest lists, with the content it had */
+static fw_status only_ours(fw_output *o, const json_t *manifest, const char *below) {
+    const char *path = fw_arena_printf(o->arena, "%s/%s", o->path, below);
+    DIR *dir = path ? opendir(path) : NULL;
+    if (!dir) return path ? failed(o->diags, path, "look into the directory") : FW_NOMEM;
+    fw_status status = FW_OK;
+    for (struct dirent *e; status == FW_OK && (e = readdir(dir));) {
+        if (strcmp(e->d_name, ".") == 0 || strcmp(e->d_name, "..") == 0) continue;
+        const char *name = fw_arena_printf(o->arena, "%s%s%s", below, *below ? "/" : "", e->d_name);
+        struct stat info;
+        if (!name)
+            status = FW_NOMEM;
+        else if (fstatat(dirfd(dir), e->d_name, &info, AT_SYMLINK_NOFOLLOW) != 0)
+            status = failed(o->diags, name, "look at the file");
+        else if (S_ISDIR(info.st_mode))
+            status = only_ours(o, manifest, name);
+        else if (strcmp(name, "manifest.json") != 0)
+            status = unchanged(o, manifest, name);
+    }
+    closedir(dir);
+    return status;
+}
+
+/* what is there may be replaced: nothing, an empty directory, or exactly what a manifest lists */
+static fw_status check_target(fw_output *o) {
+    struct stat info;
+    if (lstat(o->path, &info) != 0) return FW_OK;
+    fw_place place = {.file = o->path};
+    if (!S_ISDIR(info.st_mode)) {
+        fw_diag_error(o->diags, 223, place, "%s: choose a directory with -o",
+                      S_ISLNK(info.st_mode) ? "is a symbolic link, which is not followed"
+                                            : "exists and is not a directory");
+        return FW_IO;
+    }
+    if (directory_is_empty(o->path)) return FW_OK;
+    const char *path = fw_arena_printf(o->arena, "%s/manifest.json", o->path);
+    FW_NEED(path);
+    json_t *manifest = json_load_file(path, 0, NULL);
+    if (!manifest) {
+        fw_diag_error(o->diags, 223, place,
+                      "is not empty and was not written by flexwright (no manifest.json in it): "
+                      "choose another directory with -o, or empty it");
+        return FW_IO;
+    }
+    fw_status status = only_ours(o, manifest, "");
+    json_decref(manifest);
+    return status;
+}
+
 fw_status fw_output_open(fw_arena *arena, const char *path, fw_diags *diags, fw_output **output) {
     size_t n = strlen(path);
     while (n > 1 && path[n - 1] == '/')
@@ -90,18 +182,7 @@ fw_status fw_output_open(fw_arena *arena, const char *path, fw_diags *diags, fw_
     FW_NEED(o);
     *o = (fw_output){.arena = arena, .diags = diags, .path = fw_arena_strndup(arena, path, n)};
     FW_NEED(o->path);
-    struct stat info;
-    if (lstat(o->path, &info) == 0) {
-        const char *manifest = fw_arena_printf(arena, "%s/manifest.json", o->path);
-        FW_NEED(manifest);
-        if (!S_ISDIR(info.st_mode) ||
-            (access(manifest, F_OK) != 0 && !directory_is_empty(o->path))) {
-            fw_diag_error(diags, 223, (fw_place){.file = o->path},
-                          "exists, is not empty and was not written by flexwright (no "
-                          "manifest.json in it): choose another directory with -o, or empty it");
-            return FW_IO;
-        }
-    }
+    FW_TRY(check_target(o));
     FW_TRY(make_parents(arena, o->path, diags));
     remove_leftovers(arena, o->path);
     o->build = fw_arena_printf(arena, "%s.tmp-%ld", o->path, (long)getpid());
@@ -277,8 +358,8 @@ fw_status fw_input_read(fw_arena *arena, const char *path, size_t most, fw_diags
 
 const char *fw_data_path(fw_arena *arena, const char *override, const char *name) {
     const char *const root[] = {override, FW_INSTALL_DATA_DIR, FW_SOURCE_DATA_DIR};
-    for (size_t i = 0; i < sizeof root / sizeof root[0]; i++) {
-        if (!root[i] || !root[i][0]) continue;
+    bool given = override && override[0];
+    for (size_t i = given ? 0 : 1; i < (given ? 1 : sizeof root / sizeof root[0]); i++) {
         const char *path = fw_arena_printf(arena, "%s/%s", root[i], name);
         if (path && access(path, R_OK) == 0) return path;
     }

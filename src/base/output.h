@@ -12,8 +12,9 @@ typedef struct fw_output_file {
     const char *sha256; /* 64 hexadecimal digits */
 } fw_output_file;
 
-/* starts a set of files that will become directory `path`. A directory that exists and was not
-   written by this program (no manifest.json in it) is refused unless it is empty. */
+/* starts a set of files that will become directory `path`. A directory that exists is refused
+   unless it is empty or holds exactly the files of its manifest.json, unchanged: a person's notes
+   and filled-in run sheets are never deleted. */
 fw_status fw_output_open(fw_arena *arena, const char *path, fw_diags *diags, fw_output **output);
 /* one file below the directory; makes sub-directories. Errors name the file. */
 fw_status fw_output_write(fw_output *output, const char *name, const void *data, size_t n);
@@ -30,8 +31,8 @@ fw_status fw_output_single(fw_arena *arena, const char *path, const void *data, 
 fw_status fw_input_read(fw_arena *arena, const char *path, size_t most, fw_diags *diags,
                         char **data, size_t *n);
 
-/* where packs and layer tables are: $FLEXWRIGHT_DATA as given by the caller, else the installed
-   directory, else the source tree. Returns a path of `name` below it that exists, or NULL. */
+/* where packs and layer tables are: the caller's directory ($FLEXWRIGHT_DATA) and no other when it
+   is given, else the installed one, else the source tree. A path of `name` that exists, or NULL. */
 const char *fw_data_path(fw_arena *arena, const char *override, const char *name);
 
 #endif

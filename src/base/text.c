@@ -95,6 +95,17 @@ void fw_text_fixed(fw_text *text, double value, int decimals) {
     fw_text_add(text, strcmp(buffer, "-0") == 0 ? "0" : buffer);
 }
 
+void fw_text_real(fw_text *text, const char *conversion, double value) {
+    char buffer[400];
+    int n = snprintf(buffer, sizeof buffer, conversion, value);
+    if (n < 0 || (size_t)n >= sizeof buffer) {
+        text->failed = 1;
+        return;
+    }
+    force_point(buffer);
+    fw_text_add(text, buffer);
+}
+
 void fw_text_escaped(fw_text *text, const char *string) {
     for (const unsigned char *s = (const unsigned char *)string; *s; s++) {
         switch (*s) {

@@ -22,6 +22,8 @@ void fw_text_printf(fw_text *text, const char *format, ...) __attribute__((forma
 void fw_text_number(fw_text *text, double value, int digits);
 /* fixed decimals without trailing zeros (for SVG coordinates and tables) */
 void fw_text_fixed(fw_text *text, double value, int decimals);
+/* one printf conversion of a double ("%8.2f", "%.1e"), with '.' in every locale: aligned tables */
+void fw_text_real(fw_text *text, const char *conversion, double value);
 /* escape & < > " ' for XML and HTML; control characters become spaces */
 void fw_text_escaped(fw_text *text, const char *string);
 fw_status fw_text_end(const fw_text *text); /* FW_OK or FW_NOMEM */

@@ -5,7 +5,7 @@
 
 /* a starter that every command accepts as it is; masses and stiffnesses come from the drawing */
 static const char starter[] =
-    "  <parameter name=\"arc\" value=\"240 deg\" min=\"120 deg\" max=\"300 deg\" doc=\"subtended "
+    "  <parameter name=\"arc\" value=\"240 deg\" min=\"140 deg\" max=\"260 deg\" doc=\"subtended "
     "angle of every hinge arc\"/>\n"
     "  <parameter name=\"t\" value=\"10 um\" min=\"6 um\" max=\"20 um\" doc=\"width of every "
     "flexure\"/>\n"

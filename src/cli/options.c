@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/options.h"
+#include "dynamics/dynamics.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -43,28 +44,24 @@ static const char *take_set(fw_cli_options *o, const char *v) {
     /* flexure[A]/@length=312 um: the first '=' ends the path; ids hold none */
     if (!equals || equals == v)
         return "needs PATH=VALUE, for example arc=\"250 deg\" or \"flexure[A]/@length=312 um\"";
-    if (o->plan.nset == FW_MOST_SETS) return "is given more than 64 times";
+    if (o->nset == FW_MOST_SETS) return "is given more than 64 times";
     char *path = malloc((size_t)(equals - v) + 1); /* lives as long as the program */
     if (!path) return "could not be stored: out of memory";
     memcpy(path, v, (size_t)(equals - v));
     path[equals - v] = '\0';
-    o->set[o->plan.nset++] = (fw_set){path, equals + 1};
+    o->set[o->nset++] = (fw_set){path, equals + 1};
     return NULL;
 }
 
 static const char *take_accuracy(fw_cli_options *o, const char *v) {
-    double *x = &o->plan.verdict.motion.accuracy;
+    double *x = &o->design.accuracy;
     if (!fw_number_parse(v, strlen(v), x) || !(*x >= 1e-12 && *x <= 0.1))
         return "needs a relative error between 1e-12 and 0.1";
     return NULL;
 }
 
 static const char *take_effects(fw_cli_options *o, const char *v) {
-    static const char *const word[] = {"auto", "all", "none"};
-    fw_effect_choice *e = &o->plan.verdict.motion.effects;
-    *e = (fw_effect_choice){FW_EFFECTS_LIST, v};
-    for (int i = 0; i < 3; i++)
-        if (strcmp(v, word[i]) == 0) *e = (fw_effect_choice){(fw_effect_mode)i, NULL};
+    o->design.effects = v;
     return *v ? NULL : "needs auto, all, none or a list of effects";
 }
 
@@ -103,13 +100,13 @@ static const char *take_help(fw_cli_options *o, const char *v) {
 }
 
 static const char *take_flow(fw_cli_options *o, const char *v) {
-    o->plan.flow = v;
+    o->design.flow = v;
     return *v ? NULL : "needs the name of a flow";
 }
 
 static const char *take_force(fw_cli_options *o, const char *v) {
     (void)v;
-    o->plan.force = true;
+    o->design.force = 1;
     return NULL;
 }
 
@@ -119,12 +116,12 @@ static const char *take_tolerance(fw_cli_options *o, const char *v) {
         return "needs nanometres between 1.42 (below, rounding to the 1 nm grid would bend arcs "
                "the "
                "wrong way) and 1000";
-    o->plan.mask_tolerance_m = nm * 1e-9;
+    o->design.mask_tolerance_m = nm * 1e-9;
     return NULL;
 }
 
 static const char *take_scene(fw_cli_options *o, const char *v) {
-    o->plan.scene = v;
+    o->design.scene = v;
     return *v ? NULL : "needs the name of a scene";
 }
 
@@ -137,14 +134,14 @@ static const char *from_table(const char *v, const fw_method_row *row, size_t n)
 static const char *take_method(fw_cli_options *o, const char *v) {
     size_t n;
     const fw_method_row *row = fw_method_table(&n);
-    o->plan.verdict.motion.method = v;
+    o->design.method = v;
     return from_table(v, row, n);
 }
 
 static const char *take_integrator(fw_cli_options *o, const char *v) {
     size_t n;
     const fw_method_row *row = fw_integrator_table(&n);
-    o->plan.verdict.motion.integrator = v;
+    o->design.integrator = v;
     return from_table(v, row, n);
 }
 
@@ -161,7 +158,7 @@ static const char *take_hinge_model(fw_cli_options *o, const char *v) {
 }
 
 static const char *take_rtol(fw_cli_options *o, const char *v) {
-    double *x = &o->plan.verdict.motion.rtol;
+    double *x = &o->design.rtol;
     if (!fw_number_parse(v, strlen(v), x) || !(*x >= 1e-14 && *x <= 1e-2))
         return "needs a relative tolerance between 1e-14 and 1e-2";
     return NULL;
@@ -171,7 +168,7 @@ static const char *take_samples(fw_cli_options *o, const char *v) {
     double n;
     if (!fw_number_parse(v, strlen(v), &n) || n != floor(n) || !(n >= 2 && n <= 1e6))
         return "needs a whole number between 2 and 1000000";
-    o->plan.verdict.motion.samples = (int)n;
+    o->design.samples = (int)n;
     return NULL;
 }
 
@@ -290,7 +287,6 @@ bool fw_cli_parse(const fw_command *command, int argc, char **argv, fw_cli_optio
                      command->name);
         return false;
     }
-    o->plan.set = o->set;
     return true;
 }
 

@@ -2,13 +2,17 @@
 /* The command line, parsed by one table that also feeds --help and the reference page. */
 #ifndef FW_CLI_OPTIONS_H
 #define FW_CLI_OPTIONS_H
-#include "plan/plan.h"
+#include "base/text.h"
+#include "device/device.h"
+#include <flexwright.h>
+#include <stdbool.h>
 
 enum { FW_MOST_SETS = 64 };
 
 typedef struct fw_cli_options {
-    fw_plan_options plan;
+    fw_design_options design;
     fw_set set[FW_MOST_SETS];
+    int nset;
     const char *device; /* "-" = standard input; for explain: the code */
     const char *output; /* -o */
     const char *csv, *animate;

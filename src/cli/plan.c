@@ -2,81 +2,49 @@
 #include "cli/session.h"
 #include <stdio.h>
 
-static fw_status run(fw_plan *plan, fw_cli_options *options, unsigned what, const char *directory) {
+static int run(fw_design *design, const fw_cli_options *options, unsigned what,
+               const char *directory) {
     fw_session_stage(options, "layout, mechanism, motion and verdict");
-    FW_TRY(fw_plan_judge(plan));
+    int status = fw_design_judge(design);
+    if (status != FW_STATUS_OK) return status;
     fw_session_stage(options, "bias, masks and recipes");
-    FW_TRY(fw_plan_fabricate(plan));
+    status = fw_design_fabricate(design);
+    if (status != FW_STATUS_OK) return status;
     fw_session_stage(options, "writing");
-    if (directory) FW_TRY(fw_plan_write(plan, directory, what));
-    return FW_OK;
+    return directory ? fw_design_write(design, directory, what) : FW_STATUS_OK;
 }
 
 /* plan, mask and recipe differ only in what is written and shown */
-static int fabricate(fw_cli_options *options, unsigned what,
-                     fw_status (*json)(fw_plan *plan, fw_text *out)) {
+static int fabricate(fw_cli_options *options, unsigned what, const char *kind, int json) {
     int exit_status;
-    fw_plan *plan = fw_session_open(options, &exit_status);
-    if (!plan) return exit_status;
+    fw_design *design = fw_session_open(options, &exit_status);
+    if (!design) return exit_status;
+    char by_name[4200]; /* a name has at most 4096 bytes */
+    snprintf(by_name, sizeof by_name, "out/%s%s", fw_design_name(design), kind);
+    const char *directory = options->output ? options->output : by_name;
     /* with --json alone nothing is written unless -o asks for it; plan always writes */
-    const char *directory = options->json && !options->output && what != FW_WRITE_ALL
-                                ? NULL
-                                : fw_session_directory(plan, options);
-    fw_status status = run(plan, options, what, directory);
-    if (status == FW_OK && options->json) {
-        fw_text text = fw_text_new(plan->arena);
-        status = json(plan, &text);
-        if (status == FW_OK) status = fw_text_end(&text);
-        if (status == FW_OK) fw_session_print(&text);
-    } else if (status == FW_OK) {
-        fw_session_print_verdict(plan, options);
-        printf("\nresults: %s/\n", directory);
+    if (options->json && !options->output && what != FW_DESIGN_EVERYTHING) directory = NULL;
+    int status = run(design, options, what, directory);
+    if (status == FW_STATUS_OK)
+        status = fw_session_print(design, options, options->json ? json : FW_DOCUMENT_VERDICT_TEXT);
+    if (status == FW_STATUS_OK && !options->json) {
+        if (fw_design_files_written(design) > 0)
+            printf("\nresults: %s/\n", directory);
+        else
+            printf("\nnothing was written: a rejected design gets no masks and no recipes (--force "
+                   "writes them, marked REJECTED)\n");
     }
-    int result = status == FW_OK ? fw_session_result(plan) : 0;
-    return fw_session_close(plan, options, status, result);
+    return fw_session_close(design, options, status, fw_design_decision(design));
 }
 
 int fw_command_plan(fw_cli_options *options) {
-    return fabricate(options, FW_WRITE_ALL, fw_plan_verdict_json);
-}
-
-static fw_status masks_json(fw_plan *plan, fw_text *out) {
-    fw_text_add(out, "{\"schema\":\"flexwright.masks/1\",\"masks\":[");
-    int written = 0;
-    for (int i = 0; i < plan->nflow; i++)
-        if (plan->flow[i].mask) {
-            fw_text_add(out, written++ ? "," : "");
-            FW_TRY(fw_mask_write_certificate(plan->flow[i].mask, plan->flow[i].mask_sha256, out));
-        }
-    fw_text_add(out, "]}\n");
-    return FW_OK;
+    return fabricate(options, FW_DESIGN_EVERYTHING, "", FW_DOCUMENT_VERDICT_JSON);
 }
 
 int fw_command_mask(fw_cli_options *options) {
-    return fabricate(options, FW_WRITE_MASKS, masks_json);
-}
-
-static fw_status recipes_json(fw_plan *plan, fw_text *out) {
-    bool several = plan->nflow > 1;
-    bool given = plan->verdict.decision != FW_REJECT || plan->options.force;
-    if (several) fw_text_add(out, "{\"schema\":\"flexwright.recipes/1\",\"recipes\":[");
-    int written = 0;
-    for (int i = 0; given && i < plan->nflow; i++) {
-        const fw_plan_flow *pf = &plan->flow[i];
-        if (!pf->flow) continue;
-        fw_recipe_header header = {plan->device->name, pf->flow_sha256, pf->mask_sha256, FW_VERSION,
-                                   plan->verdict.decision == FW_REJECT};
-        fw_text_add(out, written++ ? "," : "");
-        FW_TRY(fw_recipe_write_json(pf->flow, &header, out));
-    }
-    if (several)
-        fw_text_add(out, "]}\n");
-    else if (!written)
-        fw_text_add(out, "{\"schema\":\"flexwright.recipe/1\",\"flow\":null,\"steps\":[],"
-                         "\"total_s\":null,\"rejected\":true}\n");
-    return FW_OK;
+    return fabricate(options, FW_DESIGN_MASKS, "-masks", FW_DOCUMENT_MASKS_JSON);
 }
 
 int fw_command_recipe(fw_cli_options *options) {
-    return fabricate(options, FW_WRITE_RECIPES, recipes_json);
+    return fabricate(options, FW_DESIGN_RECIPES, "-recipes", FW_DOCUMENT_RECIPES_JSON);
 }

@@ -121,8 +121,8 @@ int fw_cli_run(int argc, char **argv) {
     }
     const fw_command *command = find_command(name);
     if (!command) return unknown_command(name);
-    fw_cli_options options = {.plan = fw_plan_options_default(), .colour = -1};
-    options.plan.data_directory = getenv("FLEXWRIGHT_DATA");
+    fw_cli_options options = {.design = fw_design_options_default(), .colour = -1};
+    options.design.data_directory = getenv("FLEXWRIGHT_DATA");
     if (!fw_cli_parse(command, argc, argv, &options)) return fw_status_exit(FW_USAGE);
     if (options.help) {
         fw_cli_command_help(command);

@@ -183,6 +183,7 @@ static fw_flexure flexure_of(fw_reader *r, const fw_record *record) {
                     .gap_m = fw_number_or(record, "gap", 0.0),
                     .fillet_m = fw_number_of(record, "fillet"),
                     .length_given = length,
+                    .radius_given = fw_given(record, "radius"),
                     .place = record->element->place,
                     .length_place = fw_place_of(record, length ? "length" : "radius")};
     if (!kind) return f;

@@ -98,6 +98,20 @@ static fw_status read_expression(fw_reader *r, const fw_attribute *a, const fw_d
                                   error);
 }
 
+/* Is a name unknown, while some <parameter> has lost its name? That one is reported, and it may be
+   the one that is used here. */
+static bool may_be_nameless(const fw_reader *r, const fw_attribute *a,
+                            const fw_expression_error *error) {
+    if (error->number != 22 || !r->broken[FW_SPACE_PARAMETER]) return false;
+    char word[65];
+    size_t n = strspn(a->value + error->offset,
+                      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_");
+    if (n == 0 || n >= sizeof word) return false;
+    memcpy(word, a->value + error->offset, n);
+    word[n] = '\0';
+    return !fw_expression_reserved(word);
+}
+
 fw_status fw_attribute_evaluate(fw_reader *r, const fw_attribute *a, const char *what,
                                 const fw_dimension *wanted, fw_dimension *found, double *value,
                                 bool *ok) {
@@ -109,7 +123,7 @@ fw_status fw_attribute_evaluate(fw_reader *r, const fw_attribute *a, const char 
     fw_status status = read_expression(r, a, wanted, found, value, &error);
     if (status == FW_NOMEM) return status;
     *ok = status == FW_OK;
-    if (*ok) return FW_OK;
+    if (*ok || may_be_nameless(r, a, &error)) return FW_OK;
     if (a->place.line == 0)
         fw_diag_error(r->diags, error.number, a->place, "%s=\"%s\": %s", what, a->value,
                       error.message);
@@ -136,10 +150,10 @@ static fw_status read_number(fw_reader *r, const fw_record *record, const fw_att
     FW_TRY(fw_attribute_evaluate(r, cell->given, row->name, &row->dimension, &found, &cell->number,
                                  &cell->ok));
     /* a hair beyond a bound is rounding: "330 deg" must pass */
-    double slack = 1e-12 * (fabs(row->min) + fabs(row->max));
     if (cell->ok && row->ranged &&
-        ((row->open ? cell->number <= row->min : cell->number < row->min - slack) ||
-         cell->number > row->max + slack)) {
+        ((row->open ? cell->number <= row->min
+                    : cell->number < row->min - 1e-12 * fabs(row->min)) ||
+         cell->number > row->max + 1e-12 * fabs(row->max))) {
         cell->ok = false;
         say_range(r, record, row, cell);
     }

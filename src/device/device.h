@@ -35,13 +35,13 @@ typedef enum fw_flexure_kind { FW_FLEXURE_CSFH, FW_FLEXURE_LEAF } fw_flexure_kin
 typedef struct fw_flexure { /* <flexure id kind radius|length angle width gap fillet .../> */
     const char *id;
     fw_flexure_kind kind;
-    double length_m;   /* along the centre line, face to face */
-    double angle_rad;  /* subtended angle 2a (csfh) */
-    double radius_m;   /* of the centre line (csfh) */
-    double width_m;    /* in the plane, t */
-    double gap_m;      /* of the conjugate surfaces; 0 = none */
-    double fillet_m;   /* NaN: chosen by the layout */
-    bool length_given; /* the file gives length (else radius): what advice should name */
+    double length_m;                 /* along the centre line, face to face */
+    double angle_rad;                /* subtended angle 2a (csfh) */
+    double radius_m;                 /* of the centre line (csfh) */
+    double width_m;                  /* in the plane, t */
+    double gap_m;                    /* of the conjugate surfaces; 0 = none */
+    double fillet_m;                 /* NaN: chosen by the layout */
+    bool length_given, radius_given; /* in the file: what advice should name */
     fw_place place, length_place;
 } fw_flexure;
 

@@ -26,6 +26,13 @@ static const char *id_of(const fw_device *d, fw_space space, size_t i) {
     return id ? id : "";
 }
 
+static fw_place place_of(const fw_device *d, fw_space space, size_t i) {
+    return space == FW_SPACE_FLOW      ? d->flow[i].place
+           : space == FW_SPACE_FLEXURE ? d->flexure[i].place
+                                       : d->body[i].place;
+}
+
+/* either end of the reference may be the misspelt one, so the message names both places */
 static void say_dangling(fw_reader *r, const fw_record *record, const fw_attribute_row *row,
                          const fw_attribute *a) {
     const fw_device *d = r->device;
@@ -34,20 +41,24 @@ static void say_dangling(fw_reader *r, const fw_record *record, const fw_attribu
     char label[FW_LABEL], list[200] = "";
     size_t used = 0;
     int least = 3;
+    fw_place there = {0};
     for (size_t i = 0; i < n && !fw_full(r); i++) {
         const char *id = id_of(d, row->space, i);
         int distance = fw_edit_distance(a->value, id, 2);
         if (distance < least && (size_t)distance < strlen(id)) {
             least = distance;
             better = id;
+            there = place_of(d, row->space, i);
         }
         if (used + strlen(id) + 3 < sizeof list)
             used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", i ? " " : "", id);
     }
     fw_label(record, label);
     if (better && strlen(a->value) > 2)
-        fw_diag_error(r->diags, 46, a->place, "%s: there is no %s '%.64s'; did you mean '%s'?",
-                      label, kind, a->value, better);
+        fw_diag_error(r->diags, 46, a->place,
+                      "%s: there is no %s '%.64s'; did you mean '%s', declared at %d:%d? Make the "
+                      "two alike",
+                      label, kind, a->value, better, there.line, there.column);
     else
         fw_diag_error(r->diags, 46, a->place, "%s: there is no %s '%.64s'; declared %s: %s", label,
                       kind, a->value, n == 1 ? "is" : "are", n ? list : "none");

@@ -11,6 +11,7 @@ typedef struct item {
     fw_record *record;
     const fw_attribute *value, *set; /* set: from --set, or NULL */
     state state;
+    bool checked; /* against its bounds */
 } item;
 
 typedef struct work {
@@ -104,10 +105,33 @@ static fw_status evaluate(work *w, int k) {
     return p->state == LOST ? FW_OK : evaluate_one(w, k);
 }
 
+static fw_status check(work *w, int k);
+
+/* those that a value is computed from come first: what goes wrong there is not said again here */
+static fw_status check_needed(work *w, const fw_attribute *a) {
+    const char *const *names;
+    size_t count;
+    FW_TRY(fw_expression_names(w->r->arena, a->value, strlen(a->value), &names, &count));
+    for (size_t i = 0; i < count; i++) {
+        int k = find(w, names[i]);
+        if (k >= 0) FW_TRY(check(w, k));
+    }
+    return FW_OK;
+}
+
+static bool uses_lost(const work *w, const fw_attribute *a) {
+    return a && fw_expression_uses(a->value, strlen(a->value), w->r->lost, w->r->nlost);
+}
+
+/* value and bounds; a parameter outside of its bounds is lost, so that its users keep silent */
 static fw_status read_bounds(work *w, int k) {
     fw_reader *r = w->r;
     item *p = &w->item[k];
     fw_parameter *out = &r->device->parameter[k];
+    if (uses_lost(w, p->set ? p->set : p->value)) {
+        lose(w, k);
+        return FW_OK;
+    }
     double *bound[] = {&out->min, &out->max};
     static const char *const name[] = {"min", "max"};
     bool ok = true;
@@ -127,14 +151,27 @@ static fw_status read_bounds(work *w, int k) {
         fw_diag_error(r->diags, 63, fw_place_of(p->record, "min"),
                       "parameter '%s': min %s is above max %s; exchange them", out->name,
                       fw_in_unit(value, out->min, unit), fw_in_unit(limit, out->max, unit));
-    else if (out->value < out->min || out->value > out->max)
+    else if (out->value < out->min || out->value > out->max) {
+        lose(w, k);
         fw_diag_error(r->diags, 57, place,
                       "parameter '%s' is %s; its declaration allows %s %s; change the value or the "
                       "declaration",
                       out->name, fw_in_unit(value, out->value, unit),
                       out->value < out->min ? "at least" : "at most",
                       fw_in_unit(limit, out->value < out->min ? out->min : out->max, unit));
+    }
     return FW_OK;
+}
+
+static fw_status check(work *w, int k) {
+    item *p = &w->item[k];
+    fw_parameter *out = &w->r->device->parameter[k];
+    if (p->state != DONE || p->checked) return FW_OK;
+    p->checked = true;
+    FW_TRY(fw_expression_unit(w->r->arena, p->value->value, strlen(p->value->value), out->dimension,
+                              &out->unit));
+    FW_TRY(check_needed(w, p->set ? p->set : p->value));
+    return read_bounds(w, k);
 }
 
 static fw_status prepare(work *w) {
@@ -170,12 +207,7 @@ fw_status fw_parameters_read(fw_reader *r) {
     FW_TRY(prepare(&w));
     for (int i = 0; i < w.n; i++)
         FW_TRY(evaluate(&w, i));
-    for (int i = 0; i < w.n; i++) {
-        if (w.item[i].state != DONE) continue;
-        fw_parameter *p = &r->device->parameter[i];
-        FW_TRY(fw_expression_unit(r->arena, w.item[i].value->value, strlen(w.item[i].value->value),
-                                  p->dimension, &p->unit));
-        FW_TRY(read_bounds(&w, i));
-    }
+    for (int i = 0; i < w.n; i++)
+        FW_TRY(check(&w, i));
     return r->diags->failed ? FW_NOMEM : FW_OK;
 }

@@ -84,11 +84,7 @@ static void read_unit(const fw_element *e, fw_diags *diags, fw_quantity *q, fw_u
         q->dimension = unit->dimension;
         return;
     }
-    char word[32] = "";
-    if (wrong_n < sizeof word) memcpy(word, wrong, wrong_n);
-    size_t count;
-    const char *const *names = fw_unit_names(&count);
-    const char *better = fw_did_you_mean(word, names, count);
+    const char *better = fw_unit_suggestion(wrong, wrong_n, NULL);
     fw_diag_error(diags, 21, fw_xml_inside(a, (size_t)(wrong - a->value)),
                   "unknown unit '%.*s' in \"%s\"%s%s%s", (int)wrong_n, wrong, a->value,
                   better ? "; did you mean '" : "", better ? better : "",

@@ -4,18 +4,21 @@
 #include "device/table.h"
 #include <string.h>
 
-static const fw_place nowhere = {"--set", 0, 0};
+typedef struct edit { /* one --set */
+    const char *path, *value;
+    fw_place place; /* "--set PATH": messages say which of several is meant */
+} edit;
 
-static fw_attribute value_of(const fw_set *set, const char *name) {
+static fw_attribute value_of(const edit *set, const char *name) {
     return (fw_attribute){
-        .name = name, .value = set->value, .place = nowhere, .name_place = nowhere};
+        .name = name, .value = set->value, .place = set->place, .name_place = set->place};
 }
 
-static void unknown_path(fw_reader *r, const fw_set *set, const char *what, const char *word,
+static void unknown_path(fw_reader *r, const edit *set, const char *what, const char *word,
                          const char *const *names, size_t n) {
     const char *better = word && n ? fw_did_you_mean(word, names, n) : NULL;
-    fw_diag_error(r->diags, 55, nowhere, "%.100s: %s%s%s%s", set->path, what,
-                  better ? "; did you mean '" : "", better ? better : "",
+    fw_diag_error(r->diags, 55, set->place, "%s%s%s%s", what, better ? "; did you mean '" : "",
+                  better ? better : "",
                   better ? "'?"
                          : "; a path is a parameter's name or ELEMENT[ID]/@ATTRIBUTE, for example "
                            "flexure[A]/@length");
@@ -37,7 +40,7 @@ static size_t collect(fw_element *e, const char *element, const char *key, fw_el
 
 enum { MOST = 4096 };
 
-static fw_status set_parameter(fw_reader *r, const fw_set *set) {
+static fw_status set_parameter(fw_reader *r, const edit *set) {
     fw_element **found = fw_arena_array(r->arena, fw_element *, MOST);
     const char **names = fw_arena_array(r->arena, const char *, MOST);
     FW_NEED(found && names);
@@ -50,11 +53,13 @@ static fw_status set_parameter(fw_reader *r, const fw_set *set) {
         r->override_[r->noverride++] = (fw_override){found[i], a};
         return FW_OK;
     }
+    for (size_t i = 0; i < n; i++) /* a nameless one is reported; it may be the one meant */
+        if (names[i][0] == '\0') return FW_OK;
     unknown_path(r, set, "no parameter has this name", set->path, names, n);
     return FW_OK;
 }
 
-static fw_status replace(fw_reader *r, const fw_set *set, fw_element *e, const fw_element_row *row,
+static fw_status replace(fw_reader *r, const edit *set, fw_element *e, const fw_element_row *row,
                          const char *attribute) {
     const char *names[16];
     size_t n = 0;
@@ -100,7 +105,7 @@ static fw_status split(fw_arena *arena, const char *text, path *p, bool *ok) {
     return FW_OK;
 }
 
-static fw_status set_attribute(fw_reader *r, const fw_set *set) {
+static fw_status set_attribute(fw_reader *r, const edit *set) {
     path p;
     bool ok;
     FW_TRY(split(r->arena, set->path, &p, &ok));
@@ -138,9 +143,11 @@ static fw_status set_attribute(fw_reader *r, const fw_set *set) {
 fw_status fw_sets_apply(fw_reader *r, const fw_set *set, int nset) {
     FW_NEED(r->override_ = fw_arena_array(r->arena, fw_override, (size_t)(nset > 0 ? nset : 0)));
     for (int i = 0; i < nset; i++) {
-        fw_set copy = {fw_arena_strdup(r->arena, set[i].path ? set[i].path : ""),
-                       fw_arena_strdup(r->arena, set[i].value ? set[i].value : "")};
-        FW_NEED(copy.path && copy.value);
+        edit copy = {
+            fw_arena_strdup(r->arena, set[i].path ? set[i].path : ""),
+            fw_arena_strdup(r->arena, set[i].value ? set[i].value : ""),
+            {fw_arena_printf(r->arena, "--set %.100s", set[i].path ? set[i].path : ""), 0, 0}};
+        FW_NEED(copy.path && copy.value && copy.place.file);
         if (strpbrk(copy.path, "[]/@"))
             FW_TRY(set_attribute(r, &copy));
         else

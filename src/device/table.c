@@ -29,9 +29,15 @@
 #define ABOVE(low, high, why) RANGE(low, high, why), .open = true
 #define WAFER                 "wafers are at most 300 mm wide"
 #define POSITION              D_LENGTH, .unit = "mm", RANGE(-0.3, 0.3, WAFER)
-#define SIZE                  D_LENGTH, .unit = "um", ABOVE(0, 0.3, WAFER)
-#define GAP                   D_LENGTH, .unit = "um", RANGE(0, 0.3, WAFER)
-#define TURN                  D_ANGLE, .unit = "deg", RANGE(-2 * PI, 2 * PI, "one full turn")
+#define SIZE                                                                                       \
+    D_LENGTH, .unit = "um",                                                                        \
+              RANGE(1e-6, 0.3, "contact lithography prints nothing below 1 um, and " WAFER)
+#define THIN                                                                                       \
+    D_LENGTH,                                                                                      \
+        .unit = "um",                                                                              \
+        RANGE(1e-7, 0.3, "the data of materials do not hold for strips below 0.1 um, and " WAFER)
+#define GAP  D_LENGTH, .unit = "um", RANGE(0, 0.3, WAFER)
+#define TURN D_ANGLE, .unit = "deg", RANGE(-2 * PI, 2 * PI, "one full turn")
 #define NOT_NEGATIVE                                                                               \
     RANGE(0, 1e6,                                                                                  \
           "a negative one would feed energy in, and 1e6 in SI units is beyond anything small")
@@ -40,7 +46,11 @@
 #define SOME_INERTIA                                                                               \
     ABOVE(0, 1, "without inertia the equations of motion are singular; 1 kg m^2 is not small")
 #define THICKNESS                                                                                  \
-    D_LENGTH, .unit = "um", ABOVE(0, 2e-3, "wafers and plated films are at most 2 mm thick")
+    D_LENGTH, .unit = "um",                                                                        \
+              RANGE(1e-7, 2e-3,                                                                    \
+                    "the data of materials do not hold for films below 0.1 um; wafers and plated " \
+                    "films are at most "                                                           \
+                    "2 mm thick")
 #define REQUIRED .required = true
 #define ID       .kind = FW_KIND_ID
 #define TEXT     .kind = FW_KIND_TEXT
@@ -71,13 +81,17 @@ static const fw_attribute_row parameter_rows[] = {
 };
 static const fw_attribute_row material_rows[] = {
     {"ref", ID, REQUIRED, .sentence = "Id of a material in processes/base.xml."},
-    {"youngs-modulus", D_PRESSURE, ABOVE(0, 2e12, "no material is stiffer than 2 TPa"),
+    {"youngs-modulus", D_PRESSURE,
+     RANGE(1e6, 2e12, "below 1 MPa are gels and foams; no material is stiffer than 2 TPa"),
      .fallback = "the material's", .sentence = "Young's modulus for bending in the wafer plane."},
     {"poisson", D_PURE, ABOVE(-1, 0.5, "elastic stability of an isotropic body"),
      .fallback = "the material's", .sentence = "Poisson's ratio."},
-    {"density", D_DENSITY, ABOVE(0, 3e4, "no material is denser than 30000 kg/m3"),
+    {"density", D_DENSITY,
+     RANGE(1, 3e4, "no solid to build of is lighter than 1 kg/m3 or denser than 30000 kg/m3"),
      .fallback = "the material's", .sentence = "Density."},
-    {"strength", D_PRESSURE, ABOVE(0, 2e11, "no material is stronger than 200 GPa"),
+    {"strength", D_PRESSURE,
+     RANGE(1e3, 2e11,
+           "what is weaker than 1 kPa cannot be handled; no material is stronger than 200 GPa"),
      .fallback = "the material's", .sentence = "Stress that the safety factor divides."},
     {"thickness", THICKNESS, .fallback = "the flow's",
      .sentence = "Thickness of the device layer."},
@@ -103,7 +117,7 @@ static const fw_attribute_row flexure_rows[] = {
     {"angle", D_ANGLE, .unit = "deg",
      ABOVE(0, 330 * PI / 180, "beyond 330 deg the ends of the arc meet"),
      .sentence = "Subtended by the arc (csfh only)."},
-    {"width", SIZE, REQUIRED, .sentence = "Of the thin part, in the wafer plane."},
+    {"width", THIN, REQUIRED, .sentence = "Of the thin part, in the wafer plane."},
     {"gap", GAP, .fallback = "0 um", .sentence = "Of the conjugate surfaces; 0: none."},
     {"fillet", GAP, .fallback = "chosen by the layout", .sentence = "Radius at the roots."},
 };
@@ -201,7 +215,8 @@ static const fw_attribute_row spring_rows[] = {
 static const fw_attribute_row scene_rows[] = {
     {"name", ID, REQUIRED, .sentence = "Name of the scene."},
     {"duration", D_TIME, REQUIRED,
-     ABOVE(0, 1000, "motion needs some time, and 1000 s is the limit"),
+     RANGE(1e-9, 1000,
+           "nothing of this size moves within 1 ns, and no motion here takes longer than 1000 s"),
      .sentence = "How long the motion is followed."},
     {"flow", REF(FW_SPACE_FLOW), .fallback = "all flows", .sentence = "Only in this flow."},
 };

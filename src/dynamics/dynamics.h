@@ -10,6 +10,17 @@
 #include "effects/effects.h"
 #include "mechanism/mechanism.h"
 
+typedef struct fw_instant { /* the mechanism at one time, on the dense output */
+    double t_s;
+    const double *q;          /* (3 nbody) m, rad */
+    const double *angle_rad;  /* (npin) */
+    const double *reaction_N; /* (2 npin) on body b, world axes */
+} fw_instant;
+/* called FW_INSTANTS times in every step, in order of time, whatever the number of samples; with
+   NULL when the run starts (over, with a tighter tolerance) */
+typedef void (*fw_observer)(void *context, const fw_instant *instant);
+enum { FW_INSTANTS = 12 };
+
 typedef struct fw_motion_options {
     const char *method;     /* "chain" (default, NULL) */
     const char *integrator; /* "auto" (NULL), "dop853" */
@@ -17,8 +28,10 @@ typedef struct fw_motion_options {
     double accuracy;        /* relative error wanted on the peak hinge deflection; default 1e-3 */
     int samples; /* rows of `sample`, evenly over the scene, first at 0, last at the end */
     fw_effect_choice effects;
-    double most_angle_rad;  /* ends the run when a joint has turned further: the verdict needs no more;
-                               0: never */
+    double most_angle_rad; /* ends the run when a joint has turned further: the verdict needs no
+                              more; 0: never */
+    fw_observer observe;   /* NULL: nobody looks */
+    void *context;
 } fw_motion_options;
 
 typedef struct fw_peak { /* per pin: extreme of |phi_b - phi_a - free angle| over the scene */
@@ -49,8 +62,8 @@ typedef struct fw_motion {
     fw_peak *peak;      /* (npin) */
     fw_motion_stats stats;
     fw_effect_ledger ledger;
-    bool ended;         /* by most_angle_rad, before the scene's end */
-    double end_s;       /* the scene's duration, or where it was ended */
+    bool ended;                      /* by most_angle_rad, before the scene's end */
+    double end_s;                    /* the scene's duration, or where it was ended */
     const char *integrator, *method; /* used, and why: `reason` */
     const char *reason;
 } fw_motion;

@@ -24,8 +24,11 @@ typedef struct run {
     double amplitude; /* scaled size of the motion: the absolute tolerance is rtol times this */
     fw_energy first;
     double drift, largest;
-    double most_angle; /* rad; HUGE_VAL: no end before the end */
-    long steps;        /* over all tries */
+    fw_observer observe;
+    void *context;
+    double *seen_q, *seen_angle, *seen_force; /* what the observer is shown, SI */
+    double most_angle;                        /* rad; HUGE_VAL: no end before the end */
+    long steps;                               /* over all tries */
 } run;
 
 static double cpu_seconds(void) {
@@ -101,37 +104,58 @@ static fw_status prepare(run *r, const fw_terms *terms) {
 
 /* ---- samples ---- */
 
+/* state y in SI: pose and joint angles */
+static void pose_in_SI(const run *r, const double *y, double *q, double *angle) {
+    const fw_model *m = r->model;
+    for (int i = 0; i < m->nq; i++)
+        q[i] = r->q0[i] + (i % 3 == 2 ? 1 : m->scale.length_m) * y[i];
+    for (int i = 0; i < r->mechanism->npin; i++) {
+        const fw_pin *p = &r->mechanism->pin[i];
+        angle[i] = (p->body_b == FW_GROUND ? 0 : q[3 * p->body_b + 2]) -
+                   (p->body_a == FW_GROUND ? 0 : q[3 * p->body_a + 2]) - p->free_angle_rad;
+    }
+}
+
 static void store_sample(run *r, int row, double t, const double *y) {
     fw_motion *out = r->motion;
     const fw_model *m = r->model;
     const fw_scale s = m->scale;
     size_t base = (size_t)row * (size_t)m->nq;
     out->t_s[row] = t;
-    for (int i = 0; i < m->nq; i++) {
-        double unit = i % 3 == 2 ? 1 : s.length_m;
-        out->q[base + (size_t)i] = r->q0[i] + unit * y[i];
-        out->v[base + (size_t)i] = unit / s.time_s * y[m->nq + i];
-    }
-    for (int i = 0; i < r->mechanism->npin; i++) {
-        const fw_pin *p = &r->mechanism->pin[i];
-        const double *q = out->q + base;
-        out->angle_rad[(size_t)row * (size_t)out->npin + (size_t)i] =
-            (p->body_b == FW_GROUND ? 0 : q[3 * p->body_b + 2]) -
-            (p->body_a == FW_GROUND ? 0 : q[3 * p->body_a + 2]) - p->free_angle_rad;
-    }
+    pose_in_SI(r, y, out->q + base, out->angle_rad + (size_t)row * (size_t)out->npin);
+    for (int i = 0; i < m->nq; i++)
+        out->v[base + (size_t)i] = (i % 3 == 2 ? 1 : s.length_m) / s.time_s * y[m->nq + i];
 }
 
 /* force of every pin on its body b, world axes: the multipliers of the accelerations at this state
  */
-static void store_reactions(run *r, int row, const double *y) {
+static void reactions(run *r, const double *y, double *out) {
     fw_model *m = r->model;
     const fw_scale s = m->scale;
     double newton = s.mass_kg * s.length_m / (s.time_s * s.time_s);
     fw_model_rhs(m, 0, y, r->rate);
-    double *out = r->motion->reaction_N + (size_t)row * 2 * (size_t)m->npin;
     for (int i = 0; i < m->npin; i++)
         for (int k = 0; k < 2; k++)
             out[2 * m->pin[i] + k] = newton * m->lambda[2 * i + k];
+}
+
+static void store_reactions(run *r, int row, const double *y) {
+    reactions(r, y, r->motion->reaction_N + (size_t)row * 2 * (size_t)r->model->npin);
+}
+
+/* shows the observer the step just made, and the start of the first one */
+static void show_step(run *r, fw_dop853 *s) {
+    if (!r->observe) return;
+    fw_dop853_dense_prepare(s);
+    for (int i = s->t_old > 0 ? 1 : 0; i <= FW_INSTANTS; i++) {
+        double theta = (double)i / FW_INSTANTS;
+        fw_dop853_dense(s, theta, r->state);
+        pose_in_SI(r, r->state, r->seen_q, r->seen_angle);
+        reactions(r, r->state, r->seen_force);
+        const fw_instant now = {(s->t_old + theta * s->h) * r->model->scale.time_s, r->seen_q,
+                                r->seen_angle, r->seen_force};
+        r->observe(r->context, &now);
+    }
 }
 
 static double sample_time(const run *r, int row) {
@@ -211,10 +235,18 @@ static bool turned_too_far(const run *r, const fw_peaks *peaks) {
     return false;
 }
 
-static fw_status too_long(const run *r) {
-    fw_status status = fw_diag_error(r->diags, 108, r->scene->place,
-                                     "scene %s needs more than 2 million steps; shorten it",
-                                     r->scene->name ? r->scene->name : "(unnamed)");
+/* the step says which of the two it is: a few per period of the motion, or tiny ones */
+static fw_status too_long(const run *r, const fw_dop853 *s) {
+    char step[32], at[32];
+    double unit = r->model->scale.time_s;
+    fw_status status =
+        fw_diag_error(r->diags, 108, r->scene->place,
+                      "scene %s needs more than 2 million steps (they are %s s, and %s s are "
+                      "reached): shorten it, or "
+                      "look for a stiffness or damping that is extreme against the masses",
+                      r->scene->name ? r->scene->name : "(unnamed)",
+                      fw_number_text(step, sizeof step, s->h * unit, 2),
+                      fw_number_text(at, sizeof at, s->t * unit, 3));
     return status == FW_NOMEM ? FW_NOMEM : FW_LIMIT;
 }
 
@@ -222,6 +254,7 @@ static fw_status too_long(const run *r) {
 static fw_status integrate(run *r, fw_dop853 *s, fw_peaks *peaks, bool full) {
     fw_model *m = r->model;
     int row = 0;
+    if (full && r->observe) r->observe(r->context, NULL);
     m->projections = 0;
     m->worst_position = m->worst_velocity = 0;
     fw_dop853_start(s, 0, r->start, r->scene->duration_s / m->scale.time_s);
@@ -243,9 +276,10 @@ static fw_status integrate(run *r, fw_dop853 *s, fw_peaks *peaks, bool full) {
         fw_peaks_step(peaks, m, s);
         if (full) {
             watch_energy(r, s->y);
+            show_step(r, s);
             if (!take_samples(r, s, &row)) return stopped(r, s, FW_ODE_SMALL);
         }
-        if (++r->steps > fw_most_steps) return too_long(r);
+        if (++r->steps > fw_most_steps) return too_long(r, s);
         if (turned_too_far(r, peaks)) break;
     }
     if (full) {
@@ -368,6 +402,11 @@ fw_status fw_simulate(fw_arena *arena, const fw_mechanism *mechanism, const fw_s
     FW_NEED(r.start = fw_arena_array(arena, double, (size_t)r.model->ny));
     FW_NEED(r.state = fw_arena_array(arena, double, (size_t)r.model->ny));
     FW_NEED(r.rate = fw_arena_array(arena, double, (size_t)r.model->ny));
+    r.observe = options->observe;
+    r.context = options->context;
+    FW_NEED(r.seen_q = fw_arena_array(arena, double, n));
+    FW_NEED(r.seen_angle = fw_arena_array(arena, double, (size_t)mechanism->npin));
+    FW_NEED(r.seen_force = fw_arena_array(arena, double, 2 * (size_t)mechanism->npin));
     r.most_angle = options->most_angle_rad > 0 ? options->most_angle_rad : HUGE_VAL;
     FW_TRY(prepare(&r, &terms));
     FW_TRY(motion_size(&r, &terms));

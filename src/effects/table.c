@@ -78,13 +78,17 @@ static fw_status decide(const fw_effect_case *c, const fw_effect_row *row,
         entry->reason = "called for, and all effects were asked for";
         return FW_OK;
     case FW_EFFECTS_NONE:
-        entry->reason = "called for, but no effect was asked for";
-        return FW_OK;
     case FW_EFFECTS_LIST:
     default:
-        entry->active = listed(choice->list, row->id);
-        entry->reason = entry->active ? "called for, and in the list asked for"
-                                      : "called for, but not in the list";
+        /* loads and stiffness are the motion itself: without them there would be nothing to judge
+         */
+        entry->active = isinf(entry->bound) ||
+                        (choice->mode == FW_EFFECTS_LIST && listed(choice->list, row->id));
+        entry->reason = isinf(entry->bound) ? how
+                        : entry->active     ? "called for, and in the list asked for"
+                        : choice->mode == FW_EFFECTS_NONE
+                            ? "called for, but no effect was asked for"
+                            : "called for, but not in the list";
         return FW_OK;
     }
 }

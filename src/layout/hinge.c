@@ -370,6 +370,22 @@ static fw_status refuse(fw_drawing *d, int joint, int number, const char *what) 
     return FW_GEOMETRY;
 }
 
+/* a fillet of the file that does not fit is drawn as large as it fits; once per flexure */
+static void say_smaller_fillet(fw_drawing *d, int joint, double drawn_m) {
+    const fw_joint *j = &d->device->joint[joint];
+    const fw_flexure *f = &d->device->flexure[j->flexure];
+    char wanted[32], used[32];
+    if (isnan(f->fillet_m) || !(drawn_m < 0.99 * f->fillet_m)) return;
+    for (int i = 0; i < joint; i++)
+        if (d->device->joint[i].flexure == j->flexure) return;
+    fw_diag_warning(
+        d->diags, 129, f->place,
+        "flexure %s: fillet is %s um in the file, but the root has room for %s um only, "
+        "which is drawn and used for stiffness and strain; write %s um or less, or make "
+        "the flexure longer",
+        f->id ? f->id : "", fw_layout_um(wanted, f->fillet_m), fw_layout_um(used, drawn_m), used);
+}
+
 static fw_status plan_hinge(fw_drawing *d, int joint) {
     const fw_joint *j = &d->device->joint[joint];
     const fw_flexure *f = &d->device->flexure[j->flexure];
@@ -384,6 +400,7 @@ static fw_status plan_hinge(fw_drawing *d, int joint) {
         return refuse(d, joint, 121,
                       "no room for two root blocks 8 um apart and their fillets; lengthen the "
                       "flexure, or make it thinner or its angle smaller");
+    say_smaller_fillet(d, joint, plan->shape.fillet_m);
     choose_sides(d, joint, plan, &axis);
     choose_rings(plan, f->gap_m);
     double facing = choose_ring_ends(plan, f->gap_m);

@@ -8,7 +8,7 @@ static const double MARGIN_M = 10e-6;      /* to the window and to the lane */
 static const double LEAST_STROKE_M = 5e-6; /* 4 um rule of contact lithography, and a reserve */
 static const double LARGEST_STROKE_M = 12e-6;
 static const double DEFAULT_LANE_M = 100e-6;
-enum { MOST_LINES = 2 };
+enum { MOST_LINES = 2, HIGH = 9, APART = 4 }; /* strokes: a line of text, and between two */
 
 typedef struct sheet { /* where marks and text go */
     fw_arena *arena;
@@ -126,12 +126,12 @@ static fw_status add_lane(const sheet *s) {
 
 /* ---- text ---- */
 static double width_of(const char *string, double stroke) {
-    return fw_layout_text_width(string, 7 * stroke, stroke);
+    return fw_layout_text_width(string, HIGH * stroke, stroke);
 }
 
 static fw_status add_text(const sheet *s, const char *string, double x, double y, double stroke,
                           const char *label) {
-    return fw_layout_text(s->arena, string, (fw_vec2){x, y}, 7 * stroke, stroke, FW_ROLE_TEXT,
+    return fw_layout_text(s->arena, string, (fw_vec2){x, y}, HIGH * stroke, stroke, FW_ROLE_TEXT,
                           label, s->piece, s->npiece, s->capacity);
 }
 
@@ -142,17 +142,17 @@ static fw_status add_title(const sheet *s, const char *title) {
     const char *version = "FLEXWRIGHT " FW_VERSION;
     double stroke = LARGEST_STROKE_M;
     while (stroke > LEAST_STROKE_M &&
-           (7 * stroke > band ||
+           (HIGH * stroke > band ||
             width_of(title, stroke) + width_of(version, stroke) + 12 * stroke > length))
         stroke -= UM;
-    if (7 * stroke > band) return FW_OK;
+    if (HIGH * stroke > band) return FW_OK;
     char *shown = fw_arena_strdup(s->arena, title);
     FW_NEED(shown);
     for (size_t n = strlen(shown); n > 0 && width_of(shown, stroke) > length; n--) {
         shown[n - 1] = '\0';
         if (n > 1) shown[n - 2] = '+';
     }
-    double y = y0 + 0.5 * (band - 7 * stroke);
+    double y = y0 + 0.5 * (band - HIGH * stroke);
     FW_TRY(add_text(s, shown, s->window.x0, y, stroke, "title"));
     double width = width_of(version, stroke);
     if (width_of(shown, stroke) + width + 12 * stroke > length) return FW_OK;
@@ -164,38 +164,24 @@ typedef struct items {
     int count;
 } items;
 
-static fw_status add_item(fw_arena *arena, items *list, const char *name, const char *flow,
-                          double value, const char *unit) {
+static fw_status add_item(fw_arena *arena, items *list, const fw_parameter *p) {
     fw_unit u = {.factor = 1};
-    if (!unit || !*unit || !fw_unit_parse(unit, strlen(unit), &u, NULL, NULL)) unit = "";
+    const char *unit = p->unit ? p->unit : "";
+    if (!*unit || !fw_unit_parse(unit, strlen(unit), &u, NULL, NULL)) unit = "";
     char number[64];
-    fw_number_text(number, sizeof number, (value - u.offset) / u.factor, 6);
-    const char *text =
-        fw_arena_printf(arena, "%s%s%s%s=%s%s%s", name, flow ? "(" : "", flow ? flow : "",
-                        flow ? ")" : "", number, *unit ? " " : "", unit);
+    fw_number_text(number, sizeof number, fw_unit_from_si(&u, p->value), 6);
+    const char *text = fw_arena_printf(arena, "%s=%s%s%s", p->name, number, *unit ? " " : "", unit);
     FW_NEED(text);
     list->text[list->count++] = text;
     return FW_OK;
 }
 
-/* the thickness may differ from flow to flow; then it is told for each */
+/* only what holds for the drawing itself: what differs from flow to flow (thickness, material)
+   stands in the notes layer of each flow's mask, so that a plate never tells of another flow */
 static fw_status list_parameters(fw_arena *arena, const fw_device *device, items *list) {
-    size_t most = (size_t)device->nparameter + (size_t)device->nflow + 1;
-    FW_NEED(list->text = fw_arena_array(arena, const char *, most));
-    for (int i = 0; i < device->nparameter; i++) {
-        const fw_parameter *p = &device->parameter[i];
-        FW_TRY(add_item(arena, list, p->name, NULL, p->value, p->unit));
-    }
-    bool differs = false;
-    for (int i = 0; i < device->nflow; i++)
-        differs = differs || isfinite(device->flow[i].thickness_m);
-    if (!differs && isfinite(device->thickness_m))
-        return add_item(arena, list, "thickness", NULL, device->thickness_m, "um");
-    for (int i = 0; i < device->nflow; i++) {
-        const fw_flow_use *flow = &device->flow[i];
-        double h = isfinite(flow->thickness_m) ? flow->thickness_m : device->thickness_m;
-        if (isfinite(h)) FW_TRY(add_item(arena, list, "thickness", flow->ref, h, "um"));
-    }
+    FW_NEED(list->text = fw_arena_array(arena, const char *, (size_t)device->nparameter + 1));
+    for (int i = 0; i < device->nparameter; i++)
+        FW_TRY(add_item(arena, list, &device->parameter[i]));
     return FW_OK;
 }
 
@@ -233,16 +219,16 @@ static fw_status add_parameters(const sheet *s, const fw_device *device) {
     double stroke = LARGEST_STROKE_M, used = 0;
     for (; stroke > LEAST_STROKE_M - 0.5 * UM; stroke -= UM) {
         for (int k = 1; k <= MOST_LINES && placed < list.count; k++) {
-            if ((11 * k - 4) * stroke > band || list.count == 0) break;
+            if (((HIGH + APART) * k - APART) * stroke > band || list.count == 0) break;
             FW_TRY(compose(s->arena, &list, k, stroke, length, line, &placed));
             nline = k;
             used = stroke;
         }
         if (placed == list.count) break;
     }
-    double height = (11 * nline - 4) * used;
+    double height = ((HIGH + APART) * nline - APART) * used;
     for (int k = 0; k < nline; k++) {
-        double y = y0 + 0.5 * (band - height) + (nline - 1 - k) * 11 * used;
+        double y = y0 + 0.5 * (band - height) + (nline - 1 - k) * (HIGH + APART) * used;
         FW_TRY(add_text(s, line[k], s->window.x0, y, used, "parameter text"));
     }
     return FW_OK;

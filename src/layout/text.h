@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lettering, alignment marks and the dicing lane, as polygons that pass a width/space check.
 
-   Letters sit on a grid whose columns and rows alternate stroke and gap, four strokes high. Every
-   part is at least `stroke` wide, every space at least `stroke`; corners are 90 or 270 degrees;
-   closed letters (A B D O 0 4 8 ...) are open through a stencil gap, so there is neither a hole nor
-   an island; parts never touch at a corner. Lower case is drawn as upper case; a character that the
+   Letters are drawn on square cells of one stroke, nine high and up to seven wide, two cells apart.
+   Every part and every space is at least `stroke` wide; corners are 90 or 270 degrees; closed
+   letters (A B D O 0 8 ...) are open through a stencil gap, so there is neither a hole nor an
+   island; parts never touch at a corner. Lower case is drawn as upper case; a character that the
    font lacks is drawn as '*'. All coordinates are multiples of 1 nm. */
 #ifndef FW_LAYOUT_TEXT_H
 #define FW_LAYOUT_TEXT_H
@@ -14,8 +14,10 @@
 double fw_layout_text_width(const char *string, double height_m, double stroke_m);
 
 /* appends the letters as pieces with body FW_NONE - 1; `origin` is the lower left corner.
-   FW_GEOMETRY unless stroke >= 1 nm and height >= 7 stroke, all finite and below 1 m.
-   The three last arguments are a growing array: *npiece used of *capacity. */
+   Cells
+   are height / 9, rounded down to 1 nm. FW_GEOMETRY unless stroke >= 1 nm and height >= 9 stroke,
+   all finite and below 1 m. The three last arguments are a growing array: *npiece used of
+   *capacity. */
 fw_status fw_layout_text(fw_arena *arena, const char *string, fw_vec2 origin, double height_m,
                          double stroke_m, fw_role role, const char *label, fw_piece **piece,
                          int *npiece, int *capacity);

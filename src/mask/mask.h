@@ -22,6 +22,7 @@ typedef struct fw_mask_table {
     const char *flow, *reading; /* "right-reading chrome down" */
     fw_mask_layer *layer;
     int nlayer;
+    const char *order; /* what is on the plate, for the mask shop; may be NULL */
 } fw_mask_table;
 
 typedef struct fw_mask_shape {

@@ -50,6 +50,7 @@ fw_status fw_mask_notes(fw_arena *arena, const fw_mask *mask, const char ***line
     FW_TRY(add(&l, "program", "flexwright " FW_VERSION));
     FW_TRY(add(&l, "flow", mask->flow));
     FW_TRY(add(&l, "reading", mask->table->reading));
+    if (mask->table->order) FW_TRY(add(&l, "order", mask->table->order));
     FW_TRY(
         add(&l, "bias_um_per_edge", fw_number_text(number, sizeof number, mask->bias_m * 1e6, 6)));
     FW_TRY(add(&l, "bias", "process bias included, mask CD bias 0"));

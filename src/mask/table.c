@@ -235,6 +235,8 @@ static void read_root(reader *r, const fw_element *root, fw_mask_table *table) {
             read_identifier(r, a, &table->flow);
         else if (strcmp(a->name, "reading") == 0)
             read_text(r, a, &table->reading);
+        else if (strcmp(a->name, "order") == 0)
+            read_text(r, a, &table->order);
         else
             fw_diag_error(r->diags, 140, a->place, "<mask-table> has no attribute \"%s\"", a->name);
     }

@@ -56,7 +56,7 @@ static fw_status strength_override(fw_plan *plan) {
     fw_number_text(theirs, sizeof theirs, pack->strength.value * 1e-9, 3);
     fw_diag_note(&plan->diags, 231, own->place,
                  "strength of %s is stated as %s GPa, the pack has %s GPa (%s): the verdict rests "
-                 "on it, so measure it on coupons",
+                 "on it, so measure it on beams of the same wafer",
                  pack->id, mine, theirs, pack->strength.source ? pack->strength.source : "");
     return fw_plan_assume(
         plan,
@@ -69,6 +69,7 @@ static fw_status strength_override(fw_plan *plan) {
 fw_status fw_plan_assumptions(fw_plan *plan) {
     const fw_model_error *e = &fw_verdict_model_error;
     char sf[32];
+    if (plan->nassumption > 0) return FW_OK; /* said already, for another document */
     for (int i = 0; i < plan->verdict.nvariant; i++)
         FW_TRY(of_variant(plan, &plan->verdict.variant[i]));
     FW_TRY(strength_override(plan));

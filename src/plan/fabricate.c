@@ -28,6 +28,10 @@ static fw_mask_facts facts_of(const fw_device *device, const fw_layout *layout) 
         if (is_structure(layout->piece[i].role)) {
             facts.structure_area_m2 += fw_contour_area(&layout->piece[i].contour);
             facts.perimeter_m += free_perimeter(&layout->piece[i].contour);
+        } else if (layout->piece[i].role == FW_ROLE_TEXT || layout->piece[i].role == FW_ROLE_MARK) {
+            /* lettering and marks lie in the frame and are taken out of it */
+            facts.structure_area_m2 -= fw_contour_area(&layout->piece[i].contour);
+            facts.perimeter_m += fw_contour_perimeter(&layout->piece[i].contour);
         }
     facts.die_area_m2 = (layout->die.x1 - layout->die.x0) * (layout->die.y1 - layout->die.y0);
     facts.narrowest_slot_m = layout->narrowest_gap_m;
@@ -70,10 +74,12 @@ static fw_status not_manufacturable(fw_plan *plan, fw_flow *flow, const char *wh
 
 /* the mask of one flow; when rules or offsets refuse, the reason is kept and the plan goes on */
 static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
-    if (!plan->layout || !plan->layout->drawn) {
-        pf->mask_error = plan->layout && plan->layout->why_not
-                             ? plan->layout->why_not
-                             : "the device cannot be drawn with these dimensions";
+    if (!plan->layout) { /* dimensions that do not fit: no flow can make it */
+        pf->mask_error = "the device cannot be drawn with these dimensions; see the diagnostics";
+        return not_manufacturable(plan, pf->flow, pf->mask_error);
+    }
+    if (!plan->layout->drawn) {
+        pf->mask_error = plan->layout->why_not ? plan->layout->why_not : "the device has no shapes";
         return FW_OK;
     }
     fw_mask_options options = {.bias_m = pf->flow->bias_m,

@@ -16,17 +16,36 @@ fw_status fw_plan_judge(fw_plan *plan) {
     return fw_plan_compute_flows(plan);
 }
 
+static bool loaded(const fw_plan *plan, const char *flow) {
+    for (int i = 0; i < plan->nflow; i++)
+        if (!flow || (plan->flow[i].variant.flow && strcmp(plan->flow[i].variant.flow, flow) == 0))
+            return true;
+    return false;
+}
+
+/* the named scene, else the first one that holds in a flow of this plan */
 static const fw_scene *find_scene(fw_plan *plan) {
     const fw_device *d = plan->device;
     const char *wanted = plan->options.scene;
-    for (int i = 0; i < d->nscene; i++)
-        if (!wanted || strcmp(d->scene[i].name, wanted) == 0) return &d->scene[i];
     fw_text names = fw_text_new(plan->arena);
-    for (int i = 0; i < d->nscene; i++)
-        fw_text_printf(&names, " %s", d->scene[i].name);
-    fw_diag_error(&plan->diags, 229, (fw_place){.file = d->file},
-                  wanted ? "no scene '%s' in the device; it has%s" : "%sthe device has no scene%s",
-                  wanted ? wanted : "", d->nscene && !names.failed ? names.data : " none");
+    for (int i = 0; i < d->nscene; i++) {
+        const fw_scene *scene = &d->scene[i];
+        if (wanted ? strcmp(scene->name, wanted) == 0 : loaded(plan, scene->flow)) {
+            if (loaded(plan, scene->flow)) return scene;
+            fw_diag_error(&plan->diags, 229, scene->place,
+                          "scene '%s' holds in flow %s only, and --flow asks for %s", scene->name,
+                          scene->flow, plan->options.flow);
+            return NULL;
+        }
+        fw_text_printf(&names, " %s", scene->name);
+    }
+    const char *has = names.length && !names.failed ? names.data : " none";
+    if (wanted)
+        fw_diag_error(&plan->diags, 229, (fw_place){.file = d->file},
+                      "no scene '%s' in the device; it has%s", wanted, has);
+    else
+        fw_diag_error(&plan->diags, 229, (fw_place){.file = d->file},
+                      "the device has no scene for this flow; it has%s", has);
     return NULL;
 }
 

@@ -181,7 +181,14 @@ fw_status fw_plan_load(fw_plan *plan, const char *path) {
     char *xml;
     size_t n;
     FW_TRY(fw_input_read(plan->arena, path, MOST_BYTES, &plan->diags, &xml, &n));
-    const char *file = strcmp(path, "-") == 0 ? "standard input" : path;
+    return fw_plan_load_memory(plan, strcmp(path, "-") == 0 ? "standard input" : path, xml, n);
+}
+
+fw_status fw_plan_load_memory(fw_plan *plan, const char *file, const char *xml, size_t n) {
+    if (n > MOST_BYTES)
+        return fw_diag_error(&plan->diags, 221, (fw_place){.file = file},
+                             "is larger than %d bytes, the most that is read from one file",
+                             MOST_BYTES);
     plan->source_file = file;
     plan->source = xml;
     plan->source_length = n;

@@ -6,7 +6,7 @@
    fw_plan_write. Every stage returns FW_OK or what went wrong; diagnostics are in fw_plan_diags. */
 #ifndef FW_PLAN_PLAN_H
 #define FW_PLAN_PLAN_H
-#include "report/report.h"
+#include "report/terminal.h"
 
 typedef struct fw_plan_options {
     const char *data_directory; /* packs and layer tables; NULL: installed, else source tree */
@@ -50,6 +50,8 @@ typedef struct fw_plan {
     fw_verdict verdict;
     const char **assumption; /* (nassumption) */
     int nassumption, assumption_capacity;
+    int files_written; /* by the last fw_plan_write, the manifest not counted; 0: no directory made
+                        */
     fw_input_file input[16];
     int ninput;
     const char *base_file, *base_xml;
@@ -60,6 +62,8 @@ fw_plan *fw_plan_new(const fw_plan_options *options); /* NULL: out of memory */
 void fw_plan_free(fw_plan *plan);                     /* NULL allowed */
 /* reads the device ("-": standard input) and the packs it refers to */
 fw_status fw_plan_load(fw_plan *plan, const char *path);
+/* the same from n bytes that a NUL follows and that live as long as the plan; `file` names them */
+fw_status fw_plan_load_memory(fw_plan *plan, const char *file, const char *xml, size_t n);
 /* layout, mechanism, motion, workspace, verdict (and advice); times and judgement of the flows */
 fw_status fw_plan_judge(fw_plan *plan);
 /* masks with each flow's bias; a rejected design gets none unless forced */
@@ -78,6 +82,11 @@ fw_status fw_plan_write(fw_plan *plan, const char *directory, unsigned what);
 /* one scene of one variant, for simulate; *mechanism too */
 fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mechanism **mechanism,
                            const fw_scene **scene);
+/* ---- documents: the first three after fw_plan_judge, the others after fw_plan_fabricate ---- */
 fw_status fw_plan_verdict_json(fw_plan *plan, fw_text *out);
+fw_status fw_plan_verdict_text(fw_plan *plan, fw_terminal_style style, fw_text *out);
+fw_status fw_plan_report_html(fw_plan *plan, fw_text *out);
+fw_status fw_plan_masks_json(fw_plan *plan, fw_text *out);
+fw_status fw_plan_recipes_json(fw_plan *plan, fw_text *out);
 
 #endif

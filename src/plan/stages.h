@@ -10,9 +10,11 @@ fw_status fw_plan_assume(fw_plan *plan, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 /* times, bias and judgement of every flow, from the exact outlines */
 fw_status fw_plan_compute_flows(fw_plan *plan);
+/* once per plan, after judging */
 fw_status fw_plan_assumptions(fw_plan *plan);
 fw_status fw_plan_manifest(const fw_plan *plan, const fw_output_file *file, size_t count,
                            fw_text *out);
 fw_report_input fw_plan_report_input(fw_plan *plan);
+fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *pf);
 
 #endif

@@ -1,38 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "plan/stages.h"
 #include "recipe/recipe.h"
-#include "report/json.h"
-#include <jansson.h>
-
-static fw_report_flow *report_flows(fw_plan *plan) {
-    fw_report_flow *flow = fw_arena_array(plan->arena, fw_report_flow, (size_t)plan->nflow);
-    for (int i = 0; flow && i < plan->nflow; i++)
-        flow[i] = (fw_report_flow){&plan->verdict.variant[i], plan->flow[i].flow,
-                                   plan->flow[i].mask, plan->flow[i].mask_error};
-    return flow;
-}
-
-fw_report_input fw_plan_report_input(fw_plan *plan) {
-    return (fw_report_input){.device = plan->device,
-                             .layout = plan->layout,
-                             .verdict = &plan->verdict,
-                             .flow = report_flows(plan),
-                             .nflow = plan->nflow,
-                             .version = FW_VERSION,
-                             .assumption = plan->assumption,
-                             .nassumption = plan->nassumption,
-                             .diags = &plan->diags};
-}
-
-fw_status fw_plan_verdict_json(fw_plan *plan, fw_text *out) {
-    fw_report_input input = fw_plan_report_input(plan);
-    FW_NEED(input.flow);
-    return fw_report_verdict_json(&input, out);
-}
 
 typedef struct writer {
     fw_plan *plan;
     fw_output *output;
+    fw_arena *scratch; /* one file at a time: a hundred scenes take no more memory than one */
+    fw_mark empty;
 } writer;
 
 static fw_status put(writer *w, const char *folder, const char *name, const char *ending,
@@ -40,7 +14,9 @@ static fw_status put(writer *w, const char *folder, const char *name, const char
     FW_TRY(fw_text_end(text));
     const char *path = fw_arena_printf(w->plan->arena, "%s%s%s", folder, name, ending);
     FW_NEED(path);
-    return fw_output_write(w->output, path, text->data, text->length);
+    FW_TRY(fw_output_write(w->output, path, text->data, text->length));
+    fw_arena_rewind(w->scratch, w->empty);
+    return FW_OK;
 }
 
 static fw_status write_mask(writer *w, const fw_plan_flow *pf) {
@@ -50,11 +26,11 @@ static fw_status write_mask(writer *w, const fw_plan_flow *pf) {
     } format[] = {
         {".gds", fw_mask_write_gds}, {".svg", fw_mask_write_svg}, {".lyp", fw_mask_write_lyp}};
     for (size_t i = 0; i < sizeof format / sizeof format[0]; i++) {
-        fw_text text = fw_text_new(w->plan->arena);
+        fw_text text = fw_text_new(w->scratch);
         FW_TRY(format[i].write(pf->mask, &text));
         FW_TRY(put(w, "masks/", pf->use->ref, format[i].ending, &text));
     }
-    fw_text text = fw_text_new(w->plan->arena);
+    fw_text text = fw_text_new(w->scratch);
     FW_TRY(fw_mask_write_certificate(pf->mask, pf->mask_sha256, &text));
     return put(w, "masks/", pf->use->ref, ".json", &text);
 }
@@ -67,13 +43,9 @@ static fw_status write_recipe(writer *w, const fw_plan_flow *pf) {
                   {".csv", fw_recipe_write_csv},
                   {".ics", fw_recipe_write_ics},
                   {".json", fw_recipe_write_json}};
-    fw_recipe_header header = {.device = w->plan->device->name,
-                               .flow_sha256 = pf->flow_sha256,
-                               .mask_sha256 = pf->mask_sha256,
-                               .program_version = FW_VERSION,
-                               .rejected = w->plan->verdict.decision == FW_REJECT};
+    fw_recipe_header header = fw_plan_recipe_header(w->plan, pf);
     for (size_t i = 0; i < sizeof format / sizeof format[0]; i++) {
-        fw_text text = fw_text_new(w->plan->arena);
+        fw_text text = fw_text_new(w->scratch);
         FW_TRY(format[i].write(pf->flow, &header, &text));
         FW_TRY(put(w, "recipes/", pf->use->ref, format[i].ending, &text));
     }
@@ -94,11 +66,12 @@ static fw_status write_motions(writer *w) {
             if (written++ > 0)
                 FW_NEED(name =
                             fw_arena_printf(plan->arena, "%s.%s", scene->name, v->variant->flow));
-            fw_text csv = fw_text_new(plan->arena), svg = fw_text_new(plan->arena);
+            fw_text csv = fw_text_new(w->scratch);
             FW_TRY(fw_report_motion_csv(v->mechanism, v->motion[s], &csv));
             FW_TRY(put(w, "motion/", name, ".csv", &csv));
-            FW_TRY(fw_report_motion_svg(plan->arena, plan->device, v->mechanism, v->motion[s],
-                                        scene, &svg));
+            fw_text svg = fw_text_new(w->scratch);
+            FW_TRY(fw_report_motion_svg_judged(w->scratch, plan->device, v->mechanism, v->motion[s],
+                                               scene, &plan->verdict, &svg));
             FW_TRY(put(w, "motion/", name, ".svg", &svg));
         }
     }
@@ -108,18 +81,17 @@ static fw_status write_motions(writer *w) {
 /* the drawing by itself: exact SVG, and a preview for places that show no SVG */
 static fw_status write_drawing(writer *w) {
     fw_plan *plan = w->plan;
-    fw_text svg = fw_text_new(plan->arena), png = fw_text_new(plan->arena);
-    FW_TRY(fw_report_device_svg(plan->arena, plan->device, plan->layout, &plan->verdict, &svg));
+    fw_text svg = fw_text_new(w->scratch);
+    FW_TRY(fw_report_device_svg(w->scratch, plan->device, plan->layout, &plan->verdict, &svg));
     FW_TRY(put(w, "", "device", ".svg", &svg));
-    FW_TRY(fw_report_device_png(plan->arena, plan->device, plan->layout, &plan->verdict, 800, &png));
+    fw_text png = fw_text_new(w->scratch);
+    FW_TRY(fw_report_device_png(w->scratch, plan->device, plan->layout, &plan->verdict, 800, &png));
     return put(w, "", "device", ".png", &png);
 }
 
 static fw_status write_report(writer *w) {
-    fw_report_input input = fw_plan_report_input(w->plan);
-    FW_NEED(input.flow);
-    fw_text html = fw_text_new(w->plan->arena);
-    FW_TRY(fw_report_write_html(w->plan->arena, &input, &html));
+    fw_text html = fw_text_new(w->scratch);
+    FW_TRY(fw_plan_report_html(w->plan, &html));
     return put(w, "", "report", ".html", &html);
 }
 
@@ -127,7 +99,7 @@ static fw_status write_all(writer *w, unsigned what) {
     fw_plan *plan = w->plan;
     FW_TRY(fw_plan_assumptions(plan));
     if (what & FW_WRITE_VERDICT) {
-        fw_text json = fw_text_new(plan->arena);
+        fw_text json = fw_text_new(w->scratch);
         FW_TRY(fw_plan_verdict_json(plan, &json));
         FW_TRY(put(w, "", "verdict", ".json", &json));
     }
@@ -144,16 +116,25 @@ static fw_status write_all(writer *w, unsigned what) {
     }
     size_t count;
     const fw_output_file *file = fw_output_files(w->output, &count);
-    fw_text manifest = fw_text_new(plan->arena);
+    plan->files_written = (int)count;
+    if (count == 0) return FW_OK; /* a rejected design has no masks: no directory either */
+    fw_text manifest = fw_text_new(w->scratch);
     FW_TRY(fw_plan_manifest(plan, file, count, &manifest));
     return put(w, "", "manifest", ".json", &manifest);
 }
 
 fw_status fw_plan_write(fw_plan *plan, const char *directory, unsigned what) {
-    writer w = {.plan = plan};
-    FW_TRY(fw_output_open(plan->arena, directory, &plan->diags, &w.output));
-    fw_status status = write_all(&w, what);
-    if (status == FW_OK) status = fw_output_commit(w.output);
+    writer w = {.plan = plan, .scratch = fw_arena_new(plan->options.memory_cap)};
+    FW_NEED(w.scratch);
+    w.empty = fw_arena_mark(w.scratch);
+    plan->files_written = 0;
+    fw_status status = fw_output_open(plan->arena, directory, &plan->diags, &w.output);
+    if (status == FW_OK) status = write_all(&w, what);
+    if (status == FW_OK && plan->files_written > 0)
+        status = fw_output_commit(w.output);
+    else
+        fw_output_abort(w.output);
     if (status != FW_OK) fw_output_abort(w.output);
+    fw_arena_free(w.scratch);
     return status;
 }

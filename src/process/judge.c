@@ -151,7 +151,7 @@ static fw_status slot_lag(judge *j, const fw_step *s, double depth) {
     return say(j, ANSWER_OPEN,
                "the narrowest slot is %s um wide: in the nominal time of step %s it reaches %s of "
                "%s um, and needs %s times that time to come through (neutral transport, S = %s "
-               "assumed: read it off the slot coupon)",
+               "assumed: etch slots of several widths on a dummy wafer and measure their depths)",
                um(&t, w), s->id, um(&t, low), um(&t, depth), number(&t, longer, 4),
                number(&t, S, 3));
 }

@@ -135,6 +135,7 @@ static fw_status difference(const fw_law *law, fw_law_call *call, const input *i
 
 typedef struct share {
     const fw_quantity *q;
+    const char *group; /* NULL: q alone */
     const char *name;
     double part; /* (dt/dx) u, signed: the same quantity in two places adds up before squaring */
 } share;
@@ -146,7 +147,8 @@ static int by_size(const void *a, const void *b) {
     return strcmp(s->name, t->name);
 }
 
-/* u_t = sqrt(sum_i ((dt/dx_i) u_i)^2), first order, independent inputs.
+/* u_t = sqrt(sum_i ((dt/dx_i) u_i)^2), first order; inputs are independent, but for one quantity in
+   two places and for the entries of one table (group), which are fully correlated.
    x_i, u_i SI; result in SI. Exact for laws that are linear in the logarithm up to O(u^2): 5.52 %
    against 5.53 % by Monte Carlo for plating. Cost: two evaluations per input without a slope.
    Source: JCGM 100:2008, 5.1. Test: test_law.c, uncertainty. */
@@ -162,9 +164,10 @@ static fw_status uncertainty(fw_arena *arena, const fw_law *law, fw_law_call *ca
         if (!in->q[i] || !(in->q[i]->uncertainty > 0.0)) continue;
         if (isnan(dx[i])) FW_TRY(difference(law, call, in, i, answer->value, &dx[i]));
         int at = 0;
-        while (at < n && part[at].q != in->q[i])
+        const char *group = law->argument ? law->argument[i].group : NULL;
+        while (at < n && part[at].q != in->q[i] && !(group && part[at].group == group))
             at++;
-        if (at == n) part[n++] = (share){in->q[i], in->name[i], 0.0};
+        if (at == n) part[n++] = (share){in->q[i], group, group ? group : in->name[i], 0.0};
         part[at].part += dx[i] * in->q[i]->uncertainty;
     }
     double sum = 0.0;

@@ -36,6 +36,9 @@ typedef struct fw_law_argument {
     fw_dimension dimension;
     fw_law_need need;
     bool any_dimension; /* `dimension` is not looked at */
+    /* arguments of one group stand in one table and share its error: their parts add up before
+       squaring, as those of one quantity do. It names the contribution; NULL: independent. */
+    const char *group;
 } fw_law_argument;
 
 typedef struct fw_law_call {

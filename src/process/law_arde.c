@@ -85,12 +85,12 @@ static fw_status evaluate(fw_law_call *call, const double *x, double *result) {
 }
 
 static const fw_law_argument argument[] = {
-    [DEPTH] = {"depth", FW_DIM_LENGTH, FW_LAW_REQUIRED, false},
-    [RATE] = {"rate", FW_DIM_SPEED, FW_LAW_REQUIRED, false},
-    [WIDTH] = {"width", FW_DIM_LENGTH, FW_LAW_REQUIRED, false},
-    [PROBABILITY] = {"probability", FW_DIM_NONE, FW_LAW_OPTIONAL, false},
-    [LAG] = {"lag", FW_DIM_NONE, FW_LAW_OPTIONAL, false},
-    [LOADING] = {"loading", FW_DIM_PER_AREA, FW_LAW_OPTIONAL, false},
-    [OPEN_AREA] = {"open_area", FW_DIM_AREA, FW_LAW_OPTIONAL, false},
-    [REFERENCE_AREA] = {"reference_area", FW_DIM_AREA, FW_LAW_OPTIONAL, false}};
+    [DEPTH] = {"depth", FW_DIM_LENGTH, FW_LAW_REQUIRED, false, NULL},
+    [RATE] = {"rate", FW_DIM_SPEED, FW_LAW_REQUIRED, false, NULL},
+    [WIDTH] = {"width", FW_DIM_LENGTH, FW_LAW_REQUIRED, false, NULL},
+    [PROBABILITY] = {"probability", FW_DIM_NONE, FW_LAW_OPTIONAL, false, NULL},
+    [LAG] = {"lag", FW_DIM_NONE, FW_LAW_OPTIONAL, false, NULL},
+    [LOADING] = {"loading", FW_DIM_PER_AREA, FW_LAW_OPTIONAL, false, NULL},
+    [OPEN_AREA] = {"open_area", FW_DIM_AREA, FW_LAW_OPTIONAL, false, NULL},
+    [REFERENCE_AREA] = {"reference_area", FW_DIM_AREA, FW_LAW_OPTIONAL, false, NULL}};
 const fw_law fw_law_arde = {"arde", "t = (D + S J(w, D))/R0", argument, 8, evaluate, NULL, NULL};

@@ -18,10 +18,10 @@ static fw_status evaluate(fw_law_call *call, const double *x, double *result) {
 }
 
 static const fw_law_argument argument[] = {
-    {"thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false},
-    {"rate", FW_DIM_SPEED, FW_LAW_REQUIRED, false},
-    {"activation_energy", FW_DIM_ENERGY, FW_LAW_REQUIRED, false},
-    {"reference_temperature", FW_DIM_TEMPERATURE, FW_LAW_REQUIRED, false},
-    {"temperature", FW_DIM_TEMPERATURE, FW_LAW_REQUIRED, false}};
+    {"thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false, NULL},
+    {"rate", FW_DIM_SPEED, FW_LAW_REQUIRED, false, NULL},
+    {"activation_energy", FW_DIM_ENERGY, FW_LAW_REQUIRED, false, NULL},
+    {"reference_temperature", FW_DIM_TEMPERATURE, FW_LAW_REQUIRED, false, NULL},
+    {"temperature", FW_DIM_TEMPERATURE, FW_LAW_REQUIRED, false, NULL}};
 const fw_law fw_law_arrhenius = {
     "arrhenius", "t = thickness/(rate exp(Ea/k (1/T0 - 1/T)))", argument, 5, evaluate, NULL, NULL};

@@ -11,7 +11,7 @@ static fw_status evaluate(fw_law_call *call, const double *x, double *result) {
 }
 
 static const fw_law_argument argument[] = {
-    {"thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false},
-    {"reference_thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false},
-    {"reference_time", FW_DIM_TIME, FW_LAW_REQUIRED, false}};
+    {"thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false, NULL},
+    {"reference_thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false, NULL},
+    {"reference_time", FW_DIM_TIME, FW_LAW_REQUIRED, false, NULL}};
 const fw_law fw_law_diffusion = {"diffusion", "t = t0 (d/d0)^2", argument, 3, evaluate, NULL, NULL};

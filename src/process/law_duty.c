@@ -36,8 +36,8 @@ static fw_status derive(fw_arena *arena, const fw_law_use *use, const fw_law_ans
 }
 
 static const fw_law_argument argument[] = {
-    [TIME] = {"time", FW_DIM_TIME, FW_LAW_REQUIRED, false},
-    [PULSE] = {"pulse", FW_DIM_TIME, FW_LAW_REQUIRED, false},
-    [PAUSE] = {"pause", FW_DIM_TIME, FW_LAW_REQUIRED, false}};
+    [TIME] = {"time", FW_DIM_TIME, FW_LAW_REQUIRED, false, NULL},
+    [PULSE] = {"pulse", FW_DIM_TIME, FW_LAW_REQUIRED, false, NULL},
+    [PAUSE] = {"pause", FW_DIM_TIME, FW_LAW_REQUIRED, false, NULL}};
 const fw_law fw_law_duty = {
     "duty", "t = time + (n - 1) pause, n = ceil(time/pulse)", argument, 3, evaluate, slope, derive};

@@ -63,13 +63,13 @@ static fw_status derive(fw_arena *arena, const fw_law_use *use, const fw_law_ans
 }
 
 static const fw_law_argument argument[] = {
-    [THICKNESS] = {"thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false},
-    [DENSITY] = {"density", FW_DIM_DENSITY, FW_LAW_REQUIRED, false},
-    [CURRENT_DENSITY] = {"current_density", FW_DIM_CURRENT_DENSITY, FW_LAW_REQUIRED, false},
-    [VALENCE] = {"valence", FW_DIM_NONE, FW_LAW_REQUIRED, false},
-    [MOLAR_MASS] = {"molar_mass", FW_DIM_MOLAR_MASS, FW_LAW_REQUIRED, false},
-    [EFFICIENCY] = {"efficiency", FW_DIM_NONE, FW_LAW_OPTIONAL, false},
-    [POROSITY] = {"porosity", FW_DIM_NONE, FW_LAW_OPTIONAL, false},
-    [AREA] = {"area", FW_DIM_AREA, FW_LAW_OPTIONAL, false}};
+    [THICKNESS] = {"thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false, NULL},
+    [DENSITY] = {"density", FW_DIM_DENSITY, FW_LAW_REQUIRED, false, NULL},
+    [CURRENT_DENSITY] = {"current_density", FW_DIM_CURRENT_DENSITY, FW_LAW_REQUIRED, false, NULL},
+    [VALENCE] = {"valence", FW_DIM_NONE, FW_LAW_REQUIRED, false, NULL},
+    [MOLAR_MASS] = {"molar_mass", FW_DIM_MOLAR_MASS, FW_LAW_REQUIRED, false, NULL},
+    [EFFICIENCY] = {"efficiency", FW_DIM_NONE, FW_LAW_OPTIONAL, false, NULL},
+    [POROSITY] = {"porosity", FW_DIM_NONE, FW_LAW_OPTIONAL, false, NULL},
+    [AREA] = {"area", FW_DIM_AREA, FW_LAW_OPTIONAL, false, NULL}};
 const fw_law fw_law_faraday = {"faraday", "t = d rho P n F/(eta J M)", argument, 8, evaluate, slope,
                                derive};

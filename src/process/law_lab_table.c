@@ -39,13 +39,13 @@ static fw_status evaluate(fw_law_call *call, const double *x, double *result) {
 }
 
 #define PAIR(need, i)                                                                              \
-    {"value_" #i, FW_DIM_NONE, need, true}, {                                                      \
-        "time_" #i, FW_DIM_TIME, need, false                                                       \
+    {"value_" #i, FW_DIM_NONE, need, true, NULL}, {                                                \
+        "time_" #i, FW_DIM_TIME, need, false, NULL                                                 \
     }
 static const fw_law_argument argument[] = {
-    [VALUE] = {"value", FW_DIM_NONE, FW_LAW_REQUIRED, true},
-    [SHORTEST] = {"shortest", FW_DIM_TIME, FW_LAW_OPTIONAL, false},
-    [LONGEST] = {"longest", FW_DIM_TIME, FW_LAW_OPTIONAL, false},
+    [VALUE] = {"value", FW_DIM_NONE, FW_LAW_REQUIRED, true, NULL},
+    [SHORTEST] = {"shortest", FW_DIM_TIME, FW_LAW_OPTIONAL, false, NULL},
+    [LONGEST] = {"longest", FW_DIM_TIME, FW_LAW_OPTIONAL, false, NULL},
     PAIR(FW_LAW_REQUIRED, 1),
     PAIR(FW_LAW_REQUIRED, 2),
     PAIR(FW_LAW_OPTIONAL, 3),

@@ -14,11 +14,12 @@ static fw_status evaluate(fw_law_call *call, const double *x, double *result) {
     return FW_OK;
 }
 
-static const fw_law_argument argument[] = {{"thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false},
-                                           {"rate", FW_DIM_SPEED, FW_LAW_REQUIRED, false},
-                                           {"loading", FW_DIM_PER_AREA, FW_LAW_REQUIRED, false},
-                                           {"open_area", FW_DIM_AREA, FW_LAW_REQUIRED, false},
-                                           {"reference_area", FW_DIM_AREA, FW_LAW_REQUIRED, false}};
+static const fw_law_argument argument[] = {
+    {"thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false, NULL},
+    {"rate", FW_DIM_SPEED, FW_LAW_REQUIRED, false, NULL},
+    {"loading", FW_DIM_PER_AREA, FW_LAW_REQUIRED, false, NULL},
+    {"open_area", FW_DIM_AREA, FW_LAW_REQUIRED, false, NULL},
+    {"reference_area", FW_DIM_AREA, FW_LAW_REQUIRED, false, NULL}};
 const fw_law fw_law_loading = {
     "loading", "t = thickness/rate (1 + kappa A)/(1 + kappa A_ref)", argument, 5, evaluate, NULL,
     NULL};

@@ -14,6 +14,7 @@ static void slope(const double *x, double result, double *dx) {
     dx[1] = -result / x[1];
 }
 
-static const fw_law_argument argument[] = {{"thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false},
-                                           {"rate", FW_DIM_SPEED, FW_LAW_REQUIRED, false}};
+static const fw_law_argument argument[] = {
+    {"thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false, NULL},
+    {"rate", FW_DIM_SPEED, FW_LAW_REQUIRED, false, NULL}};
 const fw_law fw_law_rate = {"rate", "t = thickness/rate", argument, 2, evaluate, slope, NULL};

@@ -33,10 +33,10 @@ static fw_status derive(fw_arena *arena, const fw_law_use *use, const fw_law_ans
 }
 
 static const fw_law_argument argument[] = {
-    [THICKNESS] = {"thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false},
-    [REFERENCE_THICKNESS] = {"reference_thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false},
-    [REFERENCE_SPEED] = {"reference_speed", FW_DIM_ROTATION, FW_LAW_REQUIRED, false},
-    [EXPONENT] = {"exponent", FW_DIM_NONE, FW_LAW_REQUIRED, false},
-    [TIME] = {"time", FW_DIM_TIME, FW_LAW_REQUIRED, false}};
+    [THICKNESS] = {"thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false, NULL},
+    [REFERENCE_THICKNESS] = {"reference_thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false, NULL},
+    [REFERENCE_SPEED] = {"reference_speed", FW_DIM_ROTATION, FW_LAW_REQUIRED, false, NULL},
+    [EXPONENT] = {"exponent", FW_DIM_NONE, FW_LAW_REQUIRED, false, NULL},
+    [TIME] = {"time", FW_DIM_TIME, FW_LAW_REQUIRED, false, NULL}};
 const fw_law fw_law_spin = {
     "spin", "speed = w0 (d0/d)^(1/a); t = time", argument, 5, evaluate, NULL, derive};

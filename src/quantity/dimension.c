@@ -110,8 +110,26 @@ double fw_quantity_in_unit(const fw_quantity *q) {
     return fw_unit_from_si(&unit, q->value);
 }
 
+/* nearest within distance 2; ties as quantity.h says */
+static const char *nearest(const char *word, const char *usual) {
+    size_t count;
+    const char *const *names = fw_unit_names(&count), *best = NULL;
+    int least = 4 * 3; /* four steps per edit, for the ties */
+    for (size_t i = 0; i < count; i++) {
+        int d = fw_edit_distance(word, names[i], 2);
+        if (d > 2 || (size_t)d >= strlen(names[i])) continue;
+        int rank = 4 * d + (names[i][0] == word[0] ? 0 : 2) +
+                   (usual && strcmp(usual, names[i]) == 0 ? 0 : 1);
+        if (rank < least) {
+            least = rank;
+            best = names[i];
+        }
+    }
+    return best;
+}
+
 /* spellings from other habits, and what to write here */
-const char *fw_unit_suggestion(const char *symbol, size_t n) {
+const char *fw_unit_suggestion(const char *symbol, size_t n, const char *usual) {
     static const char *const other[][2] = {
         {"\xc2\xb5m", "um"},
         {"\xce\xbcm", "um"},
@@ -170,7 +188,5 @@ const char *fw_unit_suggestion(const char *symbol, size_t n) {
     if (n == 0 || n >= sizeof word) return NULL;
     memcpy(word, symbol, n);
     word[n] = '\0';
-    size_t count;
-    const char *const *names = fw_unit_names(&count);
-    return fw_did_you_mean(word, names, count);
+    return nearest(word, usual);
 }

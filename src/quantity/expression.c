@@ -124,6 +124,23 @@ static bool parse_name(parser *p, fw_value *v) {
     return unknown_name(p, &name);
 }
 
+/* a comma outside of a function's arguments: mostly a decimal comma */
+static bool comma(parser *p) {
+    const char *text = p->lexer.text;
+    size_t at = p->token.start, first = at, end = at + 1;
+    while (first > 0 && text[first - 1] >= '0' && text[first - 1] <= '9')
+        first--;
+    while (end < p->lexer.n && text[end] >= '0' && text[end] <= '9')
+        end++;
+    if (first == at || end == at + 1)
+        return fail(p, at, 20,
+                    "a comma stands only between the arguments of a function; remove it");
+    return fail(
+        p, at, 20,
+        fw_arena_printf(p->arena, "the decimal sign is a point, not a comma: write '%.*s.%.*s'",
+                        (int)(at - first), text + first, (int)(end - at - 1), text + at + 1));
+}
+
 static bool parse_primary(parser *p, fw_value *v) {
     if (p->token.kind == FW_TOKEN_NUMBER) {
         *v = (fw_value){.value = p->token.value, .dimension = p->token.dimension};
@@ -133,6 +150,7 @@ static bool parse_primary(parser *p, fw_value *v) {
     if (is_mark(p, '(')) {
         size_t open = p->token.start;
         if (!advance(p) || !parse_sum(p, v)) return false;
+        if (is_mark(p, ',')) return comma(p);
         if (!is_mark(p, ')'))
             return fail(p, open, 32, "this '(' is never closed; add the missing ')'");
         return advance(p);
@@ -254,6 +272,7 @@ static bool parse_all(parser *p, fw_value *v) {
         return fail(p, 0, 33, "the value is empty; write a number with its unit, or an expression");
     if (!parse_sum(p, v)) return false;
     if (is_mark(p, ')')) return fail(p, p->token.start, 32, "this ')' closes nothing; remove it");
+    if (is_mark(p, ',')) return comma(p);
     if (p->token.kind != FW_TOKEN_END)
         return fail(p, p->token.start, 20,
                     "an operator (+ - * / ^) is missing here, or the rest is too much");
@@ -261,11 +280,15 @@ static bool parse_all(parser *p, fw_value *v) {
 }
 
 static fw_status run(fw_arena *arena, const char *text, size_t n, const fw_names *names,
-                     fw_value *v, fw_expression_error *error) {
+                     const fw_dimension *wanted, fw_value *v, fw_expression_error *error) {
     *error = (fw_expression_error){0};
     *v = (fw_value){0};
     parser p = {.arena = arena,
-                .lexer = {.arena = arena, .text = text, .n = n, .error = error},
+                .lexer = {.arena = arena,
+                          .text = text,
+                          .n = n,
+                          .error = error,
+                          .usual = wanted ? fw_dimension_unit(*wanted) : NULL},
                 .names = names,
                 .error = error};
     if (parse_all(&p, v)) return FW_OK;
@@ -316,7 +339,7 @@ fw_status fw_expression_evaluate(fw_arena *arena, const char *text, size_t n, co
                                  fw_dimension wanted, double *value, fw_expression_error *error) {
     fw_value v;
     *value = (double)NAN;
-    FW_TRY(run(arena, text, n, names, &v, error));
+    FW_TRY(run(arena, text, n, names, &wanted, &v, error));
     bool fits = fw_dimension_equal(v.dimension, wanted) ||
                 (v.composite && fw_dimension_differs_in_angle(v.dimension, wanted));
     if (!fits && fw_dimension_equal(v.dimension, pure))
@@ -332,7 +355,7 @@ fw_status fw_expression_evaluate_any(fw_arena *arena, const char *text, size_t n
     fw_value v;
     *value = (double)NAN;
     *dimension_found = pure;
-    FW_TRY(run(arena, text, n, names, &v, error));
+    FW_TRY(run(arena, text, n, names, NULL, &v, error));
     *value = v.value;
     *dimension_found = v.dimension;
     return FW_OK;

@@ -45,7 +45,7 @@ static fw_token wrong(fw_lexer *lexer, size_t start, int number, const char *mes
 }
 
 static fw_token unknown_unit(fw_lexer *lexer, const char *symbol, size_t n) {
-    const char *better = fw_unit_suggestion(symbol, n);
+    const char *better = fw_unit_suggestion(symbol, n, lexer->usual);
     const char *message =
         better ? fw_arena_printf(lexer->arena, "unknown unit '%.*s'; did you mean '%s'?", (int)n,
                                  symbol, better)

@@ -27,6 +27,7 @@ typedef struct fw_lexer {
     const char *text;
     size_t n, at;
     fw_expression_error *error; /* message NULL after running out of memory */
+    const char *usual;          /* unit of the place, to choose between suggestions; or NULL */
 } fw_lexer;
 
 fw_token fw_lexer_next(fw_lexer *lexer);
@@ -36,8 +37,6 @@ fw_token fw_lexer_next(fw_lexer *lexer);
 size_t fw_unit_scan(const char *text, size_t n, bool minus_allowed, fw_unit *unit,
                     const char **wrong, size_t *wrong_n);
 bool fw_unit_symbol(const char *symbol, size_t n);
-/* "did you mean 'um'?" for a misspelt unit, or NULL */
-const char *fw_unit_suggestion(const char *symbol, size_t n);
 /* d += by * times; false when an exponent leaves -127..127 */
 bool fw_dimension_combine(fw_dimension *d, fw_dimension by, int times);
 /* a unit that suits the dimension in messages: "um", "N m/rad"; NULL when there is no usual one */

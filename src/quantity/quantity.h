@@ -35,6 +35,10 @@ double fw_unit_to_si(const fw_unit *unit, double value);
 double fw_unit_from_si(const fw_unit *unit, double value);
 /* all unit symbols, for "did you mean" and the reference page */
 const char *const *fw_unit_names(size_t *count);
+/* "did you mean 'um'?" for a misspelt unit, or NULL. Of several that are equally near the one with
+   the same first letter wins (a prefix is a factor of 1000), then `usual`, the unit of the place
+   (may be NULL). */
+const char *fw_unit_suggestion(const char *symbol, size_t n, const char *usual);
 
 typedef enum fw_value_status { /* from best to worst; a result inherits the worst of its inputs */
                                FW_MEASURED,

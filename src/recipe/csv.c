@@ -28,11 +28,11 @@ static void head(fw_text *out, const fw_step *s, const char *name) {
 static void quantity_row(fw_text *out, const fw_step *s, const fw_row *row) {
     const fw_quantity *q = row->q;
     head(out, s, row->name);
-    if (!q->unknown) fw_put_exact(out, fw_quantity_in_unit(q));
+    if (!q->unknown) fw_put_plain(out, fw_quantity_in_unit(q));
     fw_text_add(out, ",");
     field(out, q->unit);
     fw_text_add(out, ",");
-    if (!q->unknown) fw_put_exact(out, fw_row_uncertainty(q));
+    if (!q->unknown) fw_put_uncertainty(out, fw_row_uncertainty(q));
     fw_text_add(out, ",");
     field(out, q->unknown ? "unknown" : fw_value_status_text(q->status));
     fw_text_add(out, ",");
@@ -62,9 +62,9 @@ static fw_status time_rows(fw_text *out, const fw_step *s) {
     }
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         head(out, s, rows[i].name);
-        fw_put_exact(out, rows[i].value_s);
+        fw_put_plain(out, rows[i].value_s);
         fw_text_add(out, ",s,");
-        if (i == 0) fw_put_exact(out, rows[i].u_s);
+        if (i == 0) fw_put_uncertainty(out, rows[i].u_s);
         fw_text_printf(out, ",%s,computed: law %s\n", fw_value_status_text(t->status), s->law);
     }
     return FW_OK;

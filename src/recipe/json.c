@@ -29,7 +29,7 @@ static void named(fw_text *out, const char *name, const char *value, bool first)
 
 static void number(fw_text *out, const char *name, double value, bool first) {
     key(out, name, first);
-    fw_put_exact(out, value);
+    fw_put_plain(out, value);
 }
 
 static void quantity(fw_text *out, const fw_row *row) {
@@ -43,8 +43,10 @@ static void quantity(fw_text *out, const fw_row *row) {
     named(out, "unit", q->unit, false);
     if (q->unknown)
         fw_text_add(out, ",\"uncertainty\":null");
-    else
-        number(out, "uncertainty", fw_row_uncertainty(q), false);
+    else {
+        key(out, "uncertainty", false);
+        fw_put_uncertainty(out, fw_row_uncertainty(q));
+    }
     named(out, "status", q->unknown ? "unknown" : fw_value_status_text(q->status), false);
     named(out, "source", q->source, false);
     if (q->note) named(out, "note", q->note, false);
@@ -72,7 +74,8 @@ static void times(fw_text *out, const fw_time *t) {
     number(out, "first_look", t->first_look_s, false);
     number(out, "clear_by", t->clear_by_s, false);
     number(out, "stop", t->stop_s, false);
-    number(out, "relative_uncertainty", t->relative_uncertainty, false);
+    key(out, "relative_uncertainty", false);
+    fw_put_uncertainty(out, t->relative_uncertainty);
     named(out, "status", fw_value_status_text(t->status), false);
     fw_text_add(out, "}");
 }
@@ -105,6 +108,7 @@ fw_status fw_recipe_write_json(const fw_flow *flow, const fw_recipe_header *head
     named(out, "flow", flow->id, false);
     named(out, "device", header->device, false);
     fw_text_printf(out, ",\"rejected\":%s", header->rejected ? "true" : "false");
+    if (header->rejected) named(out, "banner", "REJECTED", false);
     key(out, "steps", false);
     fw_text_add(out, "[");
     for (int i = 0; i < flow->nstep; i++) {

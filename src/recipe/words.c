@@ -39,17 +39,16 @@ double fw_row_uncertainty(const fw_quantity *q) {
     fw_unit unit;
     if (!q->unit || !fw_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL))
         return q->uncertainty;
-    return q->uncertainty / unit.factor;
+    unit.offset = 0.0; /* a width has no zero point */
+    return fw_unit_from_si(&unit, q->uncertainty);
 }
 
-void fw_put_exact(fw_text *out, double value) {
-    char text[40];
-    double back = 0.0;
-    for (int digits = 15; digits <= 17; digits++) {
-        fw_number_text(text, sizeof text, value, digits);
-        if (fw_number_parse(text, strlen(text), &back) && back == value) break;
-    }
-    fw_text_add(out, text);
+void fw_put_plain(fw_text *out, double value) {
+    fw_text_number(out, value, 12);
+}
+
+void fw_put_uncertainty(fw_text *out, double value) {
+    fw_text_number(out, value, 9);
 }
 
 void fw_put_value(fw_text *out, double value) {

@@ -16,8 +16,10 @@ fw_status fw_step_rows(fw_arena *arena, const fw_step *step, fw_row **row, int *
 
 /* standard uncertainty in the quantity's own unit */
 double fw_row_uncertainty(const fw_quantity *q);
-/* shortest of 15, 16, 17 digits that reads back as the same number */
-void fw_put_exact(fw_text *out, double value);
+/* shortest text of at most 12 digits: what arithmetic adds beyond them is no information. An
+   uncertainty gets 9, since slopes by central difference hold about 1e-10. */
+void fw_put_plain(fw_text *out, double value);
+void fw_put_uncertainty(fw_text *out, double value);
 void fw_put_value(fw_text *out, double value); /* up to 6 significant digits */
 /* unit for people: um as micrometre sign, Cel as degree sign; escaped for HTML */
 void fw_put_unit(fw_text *out, const char *unit);

@@ -160,5 +160,6 @@ fw_status fw_report_section_assumptions(fw_page *page) {
         fw_report_markup(out, "<li>{s}</li>\n", page->in->assumption[i]);
     fw_text_add(out, "</ul>\n");
     if (page->in->verdict->nvariant) materials(page);
+    fw_report_mechanics(page);
     return process_quantities(page);
 }

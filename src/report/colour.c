@@ -31,6 +31,10 @@ const char *fw_report_decision_colour(fw_decision decision) {
     return decisions[decision <= FW_REJECT ? decision : FW_INCONCLUSIVE].colour;
 }
 
+const char *fw_report_rejected(const fw_verdict *verdict) {
+    return verdict && verdict->decision == FW_REJECT ? "REJECTED: " : "";
+}
+
 const char *fw_report_decision_word(fw_decision decision) {
     return decisions[decision <= FW_REJECT ? decision : FW_INCONCLUSIVE].word;
 }

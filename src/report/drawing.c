@@ -204,11 +204,16 @@ fw_status fw_report_device_svg(fw_arena *arena, const fw_device *device, const f
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
         "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 {c} {c}\" "
         "width=\"{c}\" height=\"{c}\" font-family=\"system-ui,'DejaVu Sans',"
-        "sans-serif\">\n<title>{s}: hinges coloured by utilisation</title>\n"
+        "sans-serif\">\n<title>{r}{s}: hinges coloured by utilisation</title>\n"
         "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
         view.width, view.height + LEGEND_HEIGHT, view.width, view.height + LEGEND_HEIGHT,
-        device->name);
+        fw_report_rejected(verdict), device->name);
     fw_report_drawing(device, layout, verdict, &view, false, out);
+    if (*fw_report_rejected(verdict))
+        fw_report_markup(out,
+                         "<text x=\"{c}\" y=\"22\" font-size=\"18\" font-weight=\"700\" "
+                         "text-anchor=\"end\" fill=\"{r}\">REJECTED</text>\n",
+                         view.width - 10.0, fw_report_decision_colour(FW_REJECT));
     fw_text_add(out, "</svg>\n");
     return fw_text_end(out);
 }

@@ -87,9 +87,13 @@ static void one(fw_text *out, const fw_report_flow *f) {
                      "<tr><th scope=\"row\">Bias per edge</th><td>{u}</td></tr>"
                      "<tr><th scope=\"row\">Arc tolerance</th><td>{u}, grid 1\u00a0nm</td></tr>"
                      "<tr><th scope=\"row\">Reading</th><td>{s}</td></tr>"
+                     "{r}{s}{r}"
                      "<tr><th scope=\"row\">Polygons</th><td>{i}</td></tr></tbody></table>\n",
                      mask->cell, mask->box.x1 - mask->box.x0, "m", mask->box.y1 - mask->box.y0, "m",
-                     mask->bias_m, "m", mask->tolerance_m, "m", mask->table->reading, mask->nshape);
+                     mask->bias_m, "m", mask->tolerance_m, "m", mask->table->reading,
+                     mask->table->order ? "<tr><th scope=\"row\">Order</th><td>" : "",
+                     mask->table->order ? mask->table->order : "",
+                     mask->table->order ? "</td></tr>" : "", mask->nshape);
     if (f->flow && f->flow->bias_note)
         fw_report_markup(out, "<p class=\"soft small\">{s}</p>\n", f->flow->bias_note);
     if (mask->nnote) fw_text_add(out, "<p class=\"soft small\">Written on the mask: ");

@@ -1,5 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/page.h"
+#include <string.h>
+
+/* the path of a --set is no file path; the rest as fw_place_file */
+static const char *file_of(fw_place place) {
+    bool option = place.file && strncmp(place.file, "--set", 5) == 0;
+    return option ? place.file : fw_place_file(place);
+}
 
 fw_status fw_report_section_messages(fw_page *page) {
     static const char *const word[] = {"note", "warning", "error"};
@@ -15,8 +22,7 @@ fw_status fw_report_section_messages(fw_page *page) {
                 "</tr></thead><tbody>\n");
     for (size_t i = 0; i < diags->count; i++) {
         const fw_diag *d = &diags->item[i];
-        fw_report_markup(out, "<tr><td>{r}</td><td>{s}", word[d->severity],
-                         fw_place_file(d->place));
+        fw_report_markup(out, "<tr><td>{r}</td><td>{s}", word[d->severity], file_of(d->place));
         if (d->place.line > 0) fw_report_markup(out, ":{i}:{i}", d->place.line, d->place.column);
         fw_report_markup(out, "</td><td>{s}</td><td>", d->message);
         fw_text_printf(out, "FW-D%03d</td></tr>\n", d->number);

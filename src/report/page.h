@@ -30,6 +30,8 @@ enum { FW_REPORT_CLASSES = 5 };
 extern const fw_report_class fw_report_classes[FW_REPORT_CLASSES]; /* last: no limit known */
 const char *fw_report_utilisation_colour(double utilisation);
 const char *fw_report_decision_colour(fw_decision decision);
+/* "REJECTED: " in front of the titles of files that may travel alone, else ""; NULL allowed */
+const char *fw_report_rejected(const fw_verdict *verdict);
 const char *fw_report_decision_word(fw_decision decision); /* "ACCEPT" ... */
 /* `colour` when it reads #rgb or #rrggbb, else entry `index` of the palette */
 const char *fw_report_layer_colour(const char *colour, int index);
@@ -130,6 +132,7 @@ typedef struct fw_page {
 } fw_page;
 void fw_report_banner(fw_page *page);
 void fw_report_advice(fw_page *page);
+void fw_report_mechanics(fw_page *page); /* masses, stiffnesses, dampings as used, per flow */
 fw_status fw_report_section_device(fw_page *page);
 fw_status fw_report_section_hinges(fw_page *page);
 fw_status fw_report_section_motion(fw_page *page);

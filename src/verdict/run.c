@@ -63,6 +63,7 @@ static fw_status attempt(fw_arena *arena, const fw_device *device, const fw_layo
             return fw_diag_error(diags, 203, (fw_place){.file = device->file},
                                  "no joint of the mechanism is a flexure, so there is no elastic "
                                  "limit to judge: name a flexure on the joints");
+        FW_TRY(fw_verdict_check_closure(device, m, diags));
         FW_TRY(fw_verdict_variant(arena, device, layout, m, options, diags, v));
         if (!judged(v, device))
             return fw_diag_error(diags, 202, (fw_place){.file = device->file},
@@ -74,19 +75,42 @@ static fw_status attempt(fw_arena *arena, const fw_device *device, const fw_layo
     return combine(arena, device, options->motion.accuracy, verdict);
 }
 
-fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
-                         const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict,
-                         const fw_layout **layout) {
+static bool needs_shapes(const fw_device *device) {
+    for (int i = 0; i < device->nbody; i++) {
+        const fw_body *b = &device->body[i];
+        if (isnan(b->mass_kg) || isnan(b->inertia_kg_m2) || isnan(b->x_m) || isnan(b->y_m))
+            return true;
+    }
+    return false;
+}
+
+/* the drawing, or NULL where the mechanics can be judged without it; its messages are then warnings
+ */
+static fw_status draw(fw_arena *arena, const fw_device *device, fw_diags *diags,
+                      const fw_layout **layout) {
     fw_diags drawing = fw_diags_new(arena);
     *layout = NULL;
     fw_status status = fw_layout_build(arena, device, &drawing, layout);
-    if (status == FW_GEOMETRY || status == FW_INPUT) { /* judge the mechanics all the same */
-        *layout = NULL;
-        for (size_t i = 0; i < drawing.count; i++)
-            fw_diag_warning(diags, drawing.item[i].number, drawing.item[i].place, "%s",
-                            drawing.item[i].message);
-    } else
-        FW_TRY(status);
+    bool impossible = status == FW_GEOMETRY || status == FW_INPUT;
+    if (status != FW_OK && !impossible) return status;
+    if (impossible) *layout = NULL;
+    bool fatal = impossible && needs_shapes(device);
+    for (size_t i = 0; i < drawing.count; i++) {
+        const fw_diag *d = &drawing.item[i];
+        if (d->severity == FW_ERROR && fatal)
+            fw_diag_error(diags, d->number, d->place, "%s", d->message);
+        else if (d->severity == FW_NOTE)
+            fw_diag_note(diags, d->number, d->place, "%s", d->message);
+        else
+            fw_diag_warning(diags, d->number, d->place, "%s", d->message);
+    }
+    return fatal ? status : FW_OK;
+}
+
+fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
+                         const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict,
+                         const fw_layout **layout) {
+    FW_TRY(draw(arena, device, diags, layout));
     int nvariant = verdict->nvariant;
     fw_variant_verdict *variant = verdict->variant;
     FW_TRY(attempt(arena, device, *layout, options, diags, verdict));
@@ -101,6 +125,7 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
         FW_TRY(attempt(arena, device, *layout, &tight, &again, verdict));
         verdict->accuracy_wanted = options->motion.accuracy;
     }
+    verdict->layout = *layout;
     if (options->with_advice && verdict->decision != FW_ACCEPT)
         FW_TRY(fw_verdict_advise(arena, device, options, verdict));
     return FW_OK;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "verdict/compare.h"
-#include "verdict/strain.h"
+#include "verdict/watch.h"
 #include <math.h>
 #include <string.h>
 
@@ -42,55 +42,23 @@ bool fw_verdict_governs(const fw_hinge_verdict *h, const fw_hinge_verdict *other
     return h->utilisation > other->utilisation;
 }
 
-static double rotation(const fw_motion *motion, const fw_mechanism *m, int row, int body) {
-    if (body == FW_GROUND) return 0.0;
-    return motion->q[(size_t)row * 3 * (size_t)motion->nbody + 3 * (size_t)body + 2] -
-           m->body[body].phi_rad;
-}
-
-static double strain_at(const fw_mechanism *m, const fw_hinge *hinge, const fw_hinge_layout *drawn,
-                        const fw_motion *motion, int row) {
-    const fw_pin *pin = &m->pin[hinge->pin];
-    size_t at = (size_t)row * (size_t)motion->npin + (size_t)hinge->pin;
-    fw_hinge_load load = {
-        motion->angle_rad[at], motion->reaction_N ? motion->reaction_N[2 * at] : 0.0,
-        motion->reaction_N ? motion->reaction_N[2 * at + 1] : 0.0,
-        0.5 * (rotation(motion, m, row, pin->body_a) + rotation(motion, m, row, pin->body_b))};
-    return fw_hinge_strain(m, hinge, drawn, &load);
-}
-
-/* largest strain over the samples, its instant, and what a parabola through the neighbours adds */
-static double largest_strain(const fw_mechanism *m, const fw_hinge *hinge,
-                             const fw_hinge_layout *drawn, const fw_motion *motion, double *t_s,
-                             double *between) {
-    double best = 0.0;
-    int row = 0;
-    for (int i = 0; i < motion->nsample; i++) {
-        double strain = strain_at(m, hinge, drawn, motion, i);
-        if (strain > best) {
-            best = strain;
-            row = i;
-        }
-    }
-    *t_s = motion->nsample ? motion->t_s[row] : 0.0;
-    *between = 0.0;
-    if (row > 0 && row < motion->nsample - 1) {
-        double a = strain_at(m, hinge, drawn, motion, row - 1);
-        double b = strain_at(m, hinge, drawn, motion, row + 1), bend = 2.0 * best - a - b;
-        if (bend > 0.0) *between = (b - a) * (b - a) / (8.0 * bend);
-    }
-    return best + *between;
+/* the solids meet first: what happens then is not in the model, so it cannot be accepted */
+static void collide(const fw_hinge_layout *drawn, fw_hinge_verdict *out) {
+    out->touches = drawn && drawn->drawn && drawn->free_rad > 0.0 &&
+                   fabs(out->peak_angle_rad) > drawn->free_rad;
+    if (out->touches && out->decision == FW_ACCEPT) out->decision = FW_INCONCLUSIVE;
 }
 
 /* utilisation = peak strain (rotation and joint force, fillets included) over the limit strain, and
-   never less than peak angle / limit angle; band = numerical error + model errors, added up */
+   never less than peak angle / limit angle; band = model errors of it, and the numerical errors of
+   the angle over the limit angle and of the search for the strain */
 static void judge_scene(const fw_mechanism *m, const fw_hinge *hinge, const fw_hinge_layout *drawn,
-                        const fw_motion *motion, const char *scene, fw_hinge_verdict *out) {
+                        const fw_motion *motion, const fw_strain_peak *strain, const char *scene,
+                        fw_hinge_verdict *out) {
     const fw_peak *peak = &motion->peak[hinge->pin];
     const fw_flexure_result *c = &hinge->closed_form;
-    double angle = fabs(peak->angle_rad), t_strain, between;
-    double strain = largest_strain(m, hinge, drawn, motion, &t_strain, &between);
-    double by_angle = angle / c->limit_angle_rad, by_strain = strain / out->strain_limit;
+    double by_angle = fabs(peak->angle_rad) / c->limit_angle_rad;
+    double by_strain = strain->strain / out->strain_limit;
     *out = (fw_hinge_verdict){.id = out->id,
                               .joint = out->joint,
                               .strain_limit = out->strain_limit,
@@ -102,22 +70,24 @@ static void judge_scene(const fw_mechanism *m, const fw_hinge *hinge, const fw_h
     out->utilisation = fmax(by_angle, by_strain);
     out->peak_strain = out->utilisation * out->strain_limit;
     out->force_share = by_strain > by_angle ? 1.0 - by_angle / by_strain : 0.0;
-    out->t_s = by_strain > by_angle ? t_strain : peak->t_s;
+    out->t_s = by_strain > by_angle ? strain->t_s : peak->t_s;
+    /* a run that was ended went a whole turn: no error of its own changes that */
     double numeric =
-        (angle > 0.0 ? peak->error_rad / angle : 0.0) + (strain > 0.0 ? between / strain : 0.0);
-    double band = numeric + fw_verdict_model_error.motion + fw_verdict_model_error.strain +
-                  2.0 * (c->limit_uncertainty - 0.015);
-    out->utilisation_low = out->utilisation * fmax(0.0, 1.0 - band);
-    out->utilisation_high = out->utilisation * (1.0 + band);
+        motion->ended ? 0.0
+                      : peak->error_rad / c->limit_angle_rad + strain->between / out->strain_limit;
+    double model = fw_verdict_model_error.motion + fw_verdict_model_error.strain +
+                   2.0 * (c->limit_uncertainty - 0.015);
+    out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - model) - numeric);
+    out->utilisation_high = out->utilisation * (1.0 + model) + numeric;
     out->decision = decide(out->utilisation_low, out->utilisation_high);
-    out->touches = drawn && drawn->drawn && drawn->free_rad > 0.0 && angle > drawn->free_rad;
+    collide(drawn, out);
 }
 
 static void judge_workspace(const fw_mechanism *m, const fw_hinge *hinge,
-                            const fw_workspace_result *workspace, fw_hinge_verdict *out) {
+                            const fw_hinge_layout *drawn, const fw_workspace_result *workspace,
+                            fw_hinge_verdict *out) {
     const fw_workspace_peak *peak = &workspace->peak[hinge->pin];
     const fw_flexure_result *c = &hinge->closed_form;
-    double angle = fabs(peak->angle_rad);
     *out = (fw_hinge_verdict){.id = out->id,
                               .joint = out->joint,
                               .strain_limit = out->strain_limit,
@@ -127,13 +97,15 @@ static void judge_workspace(const fw_mechanism *m, const fw_hinge *hinge,
                               .peak_angle_rad = peak->angle_rad,
                               .angle_error_rad = peak->error_rad,
                               .t_s = (double)NAN};
-    out->utilisation = angle / c->limit_angle_rad;
+    out->utilisation = fabs(peak->angle_rad) / c->limit_angle_rad;
     out->peak_strain = out->utilisation * out->strain_limit;
-    double numeric = angle > 0.0 ? peak->error_rad / angle : 0.0;
-    double band = numeric + fw_verdict_model_error.strain + 2.0 * (c->limit_uncertainty - 0.015);
-    out->utilisation_low = out->utilisation * fmax(0.0, 1.0 - band);
-    out->utilisation_high = out->utilisation * (1.0 + band + fw_verdict_model_error.workspace);
+    double numeric = peak->error_rad / c->limit_angle_rad;
+    double model = fw_verdict_model_error.strain + 2.0 * (c->limit_uncertainty - 0.015);
+    out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - model) - numeric);
+    out->utilisation_high =
+        out->utilisation * (1.0 + model + fw_verdict_model_error.workspace) + numeric;
     out->decision = decide(out->utilisation_low, out->utilisation_high);
+    collide(drawn, out);
 }
 
 static bool in_flow(const char *asked, const char *flow) {
@@ -151,9 +123,10 @@ static void warn_ended(const fw_scene *scene, const fw_motion *motion, fw_diags 
                     scene->name, fw_number_text(t, sizeof t, motion->end_s * 1e3, 4));
 }
 
-static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_mechanism *m,
-                            const fw_verdict_options *options, fw_diags *diags,
-                            fw_variant_verdict *v) {
+/* runs every scene of this variant; watch[i] has its strain peaks */
+static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                            const fw_mechanism *m, const fw_verdict_options *options,
+                            fw_diags *diags, fw_variant_verdict *v, fw_watch *watch) {
     size_t n = (size_t)device->nscene;
     fw_motion_options motion = options->motion;
     if (motion.most_angle_rad <= 0) motion.most_angle_rad = whole_turn;
@@ -161,6 +134,9 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_m
     for (size_t i = 0; i < n; i++) {
         const fw_scene *scene = &device->scene[i];
         if (!in_flow(scene->flow, m->variant->flow)) continue;
+        FW_TRY(fw_watch_new(arena, m, layout, &watch[i]));
+        motion.observe = fw_watch_see;
+        motion.context = &watch[i];
         FW_TRY(fw_simulate(arena, m, scene, &motion, diags, &v->motion[i]));
         if (v->motion[i]->ended) warn_ended(scene, v->motion[i], diags);
     }
@@ -186,7 +162,9 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     v->governing = FW_NONE;
     v->nhinge = m->nhinge;
     FW_NEED(v->hinge = fw_arena_array(arena, fw_hinge_verdict, (size_t)m->nhinge));
-    FW_TRY(run_scenes(arena, device, m, options, diags, v));
+    fw_watch *watch = fw_arena_array(arena, fw_watch, (size_t)device->nscene);
+    FW_NEED(watch);
+    FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, watch));
     FW_TRY(fw_workspace_required(arena, m, diags, &v->workspace));
 
     const fw_material *material = &m->variant->material;
@@ -201,13 +179,15 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
         for (int i = 0; i < device->nscene; i++) {
             if (!v->motion[i]) continue;
             fw_hinge_verdict now = blank;
-            judge_scene(m, hinge, drawn, v->motion[i], device->scene[i].name, &now);
+            judge_scene(m, hinge, drawn, v->motion[i], &watch[i].hinge[k], device->scene[i].name,
+                        &now);
             if (now.touches) warn_touching(device, drawn, &now, diags);
             fw_verdict_keep_worst(&v->hinge[k], &now);
         }
         if (v->workspace.required && v->workspace.reachable) {
             fw_hinge_verdict now = blank;
-            judge_workspace(m, hinge, &v->workspace, &now);
+            judge_workspace(m, hinge, drawn, &v->workspace, &now);
+            if (now.touches) warn_touching(device, drawn, &now, diags);
             fw_verdict_keep_worst(&v->hinge[k], &now);
         }
     }

@@ -53,6 +53,7 @@ typedef struct fw_verdict {
     int nadvice;
     bool advice_verified; /* the advised values together were run and accepted */
     const char *advice_note;
+    const fw_layout *layout; /* what was judged; NULL: it cannot be drawn */
 } fw_verdict;
 
 typedef struct fw_verdict_options {

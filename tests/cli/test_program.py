@@ -110,6 +110,82 @@ class Plan(InTemporary):
         result = self.expect(run("check", self.device(text)), 1)
         self.assertIn("FW-D201", result.stderr)
 
+    def hinges(self, *arguments):
+        return {h["id"]: h for h in json.loads(run("check", *arguments, "--json").stdout)["hinges"]}
+
+    def test_a_longer_scene_never_looks_safer(self):
+        short = self.hinges(GALLERY)
+        long = self.hinges(self.device(GALLERY_TEXT.replace('duration="10 ms"', 'duration="1 s"')))
+        for name, hinge in short.items():
+            self.assertAlmostEqual(hinge["utilisation"], long[name]["utilisation"], delta=2e-4)
+
+    def test_colliding_solids_are_not_accepted(self):
+        result = self.expect(run("check", GALLERY, "--set", "flexure[A]/@angle=330 deg"), 4)
+        self.assertIn("FW-D204", result.stderr)
+
+    def test_loads_are_never_left_out(self):
+        heavy = self.device(GALLERY_TEXT.replace('fx="0.35 mN"', 'fx="0.9 mN"'))
+        for effects in ("auto", "all", "none", "gravity"):
+            self.expect(run("check", heavy, "--effects", effects), 1)
+
+    def test_advice_of_many_kinds_is_followed(self):
+        def lengths(factor, names="ABCDEF"):
+            return re.sub(r'(id="([A-F])"[^>]*length=)"([0-9.]+) um"', lambda m: m.group(0) if m.group(2)
+                          not in names else f'{m.group(1)}"{float(m.group(3)) * factor:g} um"', GALLERY_TEXT)
+        unstated = re.sub(r' (stiffness|damping|mass|inertia)="[^"]*"', "", GALLERY_TEXT)
+        devices = {
+            "one weak hinge": lengths(0.4, "C"),
+            "two": lengths(0.6, "AF"),
+            "radius": re.sub(r'length="([0-9.]+) um" angle="arc"',
+                             lambda m: f'radius="{float(m.group(1)) * 0.14:g} um" angle="arc"', GALLERY_TEXT),
+            "radius and length": re.sub(r'length="300 um" angle="arc"', 'length="150 um" radius="36 um"',
+                                        GALLERY_TEXT),
+            "stricter": GALLERY_TEXT.replace('safety-factor="1.5"', 'safety-factor="2.2"'),
+            "weaker": GALLERY_TEXT.replace("2.5 GPa", "1.9 GPa"),
+            "from the drawing": unstated.replace('fx="0.35 mN"', 'fx="0.5 mN"'),
+            "leaf": (ROOT / "docs/gallery/leaf-four-bar/device.xml").read_text()
+                    .replace('fx="0.06 mN"', 'fx="0.4 mN"'),
+            "workspace": GALLERY_TEXT.replace('x-min="-150 um" x-max="150 um"',
+                                              'x-min="-450 um" x-max="450 um"'),
+        }
+        for name, text in devices.items():
+            with self.subTest(name):
+                device = self.device(text, name.replace(" ", "-") + ".xml")
+                result = run("check", device)
+                self.assertIn(result.returncode, (1, 4), name)
+                arguments = [a for s in re.findall(r'--set "([^"]*)"', result.stdout) for a in ("--set", s)]
+                self.assertTrue(arguments or "run and accepted" in result.stdout, result.stdout)
+                if arguments:
+                    self.expect(run("plan", device, "-o", self.here / "followed", *arguments), 0)
+
+    def test_a_loop_that_does_not_close_is_an_error(self):
+        leaf = (ROOT / "docs/gallery/leaf-four-bar/device.xml").read_text()
+        result = self.expect(run("check", self.device(leaf.replace('b-x="1.8 mm"', 'b-x="1.9 mm"'))), 3)
+        self.assertRegex(result.stderr, r"joint D .*100 um .*FW-D206")
+
+    def test_what_people_add_to_the_results_is_kept(self):
+        out = self.here / "out"
+        self.expect(run("plan", GALLERY, "-o", out), 0)
+        self.expect(run("plan", GALLERY, "-o", out), 0)
+        (out / "recipes/lot-7.html").write_text("filled in by hand")
+        result = self.expect(run("plan", GALLERY, "-o", out), 5)
+        self.assertIn("lot-7.html", result.stderr)
+        self.assertEqual((out / "recipes/lot-7.html").read_text(), "filled in by hand")
+
+    def test_rejected_masks_are_not_an_empty_directory(self):
+        out = self.here / "out"
+        result = self.expect(run("mask", self.device(self.shortened(4)), "-o", out), 1)
+        self.assertIn("nothing was written", result.stdout)
+        self.assertFalse(out.exists())
+
+    def test_what_cannot_be_drawn_is_not_accepted(self):
+        self.assertNotEqual(run("plan", GALLERY, "--set", "die/@width=1 mm", "-o", self.here / "o").returncode, 0)
+
+    def test_many_scenes(self):
+        scene = re.search(r'  <scene name="step-load".*?</scene>\n', GALLERY_TEXT, re.S).group(0)
+        many = "".join(scene.replace("step-load", f"s{i}") for i in range(60))
+        self.expect(run("plan", self.device(GALLERY_TEXT.replace(scene, many)), "-o", self.here / "o"), 0)
+
     def test_one_flow_only(self):
         out = self.here / "out"
         self.expect(run("plan", GALLERY, "-o", out, "--flow", FLOWS[1]), 0)
@@ -176,6 +252,12 @@ class Simulate(InTemporary):
         self.expect(run("simulate", GALLERY, "--animate", svg), 0)
         import xml.etree.ElementTree as tree
         self.assertTrue(tree.parse(svg).getroot().tag.endswith("svg"))
+
+    def test_scene_of_another_flow(self):
+        result = self.expect(run("simulate", GALLERY, "--scene", "step-load", "--flow", FLOWS[1]), 3)
+        self.assertIn("al-masked-rie", result.stderr)
+        data = json.loads(self.expect(run("simulate", GALLERY, "--flow", FLOWS[1], "--json"), 0).stdout)
+        self.assertLess(abs(data["peaks"][0]["angle_rad"]), 0.06)  # gentle-step, not step-load
 
     def test_unknown_scene(self):
         result = self.expect(run("simulate", GALLERY, "--scene", "stepload"), 3)

@@ -11,7 +11,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n) {
     fw_arena *arena = fw_arena_new((size_t)64 * 1024 * 1024);
     if (!arena) return 0;
     const char *text = (const char *)data;
-    const fw_set set[] = {{"link", "100 um"}, {"flexure[A]/@length", "312 um"}};
+    const fw_set set[] = {{"link", "130 um"}, {"flexure[A]/@length", "312 um"}};
     for (int nset = 0; nset <= 2; nset += 2) {
         fw_diags diags = fw_diags_new(arena);
         const fw_device *device;

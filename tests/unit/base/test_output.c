@@ -37,8 +37,35 @@ static fw_status plan(room *r, const char *to, const char *content) {
     fw_output *output;
     FW_TRY(fw_output_open(r->arena, below(r, to), &r->diags, &output));
     FW_TRY(fw_output_write(output, "deep/er/a.txt", content, strlen(content)));
-    FW_TRY(fw_output_write(output, "manifest.json", "{}", 2));
+    size_t count;
+    const fw_output_file *file = fw_output_files(output, &count);
+    const char *manifest =
+        fw_arena_printf(r->arena, "{\"outputs\":[{\"name\":\"%s\",\"sha256\":\"%s\"}]}",
+                        file[0].name, file[0].sha256);
+    FW_TRY(fw_output_write(output, "manifest.json", manifest, strlen(manifest)));
     return fw_output_commit(output);
+}
+
+/* notes beside the results, and a result that somebody edited, both survive */
+static void what_people_add_is_kept(void **state) {
+    room *r = *state;
+    assert_int_equal(plan(r, "out", "one"), FW_OK);
+    assert_int_equal(
+        system(fw_arena_printf(r->arena, "echo note > %s/out/deep/notes.txt", r->path)), 0);
+    assert_int_equal(plan(r, "out", "two"), FW_IO);
+    assert_int_equal(r->diags.item[0].number, 223);
+    assert_non_null(strstr(r->diags.item[0].place.file, "out/deep/notes.txt"));
+    assert_int_equal(system(fw_arena_printf(r->arena,
+                                            "grep -q one %s/out/deep/er/a.txt && rm "
+                                            "%s/out/deep/notes.txt && echo 1 >> "
+                                            "%s/out/deep/er/a.txt",
+                                            r->path, r->path, r->path)),
+                     0);
+    assert_int_equal(plan(r, "out", "two"), FW_IO);
+    assert_non_null(strstr(r->diags.item[1].message, "was changed"));
+    assert_int_equal(system(fw_arena_printf(r->arena, "ln -s out %s/link", r->path)), 0);
+    assert_int_equal(plan(r, "link", "two"), FW_IO);
+    assert_non_null(strstr(r->diags.item[2].message, "symbolic link"));
 }
 
 static void whole_and_replaced_whole(void **state) {
@@ -115,6 +142,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(whole_and_replaced_whole, enter, leave),
         cmocka_unit_test_setup_teardown(aborted_leaves_nothing_and_keeps_the_old, enter, leave),
         cmocka_unit_test_setup_teardown(foreign_directories_are_refused, enter, leave),
+        cmocka_unit_test_setup_teardown(what_people_add_is_kept, enter, leave),
         cmocka_unit_test_setup_teardown(leftovers_of_the_dead_are_removed, enter, leave),
         cmocka_unit_test_setup_teardown(input_says_what_is_wrong, enter, leave),
     };

@@ -86,11 +86,50 @@ static void set_replaces_attributes(void **state) {
         {{"flexure[A/@length", "1 um"}, 55, "no path"},
         {{"[A]/@length", "1 um"}, 55, "no such element"},
         {{"flexure[A]/@length", "1 kg"}, 25, "length=\"1 kg\""},
-        {{"flexure[A]/@length", "-1 um"}, 47, "above 0 um"},
+        {{"flexure[A]/@length", "-1 um"}, 47, "at least 1 um"},
         {{"flexure[A]/@kind", "leef"}, 48, "csfh, leaf"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
         only_error(arena, xml, &bad[i].set, 1, bad[i].number, bad[i].says);
+    fw_arena_free(arena);
+}
+
+/* of many --set the message names the one that is wrong, as its file */
+static void a_set_names_its_path(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    size_t n;
+    char *xml = load(arena, GALLERY, &n);
+    const fw_set set[] = {{"flexure[A]/@length", "312 umm"},
+                          {"arc", "240 deg"},
+                          {"flexure[B]/@lenght", "1 um"},
+                          {"link", "0.5 m"},
+                          {"die/@height", "6 mm"}};
+    static const char *const file[] = {"--set flexure[B]/@lenght", "--set link",
+                                       "--set flexure[A]/@length"};
+    fw_diags diags = fw_diags_new(arena);
+    const fw_device *device;
+    assert_int_equal(fw_device_read(arena, "g.xml", xml, n, set, 5, &diags, &device), FW_INPUT);
+    assert_int_equal(diags.count, 3);
+    for (int i = 0; i < 3; i++) {
+        assert_string_equal(diags.item[i].place.file, file[i]);
+        assert_int_equal(diags.item[i].place.line, 0);
+    }
+    fw_text out = fw_text_new(arena);
+    fw_diags_print(&diags, &out, "g.xml", xml, n, 0);
+    assert_non_null(strstr(out.data, "--set flexure[A]/@length: error: "));
+    assert_non_null(strstr(out.data, "did you mean 'um'?"));
+    fw_arena_free(arena);
+}
+
+/* the misspelt end of a reference may be the declaration: both places are told */
+static void both_ends_of_a_reference(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    only_error(arena,
+               DEVICE("\n <flow ref=\"al-masked-rei\"/>" ARM
+                      "<scene name=\"s\" duration=\"1 ms\" flow=\"al-masked-rie\"/>"),
+               NULL, 0, 46, "did you mean 'al-masked-rei', declared at 2:13?");
     fw_arena_free(arena);
 }
 
@@ -125,6 +164,8 @@ int main(void) {
         cmocka_unit_test(order_does_not_matter),
         cmocka_unit_test(set_replaces_parameters),
         cmocka_unit_test(set_replaces_attributes),
+        cmocka_unit_test(a_set_names_its_path),
+        cmocka_unit_test(both_ends_of_a_reference),
         cmocka_unit_test(one_mistake_is_said_once),
         cmocka_unit_test(a_long_chain),
     };

@@ -159,16 +159,19 @@ static void test_choices(void **state) {
     s.scene.nforce = 1;
     assert_int_equal(compile(arena, &s, FW_EFFECTS_NONE, NULL, 1e-3, &diags, &ledger, &terms),
                      FW_OK);
-    assert_int_equal(terms.ntorsion + terms.nload, 0);
-    assert_true(entry(&ledger, "applied-load")->called_for);
-    assert_int_equal(compile(arena, &s, FW_EFFECTS_LIST, "joint-elasticity, initial-velocity", 1e-3,
-                             &diags, &ledger, &terms),
-                     FW_OK);
+    /* what the motion is made of stays: stiffness, loads, starting velocities */
     assert_int_equal(terms.ntorsion, 1);
+    assert_int_equal(terms.nload, 1);
     assert_true(terms.torsion[0].stiffness_Nm_per_rad == 1e-6);
     assert_true(terms.torsion[0].damping_Nms_per_rad == 0);
     assert_true(terms.velocity[2] == 3);
-    assert_int_equal(terms.nload, 0);
+    assert_true(entry(&ledger, "applied-load")->active);
+    assert_false(entry(&ledger, "joint-damping")->active);
+    assert_int_equal(compile(arena, &s, FW_EFFECTS_LIST, "gravity, joint-damping", 1e-3, &diags,
+                             &ledger, &terms),
+                     FW_OK);
+    assert_true(terms.torsion[0].damping_Nms_per_rad == 1e-12);
+    assert_int_equal(terms.nload, 1);
     assert_int_equal(compile(arena, &s, FW_EFFECTS_ALL, NULL, 1e-3, &diags, &ledger, &terms),
                      FW_OK);
     assert_int_equal(terms.nload, 1);

@@ -467,6 +467,36 @@ static void variants_are_drawn_or_refused(void **state) {
     assert_true(refused > 0);
 }
 
+/* what is drawn instead of a fillet that does not fit is said, once per flexure */
+static void a_fillet_that_does_not_fit(void **state) {
+    (void)state;
+    static const double fillet[] = {NONE, 3e-6, 100e-6};
+    for (int i = 0; i < 3; i++) {
+        fixture f;
+        fixture_six_bar(&f);
+        f.flexure[1].fillet_m = fillet[i];
+        f.flexure[1].place = (fw_place){"test.xml", 12, 3};
+        f.joint[2].flexure = 1; /* two hinges with one flexure */
+        drawn d = draw_well(&f);
+        assert_int_equal(d.diags.count, i == 2);
+        if (i == 1) assert_near(d.layout->hinge[1].fillet_m, 3e-6, 1e-18);
+        if (i == 2) {
+            const fw_diag *said = &d.diags.item[0];
+            char used[32], text[64];
+            double drawn_m = d.layout->hinge[1].fillet_m;
+            assert_true(drawn_m < 50e-6);
+            snprintf(text, sizeof text, "room for %s um only",
+                     fw_number_text(used, sizeof used, drawn_m * 1e6, 4));
+            assert_int_equal(said->number, 129);
+            assert_int_equal(said->severity, FW_WARNING);
+            assert_int_equal(said->place.line, 12);
+            assert_non_null(strstr(said->message, "100 um in the file"));
+            if (!strstr(said->message, text)) fail_msg("%s: %s", text, said->message);
+        }
+        fw_arena_free(d.arena);
+    }
+}
+
 /* a body with three hinges and a base per ground hinge; a turned plate on one hinge */
 static void other_mechanisms_are_drawn(void **state) {
     (void)state;
@@ -665,6 +695,7 @@ int main(void) {
         cmocka_unit_test(other_mechanisms_are_drawn),
         cmocka_unit_test(leaf_is_exact),
         cmocka_unit_test(tight_devices_are_refused),
+        cmocka_unit_test(a_fillet_that_does_not_fit),
         cmocka_unit_test(bulge_may_be_turned),
         cmocka_unit_test(gap_may_be_small_or_absent),
         cmocka_unit_test(without_shapes_nothing_is_drawn),

@@ -34,6 +34,11 @@ static void shipped_table(const char *flow, const char *tone, const char *text_t
             assert_non_null(t.layer[k].rule_source);
         }
     }
+    /* the lane is for the saw: who orders the plate must not add it to a biased frame */
+    assert_non_null(strstr(layer_of(&t, FW_ROLE_DICING)->purpose, "not on the plate"));
+    assert_non_null(strstr(t.order, "plate = 1/0 NOT 2/0 NOT 3/0"));
+    assert_non_null(strstr(t.order, "4/0 and 63/0 are not on the plate"));
+    assert_true(strlen(t.order) < 200 && layer_of(&t, FW_ROLE_DICING)->layer == 4);
     assert_int_equal(all, (1u << FW_ROLE_COUNT) - 1);
     assert_int_equal(notes, 1);
     assert_string_equal(layer_of(&t, FW_ROLE_STRUCTURE)->tone, tone);

@@ -283,6 +283,17 @@ static void dose(void **state) {
     fw_law_window(&a, 2.0, 0.0, &time);
     assert_near(time.first_look_s, 117.1, 0.05);
     assert_near(time.clear_by_s, 165.8, 0.05);
+    /* the same from two entries of one table with 7 % each: their errors go together */
+    a = TIME_OF("dose", {"intensity", "mW/cm2", 10, 0.5}, {"thickness", "um", 16, 0.5},
+                {"thickness_1", "um", 10, 0}, {"dose_1", "mJ/cm2", 900, 63},
+                {"thickness_2", "um", 24, 0}, {"dose_2", "mJ/cm2", 2100, 147});
+    assert_relative(a.uncertainty / a.value, hypot(0.07, 0.05), 1e-8);
+    assert_int_equal(a.ncontribution, 2);
+    assert_string_equal(a.contribution[0], "dose table 7 %");
+    assert_string_equal(a.contribution[1], "intensity 5 %");
+    fw_law_window(&a, 2.0, 0.0, &time);
+    assert_near(time.first_look_s, 117.1, 0.05);
+    assert_near(time.clear_by_s, 165.8, 0.05);
     a = TIME_OF("dose", {"intensity", "mW/cm2", 10, 0}, {"thickness", "um", 25, 0},
                 {"thickness_1", "um", 10, 0}, {"dose_1", "mJ/cm2", 900, 0},
                 {"thickness_2", "um", 24, 0}, {"dose_2", "mJ/cm2", 2100, 0});
@@ -373,7 +384,8 @@ static void slopes(void **state) {
     unsigned seed = 12345;
     for (int l = 0; fw_law_row(l); l++) {
         const fw_law *law = fw_law_row(l);
-        if (!law->slope || law == &fw_law_duty) continue;
+        if (!law->slope || law == &fw_law_duty || law == &fw_law_dose)
+            continue; /* their own tests */
         for (int trial = 0; trial < 50; trial++) {
             double x[FW_LAW_ARGUMENTS], dx[FW_LAW_ARGUMENTS], f, f1, f2;
             fw_law_call call = {.shape = "", .expression = ""};
@@ -394,6 +406,7 @@ static void slopes(void **state) {
                 x[i] = at - h;
                 law->evaluate(&call, x, &f1);
                 x[i] = at;
+                if (isnan(dx[i])) continue; /* left to the difference */
                 assert_near((f2 - f1) / (2.0 * h), dx[i], 1e-7 * (1.0 + fabs(dx[i])));
             }
         }

@@ -115,7 +115,12 @@ static void errors(void **state) {
         {"1e-6 N m", turning, 25, 0, "torsional stiffness"},
         {"2*arc", pure, 25, 0, "an angle"}, /* an angle never is a pure number */
         {"2*3", angle, 24, 0, "deg"},
-        {"12 umm", length, 21, 3, "did you mean"},
+        {"12 umm", length, 21, 3, "did you mean 'um'"},
+        {"12 xm", length, 21, 3, "did you mean 'um'"},
+        {"12 qPa", (fw_dimension){-1, 1, -2, 0, 0, 0, 0}, 21, 3, "did you mean 'GPa'"},
+        {"300,5 um", length, 20, 3, "the decimal sign is a point, not a comma: write '300.5'"},
+        {"2*(1,25 um)", length, 20, 4, "write '1.25'"},
+        {"12 um, 3 um", length, 20, 5, "only between the arguments"},
         {"12 \xc2\xb5m", length, 21, 3, "'um'"},
         {"12 N m/rod", turning, 22, 7, "'rod'"},
         {"12 um foo", length, 21, 6, "'foo'"},

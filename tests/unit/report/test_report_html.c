@@ -102,6 +102,55 @@ static void banner_says_the_verdict(void **state) {
     fw_arena_free(arena);
 }
 
+/* files that travel alone say it in their titles */
+static void rejected_in_every_title(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    static const double limit[] = {0.05, 0.12, 0.3};
+    for (int i = 0; i < 3; i++) {
+        fixture *f = fixture_new(arena, limit[i]);
+        fw_text device = fw_text_new(arena), motion = fw_text_new(arena);
+        assert_int_equal(drawing(arena, f, &device), FW_OK);
+        assert_int_equal(fw_report_motion_svg_judged(arena, &f->device, &f->mechanism[0],
+                                                     f->variant_verdict[0].motion[0],
+                                                     &f->device.scene[0], &f->verdict, &motion),
+                         FW_OK);
+        assert_true((f->verdict.decision == FW_REJECT) == (i == 0));
+        assert_true((strstr(device.data, "<title>REJECTED: ") != NULL) == (i == 0));
+        assert_true((strstr(motion.data, "<title>REJECTED: ") != NULL) == (i == 0));
+        assert_true((strstr(device.data, ">REJECTED</text>") != NULL) == (i == 0));
+    }
+    fw_arena_free(arena);
+}
+
+/* masses, inertias and stiffnesses as used stand on the page, per flow */
+static void mechanics_are_shown(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fixture *f = fixture_new(arena, 0.3);
+    f->mechanism[0].body[0].mass_kg = 1.88e-8;
+    f->mechanism[0].body[0].inertia_kg_m2 = 2.86e-15;
+    f->mechanism[0].body[0].x_m = 0.45e-3;
+    f->mechanism[0].pin[0].stiffness_Nm_per_rad = 1.711e-6;
+    f->mechanism[0].pin[0].damping_Nms_per_rad = 7e-12;
+    f->mechanism[0].hinge[0].closed_form.stiffness_Nm_per_rad = 1.723e-6;
+    fw_text out = fw_text_new(arena);
+    assert_int_equal(html(arena, f, &out), FW_OK);
+    static const char *const shown[] = {"18.8\u00a0\u00b5g",
+                                        "<td class=\"n\">0.00286</td>",
+                                        "<td class=\"n\">0.45, ",
+                                        "1.711\u00a0\u00b5N\u00b7m/rad",
+                                        "1.723\u00a0\u00b5N\u00b7m/rad",
+                                        "7\u00a0pN\u00b7m\u00b7s/rad"};
+    for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++)
+        if (!strstr(out.data, shown[i])) fail_msg("'%s' is not on the page", shown[i]);
+    int tables = 0;
+    for (const char *at = out.data; (at = strstr(at, "Masses and stiffnesses used")); at++)
+        tables++;
+    assert_int_equal(tables, f->verdict.nvariant);
+    fw_arena_free(arena);
+}
+
 static void hostile_names_are_text(void **state) {
     (void)state;
     static const char evil[] = "\"'><script>alert(1)</script><img src=x onerror=y>]]>";
@@ -294,6 +343,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_picture_is_well_formed),
         cmocka_unit_test(banner_says_the_verdict),
+        cmocka_unit_test(rejected_in_every_title),
+        cmocka_unit_test(mechanics_are_shown),
         cmocka_unit_test(hostile_names_are_text),
         cmocka_unit_test(numbers_that_are_not_finite_do_not_show),
         cmocka_unit_test(little_input_is_enough),

@@ -1,0 +1,240 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Flexwright as a library: from one description of a planar compliant micromanipulator to a verdict
+   (does any flexure hinge leave its elastic range?), mask layouts and computed recipes.
+
+       fw_design_options options = fw_design_options_default();
+       fw_design *design = fw_design_new(&options);
+       if (fw_design_read(design, "device.xml") == FW_STATUS_OK &&
+           fw_design_judge(design) == FW_STATUS_OK)
+           printf("decision %d\n", fw_design_decision(design));
+       fw_design_free(design);
+
+   Ownership: a design owns all that it computed and every pointer that it hands out; they live
+   until fw_design_free. What you pass in (options, strings, bytes) is copied and yours again on
+   return.
+
+   Errors: a function that can fail returns a status (FW_STATUS_...), FW_STATUS_OK = 0. What a
+   person should know is in the diagnostics. A rejected design is a result, not an error. NULL where
+   a value is needed, and calls in the wrong order, are FW_STATUS_USAGE; nothing ends the process,
+   nothing is printed. After a status other than FW_STATUS_OK the design can still be asked for its
+   diagnostics and freed.
+
+   Threads: one design belongs to one thread at a time; any number of designs may work in parallel
+   in different threads. The same description and options give the same bytes in any thread and any
+   locale (measured CPU times in FW_DOCUMENT_SIMULATE_... excepted). fw_library_version,
+   fw_status_name, fw_design_options_init, fw_design_cancel and fw_design_cancel_clear may be called
+   from any thread at any time.
+
+   The library reads no environment variable, keeps no file open between calls, changes no locale of
+   the caller and installs no signal handler. It turns off the error handler of GSL (which would end
+   the process) for the whole process. */
+#ifndef FLEXWRIGHT_H
+#define FLEXWRIGHT_H
+#include <stddef.h>
+#include <stdint.h>
+
+#ifndef FW_API
+#if defined(__GNUC__)
+#define FW_API __attribute__((visibility("default")))
+#else
+#define FW_API
+#endif
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- statuses ---- */
+
+enum {
+    FW_STATUS_OK = 0,        /* done */
+    FW_STATUS_USAGE = 1,     /* wrong argument, option or order of calls */
+    FW_STATUS_INPUT = 2,     /* the description or a pack is invalid; see the diagnostics */
+    FW_STATUS_GEOMETRY = 3,  /* impossible geometry */
+    FW_STATUS_IO = 4,        /* a file could not be read or written */
+    FW_STATUS_NOMEM = 5,     /* out of memory, or over memory_cap */
+    FW_STATUS_LIMIT = 6,     /* another limit was reached */
+    FW_STATUS_SOLVER = 7,    /* no numerical solution */
+    FW_STATUS_CANCELLED = 8, /* fw_design_cancel was called */
+    FW_STATUS_INTERNAL = 9   /* a fault of the library */
+};
+
+/* A few words for a status ("out of memory"); "unknown status" for other numbers. Static text. */
+FW_API const char *fw_status_name(int status);
+
+/* Version of the library that is linked, "MAJOR.MINOR.PATCH". Static text. */
+FW_API const char *fw_library_version(void);
+
+/* ---- options ---- */
+
+/* Zero or NULL in a field means its default. Start from fw_design_options_default(): `size` tells
+   the library which fields your header knew, so that fields can be added at the end. */
+typedef struct fw_design_options {
+    size_t size;                /* sizeof (fw_design_options) */
+    const char *data_directory; /* holds processes/ and masks/; NULL: as installed */
+    const char *flow;           /* only this process flow; NULL: all of the description */
+    const char *scene;          /* for fw_design_simulate; NULL: the first */
+    double accuracy;            /* relative error wanted on the peak hinge deflection, 1e-12..0.1;
+                                   default 1e-3 */
+    const char *effects;     /* "auto" (default), "all", "none" or a list "gravity,joint-damping" */
+    const char *method;      /* how constraint forces are found; default "chain" */
+    const char *integrator;  /* default "auto" */
+    double rtol;             /* tolerance of the integrator, 1e-14..1e-2; default from accuracy */
+    int32_t samples;         /* rows of the motion, 2..1000000; default 1001 */
+    int32_t force;           /* not 0: masks and recipes of a rejected design too, each marked */
+    double mask_tolerance_m; /* largest distance of an arc from its polygon, 1.42e-9..1e-6 m;
+                                default 5e-9 */
+    size_t memory_cap;       /* most bytes that one design holds; default 256 MiB */
+} fw_design_options;
+
+/* Fills `size` bytes (as the caller's header defines the struct) with the defaults. NULL options:
+   does nothing. Use fw_design_options_default(). */
+FW_API void fw_design_options_init(fw_design_options *options, size_t size);
+
+static inline fw_design_options fw_design_options_default(void) {
+    fw_design_options options;
+    fw_design_options_init(&options, sizeof options);
+    return options;
+}
+
+/* ---- a design ---- */
+
+typedef struct fw_design fw_design;
+
+/* A design without a description. NULL options: all defaults. NULL: out of memory. An option out of
+   range is reported by fw_design_read with FW_STATUS_USAGE and a diagnostic. Free with
+   fw_design_free. Cost: microseconds. */
+FW_API fw_design *fw_design_new(const fw_design_options *options);
+
+/* Frees the design and everything it handed out. NULL is allowed. */
+FW_API void fw_design_free(fw_design *design);
+
+/* Overrides a parameter ("arc", "250 deg") or an attribute ("flexure[A]/@length", "312 um") of the
+   description that will be read. Call before fw_design_read; the order of calls is kept.
+   FW_STATUS_USAGE, FW_STATUS_NOMEM; a wrong path or value is reported by fw_design_read. */
+FW_API int fw_design_set(fw_design *design, const char *path, const char *value);
+
+/* Reads the description (XML) at `path`, "-" for standard input, and the packs that it names, and
+   checks both: all mistakes are in the diagnostics, each with its line and column. Once per design.
+   FW_STATUS_INPUT, FW_STATUS_IO, FW_STATUS_USAGE, FW_STATUS_NOMEM. Cost: milliseconds. */
+FW_API int fw_design_read(fw_design *design, const char *path);
+
+/* The same from `n` bytes at `xml`; `name` stands for the file in diagnostics and in the manifest
+   (NULL: "memory"). */
+FW_API int fw_design_read_memory(fw_design *design, const char *name, const void *xml, size_t n);
+
+/* Name of the device; NULL before it was read. */
+FW_API const char *fw_design_name(const fw_design *design);
+
+/* Layout, mechanism, the motion of every scene, the required workspace and the verdict in every
+   flow, with advice for a design that is not accepted; times and judgement of the flows. After
+   reading. FW_STATUS_INPUT, FW_STATUS_USAGE (an effect that is not known), FW_STATUS_GEOMETRY,
+   FW_STATUS_SOLVER, FW_STATUS_LIMIT, FW_STATUS_CANCELLED, FW_STATUS_NOMEM. Again after
+   FW_STATUS_OK: does nothing. Cost for a six-bar: about 20 ms, 50 and more when advice is sought.
+ */
+FW_API int fw_design_judge(fw_design *design);
+
+/* The answer, as the exit status of the program: 0 accepted, 1 rejected (also when a flow cannot
+   make the device), 4 inconclusive (the error band straddles the limit); -1 before fw_design_judge.
+   After fw_design_fabricate it also knows of masks that could not be made. */
+FW_API int fw_design_decision(const fw_design *design);
+
+/* Masks with each flow's bias, after judging. A rejected design gets none unless `force`: that is
+   no error. Errors as fw_design_judge; again after FW_STATUS_OK: does nothing. Cost for a six-bar:
+   about 50 ms for two flows. */
+FW_API int fw_design_fabricate(fw_design *design);
+
+/* Runs one scene (options.scene), after reading; judging is not needed. Errors as fw_design_judge,
+   and FW_STATUS_INPUT when there is no such scene. Again after FW_STATUS_OK: does nothing. Cost for
+   a six-bar: about 10 ms. */
+FW_API int fw_design_simulate(fw_design *design);
+
+enum {                        /* what fw_design_write writes, added up; manifest.json always */
+       FW_DESIGN_VERDICT = 1, /* verdict.json */
+       FW_DESIGN_MASKS = 2,   /* masks/FLOW.gds, .svg, .lyp, .json */
+       FW_DESIGN_RECIPES = 4, /* recipes/FLOW.html, .csv, .ics, .json */
+       FW_DESIGN_MOTION = 8,  /* motion/SCENE.csv, .svg */
+       FW_DESIGN_REPORT = 16, /* report.html, device.svg, device.png */
+       FW_DESIGN_EVERYTHING = 31
+};
+
+/* Writes the results below `directory`, which appears complete or not at all. An earlier result
+   there is replaced; a directory that holds something else is refused (FW_STATUS_IO). After
+   judging, and for masks and recipes after fw_design_fabricate. FW_STATUS_IO, FW_STATUS_NOMEM,
+   FW_STATUS_USAGE (also for bits not named above). */
+FW_API int fw_design_write(fw_design *design, const char *directory, unsigned what);
+/* Files that the last fw_design_write made, manifest.json not counted. 0: there was nothing to write
+   (masks of a rejected design) and `directory` was left as it was. NULL gives 0. */
+FW_API int fw_design_files_written(const fw_design *design);
+
+/* ---- documents ---- */
+
+enum {                                   /* what it is; what must have been called */
+       FW_DOCUMENT_VERDICT_JSON = 0,     /* schema flexwright.verdict/1; judge */
+       FW_DOCUMENT_VERDICT_TEXT = 1,     /* for a terminal; judge */
+       FW_DOCUMENT_SIMULATE_JSON = 2,    /* schema flexwright.simulate/1; simulate */
+       FW_DOCUMENT_SIMULATE_TEXT = 3,    /* for a terminal; simulate */
+       FW_DOCUMENT_MOTION_CSV = 4,       /* every body's motion, 17 digits; simulate */
+       FW_DOCUMENT_ANIMATION_SVG = 5,    /* plays by itself; simulate */
+       FW_DOCUMENT_MASKS_JSON = 6,       /* certificates, schema flexwright.masks/1; fabricate */
+       FW_DOCUMENT_RECIPES_JSON = 7,     /* of one flow, or flexwright.recipes/1; fabricate */
+       FW_DOCUMENT_DEVICE_SVG = 8,       /* the drawing, hinges coloured by utilisation; judge */
+       FW_DOCUMENT_REPORT_HTML = 9,      /* everything on one page; judge */
+       FW_DOCUMENT_DIAGNOSTICS_TEXT = 10 /* one line each with a caret below its place; nothing */
+};
+
+/* One document as UTF-8 text, NUL-terminated; `length` (may be NULL) without the NUL. The text
+   belongs to the design. Composed at the first call, the same pointer afterwards until a later
+   stage changes it (the old text stays valid); diagnostics are composed anew each time. On error
+   *text is NULL. FW_STATUS_USAGE for an unknown document or one whose stage was not called,
+   FW_STATUS_NOMEM. */
+FW_API int fw_design_document(fw_design *design, int document, const char **text, size_t *length);
+
+/* The same into a file that appears whole or not at all; "-" is standard output. FW_STATUS_IO too.
+ */
+FW_API int fw_design_save(fw_design *design, int document, const char *path);
+
+enum { FW_DETAIL_QUIET = -1, FW_DETAIL_NORMAL = 0, FW_DETAIL_VERBOSE = 1 };
+
+/* How the ..._TEXT documents are made from now on. detail: of the verdict, and which diagnostics
+   (quiet: errors; normal: warnings too; verbose: notes too). colour: not 0 for terminal colours.
+   FW_STATUS_USAGE. */
+FW_API int fw_design_text_style(fw_design *design, int detail, int colour);
+
+/* ---- diagnostics ---- */
+
+enum { FW_SEVERITY_NOTE = 0, FW_SEVERITY_WARNING = 1, FW_SEVERITY_ERROR = 2 };
+
+typedef struct fw_diagnostic {
+    int32_t number;      /* FW-Dnnn; `flexwright explain` has the long text */
+    int32_t severity;    /* FW_SEVERITY_... */
+    const char *file;    /* NULL: not about a file */
+    int32_t line;        /* from 1; 0: the file as a whole */
+    int32_t column;      /* in bytes, from 1; 0: the line as a whole */
+    const char *message; /* what is wrong, the limit and its source, what to do */
+} fw_diagnostic;
+
+/* How many there are so far (the first 100 are kept); 0 for NULL. */
+FW_API size_t fw_design_diagnostics(const fw_design *design);
+
+/* The i-th in the order in which they were found; NULL beyond the last. Belongs to the design;
+   fields may be added at the end. */
+FW_API const fw_diagnostic *fw_design_diagnostic(fw_design *design, size_t i);
+
+/* ---- cancelling ---- */
+
+/* Asks the work to stop; the running call returns FW_STATUS_CANCELLED soon (integration looks at it
+   at each step). Async-signal-safe, and callable from any thread while the design is at work. Today
+   the flag is one for the whole process: it stops every design, also those started later, until
+   fw_design_cancel_clear. Call with the design meant, so that your code stays right when the flag
+   becomes the design's own. NULL is allowed. */
+FW_API void fw_design_cancel(fw_design *design);
+
+/* Takes the request back; call it before work after a cancel. Async-signal-safe. */
+FW_API void fw_design_cancel_clear(fw_design *design);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "report/terminal.h"
+#include <math.h>
+
+static double degrees(double rad) {
+    return rad * 180.0 / acos(-1.0);
+}
+
+/* ---- verdict ---- */
+
+static void hinge_row(fw_text *out, const fw_hinge_verdict *h) {
+    fw_text_printf(out, "  %-6s ", h->id);
+    fw_text_real(out, "%8.2f deg ", degrees(h->peak_angle_rad));
+    fw_text_real(out, "%7.2f deg ", degrees(h->limit_angle_rad));
+    fw_text_real(out, "%7.3f %% ", 100.0 * h->peak_strain);
+    fw_text_real(out, "%6.1f %%  ", 100.0 * h->utilisation);
+    fw_text_real(out, "%5.1f..", 100.0 * h->utilisation_low);
+    fw_text_real(out, "%-5.1f  ", 100.0 * h->utilisation_high);
+    fw_text_printf(out, "%-12s %s", fw_decision_text(h->decision), h->scene);
+    if (h->flow) fw_text_printf(out, " (%s)", h->flow);
+    fw_text_add(out, "\n");
+}
+
+static void hinges(fw_text *out, const fw_verdict *v) {
+    fw_text_add(out, "\n  hinge      peak       limit     strain    used  band %        verdict  "
+                     "    in\n");
+    for (int k = 0; k < v->nhinge; k++)
+        hinge_row(out, &v->hinge[k]);
+}
+
+static void governing(fw_text *out, const fw_hinge_verdict *h) {
+    fw_text_printf(out, "governing hinge %s: ", h->id);
+    fw_text_real(out, "%.1f %% of the elastic limit in ", 100.0 * h->utilisation);
+    fw_text_add(out, h->scene);
+    if (!isnan(h->t_s)) {
+        fw_text_add(out, " at ");
+        fw_text_number(out, h->t_s * 1e3, 4);
+        fw_text_add(out, " ms");
+    }
+    if (h->flow) fw_text_printf(out, ", flow %s", h->flow);
+    fw_text_add(out, "\n");
+    if (h->force_share > 0.0) {
+        fw_text_real(out, "(its rotation alone would use %.1f %%, the force it carries the rest)\n",
+                     100.0 * h->utilisation * (1.0 - h->force_share));
+    }
+    if (h->touches)
+        fw_text_printf(out,
+                       "(its drawn solids meet before that angle: the motion is not possible)\n");
+}
+
+/* the first reasons; all of them in detail and in the report */
+static void flow(fw_text *out, const fw_report_flow *rf, int detail) {
+    enum { FEW = 3 };
+    const fw_flow *f = rf->flow;
+    fw_text_printf(out, "\nflow %s: manufacturable: %s\n", rf->variant->variant->flow,
+                   f->manufacturable > 0    ? "yes"
+                   : f->manufacturable == 0 ? "NO"
+                                            : "not guaranteed");
+    if (rf->mask_error) fw_text_printf(out, "  no mask: %s\n", rf->mask_error);
+    int shown = detail > 0 || f->nreason <= FEW ? f->nreason : FEW;
+    for (int i = 0; i < shown; i++)
+        fw_text_printf(out, "  - %s\n", f->reason[i]);
+    if (shown < f->nreason)
+        fw_text_printf(out, "  and %d more (in the report, or with -v)\n", f->nreason - shown);
+    fw_text_printf(out, "  %d steps, computed times add up to ", f->nstep);
+    fw_text_number(out, f->total_s / 3600.0, 3);
+    fw_text_printf(out, " h; %d steps not computable\n", f->not_computable);
+}
+
+static void advice(fw_text *out, const fw_verdict *v) {
+    if (v->nadvice == 0 && !v->advice_note) return;
+    fw_text_add(out, "\nwhat to change:\n");
+    for (int i = 0; i < v->nadvice; i++)
+        fw_text_printf(out, "  %s\n    --set \"%s=%s\"\n", v->advice[i].text, v->advice[i].set_path,
+                       v->advice[i].value_text);
+    if (v->advice_note) fw_text_printf(out, "  %s\n", v->advice_note);
+}
+
+fw_status fw_report_verdict_text(const fw_report_input *input, fw_terminal_style style,
+                                 fw_text *out) {
+    const fw_verdict *v = input->verdict;
+    static const char *const word[] = {"ACCEPT", "INCONCLUSIVE", "REJECT"};
+    static const char *const paint[] = {"\033[1;32m", "\033[1;33m", "\033[1;31m"};
+    fw_text_printf(out, "%s: %s%s%s\n", input->device->name, style.colour ? paint[v->decision] : "",
+                   word[v->decision], style.colour ? "\033[0m" : "");
+    if (v->governing != FW_NONE) governing(out, &v->hinge[v->governing]);
+    if (style.detail >= 0) hinges(out, v);
+    advice(out, v);
+    for (int i = 0; style.detail >= 0 && v->decision != FW_REJECT && i < input->nflow; i++)
+        if (input->flow[i].flow) flow(out, &input->flow[i], style.detail);
+    return fw_text_end(out);
+}
+
+/* ---- one scene ---- */
+
+static void statistics(fw_text *out, const fw_motion_stats *s) {
+    fw_text_printf(out, "%ld steps, %ld rejected, %ld right-hand sides, %ld projections, ",
+                   s->steps, s->rejected, s->rhs, s->projections);
+    fw_text_real(out, "%.2f ms of CPU\nrelative tolerance ", s->cpu_s * 1e3);
+    fw_text_number(out, s->rtol, 3);
+    fw_text_add(out, ", largest constraint norm ");
+    fw_text_number(out, s->max_constraint_norm, 2);
+    fw_text_add(out, ", energy balance ");
+    fw_text_number(out, s->energy_error, 2);
+    fw_text_add(out, "\n\n");
+}
+
+fw_status fw_report_simulate_text(const fw_scene *scene, const fw_mechanism *m,
+                                  const fw_motion *motion, fw_text *out) {
+    fw_text_printf(out, "scene %s over ", scene->name);
+    fw_text_real(out, "%g ms", scene->duration_s * 1e3);
+    fw_text_printf(out, ", method %s, integrator %s (%s)\n", motion->method, motion->integrator,
+                   motion->reason);
+    statistics(out, &motion->stats);
+    fw_text_add(out, "  joint    peak angle          at        +-\n");
+    for (int i = 0; i < motion->npin; i++) {
+        fw_text_printf(out, "  %-6s ", m->pin[i].id);
+        fw_text_real(out, "%9.4f deg  ", degrees(motion->peak[i].angle_rad));
+        fw_text_real(out, "%9.5f ms  ", motion->peak[i].t_s * 1e3);
+        fw_text_real(out, "%.1e deg\n", degrees(motion->peak[i].error_rad));
+    }
+    fw_text_add(out, "\n  effect             active  why\n");
+    for (int i = 0; i < motion->ledger.count; i++) {
+        const fw_effect_entry *e = &motion->ledger.item[i];
+        fw_text_printf(out, "  %-18s %-6s  %s\n", e->id, e->active ? "yes" : "no", e->reason);
+    }
+    return fw_text_end(out);
+}

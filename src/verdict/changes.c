@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "verdict/trial.h"
+#include <math.h>
+#include <string.h>
+
+enum { ROUNDS = 14 };
+/* an advice nobody could follow is none: twelve times as long, four times as wide */
+static const double most_longer = 12.0, most_wider = 4.0;
+
+static bool accepted(const fw_trial *trial) {
+    return trial->decision == FW_ACCEPT && trial->drawn;
+}
+
+static double excess(const fw_trial_hinge *h) {
+    return fmax(h->utilisation_high, h->reach);
+}
+
+static fw_flexure *flexure_of(fw_trial *trial, const fw_trial_hinge *h) {
+    return &trial->changed->flexure[trial->changed->joint[h->joint].flexure];
+}
+
+/* repeats `change` on every hinge that is not accepted, and judges, until all are; gives up when a
+   change is not possible or the worst hinge gets no better by it */
+static fw_status repeat(fw_trial *trial,
+                        bool (*change)(fw_trial *, const fw_trial_hinge *, double)) {
+    double worst_before = HUGE_VAL;
+    for (int round = 0; round < ROUNDS && !accepted(trial); round++) {
+        double worst = 0.0, extra = round > 5 ? 1.02 : 1.0;
+        bool any = false;
+        for (int k = 0; k < trial->nhinge; k++) {
+            const fw_trial_hinge *h = &trial->hinge[k];
+            if (h->decision == FW_ACCEPT) continue;
+            worst = fmax(worst, excess(h));
+            if (!change(trial, h, extra)) return FW_OK;
+            any = true;
+        }
+        if (!any || (round > 1 && worst > 0.999 * worst_before)) return FW_OK;
+        worst_before = worst;
+        FW_TRY(fw_trial_run(trial));
+        if (!trial->drawn) return FW_OK;
+    }
+    return FW_OK;
+}
+
+/* ---- lengths: strain per radian goes with 1/L ---- */
+
+/* rounded up to 1 um of length, or 0.1 um of the radius where the file gives that */
+static bool lengthen(fw_trial *trial, const fw_trial_hinge *h, double extra) {
+    fw_flexure *f = flexure_of(trial, h);
+    if (h->utilisation_high <= 1.0) return false; /* its solids meet: length is not the cause */
+    double length = f->length_m * fmin(fmax(h->utilisation_high * extra, 1.0005), 3.0);
+    bool by_radius = f->kind == FW_FLEXURE_CSFH && f->radius_given;
+    double unit = by_radius ? 1e-7 * f->angle_rad : 1e-6;
+    f->length_m = ceil(length / unit - 1e-6) * unit;
+    if (f->kind == FW_FLEXURE_CSFH) f->radius_m = f->length_m / f->angle_rad;
+    const fw_flexure *was = &trial->device->flexure[f - trial->changed->flexure];
+    return f->length_m <= most_longer * was->length_m;
+}
+
+static fw_status add_line(fw_trial *trial, fw_verdict *out, const fw_flexure *f, const char *what,
+                          const char *attribute, double to_m, double from_m) {
+    char to[32], from[32];
+    fw_number_text(to, sizeof to, to_m * 1e6, 6);
+    fw_number_text(from, sizeof from, from_m * 1e6, 4);
+    fw_advice *advice = &out->advice[out->nadvice++];
+    advice->value = to_m;
+    FW_NEED(advice->value_text = fw_arena_printf(trial->arena, "%s um", to));
+    FW_NEED(advice->set_path = fw_arena_printf(trial->arena, "flexure[%s]/@%s", f->id, attribute));
+    FW_NEED(advice->text = fw_arena_printf(
+                trial->arena, "flexure %s: %s >= %s um accepts; now %s um", f->id, what, to, from));
+    return FW_OK;
+}
+
+fw_status fw_change_lengths(fw_trial *trial, fw_verdict *out, bool *done) {
+    FW_TRY(repeat(trial, lengthen));
+    *done = accepted(trial);
+    for (int i = 0; *done && i < trial->device->nflexure; i++) {
+        const fw_flexure *was = &trial->device->flexure[i], *f = &trial->changed->flexure[i];
+        if (f->length_m == was->length_m) continue;
+        bool arc = f->kind == FW_FLEXURE_CSFH;
+        if (f->length_given || !arc)
+            FW_TRY(add_line(trial, out, f, arc ? "arc length" : "leaf length", "length",
+                            f->length_m, was->length_m));
+        if (arc && f->radius_given)
+            FW_TRY(add_line(trial, out, f, "radius", "radius", f->radius_m, was->radius_m));
+    }
+    return FW_OK;
+}
+
+/* ---- widths: under a given load the stress goes with 1/t^2, as long as stiffness follows ---- */
+
+static bool widen(fw_trial *trial, const fw_trial_hinge *h, double extra) {
+    fw_flexure *f = flexure_of(trial, h);
+    if (h->utilisation_high <= 1.0) return false;
+    double t = f->width_m * fmin(fmax(sqrt(h->utilisation_high * extra), 1.0005), 1.5);
+    f->width_m = ceil(t * 1e7 - 1e-6) * 1e-7;
+    const fw_flexure *was = &trial->device->flexure[f - trial->changed->flexure];
+    bool slender = f->width_m <= 0.25 * f->length_m &&
+                   (f->kind != FW_FLEXURE_CSFH || f->width_m <= 0.5 * f->radius_m);
+    return slender && f->width_m <= most_wider * was->width_m;
+}
+
+fw_status fw_change_widths(fw_trial *trial, fw_verdict *out, bool *done) {
+    FW_TRY(repeat(trial, widen));
+    *done = accepted(trial);
+    for (int i = 0; *done && i < trial->device->nflexure; i++) {
+        const fw_flexure *was = &trial->device->flexure[i], *f = &trial->changed->flexure[i];
+        if (f->width_m != was->width_m)
+            FW_TRY(add_line(trial, out, f, "width", "width", f->width_m, was->width_m));
+    }
+    return FW_OK;
+}
+
+/* ---- loads and required poses: less of them ---- */
+
+static bool same(const char *a, const char *b) {
+    return a && b && strcmp(a, b) == 0;
+}
+
+static void scale_scene(fw_scene *s, double by) {
+    for (int i = 0; i < s->nforce; i++) {
+        s->force[i].fx_N *= by;
+        s->force[i].fy_N *= by;
+    }
+    for (int i = 0; i < s->ntorque; i++)
+        s->torque[i].value_Nm *= by;
+}
+
+/* a scene or workspace is scaled once per round, by the hinge that it strains most */
+static bool is_worst(const fw_trial *trial, const fw_trial_hinge *h) {
+    for (int k = 0; k < trial->nhinge; k++) {
+        const fw_trial_hinge *o = &trial->hinge[k];
+        if (o == h || o->decision == FW_ACCEPT || !same(o->scene, h->scene)) continue;
+        if (excess(o) > excess(h) || (excess(o) == excess(h) && o < h)) return false;
+    }
+    return true;
+}
+
+static bool lighten(fw_trial *trial, const fw_trial_hinge *h, double extra) {
+    if (!is_worst(trial, h)) return true;
+    double over = excess(h) * extra;
+    double by = fmax(fmin(1.0 / over, 0.9995), 1e-6);
+    for (int i = 0; i < trial->changed->nscene; i++)
+        if (same(trial->changed->scene[i].name, h->scene)) {
+            scale_scene(&trial->changed->scene[i], by);
+            return trial->changed->scene[i].nforce + trial->changed->scene[i].ntorque > 0;
+        }
+    for (int i = 0; i < trial->changed->nworkspace; i++) {
+        fw_workspace_box *w = &trial->changed->workspace[i];
+        if (w->flow && !same(w->flow, h->flow)) continue;
+        w->x_min_m *= by, w->x_max_m *= by;
+        w->y_min_m *= by, w->y_max_m *= by;
+        w->phi_min_rad *= by, w->phi_max_rad *= by;
+    }
+    return same(h->scene, "workspace");
+}
+
+static double kept(double now, double was) {
+    return was != 0.0 ? now / was : 1.0;
+}
+
+/* the share that is left of each scene's loads and of each workspace, rounded down to 0.1 % */
+static fw_status say_loads(fw_trial *trial, const char **sentence) {
+    fw_text text = fw_text_new(trial->arena);
+    const char *join = "";
+    for (int i = 0; i < trial->device->nscene; i++) {
+        const fw_scene *was = &trial->device->scene[i], *s = &trial->changed->scene[i];
+        double share = 1.0;
+        for (int k = 0; k < s->nforce; k++)
+            share = fmin(share, fmin(kept(s->force[k].fx_N, was->force[k].fx_N),
+                                     kept(s->force[k].fy_N, was->force[k].fy_N)));
+        for (int k = 0; k < s->ntorque; k++)
+            share = fmin(share, kept(s->torque[k].value_Nm, was->torque[k].value_Nm));
+        if (share > 0.9999) continue;
+        fw_text_printf(&text, "%sthe loads of scene %s to ", join, was->name);
+        fw_text_number(&text, floor(share * 1000.0) / 10.0, 3);
+        fw_text_add(&text, " %");
+        join = ", ";
+    }
+    for (int i = 0; i < trial->device->nworkspace; i++) {
+        const fw_workspace_box *was = &trial->device->workspace[i],
+                               *w = &trial->changed->workspace[i];
+        double share =
+            fmin(kept(w->x_max_m, was->x_max_m),
+                 fmin(kept(w->y_max_m, was->y_max_m), kept(w->phi_max_rad, was->phi_max_rad)));
+        if (share > 0.9999) continue;
+        fw_text_printf(&text, "%sthe required workspace%s%s to ", join, was->flow ? " of " : "",
+                       was->flow ? was->flow : "");
+        fw_text_number(&text, floor(share * 1000.0) / 10.0, 3);
+        fw_text_add(&text, " %");
+        join = ", ";
+    }
+    FW_TRY(fw_text_end(&text));
+    *sentence = text.data;
+    return FW_OK;
+}
+
+fw_status fw_change_loads(fw_trial *trial, const char **sentence, bool *done) {
+    FW_TRY(repeat(trial, lighten));
+    *done = accepted(trial);
+    if (*done) FW_TRY(say_loads(trial, sentence));
+    *done = *done && *sentence;
+    return FW_OK;
+}

@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "verdict/trial.h"
+#include <math.h>
+#include <string.h>
+
+static fw_status copy_scenes(fw_arena *arena, fw_device *d) {
+    size_t n = (size_t)d->nscene;
+    FW_NEED(d->scene = fw_arena_grow(arena, d->scene, n, n, sizeof *d->scene));
+    for (size_t i = 0; i < n; i++) {
+        fw_scene *s = &d->scene[i];
+        size_t f = (size_t)s->nforce, t = (size_t)s->ntorque;
+        FW_NEED(s->force = fw_arena_grow(arena, s->force, f, f, sizeof *s->force));
+        FW_NEED(s->torque = fw_arena_grow(arena, s->torque, t, t, sizeof *s->torque));
+    }
+    return FW_OK;
+}
+
+static fw_status copy_device(fw_arena *arena, const fw_device *device, fw_device **copy) {
+    FW_NEED(*copy = fw_arena_one(arena, fw_device));
+    fw_device *d = *copy;
+    *d = *device;
+    size_t f = (size_t)d->nflexure, w = (size_t)d->nworkspace;
+    FW_NEED(d->flexure = fw_arena_grow(arena, d->flexure, f, f, sizeof *d->flexure));
+    FW_NEED(d->workspace = fw_arena_grow(arena, d->workspace, w, w, sizeof *d->workspace));
+    return copy_scenes(arena, d);
+}
+
+static void remember(fw_trial *trial, const fw_verdict *verdict, const fw_layout *layout) {
+    trial->nhinge = verdict->nhinge;
+    trial->decision = verdict->decision;
+    for (int k = 0; k < verdict->nhinge; k++) {
+        const fw_hinge_verdict *h = &verdict->hinge[k];
+        double meet = h->touches && layout ? layout->hinge[h->joint].free_rad : 0.0;
+        trial->hinge[k] = (fw_trial_hinge){h->joint,
+                                           h->decision,
+                                           h->utilisation_high,
+                                           meet > 0.0 ? fabs(h->peak_angle_rad) / meet : 0.0,
+                                           h->scene,
+                                           h->flow};
+    }
+}
+
+fw_status fw_trial_start(fw_arena *arena, const fw_device *device,
+                         const fw_verdict_options *options, const fw_verdict *verdict,
+                         fw_trial *trial) {
+    *trial = (fw_trial){
+        .arena = arena, .device = device, .options = options, .verdict = verdict, .drawn = true};
+    FW_NEED(trial->hinge = fw_arena_array(arena, fw_trial_hinge, (size_t)device->njoint));
+    FW_TRY(copy_device(arena, device, &trial->changed));
+    remember(trial, verdict, verdict->layout);
+    return FW_OK;
+}
+
+/* in an arena of its own, given back at once: a plan runs dozens of trials */
+fw_status fw_trial_run(fw_trial *trial) {
+    int n = trial->verdict->nvariant;
+    fw_arena *scratch = fw_arena_new(0);
+    FW_NEED(scratch);
+    fw_diags diags = fw_diags_new(scratch);
+    const fw_layout *layout = NULL;
+    fw_verdict_options quiet = *trial->options;
+    quiet.with_advice = false;
+    quiet.motion.samples = 2;
+    fw_verdict again = {.nvariant = n,
+                        .variant = fw_arena_array(scratch, fw_variant_verdict, (size_t)n)};
+    fw_status status = again.variant ? FW_OK : FW_NOMEM;
+    for (int i = 0; status == FW_OK && i < n; i++)
+        again.variant[i].variant = trial->verdict->variant[i].variant;
+    if (status == FW_OK)
+        status = fw_verdict_run(scratch, trial->changed, &quiet, &diags, &again, &layout);
+    trial->drawn = status == FW_OK && layout && layout->drawn;
+    if (status == FW_OK)
+        remember(trial, &again, layout);
+    else
+        trial->decision = FW_REJECT;
+    fw_arena_free(scratch);
+    return status == FW_NOMEM || status == FW_CANCELLED ? status : FW_OK;
+}

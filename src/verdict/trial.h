@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A changed copy of the device, judged again. Private to the room. */
+#ifndef FW_VERDICT_TRIAL_H
+#define FW_VERDICT_TRIAL_H
+#include "verdict/verdict.h"
+
+typedef struct fw_trial_hinge { /* what a change needs to know of a hinge's verdict */
+    int joint;
+    fw_decision decision;
+    double utilisation_high;
+    double reach;      /* peak angle / angle at which the drawn solids meet; 0: never */
+    const char *scene; /* of the device, or "workspace" */
+    const char *flow;
+} fw_trial_hinge;
+
+typedef struct fw_trial {
+    fw_arena *arena;         /* of the plan: outlives the trial */
+    const fw_device *device; /* as described */
+    fw_device *changed;      /* a copy; flexures, loads and workspaces are its own */
+    const fw_verdict_options *options;
+    const fw_verdict *verdict; /* of the device as described */
+    fw_trial_hinge *hinge;     /* (nhinge) of the last run */
+    int nhinge;
+    fw_decision decision;
+    bool drawn;
+} fw_trial;
+
+/* copies the device and takes over the verdict that it has */
+fw_status fw_trial_start(fw_arena *arena, const fw_device *device,
+                         const fw_verdict_options *options, const fw_verdict *verdict,
+                         fw_trial *trial);
+/* judges `changed`; what could not be run is a rejection that is not drawn */
+fw_status fw_trial_run(fw_trial *trial);
+
+/* changes.c: each tries to reach an accepted, drawn device by one kind of change. *done: it did,
+   and wrote its advice (lines into verdict->advice, or a sentence). */
+fw_status fw_change_lengths(fw_trial *trial, fw_verdict *out, bool *done);
+fw_status fw_change_widths(fw_trial *trial, fw_verdict *out, bool *done);
+fw_status fw_change_loads(fw_trial *trial, const char **sentence, bool *done);
+
+#endif

@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "verdict/watch.h"
+#include <math.h>
+
+fw_status fw_watch_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_layout *layout,
+                       fw_watch *watch) {
+    *watch = (fw_watch){.mechanism = mechanism, .layout = layout};
+    FW_NEED(watch->hinge = fw_arena_array(arena, fw_strain_peak, (size_t)mechanism->nhinge));
+    return FW_OK;
+}
+
+static void keep(fw_strain_peak *p, double t_s, double strain, double between) {
+    if (strain <= p->strain) return;
+    p->strain = strain;
+    p->t_s = t_s;
+    p->between = between;
+}
+
+/* peak of the parabola through three instants, spacings a and b about the middle one:
+     slope = ((s1-s0) b/a + (s2-s1) a/b)/(a+b), bend = 2 ((s2-s1)/b - (s1-s0)/a)/(a+b)
+     at t1 - slope/bend, s1 - slope^2/(2 bend)
+   in: times s, strains; error O(spacing^3) of the peak's height, and `between` bounds it; cost none
+   source: Newton's divided differences; test_watch.c finds_the_peak_between_instants */
+void fw_strain_peak_add(fw_strain_peak *p, double t_s, double strain) {
+    if (p->seen >= 2) {
+        double a = p->t[1] - p->t[0], b = t_s - p->t[1];
+        double up = p->s[1] - p->s[0], down = strain - p->s[1];
+        if (a > 0.0 && b > 0.0 && up >= 0.0 && down <= 0.0 && up - down > 0.0) {
+            double slope = (up * b / a + down * a / b) / (a + b);
+            double bend = 2.0 * (down / b - up / a) / (a + b);
+            double add = -slope * slope / (2.0 * bend);
+            keep(p, p->t[1] - slope / bend, p->s[1] + add, add);
+        }
+    }
+    keep(p, t_s, strain, 0.0); /* the first and the last instant have no neighbours */
+    p->t[0] = p->t[1];
+    p->s[0] = p->s[1];
+    p->t[1] = t_s;
+    p->s[1] = strain;
+    p->seen++;
+}
+
+static double turned(const fw_mechanism *m, const fw_instant *now, int body) {
+    return body == FW_GROUND ? 0.0 : now->q[3 * body + 2] - m->body[body].phi_rad;
+}
+
+void fw_watch_see(void *context, const fw_instant *now) {
+    fw_watch *w = context;
+    const fw_mechanism *m = w->mechanism;
+    for (int k = 0; k < m->nhinge; k++) {
+        const fw_hinge *hinge = &m->hinge[k];
+        const fw_pin *pin = &m->pin[hinge->pin];
+        if (!now) {
+            w->hinge[k] = (fw_strain_peak){0};
+            continue;
+        }
+        fw_hinge_load load = {now->angle_rad[hinge->pin], now->reaction_N[2 * hinge->pin],
+                              now->reaction_N[2 * hinge->pin + 1],
+                              0.5 * (turned(m, now, pin->body_a) + turned(m, now, pin->body_b))};
+        const fw_hinge_layout *drawn =
+            w->layout && w->layout->drawn ? &w->layout->hinge[hinge->pin] : NULL;
+        fw_strain_peak_add(&w->hinge[k], now->t_s, fw_hinge_strain(m, hinge, drawn, &load));
+    }
+}

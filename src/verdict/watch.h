@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The peak strain of every hinge, followed along the motion. Private to the room and its tests. */
+#ifndef FW_VERDICT_WATCH_H
+#define FW_VERDICT_WATCH_H
+#include "dynamics/dynamics.h"
+#include "verdict/strain.h"
+
+typedef struct fw_strain_peak {
+    double strain, t_s; /* largest so far, and when */
+    double between;     /* what the parabola added to the largest sample: the error of the search */
+    double t[2], s[2];  /* the last two instants */
+    int seen;
+} fw_strain_peak;
+
+typedef struct fw_watch {
+    const fw_mechanism *mechanism;
+    const fw_layout *layout; /* NULL: bounds instead of the drawn axis */
+    fw_strain_peak *hinge;   /* (nhinge) */
+} fw_watch;
+
+fw_status fw_watch_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_layout *layout,
+                       fw_watch *watch);
+/* an fw_observer; context is the watch */
+void fw_watch_see(void *context, const fw_instant *instant);
+/* one more instant of one hinge */
+void fw_strain_peak_add(fw_strain_peak *peak, double t_s, double strain);
+
+#endif

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a user of the installed library writes, in the common part of C and C++:
+   consumer DEVICE.xml DATA_DIRECTORY OUT: opens the device from memory, judges, prints the decision,
+   writes the results. Exit status: the decision, or 100 + status. */
+#include <flexwright.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static int finish(fw_design *design, int status) {
+    for (size_t i = 0; i < fw_design_diagnostics(design); i++) {
+        const fw_diagnostic *d = fw_design_diagnostic(design, i);
+        fprintf(stderr, "%s:%d:%d: FW-D%03d: %s\n", d->file ? d->file : "", (int)d->line,
+                (int)d->column, (int)d->number, d->message);
+    }
+    if (status != FW_STATUS_OK) fprintf(stderr, "consumer: %s\n", fw_status_name(status));
+    int decision = fw_design_decision(design);
+    fw_design_free(design);
+    return status == FW_STATUS_OK ? decision : 100 + status;
+}
+
+int main(int argc, char **argv) {
+    static char xml[1 << 20];
+    FILE *file = argc == 4 ? fopen(argv[1], "rb") : NULL;
+    if (!file) return 99;
+    size_t n = fread(xml, 1, sizeof xml, file);
+    fclose(file);
+
+    fw_design_options options = fw_design_options_default();
+    options.data_directory = argv[2];
+    fw_design *design = fw_design_new(&options);
+    if (!design) return 100 + FW_STATUS_NOMEM;
+    int status = fw_design_read_memory(design, "device.xml", xml, n);
+    if (status == FW_STATUS_OK) status = fw_design_judge(design);
+    if (status == FW_STATUS_OK) status = fw_design_fabricate(design);
+    if (status == FW_STATUS_OK) status = fw_design_write(design, argv[3], FW_DESIGN_EVERYTHING);
+    const char *text;
+    if (status == FW_STATUS_OK)
+        status = fw_design_document(design, FW_DOCUMENT_VERDICT_TEXT, &text, NULL);
+    if (status == FW_STATUS_OK)
+        printf("flexwright %s: decision %d\n%s", fw_library_version(), fw_design_decision(design),
+               text);
+    return finish(design, status);
+}

@@ -1,0 +1,49 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# run.sh BUILD PROGRAM: installs the build into a temporary prefix and builds consumer.c against that
+# tree alone, by pkg-config (C99, C17, C++17) and by find_package. Each must decide and write what the
+# program does, byte for byte.
+set -eu
+build=$(cd "$1" && pwd)
+program=$(readlink -f "$2")
+here=$(cd "$(dirname "$0")" && pwd)
+device=$here/../../docs/gallery/reference-six-bar/device.xml
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cmake --install "$build" --prefix "$work/first" >/dev/null
+mv "$work/first" "$work/prefix" # nothing in the tree may remember where it was installed
+pc=$(find "$work/prefix" -name flexwright.pc)
+lib=$(dirname "$(dirname "$pc")")
+export PKG_CONFIG_PATH="${pc%/*}" LD_LIBRARY_PATH="$lib"
+data=$(pkg-config --variable=datadir flexwright)
+cp "$here/consumer.c" "$work/" # away from the sources: only the installed header is found
+cd "$work"
+cp "$device" device.xml
+"$program" plan device.xml -o want -q >/dev/null 2>&1
+
+strict="-Wall -Wextra -Wconversion -Wshadow -pedantic -Werror"
+try() { # try NAME PROGRAM
+    status=0
+    "$2" device.xml "$data" "out-$1" >"$1.txt" 2>"$1.err" || status=$?
+    if [ $status -ne 0 ] || ! grep -q '^flexwright .*: decision 0$' "$1.txt"; then
+        echo "$1: status $status"
+        cat "$1.txt" "$1.err"
+        exit 1
+    fi
+    diff -r -q want "out-$1" || exit 1
+    echo "$1: $(head -1 "$1.txt")"
+}
+# shellcheck disable=SC2046,SC2086
+{
+    cc -std=c99 $strict consumer.c -o c99 $(pkg-config --cflags --libs flexwright)
+    cc -std=c17 $strict consumer.c -o c17 $(pkg-config --cflags --libs flexwright)
+    c++ -std=c++17 $strict -x c++ consumer.c -x none -o cxx $(pkg-config --cflags --libs flexwright)
+}
+try pkg-config-c99 ./c99
+try pkg-config-c17 ./c17
+try pkg-config-c++17 ./cxx
+mkdir found
+cp "$here/CMakeLists.txt" consumer.c found/
+cmake -S found -B found/build -DCMAKE_PREFIX_PATH="$work/prefix" >/dev/null
+cmake --build found/build >/dev/null
+try find_package found/build/consumer
