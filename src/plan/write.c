@@ -70,8 +70,8 @@ static fw_status write_motions(writer *w) {
             FW_TRY(fw_report_motion_csv(v->mechanism, v->motion[s], &csv));
             FW_TRY(put(w, "motion/", name, ".csv", &csv));
             fw_text svg = fw_text_new(w->scratch);
-            FW_TRY(fw_report_motion_svg_judged(w->scratch, plan->device, v->mechanism, v->motion[s],
-                                               scene, &plan->verdict, &svg));
+            FW_TRY(fw_report_motion_svg(w->scratch, plan->device, v->mechanism, v->motion[s], scene,
+                                        &plan->verdict, &svg));
             FW_TRY(put(w, "motion/", name, ".svg", &svg));
         }
     }

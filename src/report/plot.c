@@ -246,14 +246,7 @@ fw_status fw_report_panels(fw_arena *arena, const fw_mechanism *mechanism, const
 
 fw_status fw_report_motion_svg(fw_arena *arena, const fw_device *device,
                                const fw_mechanism *mechanism, const fw_motion *motion,
-                               const fw_scene *scene, fw_text *out) {
-    return fw_report_motion_svg_judged(arena, device, mechanism, motion, scene, NULL, out);
-}
-
-fw_status fw_report_motion_svg_judged(fw_arena *arena, const fw_device *device,
-                                      const fw_mechanism *mechanism, const fw_motion *motion,
-                                      const fw_scene *scene, const fw_verdict *verdict,
-                                      fw_text *out) {
+                               const fw_scene *scene, const fw_verdict *verdict, fw_text *out) {
     const char *flow = mechanism->variant ? mechanism->variant->flow : NULL;
     char *title =
         fw_arena_printf(arena, "%s%s, scene %s%s%s: hinge angles and their limits",

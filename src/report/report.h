@@ -36,15 +36,12 @@ typedef struct fw_report_input {
 /* report.html: one file, needs nothing else, readable without script and on paper */
 fw_status fw_report_write_html(fw_arena *arena, const fw_report_input *input, fw_text *out);
 
-/* hinge angles against time with the limit lines */
+/* hinge angles against time with the limit lines; the title says when the verdict (NULL: none)
+ * rejects
+ */
 fw_status fw_report_motion_svg(fw_arena *arena, const fw_device *device,
                                const fw_mechanism *mechanism, const fw_motion *motion,
-                               const fw_scene *scene, fw_text *out);
-/* the same with the verdict (NULL: none): a rejected design's title says REJECTED */
-fw_status fw_report_motion_svg_judged(fw_arena *arena, const fw_device *device,
-                                      const fw_mechanism *mechanism, const fw_motion *motion,
-                                      const fw_scene *scene, const fw_verdict *verdict,
-                                      fw_text *out);
+                               const fw_scene *scene, const fw_verdict *verdict, fw_text *out);
 /* every sample with 17 digits: t_s,BODY.x_m,BODY.y_m,BODY.phi_rad,BODY.vx_m_per_s,... */
 fw_status fw_report_motion_csv(const fw_mechanism *mechanism, const fw_motion *motion,
                                fw_text *out);

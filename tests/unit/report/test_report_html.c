@@ -16,7 +16,7 @@ static fw_status html(fw_arena *arena, const fixture *f, fw_text *out) {
 
 static fw_status plot(fw_arena *arena, const fixture *f, fw_text *out) {
     return fw_report_motion_svg(arena, &f->device, &f->mechanism[0],
-                                f->variant_verdict[0].motion[0], &f->device.scene[0], out);
+                                f->variant_verdict[0].motion[0], &f->device.scene[0], NULL, out);
 }
 
 static fw_status animation(fw_arena *arena, const fixture *f, fw_text *out) {
@@ -111,9 +111,9 @@ static void rejected_in_every_title(void **state) {
         fixture *f = fixture_new(arena, limit[i]);
         fw_text device = fw_text_new(arena), motion = fw_text_new(arena);
         assert_int_equal(drawing(arena, f, &device), FW_OK);
-        assert_int_equal(fw_report_motion_svg_judged(arena, &f->device, &f->mechanism[0],
-                                                     f->variant_verdict[0].motion[0],
-                                                     &f->device.scene[0], &f->verdict, &motion),
+        assert_int_equal(fw_report_motion_svg(arena, &f->device, &f->mechanism[0],
+                                              f->variant_verdict[0].motion[0], &f->device.scene[0],
+                                              &f->verdict, &motion),
                          FW_OK);
         assert_true((f->verdict.decision == FW_REJECT) == (i == 0));
         assert_true((strstr(device.data, "<title>REJECTED: ") != NULL) == (i == 0));
