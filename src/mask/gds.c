@@ -25,7 +25,6 @@ enum {
     STRING = 0x1906,
     VERSION = 600,
     LINE_PITCH_DBU = 60000,
-    FIRST_LINE_DBU = 350000,
 };
 
 static void u16(fw_text *out, unsigned value) {
@@ -109,11 +108,11 @@ static fw_status texts(const fw_mask *mask, fw_text *out) {
     const char **line;
     int n;
     FW_TRY(fw_mask_notes(out->arena, mask, &line, &n));
-    /* downwards from the upper left, clear of the frame's lettering */
-    int32_t x = (int32_t)lround(mask->box.x0 * 1e9) + FIRST_LINE_DBU;
-    int32_t y = (int32_t)lround(mask->box.y1 * 1e9) - FIRST_LINE_DBU;
+    /* a column above the die, read downwards: nothing of the device is written over */
+    int32_t x = (int32_t)lround(mask->box.x0 * 1e9);
+    int32_t y = (int32_t)lround(mask->box.y1 * 1e9) + LINE_PITCH_DBU / 2;
     for (int i = 0; i < n; i++)
-        text(out, &mask->table->layer[k], x, y - i * LINE_PITCH_DBU, line[i]);
+        text(out, &mask->table->layer[k], x, y + (n - 1 - i) * LINE_PITCH_DBU, line[i]);
     return FW_OK;
 }
 
