@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What README.md tells a newcomer to type works, and the files that it names exist. ./demo and ./test are
-not run from inside a test; everything else is."""
+"""What README.md and docs/tutorial.md tell a newcomer to type works, and the files that they name exist.
+./demo and ./test are not run from inside a test; everything else is."""
 import pathlib
 import re
 import shutil
@@ -18,9 +18,10 @@ with tempfile.TemporaryDirectory() as here:
     (pathlib.Path(here) / "build").mkdir()
     (pathlib.Path(here) / "build/flexwright").symlink_to(program)
     (pathlib.Path(here) / "out").mkdir()
-    commands = [line.strip() for line in text.splitlines() if line.startswith("    build/flexwright")]
-    if len(commands) < 4:
-        problems.append("README has lost its commands")
+    pages = text + (ROOT / "docs/tutorial.md").read_text()
+    commands = [line.strip() for line in pages.splitlines() if line.startswith("    build/flexwright")]
+    if len(commands) < 12:
+        problems.append("README or the tutorial has lost its commands")
     for command in commands:
         done = subprocess.run(command, shell=True, cwd=here, capture_output=True, text=True, timeout=120)
         if done.returncode != 0:

@@ -15,7 +15,7 @@ static void finds_the_peak_between_instants(void **state) {
             seed = seed * 6364136223846793005u + 1442695040888963407u;
             t += 0.03 + 0.05 * (double)(seed >> 11) / 9007199254740992.0;
         }
-        for (double t = 7; t < 8; t += 1e-6) {
+        for (double t = 7; t < 8; t += 5e-5) {
             double s = fabs(exp(-(t - 7.3) * (t - 7.3) / 8.0) * cos(3.0 * t));
             if (s > most) most = s, at = t;
         }
