@@ -317,13 +317,16 @@ void fw_cli_help(void) {
         stdout);
     for (size_t i = 0; i < n; i++)
         printf("  %-9s %s\n", command[i].name, command[i].summary);
-    fputs("\n  flexwright COMMAND --help              options of a command, with an example\n"
-          "  flexwright --version\n\n"
-          "Exit status: 0 accepted or done, 1 design rejected, 2 wrong usage, 3 invalid input,\n"
-          "4 inconclusive, 5 input or output failed, 6 out of memory or another limit,\n"
-          "7 no numerical solution, 70 internal error, 130 and 143 on signals.\n"
-          "Results go to standard output, messages to standard error.\n",
-          stdout);
+    fputs(
+        "\n  flexwright COMMAND --help              options of a command, with an example\n"
+        "  flexwright --version\n\n"
+        "Exit status: 0 accepted or done, 1 design rejected, 2 wrong usage, 3 invalid input,\n"
+        "4 inconclusive, 5 input or output failed, 6 out of memory or another limit,\n"
+        "7 no numerical solution, 70 internal error, 130 and 143 on signals.\n"
+        "Results go to standard output, messages to standard error.\n\n"
+        "FLEXWRIGHT_DATA names the directory that holds processes/ and masks/ (then only that one\n"
+        "is used); NO_COLOR and FORCE_COLOR as usual. No other setting changes a result.\n",
+        stdout);
 }
 
 void fw_cli_command_help(const fw_command *command) {
