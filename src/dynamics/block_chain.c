@@ -32,17 +32,17 @@ void fw_chain_assemble(fw_model *m) {
     }
 }
 
-/* S + eps diag(S) = L D L^T, column by column in the compiled order. Outputs pivot (inverse pivot
-   blocks), factor (L). `block` is used up. Error: backward stable, S + eps D is positive definite.
-   Cost: chains and rings O(pins). Source: Golub and Van Loan, Matrix Computations, ch. 4.
-   Test: test_block_chain.c. */
+/* S + eps (1/m_a + 1/m_b) = L D L^T, column by column in the compiled order. The shift goes with
+   the smaller eigenvalue of a pin's block: one that went with the larger, r^2/J, would drown it
+   where J is small against m r^2. Outputs pivot (inverse pivot blocks), factor (L). `block` is used
+   up. Error: backward stable, S + eps D is positive definite. Cost: chains and rings O(pins).
+   Source: Golub and Van Loan, Matrix Computations, ch. 4. Test: test_block_chain.c. */
 bool fw_chain_factor(fw_chain *c, double epsilon) {
     double *restrict d = c->diagonal, *restrict block = c->block, *restrict factor = c->factor;
+    c->shift = epsilon;
     for (int i = 0; i < c->pins; i++) {
-        c->shift[2 * i] = epsilon * d[3 * i];
-        c->shift[2 * i + 1] = epsilon * d[3 * i + 2];
-        d[3 * i] += c->shift[2 * i];
-        d[3 * i + 2] += c->shift[2 * i + 1];
+        d[3 * i] += epsilon * c->isotropic[i];
+        d[3 * i + 2] += epsilon * c->isotropic[i];
     }
     bool positive = true;
     for (int k = 0; k < c->pins; k++) {
@@ -117,7 +117,7 @@ void fw_chain_proximal(const fw_chain *c, const double *right, double *x, double
         double residual = 0;
         for (int i = 0; i < n; i++) {
             x[i] += more[i];
-            more[i] *= c->shift[i];
+            more[i] *= c->shift * c->isotropic[i / 2];
             residual = fmax(residual, fabs(more[i]));
         }
         if (sweep > 0 && !(residual > 1e-14 * size)) return;

@@ -47,7 +47,8 @@ typedef struct fw_chain {
     fw_update *update;
     fw_coupling *coupling;  /* (ncoupling) */
     double *diagonal;       /* (3 pins) xx, xy, yy of S */
-    double *shift;          /* (2 pins) eps diag(S) of the last factorisation */
+    double *isotropic;      /* (pins) 1/m_a + 1/m_b: the smaller eigenvalue of a diagonal block */
+    double shift;           /* eps of the last factorisation */
     double *pivot;          /* (3 pins) inverse of the pivot blocks */
     double *block, *factor; /* (4 blocks) S below the diagonal, then L */
 } fw_chain;
@@ -99,7 +100,7 @@ fw_status fw_chain_compile(fw_arena *arena, fw_model *model);
 /* block_chain.c */
 void fw_chain_assemble(fw_model *m);               /* S from the arms */
 bool fw_chain_factor(fw_chain *c, double epsilon); /* false: not positive */
-void fw_chain_solve(const fw_chain *c, double *x); /* (S + eps D) x = x, in place */
+void fw_chain_solve(const fw_chain *c, double *x); /* (S + eps D) x = x, in place; D = isotropic */
 /* S x = right by the proximal iteration; right is kept, x (2 pins) */
 void fw_chain_proximal(const fw_chain *c, const double *right, double *x, double *more);
 
@@ -137,6 +138,6 @@ fw_status fw_peaks_new(fw_arena *arena, const fw_mechanism *mechanism, const dou
 double fw_peaks_angle(const fw_peaks *peaks, int pin, const double *y);
 void fw_peaks_step(fw_peaks *peaks, const fw_model *m, fw_dop853 *s);
 
-static const double fw_epsilon = 1e-8; /* proximal term, relative to the diagonal of S */
+static const double fw_epsilon = 1e-8; /* proximal term, relative to 1/m_a + 1/m_b of each pin */
 
 #endif

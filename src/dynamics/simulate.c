@@ -37,10 +37,22 @@ static double cpu_seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static double chosen_rtol(const fw_motion_options *o) {
+/* where m r^2/J is huge the accelerations carry round-off of 1e-16 m r^2/J; below some 1e-3 of that
+   the error estimate follows noise, and steps shrink for nothing */
+static double noise_floor(const fw_model *m) {
+    double ratio = 0;
+    for (int i = 0; i < 2 * m->npin; i++) {
+        int b = m->body[i];
+        double x = m->local[2 * i], y = m->local[2 * i + 1];
+        if (b < m->nbody) ratio = fmax(ratio, m->jinv[b] / m->minv[b] * (x * x + y * y));
+    }
+    return 3e-19 * ratio;
+}
+
+static double chosen_rtol(const fw_motion_options *o, const fw_model *m) {
     double accuracy = o->accuracy > 0 ? o->accuracy : 1e-3;
     double rtol = o->rtol > 0 ? o->rtol : fmin(1e-6, 1e-4 * accuracy);
-    return fmin(fw_loosest, fmax(fw_tightest, rtol));
+    return fmin(fw_loosest, fmax(fmax(fw_tightest, noise_floor(m)), rtol));
 }
 
 /* ---- start ---- */
@@ -320,7 +332,9 @@ static void estimate_errors(run *r, const fw_peaks *fine, const fw_peaks *coarse
         fw_peak *p = &r->motion->peak[i];
         *p = fine->peak[i];
         p->t_s *= r->model->scale.time_s;
-        p->error_rad = worst + DBL_EPSILON * (double)(8 + s->steps) * (1 + fabs(p->angle_rad));
+        p->error_rad =
+            worst + DBL_EPSILON * (double)(8 + s->steps) * (1 + fabs(p->angle_rad)) +
+            r->motion->stats.energy_error * fabs(p->angle_rad); /* never below the books */
     }
 }
 
@@ -334,7 +348,7 @@ static bool good_enough(const run *r, const fw_motion_options *o) {
 }
 
 static fw_status solve(run *r, const fw_motion_options *o) {
-    double rtol = chosen_rtol(o);
+    double rtol = chosen_rtol(o, r->model), tightest = fmax(fw_tightest, noise_floor(r->model));
     int rows = r->motion->nsample;
     for (;;) {
         r->motion->nsample = rows;
@@ -355,9 +369,8 @@ static fw_status solve(run *r, const fw_motion_options *o) {
         stats->estimate_cpu_s = cpu_seconds() - between;
         estimate_errors(r, &fine, &coarse, s, check);
         /* a tolerance of our own choosing is tightened until the estimate is good enough */
-        if (o->rtol > 0 || r->motion->ended || good_enough(r, o) || rtol <= fw_tightest)
-            return FW_OK;
-        rtol = fmax(fw_tightest, rtol / 100);
+        if (o->rtol > 0 || r->motion->ended || good_enough(r, o) || rtol <= tightest) return FW_OK;
+        rtol = fmax(tightest, rtol / 100);
     }
 }
 

@@ -176,7 +176,9 @@ fw_status fw_chain_compile(fw_arena *arena, fw_model *m) {
     FW_TRY(couplings(arena, m));
     FW_TRY(updates(arena, c));
     FW_NEED(c->diagonal = fw_arena_array(arena, double, 3 * p));
-    FW_NEED(c->shift = fw_arena_array(arena, double, 2 * p));
+    FW_NEED(c->isotropic = fw_arena_array(arena, double, p));
+    for (size_t i = 0; i < p; i++)
+        c->isotropic[i] = m->minv[m->body[2 * i]] + m->minv[m->body[2 * i + 1]];
     FW_NEED(c->pivot = fw_arena_array(arena, double, 3 * p));
     FW_NEED(c->block = fw_arena_array(arena, double, 4 * (size_t)c->blocks));
     FW_NEED(c->factor = fw_arena_array(arena, double, 4 * (size_t)c->blocks));

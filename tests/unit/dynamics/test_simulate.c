@@ -133,6 +133,28 @@ static void test_six_bar_reactions(void **state) {
     fw_arena_free(f.arena);
 }
 
+/* nearly a point mass: m r^2/J up to 1e13. Released level, it swings through half a turn, whatever J. */
+static void test_tiny_inertia(void **state) {
+    (void)state;
+    fixture f = begin();
+    for (double J = 1e-1; J > 1e-14; J *= 0.1) {
+        const double tolerance[] = {1e-13, 1e-9, 0};
+        for (int i = 0; i < 3; i++) {
+            rig r = rig_new(f.arena, 1, 1, 0);
+            rig_body(&r, "bob", 1.0, J, 1.0, 0.0, 0.0);
+            rig_pin(&r, "O", FW_GROUND, 0, 0.0, 0.0, 0.0, 0.0);
+            r.scene.gravity = true;
+            r.scene.gy_m_per_s2 = -9.81;
+            r.scene.duration_s = 2.0 * (1.0 + J);
+            const fw_motion *m = simulate(&f, &r, tolerance[i], 2);
+            assert_near(fabs(m->peak[0].angle_rad), acos(-1.0), m->peak[0].error_rad);
+            assert_true(m->peak[0].error_rad < 1e-3);
+            assert_true(m->stats.steps < 200000);
+        }
+    }
+    fw_arena_free(f.arena);
+}
+
 /* a second hinge D makes S singular everywhere; the motion must not notice */
 static void test_redundant_hinge(void **state) {
     (void)state;
@@ -473,6 +495,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_six_bar_reference),
         cmocka_unit_test(test_six_bar_reactions),
+        cmocka_unit_test(test_tiny_inertia),
         cmocka_unit_test(test_redundant_hinge),
         cmocka_unit_test(test_pendulum),
         cmocka_unit_test(test_windows),
