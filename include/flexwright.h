@@ -150,7 +150,7 @@ FW_API int fw_design_fabricate(fw_design *design);
    a six-bar: about 10 ms. */
 FW_API int fw_design_simulate(fw_design *design);
 
-enum {                        /* what fw_design_write writes, added up; manifest.json always */
+enum {                        /* what fw_design_write writes, added up, with a manifest.json */
        FW_DESIGN_VERDICT = 1, /* verdict.json */
        FW_DESIGN_MASKS = 2,   /* masks/FLOW.gds, .svg, .lyp, .json */
        FW_DESIGN_RECIPES = 4, /* recipes/FLOW.html, .csv, .ics, .json */

@@ -7,6 +7,8 @@ int fw_command_check(fw_cli_options *options) {
     if (!design) return exit_status;
     fw_session_stage(options, "layout, mechanism, motion and verdict");
     int status = fw_design_judge(design);
+    if (status == FW_STATUS_OK && options->output)
+        status = fw_design_write(design, options->output, FW_DESIGN_VERDICT);
     if (status == FW_STATUS_OK)
         status = fw_session_print(
             design, options, options->json ? FW_DOCUMENT_VERDICT_JSON : FW_DOCUMENT_VERDICT_TEXT);

@@ -205,7 +205,7 @@ static const option_row table[] = {
      take_method},
     {"integrator", 0, "NAME", "default auto", FW_OPT_SIMULATE, take_integrator},
     {"stabilise", 0, "HOW", "projection", FW_OPT_SIMULATE, take_stabilise},
-    {"rtol", 0, "R", "relative tolerance of the integrator; default from --accuracy",
+    {"rtol", 0, "R", "relative tolerance of the integrator, used between 1e-13 and 1e-5; default from --accuracy",
      FW_OPT_SIMULATE, take_rtol},
     {"samples", 0, "N", "rows of the CSV, evenly over the scene; default 1001", FW_OPT_SIMULATE,
      take_samples},

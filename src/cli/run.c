@@ -20,13 +20,14 @@ static const fw_command table[] = {
     {"check", "DEVICE.xml", "only the verdict: does a hinge leave its elastic range?",
      "flexwright check device.xml --set arc=\"250 deg\"",
      "Runs every scene and the required workspace and compares each hinge's peak strain with its\n"
-     "limit. Writes nothing.",
-     FW_OPT_COMMON | FW_OPT_PLAN, fw_command_check},
+     "limit. Writes nothing, or with -o DIR the verdict as JSON.",
+     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT, fw_command_check},
     {"simulate", "DEVICE.xml", "one scene: motion, peaks, statistics",
      "flexwright simulate device.xml --scene step-load --csv motion.csv",
      "Solves the equations of motion of one scene and prints the peak of every hinge angle. With\n"
-     "--csv every body's position and velocity, evenly sampled; with --animate a moving picture.",
-     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_SIMULATE, fw_command_simulate},
+     "--csv every body's position and velocity, evenly sampled; with --animate a moving picture;\n"
+     "-o DIR writes both as motion.csv and motion.svg.",
+     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_SIMULATE, fw_command_simulate},
     {"mask", "DEVICE.xml", "only the masks (GDSII, SVG, layer properties, certificate)",
      "flexwright mask device.xml --flow al-masked-rie -o masks-out",
      "Judges the device first: a rejected design gets no mask unless --force.",

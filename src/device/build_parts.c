@@ -45,7 +45,8 @@ static fw_flow_use flow_of(const fw_record *record) {
     return (fw_flow_use){.ref = fw_text_of(record, "ref"),
                          .material = fw_text_of(record, "material"),
                          .thickness_m = fw_number_of(record, "thickness"),
-                         .place = fw_place_of(record, "ref")};
+                         .place = fw_place_of(record, "ref"),
+                         .material_place = fw_place_of(record, "material")};
 }
 
 static const char *reference_text(fw_reader *r, const fw_record *record, const char *name) {

@@ -27,7 +27,7 @@ typedef struct fw_flow_use { /* <flow ref material thickness/> */
     const char *ref;
     const char *material; /* id of the material in this flow; NULL: the device's own */
     double thickness_m;   /* NaN: the device's own */
-    fw_place place;
+    fw_place place, material_place;
 } fw_flow_use;
 
 typedef enum fw_flexure_kind { FW_FLEXURE_CSFH, FW_FLEXURE_LEAF } fw_flexure_kind;
@@ -151,7 +151,8 @@ typedef struct fw_set { /* --set PATH=VALUE */
     const char *path, *value;
 } fw_set;
 
-/* reads and checks; all mistakes are in diags. FW_INPUT when there is an error.
+/* reads and checks; all mistakes are in diags. FW_INPUT when there is an error: *device is then NULL, or
+   what could be understood, good for looking up further references and for nothing else.
    `file` names the text in diagnostics. --set PATH is a parameter's name, or ELEMENT[ID]/@ATTRIBUTE
    (for example flexure[A]/@length). */
 fw_status fw_device_read(fw_arena *arena, const char *file, const char *xml, size_t n,

@@ -46,7 +46,6 @@ fw_status fw_device_read(fw_arena *arena, const char *file, const char *xml, siz
     FW_TRY(fw_cells_read(&r));
     FW_TRY(build(&r));
     if (diags->failed) return FW_NOMEM;
-    if (diags->errors > before) return FW_INPUT;
     *device = d;
-    return FW_OK;
+    return diags->errors > before ? FW_INPUT : FW_OK;
 }

@@ -24,7 +24,7 @@ void fw_flexure_closed_form(const fw_flexure_input *in, fw_flexure_result *out) 
     double x = in->fillet_m / in->width_m;
     bool outside = x < 0.05 || x > 1.0 + 1e-9 ||
                    (in->kind == FW_FLEXURE_CSFH && in->width_m > 0.3 * in->radius_m);
-    out->limit_uncertainty = outside ? 0.065 : 0.015;
+    out->limit_uncertainty = outside ? 0.065 : FW_FLEXURE_STRAIN_UNCERTAINTY;
 }
 
 double fw_flexure_default_fillet(const fw_flexure *flexure) {

@@ -57,10 +57,11 @@ static fw_status read_data(fw_plan *plan, const char *name, fw_place asked, char
 /* the variant of the description itself: what explicit masses and stiffnesses refer to */
 static fw_status own_material(fw_plan *plan, fw_material *material) {
     const fw_device *d = plan->device;
+    if (!d->material_ref)
+        return fw_diag_error(&plan->diags, 225, (fw_place){d->file, 1, 1},
+                             "no <material>: add <material ref=\"...\"/>; %s",
+                             fw_plan_material_names(plan));
     const fw_material *found = fw_material_find(&plan->materials, d->material_ref);
-    if (!found)
-        return fw_diag_error(&plan->diags, 225, d->material_place, "material '%s' is not in %s: %s",
-                             d->material_ref, plan->base_file, fw_plan_material_names(plan));
     *material = fw_material_with(found, &d->material);
     return FW_OK;
 }
@@ -94,13 +95,8 @@ static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_material
     *v = (fw_variant){.flow = use ? use->ref : NULL,
                       .material = *own,
                       .thickness_m = thickness_of(d, use, pf->flow)};
-    if (use && use->material && !same(use->material, d->material_ref)) {
-        const fw_material *other = fw_material_find(&plan->materials, use->material);
-        if (!other)
-            return fw_diag_error(&plan->diags, 225, place, "material '%s' is not in %s: %s",
-                                 use->material, plan->base_file, fw_plan_material_names(plan));
-        v->material = *other;
-    }
+    if (use && use->material && !same(use->material, d->material_ref))
+        v->material = *fw_material_find(&plan->materials, use->material);
     if (isnan(v->thickness_m))
         return fw_diag_error(&plan->diags, 226, place,
                              "the thickness of the device layer is not known: give thickness on "
@@ -184,6 +180,32 @@ fw_status fw_plan_load(fw_plan *plan, const char *path) {
     return fw_plan_load_memory(plan, strcmp(path, "-") == 0 ? "standard input" : path, xml, n);
 }
 
+/* what the device names in the data directory, all of it, also when the device has other mistakes
+ */
+static fw_status check_references(fw_plan *plan, const fw_device *d) {
+    fw_status status = FW_OK;
+    if (d->material_ref && !fw_material_find(&plan->materials, d->material_ref))
+        status =
+            fw_diag_error(&plan->diags, 225, d->material_place, "material '%s' is not in %s: %s",
+                          d->material_ref, plan->base_file, fw_plan_material_names(plan));
+    for (int i = 0; i < d->nflow; i++) {
+        const fw_flow_use *use = &d->flow[i];
+        const char *name =
+            use->ref ? fw_arena_printf(plan->arena, "processes/%s.xml", use->ref) : "";
+        FW_NEED(name);
+        if (*name && !fw_data_path(plan->arena, plan->options.data_directory, name))
+            status = fw_diag_error(&plan->diags, 224, use->place,
+                                   "there is no process pack %s: correct the name, or set "
+                                   "FLEXWRIGHT_DATA to the directory that holds it",
+                                   name);
+        if (use->material && !fw_material_find(&plan->materials, use->material))
+            status = fw_diag_error(&plan->diags, 225, use->material_place,
+                                   "material '%s' is not in %s: %s", use->material, plan->base_file,
+                                   fw_plan_material_names(plan));
+    }
+    return status;
+}
+
 fw_status fw_plan_load_memory(fw_plan *plan, const char *file, const char *xml, size_t n) {
     if (n > MOST_BYTES)
         return fw_diag_error(&plan->diags, 221, (fw_place){.file = file},
@@ -194,8 +216,10 @@ fw_status fw_plan_load_memory(fw_plan *plan, const char *file, const char *xml, 
     plan->source_length = n;
     const char *base = strrchr(file, '/');
     FW_TRY(remember_input(plan, base ? base + 1 : file, xml, n));
-    FW_TRY(fw_device_read(plan->arena, file, xml, n, plan->options.set, plan->options.nset,
-                          &plan->diags, &plan->device));
+    const fw_device *device = NULL;
+    fw_status read = fw_device_read(plan->arena, file, xml, n, plan->options.set,
+                                    plan->options.nset, &plan->diags, &device);
+    if (read != FW_OK && (read != FW_INPUT || !device)) return read;
     char *base_xml;
     plan->base_file = "processes/base.xml";
     FW_TRY(
@@ -203,5 +227,9 @@ fw_status fw_plan_load_memory(fw_plan *plan, const char *file, const char *xml, 
     plan->base_xml = base_xml;
     FW_TRY(fw_materials_read(plan->arena, plan->base_file, base_xml, plan->base_length,
                              &plan->diags, &plan->materials));
+    fw_status references = check_references(plan, device);
+    if (read != FW_OK) return read; /* a device with mistakes is for nobody else */
+    FW_TRY(references);
+    plan->device = device;
     return load_flows(plan);
 }

@@ -28,8 +28,9 @@ static json_t *option_list(const fw_plan *plan) {
         json_array_append_new(
             set, json_pack("{s:s, s:s}", "path", o->set[i].path, "value", o->set[i].value));
     const fw_effect_choice *e = &o->verdict.motion.effects;
-    return json_pack("{s:f, s:s, s:s?, s:b, s:s?, s:s?, s:o}", "accuracy",
-                     o->verdict.motion.accuracy, "effects",
+    double tolerance_nm = o->mask_tolerance_m > 0 ? o->mask_tolerance_m * 1e9 : 5.0;
+    return json_pack("{s:f, s:f, s:s, s:s?, s:b, s:s?, s:s?, s:o}", "mask_tolerance_nm",
+                     tolerance_nm, "accuracy", o->verdict.motion.accuracy, "effects",
                      e->mode == FW_EFFECTS_LIST && e->list ? e->list : effects[e->mode], "flow",
                      o->flow, "force", (int)o->force, "method", o->verdict.motion.method,
                      "integrator", o->verdict.motion.integrator, "set", set);
@@ -42,6 +43,8 @@ fw_status fw_plan_manifest(const fw_plan *plan, const fw_output_file *file, size
                              "flexwright.manifest/1", "program", "flexwright", "version",
                              FW_VERSION, "device", plan->device->name, "options", option_list(plan),
                              "inputs", file_list(plan), "outputs", output_list(file, count));
+    if (plan->verdict.decision == FW_REJECT)
+        json_object_set_new(json, "banner", json_string("REJECTED"));
     char *text = json ? json_dumps(json, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) : NULL;
     json_decref(json);
     FW_NEED(text);

@@ -76,13 +76,19 @@ static void fill_plated(fw_flow *flow, const fw_mask_facts *m) {
     const fw_quantity *edge = find(flow, "litho.edge");
     double area = m->structure_area_m2 * m->dies;
     double u = edge && !edge->unknown ? edge->uncertainty * m->perimeter_m * m->dies : 0.0;
+    fw_value_status worst = FW_DERIVED;
     for (int i = 0; i < 2; i++) {
         const fw_quantity *q = find(flow, extra[i]);
         if (!q) continue;
+        worst = q->status > worst ? q->status : worst;
         area += q->unknown ? (double)NAN : q->value;
         u = hypot(u, q->uncertainty);
     }
     fill(flow, "mask.plated-area", area, u);
+    fw_quantity *whole = find(flow, "mask.plated-area");
+    if (!whole) return;
+    whole->status = worst;
+    whole->source = "this device's own mask, contact ring and thief of the pack";
 }
 
 static void fill_mask(fw_flow *flow, const fw_mask_facts *m) {

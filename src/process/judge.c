@@ -16,7 +16,7 @@ typedef struct judge {
     answer verdict;
 } judge;
 
-/* up to six numbers of one sentence */
+/* up to eight numbers of one sentence */
 typedef struct numbers {
     char text[8][32];
     int n;

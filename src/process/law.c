@@ -102,6 +102,8 @@ static fw_status missing(fw_arena *arena, const fw_law_use *use, fw_law_answer *
         else if (a->q->status > answer->status)
             answer->status = a->q->status;
     }
+    /* what is computed is derived at best; a stated time is handed on as it is */
+    if (use->law != &fw_law_const && answer->status < FW_DERIVED) answer->status = FW_DERIVED;
     for (int i = 0; i < use->law->nargument; i++) {
         const fw_law_argument *a = &use->law->argument[i];
         bool given = false;

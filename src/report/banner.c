@@ -13,7 +13,7 @@ static void why(fw_text *out, const fw_verdict *v) {
     static const char *const closing[] = {
         [FW_ACCEPT] = "Every hinge stays inside its elastic range, error band included.",
         [FW_INCONCLUSIVE] = "The error band straddles the limit: neither accepted nor rejected.",
-        [FW_REJECT] = "It leaves its elastic range.",
+        [FW_REJECT] = "REJECTED: it leaves its elastic range.",
     };
     fw_text_add(out, "<p class=\"why\">");
     if (v->governing >= 0 && v->governing < v->nhinge) {

@@ -40,22 +40,18 @@ static json_t *governing(const fw_hinge_verdict *item, int count, int index, boo
 
 /* ---- workspace: the required boxes; certified when all of them are ---- */
 
-static json_t *box(const fw_report_input *in, const fw_variant_verdict *v, bool *failed) {
-    const fw_workspace_result *w = &v->workspace;
-    const char *flow = v->variant ? v->variant->flow : NULL;
+static json_t *box(const fw_workspace_box *b, const fw_variant_verdict *v, bool reachable,
+                   bool *failed) {
     json_t *o = json_object();
-    fw_json_put(o, "flow", fw_json_text(flow), failed);
-    for (int i = 0; i < in->device->nworkspace; i++) {
-        const fw_workspace_box *b = &in->device->workspace[i];
-        if (b->flow && flow && strcmp(b->flow, flow) != 0) continue;
-        fw_json_put(o, "x_m", fw_json_pair(b->x_min_m, b->x_max_m, failed), failed);
-        fw_json_put(o, "y_m", fw_json_pair(b->y_min_m, b->y_max_m, failed), failed);
-        fw_json_put(o, "phi_rad", fw_json_pair(b->phi_min_rad, b->phi_max_rad, failed), failed);
-        break;
-    }
-    fw_json_put(o, "reachable", json_boolean(w->reachable), failed);
-    fw_json_put(o, "certified", json_boolean(w->certified), failed);
-    fw_json_put(o, "volume_m2_rad", fw_json_real(w->volume_m2_rad), failed);
+    double volume =
+        (b->x_max_m - b->x_min_m) * (b->y_max_m - b->y_min_m) * (b->phi_max_rad - b->phi_min_rad);
+    fw_json_put(o, "flow", fw_json_text(v->variant ? v->variant->flow : NULL), failed);
+    fw_json_put(o, "x_m", fw_json_pair(b->x_min_m, b->x_max_m, failed), failed);
+    fw_json_put(o, "y_m", fw_json_pair(b->y_min_m, b->y_max_m, failed), failed);
+    fw_json_put(o, "phi_rad", fw_json_pair(b->phi_min_rad, b->phi_max_rad, failed), failed);
+    fw_json_put(o, "reachable", json_boolean(reachable), failed);
+    fw_json_put(o, "certified", json_boolean(v->workspace.certified), failed);
+    fw_json_put(o, "volume_m2_rad", fw_json_real(volume), failed);
     return o;
 }
 
@@ -69,7 +65,11 @@ static json_t *workspace(const fw_report_input *in, bool *failed) {
         any = true;
         certified = certified && v->workspace.certified && v->workspace.reachable;
         volume = fmin(volume, v->workspace.volume_m2_rad); /* fmin ignores the first NaN */
-        fw_json_push(list, box(in, v, failed), failed);
+        for (int k = 0; k < in->device->nworkspace; k++)
+            if (v->workspace.asked && v->workspace.asked[k])
+                fw_json_push(
+                    list, box(&in->device->workspace[k], v, v->workspace.box_reachable[k], failed),
+                    failed);
     }
     json_t *o = json_object();
     fw_json_put(o, "required", list, failed);
@@ -133,6 +133,7 @@ fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out) {
     fw_json_put(root, "device", fw_json_text(input->device->name), &failed);
     fw_json_put(root, "version", fw_json_text(input->version), &failed);
     fw_json_put(root, "verdict", fw_json_text(word(v->decision)), &failed);
+    if (v->decision == FW_REJECT) fw_json_put(root, "banner", fw_json_text("REJECTED"), &failed);
     fw_json_put(root, "governing", governing(v->hinge, v->nhinge, v->governing, &failed), &failed);
     fw_json_put(root, "hinges", hinges(v->hinge, v->nhinge, &failed), &failed);
     fw_json_put(root, "workspace", workspace(input, &failed), &failed);

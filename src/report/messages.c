@@ -22,6 +22,8 @@ fw_status fw_report_section_messages(fw_page *page) {
                 "</tr></thead><tbody>\n");
     for (size_t i = 0; i < diags->count; i++) {
         const fw_diag *d = &diags->item[i];
+        if (d->number == 230)
+            continue; /* how the program was called is no property of the device */
         fw_report_markup(out, "<tr><td>{r}</td><td>{s}", word[d->severity], file_of(d->place));
         if (d->place.line > 0) fw_report_markup(out, ":{i}:{i}", d->place.line, d->place.column);
         fw_report_markup(out, "</td><td>{s}</td><td>", d->message);

@@ -6,7 +6,7 @@
 static void unreachable(const fw_device *device, const fw_variant_verdict *v, fw_diags *diags) {
     char x[32], y[32], phi[32];
     fw_diag_warning(
-        diags, 201, device->workspace[0].place,
+        diags, 201, device->workspace[v->workspace.fail_box].place,
         "the required workspace holds a pose out of reach: dx = %s um, dy = %s um, "
         "turned by %s deg; the design is rejected",
         fw_number_text(x, sizeof x, v->workspace.fail_x_m * 1e6, 4),
@@ -53,25 +53,35 @@ static fw_status combine(fw_arena *arena, const fw_device *device, double accura
     return FW_OK;
 }
 
+static fw_place flow_place(const fw_device *device, const char *flow) {
+    for (int i = 0; flow && i < device->nflow; i++)
+        if (strcmp(device->flow[i].ref, flow) == 0) return device->flow[i].place;
+    return (fw_place){device->file, 1, 1};
+}
+
 static fw_status attempt(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                          const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict) {
+    fw_status status = FW_OK;
     for (int i = 0; i < verdict->nvariant; i++) {
         fw_variant_verdict *v = &verdict->variant[i];
         const fw_mechanism *m = NULL;
         FW_TRY(fw_mechanism_build(arena, device, layout, v->variant, diags, &m));
         if (m->nhinge == 0)
-            return fw_diag_error(diags, 203, (fw_place){.file = device->file},
+            return fw_diag_error(diags, 203,
+                                 device->njoint ? device->joint[0].place
+                                                : (fw_place){device->file, 1, 1},
                                  "no joint of the mechanism is a flexure, so there is no elastic "
                                  "limit to judge: name a flexure on the joints");
         FW_TRY(fw_verdict_check_closure(device, m, diags));
         FW_TRY(fw_verdict_variant(arena, device, layout, m, options, diags, v));
         if (!judged(v, device))
-            return fw_diag_error(diags, 202, (fw_place){.file = device->file},
-                                 "nothing to judge in flow %s: add a <scene> or a <workspace> that "
-                                 "holds for it",
-                                 v->variant->flow ? v->variant->flow : "(none)");
+            status = fw_diag_error(diags, 202, flow_place(device, v->variant->flow),
+                                   "nothing to judge in flow %s: add a <scene> or a <workspace> "
+                                   "that holds for it",
+                                   v->variant->flow ? v->variant->flow : "(none)");
         if (v->workspace.required && !v->workspace.reachable) unreachable(device, v, diags);
     }
+    FW_TRY(status);
     return combine(arena, device, options->motion.accuracy, verdict);
 }
 

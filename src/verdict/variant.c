@@ -42,6 +42,12 @@ bool fw_verdict_governs(const fw_hinge_verdict *h, const fw_hinge_verdict *other
     return h->utilisation > other->utilisation;
 }
 
+/* twice the standard uncertainty that a shape outside the fitted range has on top of the model
+ * error */
+static double beyond_fit(const fw_flexure_result *c) {
+    return 2.0 * (c->limit_uncertainty - FW_FLEXURE_STRAIN_UNCERTAINTY);
+}
+
 /* the solids meet first: what happens then is not in the model, so it cannot be accepted */
 static void collide(const fw_hinge_layout *drawn, fw_hinge_verdict *out) {
     out->touches = drawn && drawn->drawn && drawn->free_rad > 0.0 &&
@@ -75,8 +81,7 @@ static void judge_scene(const fw_mechanism *m, const fw_hinge *hinge, const fw_h
     double numeric =
         motion->ended ? 0.0
                       : peak->error_rad / c->limit_angle_rad + strain->between / out->strain_limit;
-    double model = fw_verdict_model_error.motion + fw_verdict_model_error.strain +
-                   2.0 * (c->limit_uncertainty - 0.015);
+    double model = fw_verdict_model_error.motion + fw_verdict_model_error.strain + beyond_fit(c);
     out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - model) - numeric);
     out->utilisation_high = out->utilisation * (1.0 + model) + numeric;
     out->decision = decide(out->utilisation_low, out->utilisation_high);
@@ -100,7 +105,7 @@ static void judge_workspace(const fw_mechanism *m, const fw_hinge *hinge,
     out->utilisation = fabs(peak->angle_rad) / c->limit_angle_rad;
     out->peak_strain = out->utilisation * out->strain_limit;
     double numeric = peak->error_rad / c->limit_angle_rad;
-    double model = fw_verdict_model_error.strain + 2.0 * (c->limit_uncertainty - 0.015);
+    double model = fw_verdict_model_error.strain + beyond_fit(c);
     out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - model) - numeric);
     out->utilisation_high =
         out->utilisation * (1.0 + model + fw_verdict_model_error.workspace) + numeric;
@@ -184,7 +189,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
             if (now.touches) warn_touching(device, drawn, &now, diags);
             fw_verdict_keep_worst(&v->hinge[k], &now);
         }
-        if (v->workspace.required && v->workspace.reachable) {
+        if (v->workspace.required) { /* the poses that can be reached */
             fw_hinge_verdict now = blank;
             judge_workspace(m, hinge, drawn, &v->workspace, &now);
             if (now.touches) warn_touching(device, drawn, &now, diags);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Does any hinge leave its elastic range? utilisation = peak angle / limit angle, with its error
-   band; above 1 rejects, a band that straddles 1 is inconclusive. */
+/* Does any hinge leave its elastic range? utilisation = the larger of peak angle / limit angle and
+   peak strain (joint force included) / limit strain, with its error band; a band above 1 rejects,
+   one that straddles 1 is inconclusive. */
 #ifndef FW_VERDICT_VERDICT_H
 #define FW_VERDICT_VERDICT_H
 #include "dynamics/dynamics.h"

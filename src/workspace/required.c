@@ -58,19 +58,21 @@ static void refine(const fw_six_bar *k, const box3 *box, int joint, fw_workspace
    its local maximum. Not an interval proof: `certified` is false; the error is what the refinement
    from a 9^3 to the 17^3 grid and the climb still changed. Cost about 6000 inverse kinematics, 1
    ms. source: docs/theory/workspace.md; test_required.c corners_and_interior */
-static fw_status one_box(const fw_mechanism *m, const fw_six_bar *k, const fw_workspace_box *asked,
-                         fw_workspace_result *result) {
+static bool one_box(const fw_six_bar *k, const fw_workspace_box *asked,
+                    fw_workspace_result *result) {
     const box3 box = {{asked->x_min_m, asked->y_min_m, asked->phi_min_rad},
                       {asked->x_max_m, asked->y_max_m, asked->phi_max_rad}};
     fw_workspace_peak coarse[FW_SIX], fine[FW_SIX];
     double at[3];
-    (void)m;
+    result->volume_m2_rad +=
+        (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]) * (box.high[2] - box.low[2]);
     if (!scan(k, &box, COARSE, coarse, at) || !scan(k, &box, FINE, fine, at)) {
-        result->reachable = false;
-        result->fail_x_m = at[0];
-        result->fail_y_m = at[1];
-        result->fail_phi_rad = at[2];
-        return FW_OK;
+        if (result->reachable) { /* the first one is named */
+            result->fail_x_m = at[0];
+            result->fail_y_m = at[1];
+            result->fail_phi_rad = at[2];
+        }
+        return false;
     }
     for (int j = 0; j < FW_SIX; j++) {
         refine(k, &box, j, &coarse[j]);
@@ -83,9 +85,7 @@ static fw_status one_box(const fw_mechanism *m, const fw_six_bar *k, const fw_wo
         }
         if (fabs(fine[j].angle_rad) > fabs(result->peak[j].angle_rad)) result->peak[j] = fine[j];
     }
-    result->volume_m2_rad +=
-        (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]) * (box.high[2] - box.low[2]);
-    return FW_OK;
+    return true;
 }
 
 static bool same_flow(const char *asked, const char *flow) {
@@ -94,11 +94,15 @@ static bool same_flow(const char *asked, const char *flow) {
 
 fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *m, fw_diags *diags,
                                 fw_workspace_result *result) {
-    (void)arena;
-    *result = (fw_workspace_result){.reachable = true};
+    bool *in_flow = fw_arena_array(arena, bool, (size_t)m->device->nworkspace);
+    bool *whole = fw_arena_array(arena, bool, (size_t)m->device->nworkspace);
+    FW_NEED(in_flow);
+    FW_NEED(whole);
+    *result = (fw_workspace_result){
+        .reachable = true, .fail_box = FW_NONE, .asked = in_flow, .box_reachable = whole};
     fw_six_bar k;
     bool known = fw_six_bar_set_up(m, &k);
-    for (int i = 0; i < m->device->nworkspace && result->reachable; i++) {
+    for (int i = 0; i < m->device->nworkspace; i++) {
         const fw_workspace_box *asked = &m->device->workspace[i];
         if (!same_flow(asked->flow, m->variant->flow)) continue;
         if (!known) {
@@ -108,7 +112,12 @@ fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *m, fw_diags
             return FW_INPUT;
         }
         result->required = true;
-        FW_TRY(one_box(m, &k, asked, result));
+        in_flow[i] = true;
+        whole[i] = one_box(&k, asked, result);
+        if (!whole[i] && result->reachable) {
+            result->reachable = false;
+            result->fail_box = i;
+        }
     }
     return FW_OK;
 }

@@ -22,7 +22,10 @@ typedef struct fw_workspace_result {
     bool reachable;                          /* all of it can be assembled */
     bool certified;                          /* interval proof; sampled otherwise */
     double volume_m2_rad;                    /* of the required box */
-    double fail_x_m, fail_y_m, fail_phi_rad; /* a pose out of reach */
+    double fail_x_m, fail_y_m, fail_phi_rad; /* a pose out of reach ... */
+    int fail_box;                            /* ... of this one of the device's boxes; FW_NONE */
+    const bool *asked,
+        *box_reachable; /* (device->nworkspace) holds in this flow; all of it reachable */
     fw_workspace_peak peak[FW_SIX];
 } fw_workspace_result;
 

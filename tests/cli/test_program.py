@@ -100,6 +100,9 @@ class Plan(InTemporary):
             self.assertIn(b"REJECTED", (out / f"masks/{flow}.gds").read_bytes())
             self.assertIn("REJECTED", (out / f"masks/{flow}.svg").read_text())
             self.assertIn("REJECTED", (out / f"recipes/{flow}.csv").read_text())
+            self.assertIn("REJECTED", (out / f"recipes/{flow}.json").read_text())
+        for name in ("report.html", "verdict.json", "manifest.json", "device.svg", "motion/step-load.svg"):
+            self.assertIn("REJECTED", (out / name).read_text(), name)
 
     def test_overstraining_workspace_rejects(self):
         text = GALLERY_TEXT.replace('x-min="-150 um" x-max="150 um"', 'x-min="-900 um" x-max="900 um"')
@@ -259,6 +262,12 @@ class Simulate(InTemporary):
         data = json.loads(self.expect(run("simulate", GALLERY, "--flow", FLOWS[1], "--json"), 0).stdout)
         self.assertLess(abs(data["peaks"][0]["angle_rad"]), 0.06)  # gentle-step, not step-load
 
+    def test_output_directory(self):
+        self.expect(run("simulate", GALLERY, "-o", self.here / "sim", "-q"), 0)
+        self.assertEqual(sorted(p.name for p in (self.here / "sim").iterdir()), ["motion.csv", "motion.svg"])
+        self.expect(run("check", GALLERY, "-o", self.here / "chk"), 0)
+        self.assertEqual(json.loads((self.here / "chk/verdict.json").read_text())["verdict"], "accept")
+
     def test_unknown_scene(self):
         result = self.expect(run("simulate", GALLERY, "--scene", "stepload"), 3)
         self.assertIn("step-load", result.stderr)
@@ -334,6 +343,16 @@ class Usage(InTemporary):
         for line, column in places:
             shown = text.splitlines()[int(line) - 1][int(column) - 1:]
             self.assertTrue(re.match(r"8.5 mn|mn|8 N|AX", shown), shown)
+
+    def test_references_are_looked_up_in_the_same_run(self):
+        text = (GALLERY_TEXT.replace('ref="silicon-100"', 'ref="unobtainium"')
+                .replace('<flow ref="al-masked-rie"/>', '<flow ref="al-masked-rie"/>\n  <flow ref="nope" material="cuprum"/>')
+                .replace('on="AB"', 'on="AX"', 1))
+        result = self.expect(run("check", self.device(text)), 3)
+        for wrong in ("unobtainium", "nope", "cuprum", "AX"):
+            line = next(i for i, l in enumerate(text.splitlines(), 1) if wrong in l)
+            column = text.splitlines()[line - 1].index(wrong) + 1
+            self.assertIn(f"device.xml:{line}:{column}: error: ", result.stderr, wrong)
 
     def test_set(self):
         self.expect(run("check", GALLERY, "--set", "arc=250 deg"), 0)

@@ -16,7 +16,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n) {
         fw_diags diags = fw_diags_new(arena);
         const fw_device *device;
         fw_status s = fw_device_read(arena, "fuzz", text, n, set, nset, &diags, &device);
-        if ((s == FW_OK) != (device != NULL) || (s == FW_OK && diags.errors > 0) ||
+        if ((s == FW_OK && !device) || (s == FW_OK && diags.errors > 0) ||
             (s == FW_INPUT && diags.errors == 0))
             __builtin_trap();
     }

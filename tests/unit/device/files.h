@@ -38,10 +38,9 @@ static inline const fw_device *sound(fw_arena *arena, const char *xml, const fw_
 static inline void only_error(fw_arena *arena, const char *xml, const fw_set *set, int nset,
                               int number, const char *says) {
     fw_diags diags = fw_diags_new(arena);
-    const fw_device *device;
+    const fw_device *device; /* may be what was understood, for looking up references */
     assert_int_equal(fw_device_read(arena, "t.xml", xml, strlen(xml), set, nset, &diags, &device),
                      FW_INPUT);
-    assert_null(device);
     if (diags.errors != 1 || diags.item[0].number != number || !strstr(diags.item[0].message, says))
         fail_msg("%zu errors, %d: %s", diags.errors, diags.count ? diags.item[0].number : 0,
                  diags.count ? diags.item[0].message : "");

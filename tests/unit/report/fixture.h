@@ -354,8 +354,14 @@ static void fixture_hinges(fw_arena *arena, fixture *f, int i, const fw_motion *
         if (h->utilisation > v->hinge[v->governing].utilisation) v->governing = j;
     }
     if (i == 0) {
-        v->workspace = (fw_workspace_result){
-            .required = true, .reachable = true, .certified = true, .volume_m2_rad = 2.5e-9};
+        static const bool yes[1] = {true};
+        v->workspace = (fw_workspace_result){.required = true,
+                                             .reachable = true,
+                                             .certified = true,
+                                             .volume_m2_rad = 2.5e-9,
+                                             .fail_box = FW_NONE,
+                                             .asked = yes,
+                                             .box_reachable = yes};
         for (int j = 0; j < FW_SIX; j++)
             v->workspace.peak[j] =
                 (fw_workspace_peak){0.01 * (j + 2), 1e-6, 150e-6, -60e-6, 0.0349};
