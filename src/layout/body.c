@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One outline per body: bars and plate, cut free of the hinges, united with its own hinge heads. */
+#include "geometry/segment.h"
 #include "layout/draw.h"
 #include <math.h>
 
@@ -60,10 +61,10 @@ static fw_status draw_link(fw_drawing *d, int body, const int joint[2], fw_conto
     return close_bar(d, w, a->direction, p, n, bar);
 }
 
-/* cuts the keep-out discs of the given hinges (all but those in `skip`) out of a part; the pieces
-   that are left are appended */
-static fw_status cut_free(fw_drawing *d, const fw_contour *part, const int *skip, int nskip,
-                          parts *out) {
+/* cuts the keep-out discs of the given hinges (all but those in `skip`) out of a part of a body;
+   the pieces that are left are appended */
+static fw_status cut_free(fw_drawing *d, int body, const fw_contour *part, const int *skip,
+                          int nskip, parts *out) {
     fw_region region = {(fw_contour *)part, 1};
     for (int j = 0; j < d->device->njoint; j++) {
         const fw_hinge_layout *h = &d->layout->hinge[j];
@@ -72,7 +73,9 @@ static fw_status cut_free(fw_drawing *d, const fw_contour *part, const int *skip
             own = own || skip[i] == j;
         if (own) continue;
         fw_contour disc;
-        FW_TRY(fw_contour_disc(d->arena, h->centre, h->keep_out_m, &disc));
+        double radius = h->keep_out_m;
+        if (h->lower == body || h->upper == body) radius += fw_head_wider(side_of(d, j, body));
+        FW_TRY(fw_contour_disc(d->arena, h->centre, radius, &disc));
         if (!fw_contour_contains(part, h->centre) &&
             fw_contour_distance(part, &disc, NULL, NULL) > 0.0)
             continue;
@@ -94,14 +97,14 @@ static fw_status plate_parts(fw_drawing *d, int body, parts *out) {
     fw_vec2 corner[4] = {{-w, -h}, {w, -h}, {w, h}, {-w, h}};
     fw_contour plate;
     FW_TRY(fw_layout_polygon(d->arena, &local, corner, 4, -1, &plate));
-    return cut_free(d, &plate, NULL, 0, out);
+    return cut_free(d, body, &plate, NULL, 0, out);
 }
 
 static fw_status bar_parts(fw_drawing *d, int body, const int *joint, int njoint, parts *out) {
     fw_contour bar;
     if (njoint == 2) {
         FW_TRY(draw_link(d, body, joint, &bar));
-        return cut_free(d, &bar, joint, 2, out);
+        return cut_free(d, body, &bar, joint, 2, out);
     }
     fw_vec2 hub = fw_v(0.0, 0.0);
     double half = 0.0;
@@ -120,12 +123,12 @@ static fw_status bar_parts(fw_drawing *d, int body, const int *joint, int njoint
         const fw_side *side = side_of(d, joint[i], body);
         double end = fw_norm(fw_sub(hub, fw_joint_point(d->device, joint[i])));
         FW_TRY(draw_spoke(d, joint[i], side, half, end, &bar));
-        FW_TRY(cut_free(d, &bar, &joint[i], 1, out));
+        FW_TRY(cut_free(d, body, &bar, &joint[i], 1, out));
     }
     if (njoint > 2) { /* a hub under the inner ends */
         fw_contour disc;
         FW_TRY(fw_contour_disc(d->arena, hub, 1.3 * half, &disc));
-        FW_TRY(cut_free(d, &disc, NULL, 0, out));
+        FW_TRY(cut_free(d, body, &disc, NULL, 0, out));
     }
     return FW_OK;
 }
@@ -158,10 +161,9 @@ fw_status fw_body_unite(fw_drawing *d, int body, const fw_contour *part, int npa
 /* Corners of 10 um; where the parts are too small for that, 5, 2.5 or 1.25 um for the whole body.
    Fillets at the roots and conjugate surfaces meet their neighbours smoothly or keep their arcs. */
 fw_status fw_body_round(fw_drawing *d, int body, const fw_contour *in, fw_contour *out,
-                        double *radius_m) {
-    fw_vec2 where = fw_v(0.0, 0.0);
+                        double *radius_m, fw_vec2 *where) {
     for (double radius = FW_CORNER_M; radius > 1e-6; radius *= 0.5) {
-        fw_status status = fw_contour_round(d->arena, in, radius, radius, out, &where);
+        fw_status status = fw_contour_round(d->arena, in, radius, radius, out, where);
         *radius_m = radius;
         if (status != FW_GEOMETRY) return status;
     }
@@ -171,7 +173,183 @@ fw_status fw_body_round(fw_drawing *d, int body, const fw_contour *in, fw_contou
     fw_diag_error(d->diags, 126, fw_body_place(d, body),
                   "%s has a corner at (%s, %s) um that cannot be rounded by even 0.3 um; parts of "
                   "it nearly coincide: change a width or a position slightly",
-                  label, fw_layout_um(x, where.x), fw_layout_um(y, where.y));
+                  label, fw_layout_um(x, where->x), fw_layout_um(y, where->y));
+    return FW_GEOMETRY;
+}
+
+/* what is drawn of one body: its hinges, parts that only the base has, and where its eyelets stand
+ */
+typedef struct work {
+    int body, slot, joint[MOST_JOINTS], njoint;
+    const fw_contour *extra;
+    int nextra, lug_shift, first_lug;
+} work;
+
+static fw_status unite_all(fw_drawing *d, const work *w) {
+    parts *all;
+    FW_NEED(all = fw_arena_one(d->arena, parts));
+    if (has_plate(d, w->body))
+        FW_TRY(plate_parts(d, w->body, all));
+    else
+        FW_TRY(bar_parts(d, w->body, w->joint, w->njoint, all));
+    for (int i = 0; i < w->njoint; i++)
+        all->item[all->count++] = side_of(d, w->joint[i], w->body)->head;
+    for (int i = 0; i < w->nextra; i++)
+        all->item[all->count++] = w->extra[i];
+    FW_TRY(fw_body_unite(d, w->body, all->item, all->count, &d->raw[w->slot]));
+    d->nlug = w->first_lug;
+    if (w->body < 0 || !d->device->body[w->body].platform) return FW_OK;
+    static const double shift_m[] = {0.0, 14e-6, -14e-6, 28e-6, -28e-6};
+    fw_contour lug[4];
+    int nlug = 0;
+    FW_TRY(fw_platform_lugs(d, w->body, shift_m[w->lug_shift], lug, &nlug));
+    for (int i = 0; i < nlug; i++) {
+        fw_contour pair[2] = {d->raw[w->slot], lug[i]};
+        FW_TRY(fw_body_unite(d, w->body, pair, 2, &d->raw[w->slot]));
+    }
+    return FW_OK;
+}
+enum { LUG_SHIFTS = 5 };
+
+/* least width or space over its limit, and where */
+static double share(const fw_contour *c, bool inside, double limit_m, fw_vec2 *where) {
+    int i, j;
+    double least = fw_contour_clearance(c, inside, &i, &j);
+    if (i < 0) return HUGE_VAL;
+    fw_vec2 other;
+    *where = c->segment[i].a;
+    if (i != j) fw_segment_distance(&c->segment[i], &c->segment[j], where, &other);
+    return least / limit_m;
+}
+
+/* least radius of an arc: where it turns by more than 45 degrees its neighbours nearly face each
+   other, so that they are a width or a space across it; not at the root of a flexure */
+static double arc_limit(const fw_contour *c, int i) {
+    const fw_segment *s = &c->segment[i];
+    int n = c->count;
+    unsigned beside = c->segment[(i + 1) % n].flags | c->segment[(i + n - 1) % n].flags;
+    bool hollow = s->sweep_rad < 0.0;
+    bool tight = fabs(s->sweep_rad) > 0.25 * M_PI;
+    if (tight && !(beside & FW_SEGMENT_JOINT)) return hollow ? FW_OWN_BEND_M : FW_OWN_TIP_M;
+    return hollow ? FW_OWN_HOLLOW_M : 1e-9;
+}
+
+/* How far an outline is from what a mask can show: the least of width, space and radius, each over
+   its limit; >= 1 is good. */
+static double soundness(const fw_contour *c, fw_vec2 *where) {
+    fw_vec2 slit = *where;
+    double least = share(c, true, FW_OWN_WIDTH_M, where);
+    double space = share(c, false, FW_OWN_SPACE_M, &slit);
+    if (space < least) {
+        least = space;
+        *where = slit;
+    }
+    for (int i = 0; i < c->count; i++) {
+        const fw_segment *s = &c->segment[i];
+        double here = s->radius / arc_limit(c, i);
+        if (s->kind != FW_ARC || !(here < least)) continue;
+        least = here;
+        *where = s->a;
+    }
+    return least;
+}
+
+static int nearest_joint(const fw_drawing *d, const work *w, fw_vec2 p) {
+    int best = w->joint[0];
+    for (int i = 1; i < w->njoint; i++)
+        if (fw_norm(fw_sub(p, fw_joint_point(d->device, w->joint[i]))) <
+            fw_norm(fw_sub(p, fw_joint_point(d->device, best))))
+            best = w->joint[i];
+    return best;
+}
+
+static bool near_lug(const fw_drawing *d, const work *w, fw_vec2 p) {
+    for (int i = w->first_lug; i < d->nlug; i++) {
+        fw_box b = fw_contour_box(&d->lug[i]);
+        if (p.x > b.x0 - 8e-6 && p.x < b.x1 + 8e-6 && p.y > b.y0 - 8e-6 && p.y < b.y1 + 8e-6)
+            return true;
+    }
+    return false;
+}
+
+/* one drawing of the body as its heads stand now; *sound 0 when it cannot be united (*where NaN) or
+   rounded */
+static fw_status attempt(fw_drawing *d, const work *w, double *sound, fw_vec2 *where) {
+    *sound = 0.0;
+    *where = fw_v((double)NAN, (double)NAN);
+    FW_TRY(unite_all(d, w));
+    FW_TRY(fw_body_round(d, w->body, &d->raw[w->slot], &d->plain[w->slot], &d->corner_m[w->slot],
+                         where));
+    *sound = soundness(&d->plain[w->slot], where);
+    return FW_OK;
+}
+
+static fw_status quiet_attempt(fw_drawing *d, const work *w, double *sound, fw_vec2 *where) {
+    fw_diags *said = d->diags, unsaid = fw_diags_new(d->arena);
+    d->diags = &unsaid;
+    fw_status status = attempt(d, w, sound, where);
+    d->diags = said;
+    return status == FW_GEOMETRY ? FW_OK : status;
+}
+
+static fw_status choose_heads(fw_drawing *d, const work *w, const int *choice) {
+    for (int i = 0; i < w->njoint; i++)
+        if (side_of(d, w->joint[i], w->body)->choice != choice[i])
+            FW_TRY(fw_head_draw(d, w->joint[i], w->body, choice[i]));
+    return FW_OK;
+}
+
+/* the next thing to try where an outline is unsound: other eyelets, else another head there */
+static bool vary(const fw_drawing *d, work *w, fw_vec2 where, int *choice) {
+    if (isnan(where.x)) {
+        bool exist = true;
+        for (int i = 0; i < w->njoint; i++)
+            exist = fw_head_exists(++choice[i]) && exist;
+        return exist;
+    }
+    if (near_lug(d, w, where) && w->lug_shift + 1 < LUG_SHIFTS) {
+        w->lug_shift++;
+        return true;
+    }
+    int near = nearest_joint(d, w, where);
+    for (int i = 0; i < w->njoint; i++)
+        if (w->joint[i] == near && !fw_head_exists(++choice[i])) return false;
+    return true;
+}
+
+/* Where edges of parts nearly coincide, the united outline has steps, teeth or slits that no mask
+   can show. Then the free dimensions of the head (or the eyelets) next to the worst place are
+   changed, row by row, until it is sound; else the best of the attempts stands, the first one
+   unless another is better by 5 %. test_layout_sweep.c */
+static fw_status draw_soundly(fw_drawing *d, work *w) {
+    int choice[MOST_JOINTS] = {0}, best[MOST_JOINTS] = {0}, best_shift = 0;
+    double most = 0.0, sound;
+    fw_vec2 where;
+    for (int round = 0; round < 4 * MOST_JOINTS; round++) {
+        fw_status heads = choose_heads(d, w, choice);
+        if (heads == FW_GEOMETRY) break; /* no such head: what was drawn before stands */
+        FW_TRY(heads);
+        FW_TRY(quiet_attempt(d, w, &sound, &where));
+        if (sound >= 1.0) return FW_OK;
+        if (sound > 1.05 * most) {
+            most = sound;
+            best_shift = w->lug_shift;
+            for (int i = 0; i < w->njoint; i++)
+                best[i] = choice[i];
+        }
+        if (!vary(d, w, where, choice)) break;
+    }
+    w->lug_shift = best_shift;
+    FW_TRY(choose_heads(d, w, best));
+    size_t errors = d->diags->errors;
+    fw_status status = attempt(d, w, &sound, &where);
+    if (status != FW_GEOMETRY || d->diags->errors > errors) return status;
+    const char *label = fw_body_label(d, w->body);
+    FW_NEED(label);
+    fw_diag_error(d->diags, 126, fw_body_place(d, w->body),
+                  "%s: parts of it run along each other at almost no distance; change a width or a "
+                  "position slightly",
+                  label);
     return FW_GEOMETRY;
 }
 
@@ -179,42 +357,22 @@ fw_status fw_body_round(fw_drawing *d, int body, const fw_contour *in, fw_contou
    only the base has. Half of each adjacent flexure's mass is not added: it is about 1 % of a
    link's. */
 fw_status fw_body_draw(fw_drawing *d, int body, int only, const fw_contour *extra, int nextra) {
-    int joint[MOST_JOINTS], slot = fw_drawing_slot(d, body, only);
-    int njoint = fw_body_joints(d->device, body, joint, MOST_JOINTS);
+    int slot = fw_drawing_slot(d, body, only);
+    work w = {.body = body, .slot = slot, .extra = extra, .nextra = nextra, .first_lug = d->nlug};
+    w.njoint = fw_body_joints(d->device, body, w.joint, MOST_JOINTS);
     if (only != FW_NONE) {
-        joint[0] = only;
-        njoint = 1;
+        w.joint[0] = only;
+        w.njoint = 1;
     }
-    parts *all;
-    FW_NEED(all = fw_arena_one(d->arena, parts));
-    if (njoint > MOST_JOINTS) {
+    if (w.njoint > MOST_JOINTS) {
         const char *label = fw_body_label(d, body);
         FW_NEED(label);
         fw_diag_error(d->diags, 123, fw_body_place(d, body),
-                      "%s has %d hinges; at most %d can be drawn on one body", label, njoint,
+                      "%s has %d hinges; at most %d can be drawn on one body", label, w.njoint,
                       (int)MOST_JOINTS);
         return FW_GEOMETRY;
     }
-    if (has_plate(d, body))
-        FW_TRY(plate_parts(d, body, all));
-    else
-        FW_TRY(bar_parts(d, body, joint, njoint, all));
-    for (int i = 0; i < njoint; i++)
-        all->item[all->count++] = side_of(d, joint[i], body)->head;
-    for (int i = 0; i < nextra; i++)
-        all->item[all->count++] = extra[i];
-    FW_TRY(fw_body_unite(d, body, all->item, all->count, &d->raw[slot]));
-
-    if (body >= 0 && d->device->body[body].platform) {
-        fw_contour lug[4];
-        int nlug = 0;
-        FW_TRY(fw_platform_lugs(d, body, lug, &nlug));
-        for (int i = 0; i < nlug; i++) {
-            fw_contour pair[2] = {d->raw[slot], lug[i]};
-            FW_TRY(fw_body_unite(d, body, pair, 2, &d->raw[slot]));
-        }
-    }
-    FW_TRY(fw_body_round(d, body, &d->raw[slot], &d->plain[slot], &d->corner_m[slot]));
+    FW_TRY(draw_soundly(d, &w));
     if (body < 0) return FW_OK;
     fw_region region = {&d->plain[slot], 1};
     fw_moments m = fw_region_moments(&region);

@@ -9,6 +9,11 @@
 /* drawing rules, m and rad */
 #define FW_LEAST_SPACE_M 8e-6   /* between parts that move apart, unless a gap is set smaller */
 #define FW_CORNER_M      10e-6  /* radius of rounded corners */
+#define FW_OWN_WIDTH_M   4.4e-6 /* within one outline: width, */
+#define FW_OWN_SPACE_M   7e-6   /* space (a mask rule of 4 um and a bias of 1.1 um per edge), */
+#define FW_OWN_HOLLOW_M  1.6e-6 /* hollow radius, */
+#define FW_OWN_BEND_M    4e-6   /* and where a hollow arc turns by more than 45 degrees */
+#define FW_OWN_TIP_M     2.7e-6 /* convex radius where an arc turns by more than 45 degrees */
 #define FW_RING_M        40e-6  /* thickness of the rings that carry the conjugate surfaces */
 #define FW_BESIDE_RING_M 20e-6  /* free width around the outer ring */
 #define FW_FREE_RAD      0.56   /* rotation that rings and blocks leave free where they can */
@@ -100,6 +105,15 @@ bool fw_hinge_shape_leaf(const fw_flexure *flexure, fw_hinge_shape *shape);
 /* elastic centre from O, by the same function as the mechanics use */
 double fw_hinge_centre(const fw_flexure *flexure, double fillet_m);
 
+/* dimensions of a head that are free within limits; row 0 is drawn unless edges nearly coincide */
+typedef struct fw_head_choice {
+    double neck;     /* share of the neck's half width */
+    double behind;   /* block behind the root, in flexure widths */
+    double longer_m; /* neck */
+    double wider_m;  /* disc cut out of the body's own plate */
+    bool plain;      /* the neck does not widen towards a plate's corner */
+} fw_head_choice;
+
 typedef struct fw_side { /* one body at one hinge */
     int body;
     fw_vec2 direction;   /* unit, from W to where its bar or plate lies, world */
@@ -115,6 +129,7 @@ typedef struct fw_side { /* one body at one hinge */
     double solid_m;    /* from there on the neck is as wide as neck_m on both sides */
     fw_local local;
     fw_contour head; /* root block, ring and neck */
+    int choice;      /* row of the head's free dimensions */
 } fw_side;
 
 typedef struct fw_hinge_plan {
@@ -178,13 +193,18 @@ fw_status fw_strip_draw(fw_drawing *d, fw_window_side side, double low_start, do
 fw_status fw_attachment_add(fw_drawing *d, const fw_attachment *item);
 
 fw_status fw_hinges_plan(fw_drawing *d);
+/* draws a head with other free dimensions; false: there is no such row */
+bool fw_head_exists(int choice);
+double fw_head_wider(const fw_side *side); /* radius added to the disc in its own plate */
+fw_status fw_head_draw(fw_drawing *d, int joint, int body, int choice);
 /* joint: the only one of several bases, or FW_NONE */
 fw_status fw_body_draw(fw_drawing *d, int body, int joint, const fw_contour *extra, int nextra);
 fw_status fw_body_round(fw_drawing *d, int body, const fw_contour *in, fw_contour *out,
-                        double *radius_m);
+                        double *radius_m, fw_vec2 *where);
 fw_status fw_body_unite(fw_drawing *d, int body, const fw_contour *part, int npart,
                         fw_contour *out);
-fw_status fw_platform_lugs(fw_drawing *d, int body, fw_contour *lug, int *nlug);
+/* shift_m: of the places along their edges */
+fw_status fw_platform_lugs(fw_drawing *d, int body, double shift_m, fw_contour *lug, int *nlug);
 fw_status fw_window_choose(fw_drawing *d);
 /* from the hinge of a base of its own straight to its cut at the frame */
 double fw_base_reach(const fw_drawing *d, int joint);

@@ -9,6 +9,24 @@ static const fw_hinge_drawer drawers[] = {
     {FW_FLEXURE_LEAF, fw_hinge_shape_leaf},
 };
 
+/* tried in this order where an outline comes out with a step, a tooth or a slit too small to make
+ */
+static const fw_head_choice choices[] = {
+    {1.0, 4.5, 0.0, 0.0, false},     {0.93, 4.5, 8e-6, 4e-6, false},
+    {1.0, 4.5, 20e-6, 10e-6, false}, {0.86, 3.2, 14e-6, 16e-6, true},
+    {0.97, 6.0, 30e-6, 7e-6, true},  {0.8, 3.2, 5e-6, 13e-6, false},
+    {0.72, 2.5, 24e-6, 20e-6, true}, {0.62, 2.0, 12e-6, 24e-6, true},
+    {0.9, 7.5, 40e-6, 2e-6, false},  {0.5, 1.6, 36e-6, 17e-6, true},
+};
+
+bool fw_head_exists(int choice) {
+    return choice >= 0 && (size_t)choice < sizeof choices / sizeof choices[0];
+}
+
+double fw_head_wider(const fw_side *side) {
+    return choices[side->choice].wider_m;
+}
+
 static double cross(fw_vec2 p, fw_vec2 q) {
     return p.x * q.y - p.y * q.x;
 }
@@ -62,14 +80,15 @@ typedef struct far_path {
     bool arc, turns;
 } far_path;
 
-/* The neck's edge runs on into the block, 4.5 t behind the root; where it would come too near to
-   the other block it gives way to the block's far side. A block that stands out beside the neck
-   keeps its fin; where the neck lies beyond the block the ring runs on to carry it. */
+/* The neck's edge runs on into the block, usually 4.5 t behind the root; where it would come too
+   near to the other block it gives way to the block's far side. A block that stands out beside the
+   neck keeps its fin; where the neck lies beyond the block the ring runs on to carry it. */
 static far_path choose_far_path(const fw_hinge_shape *s, fw_side *side) {
     far_side far = choose_far_side(s, side->ring_in_m);
     double q0 = side->ring_in_m, q1 = side->ring_out_m;
     fw_vec2 u = fw_polar(side->own_rad), v = fw_left(u), w = fw_v(0.0, 0.0), i = s->inner_corner;
-    double behind = fmax(side->far_m, fw_dot(s->root, v) + 4.5 * s->width_m);
+    double behind =
+        fmax(side->far_m, fw_dot(s->root, v) + choices[side->choice].behind * s->width_m);
     fw_vec2 end = fw_add(fw_add(w, side->neck_end_m, u), side->far_m, v);
     fw_vec2 from = fw_add(fw_add(w, fmin(fw_dot(s->root, u), q0), u), behind, v);
     fw_vec2 along = fw_towards(from, end), out = fw_left(along);
@@ -317,6 +336,17 @@ static void widen_to_corner(fw_side *side, double disc) {
     }
 }
 
+static void choose_neck(fw_side *side, double keep_out_m) {
+    const fw_head_choice *c = &choices[side->choice];
+    side->neck_m = c->neck * fmin(side->half_width_m - 3e-6, 0.45 * side->ring_out_m);
+    side->far_m = side->neck_m;
+    side->neck_end_m = keep_out_m + 12e-6 + c->longer_m;
+    if (!side->plate) return;
+    double disc = keep_out_m + c->wider_m;
+    side->neck_end_m = fmax(disc, side->plate_at_m + side->neck_m) + 30e-6 + c->longer_m;
+    if (!c->plain) widen_to_corner(side, disc);
+}
+
 /* radii about W, from inside: flexure, free width, convex ring, gap, concave ring */
 static void choose_rings(fw_hinge_plan *plan, double gap) {
     const fw_hinge_shape *s = &plan->shape;
@@ -327,16 +357,8 @@ static void choose_rings(fw_hinge_plan *plan, double gap) {
     in->ring_out_m = in->ring_in_m + thick;
     out->ring_in_m = in->ring_out_m + (gap > 0.0 ? gap : FW_CORNER_M);
     out->ring_out_m = out->ring_in_m + thick;
-    for (int i = 0; i < 2; i++) {
-        fw_side *side = &plan->side[i];
-        double disc = out->ring_out_m + FW_BESIDE_RING_M;
-        side->neck_m = fmin(side->half_width_m - 3e-6, 0.45 * side->ring_out_m);
-        side->far_m = side->neck_m;
-        side->neck_end_m = disc + 12e-6;
-        if (!side->plate) continue;
-        side->neck_end_m = fmax(disc, side->plate_at_m + side->neck_m) + 30e-6;
-        widen_to_corner(side, disc);
-    }
+    for (int i = 0; i < 2; i++)
+        choose_neck(&plan->side[i], out->ring_out_m + FW_BESIDE_RING_M);
 }
 
 /* A ring runs on past the bulge until the other body's stem (inside) or bar (outside) is the free
@@ -409,8 +431,14 @@ static fw_status plan_hinge(fw_drawing *d, int joint) {
             d, joint, 122,
             "the conjugate surfaces would face each other over less than 20 degrees; turn "
             "the bulge away from the links, or set gap=\"0 um\" to leave them out");
-    FW_TRY(draw_head(d->arena, &plan->shape, &plan->side[0]));
-    FW_TRY(draw_head(d->arena, &plan->shape, &plan->side[1]));
+    for (int i = 0; i < 2; i++) {
+        fw_status status = draw_head(d->arena, &plan->shape, &plan->side[i]);
+        if (status == FW_GEOMETRY)
+            return refuse(d, joint, 122,
+                          "the root block, the ring and the neck of one body do not join to one "
+                          "outline; lengthen the flexure, or make it or the link thinner");
+        FW_TRY(status);
+    }
     FW_TRY(draw_flexure(d->arena, plan));
 
     const fw_side *in = &plan->side[plan->convex], *out = &plan->side[!plan->convex];
@@ -427,6 +455,15 @@ static fw_status plan_hinge(fw_drawing *d, int joint) {
     layout->facing_rad = f->gap_m > 0.0 ? facing : 0.0;
     layout->keep_out_m = out->ring_out_m + FW_BESIDE_RING_M;
     return FW_OK;
+}
+
+/* the rings and where they end stay: only neck and block differ */
+fw_status fw_head_draw(fw_drawing *d, int joint, int body, int choice) {
+    fw_hinge_plan *plan = &d->hinge[joint];
+    fw_side *side = &plan->side[plan->side[1].body == body];
+    side->choice = choice;
+    choose_neck(side, d->layout->hinge[joint].keep_out_m);
+    return draw_head(d->arena, &plan->shape, side);
 }
 
 fw_status fw_hinges_plan(fw_drawing *d) {

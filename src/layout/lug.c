@@ -34,7 +34,7 @@ static bool has_room(const fw_drawing *d, fw_vec2 centre) {
 /* In pairs, as far as there is room beside the hinges, at most four: two on the edge that faces
    away from the mechanism, two on the opposite edge, two on the short edges. Mirrored places, so
    that two tendons of a pair pull evenly. */
-fw_status fw_platform_lugs(fw_drawing *d, int body, fw_contour *lug, int *nlug) {
+fw_status fw_platform_lugs(fw_drawing *d, int body, double shift_m, fw_contour *lug, int *nlug) {
     const fw_body *b = &d->device->body[body];
     *nlug = 0;
     if (isnan(b->plate_width_m)) return FW_OK;
@@ -48,13 +48,14 @@ fw_status fw_platform_lugs(fw_drawing *d, int body, fw_contour *lug, int *nlug) 
     const struct {
         fw_vec2 edge, out; /* for the right lug of the pair */
     } place[] = {
-        {{0.62 * w, h}, {0.0, 1.0}},
-        {{0.45 * w, -h}, {0.0, -1.0}},
-        {{w, h - stem - 30e-6}, {1.0, 0.0}},
+        {{0.62 * w - shift_m, h}, {0.0, 1.0}},
+        {{0.45 * w - shift_m, -h}, {0.0, -1.0}},
+        {{w, h - stem - 30e-6 - shift_m}, {1.0, 0.0}},
     };
     for (size_t i = 0; i < sizeof place / sizeof place[0] && *nlug < 4; i++) {
         bool upright = place[i].out.x > 0.0;
-        if (upright ? h < 2.0 * stem : 0.38 * w < stem || 0.45 * w < outer + 15e-6) continue;
+        if (upright ? h < 2.0 * stem : 0.38 * w < stem || 0.45 * w - shift_m < outer + 15e-6)
+            continue;
         fw_local local[2];
         bool room = true;
         for (int k = 0; k < 2; k++) {
