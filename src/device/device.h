@@ -158,6 +158,9 @@ typedef struct fw_set { /* --set PATH=VALUE */
 fw_status fw_device_read(fw_arena *arena, const char *file, const char *xml, size_t n,
                          const fw_set *set, int nset, fw_diags *diags, const fw_device **device);
 
+/* some mass, inertia or centre of mass is not stated: it comes from the drawn shape */
+bool fw_device_needs_shapes(const fw_device *device);
+
 /* generated from the one table of elements and attributes */
 fw_status fw_device_reference_markdown(fw_text *out);
 fw_status fw_device_relax_ng(fw_text *out);

@@ -61,11 +61,7 @@ fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mec
                            const fw_scene **scene) {
     *scene = find_scene(plan);
     if (!*scene) return FW_INPUT;
-    bool from_shapes = false; /* only then is the drawing needed */
-    for (int i = 0; i < plan->device->nbody; i++)
-        from_shapes = from_shapes || isnan(plan->device->body[i].mass_kg) ||
-                      isnan(plan->device->body[i].inertia_kg_m2) ||
-                      isnan(plan->device->body[i].x_m) || isnan(plan->device->body[i].y_m);
+    bool from_shapes = fw_device_needs_shapes(plan->device); /* only then is the drawing needed */
     fw_diags drawing = fw_diags_new(plan->arena);
     fw_status status = fw_layout_build(plan->arena, plan->device,
                                        from_shapes ? &plan->diags : &drawing, &plan->layout);

@@ -85,15 +85,6 @@ static fw_status attempt(fw_arena *arena, const fw_device *device, const fw_layo
     return combine(arena, device, options->motion.accuracy, verdict);
 }
 
-static bool needs_shapes(const fw_device *device) {
-    for (int i = 0; i < device->nbody; i++) {
-        const fw_body *b = &device->body[i];
-        if (isnan(b->mass_kg) || isnan(b->inertia_kg_m2) || isnan(b->x_m) || isnan(b->y_m))
-            return true;
-    }
-    return false;
-}
-
 /* the drawing, or NULL where the mechanics can be judged without it; its messages are then warnings
  */
 static fw_status draw(fw_arena *arena, const fw_device *device, fw_diags *diags,
@@ -104,7 +95,7 @@ static fw_status draw(fw_arena *arena, const fw_device *device, fw_diags *diags,
     bool impossible = status == FW_GEOMETRY || status == FW_INPUT;
     if (status != FW_OK && !impossible) return status;
     if (impossible) *layout = NULL;
-    bool fatal = impossible && needs_shapes(device);
+    bool fatal = impossible && fw_device_needs_shapes(device);
     for (size_t i = 0; i < drawing.count; i++) {
         const fw_diag *d = &drawing.item[i];
         if (d->severity == FW_ERROR && fatal)
