@@ -158,6 +158,8 @@ typedef struct fw_set { /* --set PATH=VALUE */
 fw_status fw_device_read(fw_arena *arena, const char *file, const char *xml, size_t n,
                          const fw_set *set, int nset, fw_diags *diags, const fw_device **device);
 
+/* a scene or workspace that asks for a flow (NULL: any) holds in this one (NULL: none) */
+bool fw_device_in_flow(const char *asked, const char *flow);
 /* some mass, inertia or centre of mass is not stated: it comes from the drawn shape */
 bool fw_device_needs_shapes(const fw_device *device);
 

@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "device/device.h"
 #include <math.h>
+#include <string.h>
+
+bool fw_device_in_flow(const char *asked, const char *flow) {
+    return !asked || (flow && strcmp(asked, flow) == 0);
+}
 
 bool fw_device_needs_shapes(const fw_device *device) {
     for (int i = 0; i < device->nbody; i++) {

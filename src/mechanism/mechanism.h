@@ -47,6 +47,9 @@ typedef struct fw_mechanism {
     int nbody, npin, nspring, nhinge;
 } fw_mechanism;
 
+/* world position, in the drawn pose, that body a (side 0) or body b (side 1) gives to a pin */
+fw_vec2 fw_pin_place(const fw_mechanism *mechanism, const fw_pin *pin, int side);
+
 fw_status fw_mechanism_build(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_variant *variant, fw_diags *diags,
                              const fw_mechanism **mechanism);

@@ -119,10 +119,10 @@ fw_status fw_plan_fabricate(fw_plan *plan) {
         }
         FW_TRY(build_mask(plan, pf, rejected));
         if (!pf->mask) continue;
-        fw_text gds = fw_text_new(plan->arena);
+        pf->gds = fw_text_new(plan->arena);
         char hash[65];
-        FW_TRY(fw_mask_write_gds(pf->mask, &gds));
-        fw_sha256(gds.data, gds.length, hash);
+        FW_TRY(fw_mask_write_gds(pf->mask, &pf->gds));
+        fw_sha256(pf->gds.data, pf->gds.length, hash);
         FW_NEED(pf->mask_sha256 = fw_arena_strdup(plan->arena, hash));
     }
     return FW_OK;

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "plan/stages.h"
-#include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 fw_status fw_plan_judge(fw_plan *plan) {
@@ -18,8 +16,7 @@ fw_status fw_plan_judge(fw_plan *plan) {
 
 static bool loaded(const fw_plan *plan, const char *flow) {
     for (int i = 0; i < plan->nflow; i++)
-        if (!flow || (plan->flow[i].variant.flow && strcmp(plan->flow[i].variant.flow, flow) == 0))
-            return true;
+        if (fw_device_in_flow(flow, plan->flow[i].variant.flow)) return true;
     return false;
 }
 

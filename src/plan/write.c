@@ -23,8 +23,8 @@ static fw_status write_mask(writer *w, const fw_plan_flow *pf) {
     static const struct {
         const char *ending;
         fw_status (*write)(const fw_mask *mask, fw_text *out);
-    } format[] = {
-        {".gds", fw_mask_write_gds}, {".svg", fw_mask_write_svg}, {".lyp", fw_mask_write_lyp}};
+    } format[] = {{".svg", fw_mask_write_svg}, {".lyp", fw_mask_write_lyp}};
+    FW_TRY(put(w, "masks/", pf->use->ref, ".gds", &pf->gds));
     for (size_t i = 0; i < sizeof format / sizeof format[0]; i++) {
         fw_text text = fw_text_new(w->scratch);
         FW_TRY(format[i].write(pf->mask, &text));

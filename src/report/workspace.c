@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/page.h"
 #include <math.h>
-#include <string.h>
 
 static void span(fw_text *out, double low, double high, bool angle) {
     if (angle)
@@ -14,7 +13,7 @@ static void boxes(fw_page *page, const char *flow) {
     const fw_device *d = page->in->device;
     for (int i = 0; i < d->nworkspace; i++) {
         const fw_workspace_box *b = &d->workspace[i];
-        if (b->flow && flow && strcmp(b->flow, flow) != 0) continue;
+        if (!fw_device_in_flow(b->flow, flow)) continue;
         fw_text_add(page->out, "<p>Required box, from the drawn pose: x ");
         span(page->out, b->x_min_m, b->x_max_m, false);
         fw_text_add(page->out, ", y ");

@@ -2,19 +2,10 @@
 #include "verdict/compare.h"
 #include <math.h>
 
-/* where body a and body b put the pin, drawn pose; the mask is drawn there, so both must agree */
+/* the mask is drawn where the bodies are, so both must put a pin at the same place */
 static double pin_gap(const fw_mechanism *m, const fw_pin *pin) {
-    const int body[2] = {pin->body_a, pin->body_b};
-    const double local[2][2] = {{pin->ax_m, pin->ay_m}, {pin->bx_m, pin->by_m}};
-    double at[2][2];
-    for (int i = 0; i < 2; i++) {
-        fw_mass ground = {0};
-        const fw_mass *b = body[i] == FW_GROUND ? &ground : &m->body[body[i]];
-        double c = cos(b->phi_rad), s = sin(b->phi_rad);
-        at[i][0] = b->x_m + c * local[i][0] - s * local[i][1];
-        at[i][1] = b->y_m + s * local[i][0] + c * local[i][1];
-    }
-    return hypot(at[0][0] - at[1][0], at[0][1] - at[1][1]);
+    fw_vec2 a = fw_pin_place(m, pin, 0), b = fw_pin_place(m, pin, 1);
+    return hypot(a.x - b.x, a.y - b.y);
 }
 
 fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *m,

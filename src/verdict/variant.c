@@ -2,7 +2,6 @@
 #include "verdict/compare.h"
 #include "verdict/watch.h"
 #include <math.h>
-#include <string.h>
 
 /* motion: largest difference of any hinge's peak section moment, joint force included, between
    ideal pins and geometrically exact flexures over the four reference load cases of a whole
@@ -113,10 +112,6 @@ static void judge_workspace(const fw_mechanism *m, const fw_hinge *hinge,
     collide(drawn, out);
 }
 
-static bool in_flow(const char *asked, const char *flow) {
-    return !asked || (flow && strcmp(asked, flow) == 0);
-}
-
 /* a hinge that has turned once is past every limit: the rest of the scene is not needed */
 static const double whole_turn = 6.283185307179586;
 
@@ -138,7 +133,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     FW_NEED(v->motion = fw_arena_alloc(arena, n, sizeof *v->motion));
     for (size_t i = 0; i < n; i++) {
         const fw_scene *scene = &device->scene[i];
-        if (!in_flow(scene->flow, m->variant->flow)) continue;
+        if (!fw_device_in_flow(scene->flow, m->variant->flow)) continue;
         FW_TRY(fw_watch_new(arena, m, layout, &watch[i]));
         motion.observe = fw_watch_see;
         motion.context = &watch[i];

@@ -6,16 +6,6 @@ static double wrapped(double angle_rad) {
     return remainder(angle_rad, 2.0 * acos(-1.0));
 }
 
-/* world position, in the drawn pose, of the point of pin `i` on body a */
-static fw_vec2 pin_place(const fw_mechanism *m, int i) {
-    const fw_pin *pin = &m->pin[i];
-    if (pin->body_a == FW_GROUND) return (fw_vec2){pin->ax_m, pin->ay_m};
-    const fw_mass *body = &m->body[pin->body_a];
-    double c = cos(body->phi_rad), s = sin(body->phi_rad);
-    return (fw_vec2){body->x_m + c * pin->ax_m - s * pin->ay_m,
-                     body->y_m + s * pin->ax_m + c * pin->ay_m};
-}
-
 static fw_dyad dyad(fw_vec2 o, fw_vec2 elbow, fw_vec2 q) {
     double ux = elbow.x - o.x, uy = elbow.y - o.y, wx = q.x - elbow.x, wy = q.y - elbow.y;
     double cross = ux * wy - uy * wx, dot = ux * wx + uy * wy;
@@ -31,7 +21,7 @@ bool fw_six_bar_set_up(const fw_mechanism *m, fw_six_bar *out) {
     if (!m->device->six_bar || m->npin < FW_SIX || m->nbody < 5) return false;
     fw_vec2 p[FW_SIX];
     for (int i = 0; i < FW_SIX; i++)
-        p[i] = pin_place(m, i);
+        p[i] = fw_pin_place(m, &m->pin[i], 0);
     const fw_mass *platform = &m->body[2];
     *out = (fw_six_bar){.left = dyad(p[0], p[1], p[2]), .right = dyad(p[5], p[4], p[3])};
     out->centre = (fw_vec2){platform->x_m, platform->y_m};

@@ -88,10 +88,6 @@ static bool one_box(const fw_six_bar *k, const fw_workspace_box *asked,
     return true;
 }
 
-static bool same_flow(const char *asked, const char *flow) {
-    return !asked || (flow && strcmp(asked, flow) == 0);
-}
-
 fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *m, fw_diags *diags,
                                 fw_workspace_result *result) {
     bool *in_flow = fw_arena_array(arena, bool, (size_t)m->device->nworkspace);
@@ -104,7 +100,7 @@ fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *m, fw_diags
     bool known = fw_six_bar_set_up(m, &k);
     for (int i = 0; i < m->device->nworkspace; i++) {
         const fw_workspace_box *asked = &m->device->workspace[i];
-        if (!same_flow(asked->flow, m->variant->flow)) continue;
+        if (!fw_device_in_flow(asked->flow, m->variant->flow)) continue;
         if (!known) {
             fw_diag_error(diags, 200, asked->place,
                           "a required workspace needs the six-bar's inverse kinematics: describe "
