@@ -8,7 +8,7 @@
 #define FW_DEVICE_DEVICE_H
 #include "base/diag.h"
 #include "device/material.h"
-#include "quantity/expression.h"
+#include "quantity/law.h"
 #include "quantity/quantity.h"
 #include <stdbool.h>
 
@@ -67,28 +67,59 @@ typedef struct fw_joint { /* <revolute>, or a hinge of <six-bar> */
     double free_angle_rad;
     int flexure;     /* index or FW_NONE */
     double axis_rad; /* direction of the flexure's bulge; NaN: chosen by the layout */
+    /* stops: beyond these joint angles a spring and damper push back; NaN: none */
+    double stop_min_rad, stop_max_rad, stop_stiffness_Nm_per_rad, stop_damping_Nms_per_rad;
     fw_place place;
 } fw_joint;
+
+typedef enum fw_tie_kind { FW_TIE_PRISMATIC, FW_TIE_DISTANCE, FW_TIE_WELD } fw_tie_kind;
+
+/* <prismatic>, <distance>, <weld>: joints that are not pins. Points a and b are local, as in fw_spring.
+   prismatic: point b slides along the line through point a with direction `axis` in the frame of a,
+   phi_b - phi_a stays `angle`; travel = distance along the axis - free length, with a spring and a
+   damper. distance: the points stay `length` apart. weld: the points coincide, phi_b - phi_a stays
+   `angle`. */
+typedef struct fw_tie {
+    const char *id;
+    fw_tie_kind kind;
+    int body_a, body_b;
+    double ax_m, ay_m, bx_m, by_m;
+    double axis_rad;  /* prismatic */
+    double angle_rad; /* prismatic, weld; NaN: as drawn */
+    double length_m;  /* distance; NaN: as drawn */
+    double stiffness_N_per_m, damping_Ns_per_m, free_length_m; /* prismatic */
+    fw_place place;
+} fw_tie;
+
+/* <driver joint value>: the joint's own coordinate follows a law: the angle of a revolute (phi_b -
+   phi_a - free angle), the travel of a prismatic, the length of a distance */
+typedef struct fw_driver {
+    const char *id;
+    int joint, tie; /* index; the other one is FW_NONE */
+    fw_law law;     /* rad or m */
+    fw_place place, value_place;
+} fw_driver;
 
 typedef struct fw_spring { /* <spring>: point to point */
     const char *id;
     int body_a, body_b;
     double ax_m, ay_m, bx_m, by_m; /* local; for ground: world */
     double stiffness_N_per_m, damping_Ns_per_m, length_m;
+    bool cable; /* only pulls: no force while shorter than its length */
     fw_place place;
 } fw_spring;
-
-typedef enum fw_law_kind { FW_LAW_STEP } fw_law_kind; /* others come with the effects */
 
 typedef struct fw_force { /* <force on x y fx fy/>: point local to the body, force in world axes */
     int body;
     double x_m, y_m, fx_N, fy_N;
+    const fw_law *law; /* factor; NULL: constant from the start */
     fw_place place;
 } fw_force;
 
 typedef struct fw_torque { /* <torque on value/> */
     int body;
     double value_Nm;
+    const fw_law *law; /* factor; NULL: constant from the start */
     fw_place place;
 } fw_torque;
 
@@ -132,10 +163,12 @@ typedef struct fw_device {
     fw_flexure *flexure;
     fw_body *body;
     fw_joint *joint;
+    fw_tie *tie;
+    fw_driver *driver;
     fw_spring *spring;
     fw_scene *scene;
     fw_workspace_box *workspace;
-    int nparameter, nflow, nflexure, nbody, njoint, nspring, nscene, nworkspace;
+    int nparameter, nflow, nflexure, nbody, njoint, ntie, ndriver, nspring, nscene, nworkspace;
     const char *material_ref; /* NULL only where nothing needs one: no flexures, all masses given */
     fw_place material_place;
     /* overrides of <material>; unknown = take the pack's value */

@@ -41,14 +41,33 @@ typedef struct fw_point_load { /* constant force in world axes at a point of a b
     double x_m, y_m, fx_N, fy_N;
 } fw_point_load;
 
+typedef struct fw_timed_load { /* force and torque in world axes times a law */
+    int body;
+    double x_m, y_m, fx_N, fy_N, torque_Nm;
+    const fw_law *law;
+} fw_timed_load;
+
+typedef struct fw_stop { /* pushes back where side * (angle - at) > 0; angle as of the pin */
+    int pin, body_a, body_b;
+    double side, at_rad, free_angle_rad, stiffness_Nm_per_rad, damping_Nms_per_rad;
+} fw_stop;
+
+typedef struct fw_slide { /* spring and damper along a prismatic joint */
+    int tie;
+    double stiffness_N_per_m, damping_Ns_per_m;
+} fw_slide;
+
 typedef struct fw_terms {
     int nbody;
     double *constant;    /* (3 nbody) force on the centre of mass, torque */
     double *velocity;    /* (3 nbody) initial velocities as the scene states them */
     fw_torsion *torsion; /* (ntorsion) */
     fw_point_load *load; /* (nload) off the centre of mass */
+    fw_timed_load *timed; /* (ntimed) */
+    fw_stop *stop;       /* (nstop) */
+    fw_slide *slide;     /* (nslide) */
     fw_spring *spring;   /* (nspring) */
-    int ntorsion, nload, nspring;
+    int ntorsion, nload, ntimed, nstop, nslide, nspring;
 } fw_terms;
 
 typedef struct fw_effect_case { /* what an effect is asked about */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The mechanism as the equations of motion see it: bodies with mass, revolute joints with springs
-   and dampers, point-to-point springs. Built from the description, the laid-out shapes (mass) and
+/* The mechanism as the equations of motion see it: bodies with mass, pins (revolute joints) with
+   springs, dampers and stops, ties (prismatic, distance, weld), drivers, point-to-point springs. Built from the description, the laid-out shapes (mass) and
    the flexures (stiffness) for one variant: a material and a thickness.
 
    Explicit masses, stiffnesses and dampings of the file hold for the device's own material and
@@ -30,6 +30,8 @@ typedef struct fw_pin { /* per revolute joint; local points in the body frames (
     double ax_m, ay_m, bx_m, by_m;
     double stiffness_Nm_per_rad, damping_Nms_per_rad, free_angle_rad;
     int hinge; /* index into mechanism->hinge, or FW_NONE */
+    /* stops at these joint angles; stiffness 0: none; NaN: not on this side */
+    double stop_min_rad, stop_max_rad, stop_stiffness_Nm_per_rad, stop_damping_Nms_per_rad;
 } fw_pin;
 
 typedef struct fw_hinge { /* a pin that is a flexure */
@@ -42,9 +44,11 @@ typedef struct fw_mechanism {
     const fw_variant *variant;
     fw_mass *body;     /* (nbody) */
     fw_pin *pin;       /* (npin) */
+    fw_tie *tie;       /* (ntie) all values known; local points refer to centres of mass */
+    fw_driver *driver; /* (ndriver) joint is an index of pin, tie of tie */
     fw_spring *spring; /* (nspring) local points refer to centres of mass */
     fw_hinge *hinge;   /* (nhinge) */
-    int nbody, npin, nspring, nhinge;
+    int nbody, npin, ntie, ndriver, nspring, nhinge;
 } fw_mechanism;
 
 /* world position, in the drawn pose, that body a (side 0) or body b (side 1) gives to a pin */

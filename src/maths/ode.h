@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Integrators of y' = f(t, y) behind one interface: one file and one row in the table each
+   (ode_table.c). All of them keep the last step and can be asked for any time in it (dense output),
+   move every accepted state onto a manifold when the problem has one, end exactly at t_end, and
+   allocate nothing after fw_stepper_new. */
+#ifndef FW_MATHS_ODE_H
+#define FW_MATHS_ODE_H
+#include "base/arena.h"
+#include "base/status.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct fw_ode { /* the problem */
+    void *context;
+    void (*rhs)(void *context, double t, const double *y, double *f);
+    /* moves y (n) onto the manifold and sets f = f(t, y) there; false: the step is not acceptable.
+       NULL: no manifold */
+    bool (*project)(void *context, double t, double *y, double *f);
+    int n;          /* components */
+    int controlled; /* the first ones count in the error; the rest are quadratures: f does not depend
+                       on them */
+    int positions;  /* y = (u, v, quadratures) with u' = v: number of u, as many v; 0: first order.
+                       Needed by generalised-alpha; lets others interpolate better */
+} fw_ode;
+
+typedef enum fw_ode_result {
+    FW_ODE_STEP,
+    FW_ODE_SMALL, /* the step became too small */
+    FW_ODE_NAN,   /* f is not a number */
+    FW_ODE_NEWTON /* an implicit step does not converge at any step size */
+} fw_ode_result;
+
+typedef struct fw_stepper fw_stepper;
+
+typedef struct fw_stepper_row { /* one row per integrator; feeds --help and the reference page */
+    const char *name, *summary;
+    int order, dense_order; /* of the step and of the dense output (for the u of second order) */
+    bool implicit;          /* stable for stiff problems */
+    bool fixed_step;        /* takes fw_stepper.h_fixed and knows no error */
+    fw_status (*create)(fw_arena *arena, const fw_ode *ode, fw_stepper **stepper);
+    void (*start)(fw_stepper *s);        /* y, t, t_end are set: f, first step, history */
+    fw_ode_result (*step)(fw_stepper *s); /* one accepted step */
+    void (*prepare)(fw_stepper *s);      /* dense output of the last step; may evaluate rhs */
+    void (*dense)(const fw_stepper *s, double theta, double *y); /* after prepare; theta in [0,1] */
+    /* value and d/dtheta of w_a y[a] + w_b y[b] (b < 0: only a): for peaks and events */
+    void (*component)(const fw_stepper *s, int a, double wa, int b, double wb, double theta,
+                      double *value, double *slope);
+} fw_stepper_row;
+
+struct fw_stepper { /* first member of every integrator's own struct */
+    const fw_stepper_row *row;
+    fw_ode ode;
+    double rtol;
+    const double *atol;    /* (n) */
+    double h_max, h_fixed; /* h_max: infinite; h_fixed: fixed_step integrators */
+    double t_old, t, h, h_next, t_end;
+    double *y_old, *y;         /* (n) at t_old, t */
+    double *f_old, *f;         /* (n) f there */
+    bool dense_ready;
+    long steps, rejected, rhs, jacobians, factorisations, newton; /* kept over restarts */
+};
+
+/* by name; NULL: unknown */
+const fw_stepper_row *fw_stepper_find(const char *name);
+const fw_stepper_row *const *fw_stepper_table(size_t *count);
+/* memory for ode->n components; atol (n) must live as long as the stepper */
+fw_status fw_stepper_new(fw_arena *arena, const fw_stepper_row *row, const fw_ode *ode, double rtol,
+                         const double *atol, fw_stepper **stepper);
+/* (re)start at t with y (n), on the manifold; counts go on */
+void fw_stepper_start(fw_stepper *s, double t, const double *y, double t_end);
+fw_ode_result fw_stepper_step(fw_stepper *s);
+void fw_stepper_dense(fw_stepper *s, double theta, double *y); /* prepares when needed */
+void fw_stepper_component(fw_stepper *s, int a, double wa, int b, double wb, double theta,
+                          double *value, double *slope);
+
+/* ---- shared by the integrators (ode.c) ---- */
+
+/* weighted rms of e over the controlled components, scale_i = atol_i + rtol max(|y_i|, |z_i|) */
+double fw_ode_norm(const fw_stepper *s, const double *e, const double *y, const double *z);
+/* first step for a method of this order: Hairer, Norsett and Wanner I, II.4; work: 2 n */
+double fw_ode_first_step(fw_stepper *s, int order, double *work);
+void fw_ode_evaluate(fw_stepper *s, double t, const double *y, double *f); /* counts */
+bool fw_ode_finite(const double *y, int n);
+/* accepts y_new, f_new as the state at t_new (swaps buffers), counts the step */
+void fw_ode_accept(fw_stepper *s, double t_new, double **y_new, double **f_new);
+/* is h too small to go on at t? */
+bool fw_ode_too_small(const fw_stepper *s, double h);
+/* dense output for steppers without one of their own: u by the quintic through (u, v, a) at both
+   ends, v by its derivative, the rest by the cubic through (y, f) */
+void fw_ode_hermite(const fw_stepper *s, double theta, double *y);
+void fw_ode_hermite_component(const fw_stepper *s, int a, double wa, int b, double wb, double theta,
+                              double *value, double *slope);
+
+#endif

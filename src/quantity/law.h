@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How something goes with time: a pure factor for loads, an angle or a length for drivers.
+
+   Laws may jump or bend at known times (fw_law_breaks); integration stops there and goes on in the
+   next piece. Inside a piece a law and its first two derivatives are continuous. `piece` is a time
+   inside the piece that is meant, so that the value at a break is the limit from that side. */
+#ifndef FW_QUANTITY_LAW_H
+#define FW_QUANTITY_LAW_H
+#include "quantity/expression.h"
+
+/* ---- an expression in t, compiled ---- */
+
+typedef struct fw_program fw_program;
+/* compiles `text` (n bytes) with parameters `names`; `t` (or `time`) is time in s. Where a parameter
+   is called t, the bare `t` is refused (it could mean either) and the message says to write `time`.
+   The dimension of the result must be `wanted`. FW_OK, FW_INPUT with *error filled, FW_NOMEM. */
+fw_status fw_program_compile(fw_arena *arena, const char *text, size_t n, const fw_names *names,
+                             fw_dimension wanted, fw_program **program, fw_expression_error *error);
+/* value[0..2]: value, d/dt, d2/dt2 (SI, exact differentiation of the expression, forward second
+   order); not finite where the expression is not */
+void fw_program_value(const fw_program *program, double t_s, double value[3]);
+/* the times in (0, end) at which abs, min or max switch cannot be known from the text: a program
+   that uses one of them is only piecewise smooth */
+bool fw_program_smooth(const fw_program *program);
+
+/* ---- laws ---- */
+
+typedef enum fw_law_kind {
+    FW_LAW_STEP,  /* 0 before start, 1 from start on, 0 again from end on (end: may be infinite) */
+    FW_LAW_RAMP,  /* 0 before start, rises linearly over `rise`, then 1 */
+    FW_LAW_SINE,  /* 0 before start, then sin(2 pi frequency (t - start) + phase), 0 from end on */
+    FW_LAW_TABLE, /* linear between points, constant outside */
+    FW_LAW_EXPRESSION
+} fw_law_kind;
+
+typedef struct fw_law {
+    fw_law_kind kind;
+    double start_s, end_s, rise_s, frequency_Hz, phase_rad;
+    const double *table_t_s, *table_value; /* (ntable) times rise strictly */
+    int ntable;
+    const fw_program *program;
+} fw_law;
+
+void fw_law_value(const fw_law *law, double t_s, double piece_s, double value[3]);
+/* times in (0, end_s) where the law or its slope jumps, ascending; at most `most` are stored.
+   Returns how many there are. */
+int fw_law_breaks(const fw_law *law, double end_s, double *t_s, int most);
+/* constant 1 from the start on: what a load without a law has */
+bool fw_law_is_constant(const fw_law *law);
+
+#endif
