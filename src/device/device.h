@@ -74,19 +74,19 @@ typedef struct fw_joint { /* <revolute>, or a hinge of <six-bar> */
 
 typedef enum fw_tie_kind { FW_TIE_PRISMATIC, FW_TIE_DISTANCE, FW_TIE_WELD } fw_tie_kind;
 
-/* <prismatic>, <distance>, <weld>: joints that are not pins. Points a and b are local, as in fw_spring.
-   prismatic: point b slides along the line through point a with direction `axis` in the frame of a,
-   phi_b - phi_a stays `angle`; travel = distance along the axis - free length, with a spring and a
-   damper. distance: the points stay `length` apart. weld: the points coincide, phi_b - phi_a stays
-   `angle`. */
+/* <prismatic>, <distance>, <weld>: joints that are not pins. Points a and b are local, as in
+   fw_spring. prismatic: point b slides along the line through point a with direction `axis` in the
+   frame of a, phi_b - phi_a stays `angle`; travel = distance along the axis - free length, with a
+   spring and a damper. distance: the points stay `length` apart. weld: the points coincide, phi_b -
+   phi_a stays `angle`. */
 typedef struct fw_tie {
     const char *id;
     fw_tie_kind kind;
     int body_a, body_b;
     double ax_m, ay_m, bx_m, by_m;
-    double axis_rad;  /* prismatic */
-    double angle_rad; /* prismatic, weld; NaN: as drawn */
-    double length_m;  /* distance; NaN: as drawn */
+    double axis_rad;                                           /* prismatic */
+    double angle_rad;                                          /* prismatic, weld; NaN: as drawn */
+    double length_m;                                           /* distance; NaN: as drawn */
     double stiffness_N_per_m, damping_Ns_per_m, free_length_m; /* prismatic */
     fw_place place;
 } fw_tie;
@@ -184,8 +184,8 @@ typedef struct fw_set { /* --set PATH=VALUE */
     const char *path, *value;
 } fw_set;
 
-/* reads and checks; all mistakes are in diags. FW_INPUT when there is an error: *device is then NULL, or
-   what could be understood, good for looking up further references and for nothing else.
+/* reads and checks; all mistakes are in diags. FW_INPUT when there is an error: *device is then
+   NULL, or what could be understood, good for looking up further references and for nothing else.
    `file` names the text in diagnostics. --set PATH is a parameter's name, or ELEMENT[ID]/@ATTRIBUTE
    (for example flexure[A]/@length). */
 fw_status fw_device_read(fw_arena *arena, const char *file, const char *xml, size_t n,

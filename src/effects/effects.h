@@ -59,14 +59,14 @@ typedef struct fw_slide { /* spring and damper along a prismatic joint */
 
 typedef struct fw_terms {
     int nbody;
-    double *constant;    /* (3 nbody) force on the centre of mass, torque */
-    double *velocity;    /* (3 nbody) initial velocities as the scene states them */
-    fw_torsion *torsion; /* (ntorsion) */
-    fw_point_load *load; /* (nload) off the centre of mass */
+    double *constant;     /* (3 nbody) force on the centre of mass, torque */
+    double *velocity;     /* (3 nbody) initial velocities as the scene states them */
+    fw_torsion *torsion;  /* (ntorsion) */
+    fw_point_load *load;  /* (nload) off the centre of mass */
     fw_timed_load *timed; /* (ntimed) */
-    fw_stop *stop;       /* (nstop) */
-    fw_slide *slide;     /* (nslide) */
-    fw_spring *spring;   /* (nspring) */
+    fw_stop *stop;        /* (nstop) */
+    fw_slide *slide;      /* (nslide) */
+    fw_spring *spring;    /* (nspring) */
     int ntorsion, nload, ntimed, nstop, nslide, nspring;
 } fw_terms;
 

@@ -17,8 +17,8 @@ typedef struct fw_ode { /* the problem */
        NULL: no manifold */
     bool (*project)(void *context, double t, double *y, double *f);
     int n;          /* components */
-    int controlled; /* the first ones count in the error; the rest are quadratures: f does not depend
-                       on them */
+    int controlled; /* the first ones count in the error; the rest are quadratures: f does not
+                       depend on them */
     int positions;  /* y = (u, v, quadratures) with u' = v: number of u, as many v; 0: first order.
                        Needed by generalised-alpha; lets others interpolate better */
 } fw_ode;
@@ -38,9 +38,9 @@ typedef struct fw_stepper_row { /* one row per integrator; feeds --help and the 
     bool implicit;          /* stable for stiff problems */
     bool fixed_step;        /* takes fw_stepper.h_fixed and knows no error */
     fw_status (*create)(fw_arena *arena, const fw_ode *ode, fw_stepper **stepper);
-    void (*start)(fw_stepper *s);        /* y, t, t_end are set: f, first step, history */
+    void (*start)(fw_stepper *s);         /* y, t, t_end are set: f, first step, history */
     fw_ode_result (*step)(fw_stepper *s); /* one accepted step */
-    void (*prepare)(fw_stepper *s);      /* dense output of the last step; may evaluate rhs */
+    void (*prepare)(fw_stepper *s);       /* dense output of the last step; may evaluate rhs */
     void (*dense)(const fw_stepper *s, double theta, double *y); /* after prepare; theta in [0,1] */
     /* value and d/dtheta of w_a y[a] + w_b y[b] (b < 0: only a): for peaks and events */
     void (*component)(const fw_stepper *s, int a, double wa, int b, double wb, double theta,
@@ -54,8 +54,8 @@ struct fw_stepper { /* first member of every integrator's own struct */
     const double *atol;    /* (n) */
     double h_max, h_fixed; /* h_max: infinite; h_fixed: fixed_step integrators */
     double t_old, t, h, h_next, t_end;
-    double *y_old, *y;         /* (n) at t_old, t */
-    double *f_old, *f;         /* (n) f there */
+    double *y_old, *y; /* (n) at t_old, t */
+    double *f_old, *f; /* (n) f there */
     bool dense_ready;
     long steps, rejected, rhs, jacobians, factorisations, newton; /* kept over restarts */
 };

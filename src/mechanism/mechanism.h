@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The mechanism as the equations of motion see it: bodies with mass, pins (revolute joints) with
-   springs, dampers and stops, ties (prismatic, distance, weld), drivers, point-to-point springs. Built from the description, the laid-out shapes (mass) and
-   the flexures (stiffness) for one variant: a material and a thickness.
+   springs, dampers and stops, ties (prismatic, distance, weld), drivers, point-to-point springs.
+   Built from the description, the laid-out shapes (mass) and the flexures (stiffness) for one
+   variant: a material and a thickness.
 
    Explicit masses, stiffnesses and dampings of the file hold for the device's own material and
    thickness; another flow scales them with rho h, E h and sqrt(E h rho h) (same modal damping). */

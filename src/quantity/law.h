@@ -11,9 +11,10 @@
 /* ---- an expression in t, compiled ---- */
 
 typedef struct fw_program fw_program;
-/* compiles `text` (n bytes) with parameters `names`; `t` (or `time`) is time in s. Where a parameter
-   is called t, the bare `t` is refused (it could mean either) and the message says to write `time`.
-   The dimension of the result must be `wanted`. FW_OK, FW_INPUT with *error filled, FW_NOMEM. */
+/* compiles `text` (n bytes) with parameters `names`; `t` (or `time`) is time in s. Where a
+   parameter is called t, the bare `t` is refused (it could mean either) and the message says to
+   write `time`. The dimension of the result must be `wanted`. FW_OK, FW_INPUT with *error filled,
+   FW_NOMEM. */
 fw_status fw_program_compile(fw_arena *arena, const char *text, size_t n, const fw_names *names,
                              fw_dimension wanted, fw_program **program, fw_expression_error *error);
 /* value[0..2]: value, d/dt, d2/dt2 (SI, exact differentiation of the expression, forward second

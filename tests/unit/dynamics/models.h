@@ -55,7 +55,14 @@ static inline fw_pin *rig_pin(rig *r, const char *id, int a, int b, double x, do
 static inline fw_pin *rig_pin_local(rig *r, const char *id, int a, double ax, double ay, int b,
                                     double bx, double by) {
     fw_pin *p = &r->m.pin[r->m.npin++];
-    *p = (fw_pin){id, a, b, ax, ay, bx, by, 0, 0, 0, FW_NONE};
+    *p = (fw_pin){.id = id,
+                  .body_a = a,
+                  .body_b = b,
+                  .ax_m = ax,
+                  .ay_m = ay,
+                  .bx_m = bx,
+                  .by_m = by,
+                  .hinge = FW_NONE};
     return p;
 }
 
