@@ -111,11 +111,11 @@ static bool eliminate(fw_dense *d) {
     for (int j = 0; j < p->k; j++)
         for (int i = 0; i < p->k; i++)
             p->lu[(size_t)i + (size_t)j * k] = entry(d, p->row[i], p->column[j]);
-    if (k > 0 && !fw_lu(p->k, p->lu, p->pivot)) return false;
+    if (k > 0 && !fw_lapack_lu(p->k, p->lu, p->pivot)) return false;
     for (int j = 0; j < p->free; j++)
         for (int i = 0; i < p->k; i++)
             p->x[(size_t)i + (size_t)j * k] = entry(d, p->row[i], p->column[p->k + j]);
-    if (k > 0 && p->free > 0 && !fw_lu_solve(false, p->k, p->free, p->lu, p->pivot, p->x))
+    if (k > 0 && p->free > 0 && !fw_lapack_lu_solve(false, p->k, p->free, p->lu, p->pivot, p->x))
         return false;
     for (int l = 0; l < p->left; l++)
         for (int j = 0; j < p->free; j++) {
@@ -201,7 +201,7 @@ static void particular(fw_dense *d, const double *b) {
     partition *p = d->space;
     for (int i = 0; i < p->k; i++)
         p->c[i] = b[p->row[i]];
-    if (p->k > 0) fw_lu_solve(false, p->k, 1, p->lu, p->pivot, p->c);
+    if (p->k > 0) fw_lapack_lu_solve(false, p->k, 1, p->lu, p->pivot, p->c);
     for (int l = 0; l < p->left; l++) {
         double sum = b[p->row[p->k + l]];
         for (int i = 0; i < p->k; i++)
@@ -262,7 +262,7 @@ static void kernel_solve(fw_dense *d, const double *b, double *w, double *lambda
         for (int l = 0; l < p->left; l++)
             force[i] -= entry(d, p->row[p->k + l], p->column[i]) * p->mu[l];
     }
-    if (p->k > 0) fw_lu_solve(true, p->k, 1, p->lu, p->pivot, force);
+    if (p->k > 0) fw_lapack_lu_solve(true, p->k, 1, p->lu, p->pivot, force);
     for (int i = 0; i < d->rows; i++)
         lambda[p->row[i]] = i < p->k ? force[i] : p->mu[i - p->k];
 }

@@ -111,11 +111,11 @@ bool fw_cholesky_solve(int n, const double *a, double *x) {
            0;
 }
 
-bool fw_lu(int n, double *a, int *pivot) {
+bool fw_lapack_lu(int n, double *a, int *pivot) {
     return LAPACKE_dgetrf_work(column_major, n, n, a, at_least_one(n), pivot) == 0;
 }
 
-bool fw_lu_solve(bool transposed, int n, int count, const double *a, const int *pivot, double *x) {
+bool fw_lapack_lu_solve(bool transposed, int n, int count, const double *a, const int *pivot, double *x) {
     return LAPACKE_dgetrs_work(column_major, transposed ? 'T' : 'N', n, count, a, at_least_one(n),
                                pivot, x, at_least_one(n)) == 0;
 }

@@ -44,8 +44,8 @@ bool fw_cholesky(int n, double *a);
 bool fw_cholesky_solve(int n, const double *a, double *x);
 
 /* a (n x n) = P L U; x (n x count) = a^-1 x, or a^-T x. false: exactly singular */
-bool fw_lu(int n, double *a, int *pivot);
-bool fw_lu_solve(bool transposed, int n, int count, const double *a, const int *pivot, double *x);
+bool fw_lapack_lu(int n, double *a, int *pivot);
+bool fw_lapack_lu_solve(bool transposed, int n, int count, const double *a, const int *pivot, double *x);
 
 /* Gaussian elimination of a (m x n, row-major, used up) with complete pivoting, up to the first
    pivot that is 0 or below `stop` times the largest. Returns the pivots taken; row (m) and column

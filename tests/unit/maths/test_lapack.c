@@ -108,9 +108,9 @@ static void solvers_solve(void **state) {
     fill(a, N * N, 9);
     fill(x, N, 10);
     memcpy(f, a, sizeof a);
-    assert_true(fw_lu(N, f, pivot));
+    assert_true(fw_lapack_lu(N, f, pivot));
     times(N, N, a, x, b);
-    assert_true(fw_lu_solve(false, N, 1, f, pivot, b));
+    assert_true(fw_lapack_lu_solve(false, N, 1, f, pivot, b));
     for (int i = 0; i < N; i++)
         assert_near(b[i], x[i], 1e-13);
     for (int i = 0; i < N; i++) { /* a^T x */
@@ -118,7 +118,7 @@ static void solvers_solve(void **state) {
         for (int j = 0; j < N; j++)
             b[i] += a[j + i * N] * x[j];
     }
-    assert_true(fw_lu_solve(true, N, 1, f, pivot, b));
+    assert_true(fw_lapack_lu_solve(true, N, 1, f, pivot, b));
     for (int i = 0; i < N; i++)
         assert_near(b[i], x[i], 1e-13);
 
@@ -144,7 +144,7 @@ static void solvers_solve(void **state) {
     a[0] = -1;
     assert_false(fw_cholesky(N, a));
     memset(a, 0, sizeof a);
-    assert_false(fw_lu(N, a, pivot));
+    assert_false(fw_lapack_lu(N, a, pivot));
     fw_arena_free(arena);
 }
 
