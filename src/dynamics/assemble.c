@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The position problem from any guess: descent, restarts, the pose nearest to the guess, a polish to
-   round-off. */
+/* The position problem from any guess: descent, restarts, the pose nearest to the guess, a polish
+   to round-off. */
 #include "dynamics/closure.h"
 #include "dynamics/solved.h"
 #include <float.h>
@@ -40,8 +40,8 @@ static void part_rods(fw_closure *c) {
     }
 }
 
-/* from other starts; on success c->u is closed, otherwise r->best has the least mismatch. Lengths of
-   both models differ by a factor only. */
+/* from other starts; on success c->u is closed, otherwise r->best has the least mismatch. Lengths
+   of both models differ by a factor only. */
 static fw_status try_restarts(fw_arena *arena, const fw_mechanism *mechanism, const double *q,
                               fw_diags *diags, fw_closure *c, fw_restart *r, bool *good) {
     fw_mechanism even;
@@ -135,8 +135,8 @@ fw_status fw_assemble(fw_arena *arena, const fw_mechanism *mechanism, double *q,
     *moved_m = 0;
     FW_TRY(fw_assembly_close(arena, mechanism, q, diags, &solved));
     for (int b = 0; b < mechanism->nbody; b++)
-        *moved_m = fmax(*moved_m, hypot(solved.q[3 * b] - q[3 * b],
-                                        solved.q[3 * b + 1] - q[3 * b + 1]));
+        *moved_m =
+            fmax(*moved_m, hypot(solved.q[3 * b] - q[3 * b], solved.q[3 * b + 1] - q[3 * b + 1]));
     memcpy(q, solved.q, 3 * (size_t)mechanism->nbody * sizeof(double));
     return FW_OK;
 }

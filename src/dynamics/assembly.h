@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The position problem: poses that satisfy Psi(q, t = 0) = 0, which of several it is, what can still
-   move, and why none exists. Everything is repeatable to the byte: no random numbers but those of a
-   fixed sequence.
+/* The position problem: poses that satisfy Psi(q, t = 0) = 0, which of several it is, what can
+   still move, and why none exists. Everything is repeatable to the byte: no random numbers but
+   those of a fixed sequence.
 
    Theory: docs/theory/assembly.md. */
 #ifndef FW_DYNAMICS_ASSEMBLY_H
@@ -10,16 +10,21 @@
 
 typedef struct fw_joint_gap { /* a pin, a tie or a driver, and how far it is from what it asks */
     const char *id;
-    double gap_m, gap_rad;  /* of points or lengths, and of angles; 0 where it asks for none */
-    double x_m[2], y_m[2];  /* its points on body a and on body b, world */
-    int pin, tie, driver;   /* of the mechanism, or FW_NONE */
+    double gap_m, gap_rad; /* of points or lengths, and of angles; 0 where it asks for none */
+    double x_m[2], y_m[2]; /* its points on body a and on body b, world */
+    int pin, tie, driver;  /* of the mechanism, or FW_NONE */
 } fw_joint_gap;
 
-typedef struct fw_elbow { /* pin P between two moving bodies that have further pins A (on body_a)
-                             and B (on body_b): on which side of AB lies P? */
-    const char *id; /* of pin P */
-    int pin, outer_a, outer_b;
-    int body_a, body_b;
+typedef struct fw_anchor { /* where a body of a dyad is held: a pin, or a prismatic joint */
+    int pin, tie;          /* the other one is FW_NONE */
+} fw_anchor;
+
+typedef struct fw_elbow { /* dyad: pin P between two moving bodies that are held at A (body_a) and B
+                             (body_b). Two pins: on which side of AB lies P? A pin and a prismatic
+                             joint: on which side of the pin, along the axis, lies P? */
+    const char *id;       /* of pin P */
+    int pin, body_a, body_b;
+    fw_anchor a, b;
     int guess, found; /* sign of the triangle A P B: +1 counter-clockwise, -1, 0: flat */
 } fw_elbow;
 
@@ -47,8 +52,8 @@ typedef struct fw_assembly {
     double *moved_m;        /* (nbody) of the centre of mass */
     double *turned_rad;     /* (nbody) */
     double most_moved_m, most_turned_rad;
-    double distance_m;          /* sqrt(sum m (dx^2 + dy^2) + J dphi^2) / sqrt(sum m) */
-    fw_joint_gap *gap;          /* (ngap) pins, ties, drivers in file order, in the guess */
+    double distance_m;                /* sqrt(sum m (dx^2 + dy^2) + J dphi^2) / sqrt(sum m) */
+    fw_joint_gap *gap;                /* (ngap) pins, ties, drivers in file order, in the guess */
     double gap_before_m, gap_after_m; /* largest; those of angles count with the scene's length */
     int iterations, restarts;
     fw_elbow *elbow;             /* (nelbow) */

@@ -21,17 +21,6 @@ static void find_kept(fw_closure *c) {
     }
 }
 
-/* a time in the first smooth piece of all laws, scaled time 0 included */
-static double first_piece(const fw_model *m) {
-    double first = (double)INFINITY;
-    for (int i = 0; i < m->nblock; i++) {
-        double at;
-        if (m->block[i].law && fw_law_breaks(m->block[i].law, 1e9, &at, 1) > 0)
-            first = fmin(first, at);
-    }
-    return isfinite(first) ? first / 2 : 0;
-}
-
 fw_status fw_closure_new(fw_arena *arena, fw_model *m, fw_closure *c) {
     size_t n = (size_t)m->nq, k = (size_t)m->nblock;
     *c = (fw_closure){.model = m, .goal = 4 * DBL_EPSILON * m->size, .left = 2000};
@@ -45,7 +34,7 @@ fw_status fw_closure_new(fw_arena *arena, fw_model *m, fw_closure *c) {
     FW_NEED(c->soft = fw_arena_array(arena, double, k));
     for (size_t i = 0; i < k; i++)
         c->active[i] = true, c->soft[i] = 1;
-    m->piece = first_piece(m);
+    m->piece = DBL_MIN; /* the piece of the laws that begins at 0 */
     fw_model_residual(m, 0, c->u, c->psi);
     find_kept(c);
     return FW_OK;

@@ -9,14 +9,14 @@
 /* ---- closure.c ---- */
 typedef struct fw_closure {
     fw_model *model;
-    double *u;                            /* (3 nbody) displacements from the guess */
+    double *u;                           /* (3 nbody) displacements from the guess */
     double *trial, *step, *psi, *lambda; /* work */
-    double *kept;                         /* (nblock) angle, length or travel that a block keeps */
-    bool *active;                         /* (nblock) blocks that count */
-    double *soft;                         /* (nblock) a mismatch counts divided by this */
-    double promise;                       /* first-order decrease of the mismatch along the step */
-    double goal;                          /* |Psi| of a closed mechanism */
-    long iterations, left;                /* done; most that may follow */
+    double *kept;                        /* (nblock) angle, length or travel that a block keeps */
+    bool *active;                        /* (nblock) blocks that count */
+    double *soft;                        /* (nblock) a mismatch counts divided by this */
+    double promise;                      /* first-order decrease of the mismatch along the step */
+    double goal;                         /* |Psi| of a closed mechanism */
+    long iterations, left;               /* done; most that may follow */
 } fw_closure;
 
 fw_status fw_closure_new(fw_arena *arena, fw_model *model, fw_closure *c);
@@ -51,9 +51,9 @@ void fw_tree_place(const fw_tree *tree, fw_closure *c, int body);
 typedef struct fw_restart {
     fw_tree tree;
     double *best, *saved;
-    double value;    /* least mismatch so far */
-    bool *wanted;    /* (nblock) active set to reach */
-    bool *loop;      /* (nbody) bodies of the loop at hand */
+    double value; /* least mismatch so far */
+    bool *wanted; /* (nblock) active set to reach */
+    bool *loop;   /* (nbody) bodies of the loop at hand */
     int restarts;
 } fw_restart;
 fw_status fw_restart_new(fw_arena *arena, const fw_model *m, fw_restart *r);

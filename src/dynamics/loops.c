@@ -40,14 +40,15 @@ static char *length_text(char *to, size_t n, double metres) {
     double size = fabs(metres), factor = size < 0.01 ? 1e6 : size < 10 ? 1e3 : 1;
     char number[32];
     snprintf(to, n, "%s %s", fw_number_text(number, sizeof number, metres * factor, 4),
-             size < 0.01 ? "um" : size < 10 ? "mm" : "m");
+             size < 0.01 ? "um"
+             : size < 10 ? "mm"
+                         : "m");
     return to;
 }
 
 static char *angle_text(char *to, size_t n, double radian) {
     char number[32];
-    snprintf(to, n, "%s deg",
-             fw_number_text(number, sizeof number, radian * 180 / acos(-1.0), 4));
+    snprintf(to, n, "%s deg", fw_number_text(number, sizeof number, radian * 180 / acos(-1.0), 4));
     return to;
 }
 
@@ -62,8 +63,8 @@ static fw_place place_of(const fw_mechanism *m, const fw_block *b) {
 
 typedef struct side { /* of the polygon of a loop */
     double length;
-    int body;         /* -1: a rod */
-    int from, to;     /* blocks at its ends */
+    int body;     /* -1: a rod */
+    int from, to; /* blocks at its ends */
 } side;
 
 typedef struct ring {
@@ -94,7 +95,8 @@ static void add_side(ring *r, double length, int body, int from, int to) {
 }
 
 /* blocks and bodies around the loop that `block` closes; false: it runs through a slide, or it is
-   no loop. Both ends climb to their common root; the side of the body where they meet comes last. */
+   no loop. Both ends climb to their common root; the side of the body where they meet comes last.
+ */
 static bool walk(const fw_tree *t, const fw_model *m, int block, int *depth, ring *r) {
     int end[2] = {m->block[block].a, m->block[block].b}, last[2] = {block, block};
     fw_rows rows = m->block[block].rows;
@@ -218,8 +220,7 @@ static bool close_without_drivers(fw_closure *c, fw_restart *r) {
     return good;
 }
 
-static fw_status blame_driver(const fw_mechanism *mechanism, const fw_closure *c,
-                              fw_diags *diags) {
+static fw_status blame_driver(const fw_mechanism *mechanism, const fw_closure *c, fw_diags *diags) {
     const fw_model *m = c->model;
     int worst = -1;
     for (int i = 0; i < m->nblock; i++)
@@ -238,8 +239,7 @@ static fw_status blame_driver(const fw_mechanism *mechanism, const fw_closure *c
                          "driver %s cannot have the value that it asks for at the start: it asks "
                          "for %s, the joints allow %s at most near the guess (%s off)",
                          name_of(d->id), text(asked, sizeof asked, law[0]),
-                         text(best, sizeof best, law[0] + off),
-                         text(less, sizeof less, fabs(off)));
+                         text(best, sizeof best, law[0] + off), text(less, sizeof less, fabs(off)));
 }
 
 /* ---- joints ---- */
@@ -266,8 +266,8 @@ static fw_status blame_joint(fw_arena *arena, const fw_mechanism *mechanism, con
     return fw_diag_error(diags, 100, place_of(mechanism, b),
                          "the mechanism cannot be assembled: joint %s stays open by %s%s%s at "
                          "best; %s",
-                         fw_block_name(mechanism, b), angle ? radian : metres,
-                         both ? " and " : "", both ? radian : "", advice);
+                         fw_block_name(mechanism, b), angle ? radian : metres, both ? " and " : "",
+                         both ? radian : "", advice);
 }
 
 fw_status fw_closure_explain(fw_arena *arena, const fw_mechanism *mechanism, fw_closure *c,

@@ -7,8 +7,8 @@
 static const double PI = 3.14159265358979323846;
 enum { LOOP_TRIES = 40, WHOLE_TRIES = 6, LOOP_STEPS = 80, WHOLE_STEPS = 200 };
 
-/* splitmix64 of both arguments (Steele, Lea and Flood 2014): no state, so a start does not depend on
-   which others were tried */
+/* splitmix64 of both arguments (Steele, Lea and Flood 2014): no state, so a start does not depend
+   on which others were tried */
 double fw_spread(unsigned stream, unsigned index) {
     uint64_t z = ((uint64_t)stream << 32 | index) + 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
