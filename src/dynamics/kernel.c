@@ -12,7 +12,8 @@ struct fw_kernel {
 };
 
 bool fw_core_plain(const fw_model *m) {
-    return m->npin > 0 && m->nload == 0 && m->nspring == 0;
+    return m->plain && m->nblock > 0 && !m->driven && m->worked < 0 && m->nload == 0 &&
+           m->ntimed == 0 && m->nspring == 0 && m->nslide == 0 && m->nstop == 0;
 }
 
 /* ---- plan ---- */
@@ -46,12 +47,12 @@ fw_status fw_plan_new(fw_arena *arena, const fw_model *m, fw_plan *p) {
     const fw_chain *c = &m->chain;
     int *torsion;
     *p = (fw_plan){.bodies = m->nbody,
-                   .pins = m->npin,
+                   .pins = m->nblock,
                    .blocks = c->blocks,
                    .torsions = m->ntorsion,
                    .nq = m->nq,
                    .ny = m->ny,
-                   .dissipates = m->dissipates,
+                   .dissipates = m->dissipated >= 0,
                    .body = m->body,
                    .column = c->column,
                    .row = c->row,
@@ -148,8 +149,8 @@ fw_status fw_kernel_new(fw_arena *arena, const fw_model *m, fw_kernel **kernel) 
     fw_core_fill(&k->core, m, 0);
     FW_TRY(fw_path_new(arena, m, &k->own));
     k->path = k->own;
-    k->pins = m->npin;
-    FW_NEED(k->lambda = fw_arena_array(arena, double, 2 * (size_t)m->npin));
+    k->pins = m->nblock;
+    FW_NEED(k->lambda = fw_arena_array(arena, double, 2 * (size_t)m->nblock));
     *kernel = k;
     return FW_OK;
 }
@@ -175,8 +176,8 @@ const double *fw_kernel_lambda(fw_kernel *k) {
     return k->lambda;
 }
 
-fw_kernel_norms *fw_kernel_norms_of(fw_kernel *k) {
-    return k->path ? fw_path_norms(k->path) : &k->core.norms;
+fw_kernel_norms fw_kernel_norms_of(const fw_kernel *k) {
+    return k->path ? fw_path_norms(k->path) : k->core.norms;
 }
 
 bool fw_kernel_is_path(const fw_kernel *k) {

@@ -16,9 +16,8 @@ typedef struct fw_kernel fw_kernel;
    all of them healthy one plain solve is enough */
 static const double fw_healthy = 1e-6;
 
-typedef struct fw_kernel_norms { /* largest over all accepted projections; scaled */
+typedef struct fw_kernel_norms { /* after the last projection; scaled */
     double position, velocity;
-    long projections;
 } fw_kernel_norms;
 
 /* *kernel = NULL when the model is not plain. The model must live as long as the kernel. */
@@ -30,7 +29,7 @@ void fw_kernel_rhs(fw_kernel *k, const double *y, double *f);
 bool fw_kernel_project(fw_kernel *k, double *y, double *f);
 /* (2 npin) joint forces of the last evaluation, pins in the order of the model */
 const double *fw_kernel_lambda(fw_kernel *k);
-fw_kernel_norms *fw_kernel_norms_of(fw_kernel *k);
+fw_kernel_norms fw_kernel_norms_of(const fw_kernel *k);
 /* for tests and measurements */
 bool fw_kernel_is_path(const fw_kernel *k);
 void fw_kernel_prefer(fw_kernel *k, bool path);            /* false: the flat schedule */

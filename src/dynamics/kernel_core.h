@@ -132,7 +132,8 @@ static inline __attribute__((always_inline)) bits eliminate(fw_core *k, double e
         real xx = w[FW_DIAGONAL] + shift, xy = w[FW_DIAGONAL + 1];
         real yy = w[FW_DIAGONAL + 2] + shift;
         real determinant = xx * yy - xy * xy;
-        sick |= bits_of(determinant - limit * mass * (xx + yy)) | bits_of(xx);
+        real least = limit * mass; /* det/trace is below the smaller eigenvalue */
+        sick |= bits_of(determinant - least * (xx + yy)) | bits_of(xx - least);
         real inverse = 1.0 / determinant;
         w[FW_PIVOT] = yy * inverse;
         w[FW_PIVOT + 1] = -(xy * inverse);
@@ -444,12 +445,10 @@ static bool core_project(fw_core *k, double *at, double *slope) {
     real *y = (real *)at;
     double position, velocity;
     bits broken, sick;
-    k->norms.projections++;
     if (!project_position(k, y, &position)) return false;
     sick = factor(k, &broken);
     if (bits_any(broken) || !project_velocity(k, y + p->nq, &velocity)) return false;
-    k->norms.position = fmax(k->norms.position, position);
-    k->norms.velocity = fmax(k->norms.velocity, velocity);
+    k->norms = (fw_kernel_norms){position, velocity};
     real power = set_accelerations(k, y, y + p->nq);
     if (bits_any(sick)) {
         solve_with_care(k, ~(bits){0}, true);

@@ -93,6 +93,6 @@ void fw_path_rhs(fw_path *p, const double *y, double *f);
 bool fw_path_project(fw_path *p, double *y, double *f);
 void fw_path_lambda(const fw_path *p, double *lambda);
 void fw_path_set_healthy(fw_path *p, double relative);
-fw_kernel_norms *fw_path_norms(fw_path *p);
+fw_kernel_norms fw_path_norms(const fw_path *p);
 
 #endif

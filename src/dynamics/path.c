@@ -180,7 +180,8 @@ static inline __attribute__((always_inline)) update take(coupling b, real xx, re
 /* negative: the pivot is not above the limit; NaN passes and shows in the result */
 static inline __attribute__((always_inline)) bits check(real determinant, real xx, real yy,
                                                         real masses, double limit) {
-    return bits_of(determinant - limit * masses * (xx + yy)) | bits_of(xx);
+    real least = limit * masses; /* det/trace is below the smaller eigenvalue */
+    return bits_of(determinant - least * (xx + yy)) | bits_of(xx - least);
 }
 
 typedef struct carry { /* the pin before, in registers: pivot, reduced right-hand side, inner arm */
@@ -390,8 +391,8 @@ void fw_path_set_healthy(fw_path *p, double relative) {
     p->healthy = relative;
 }
 
-fw_kernel_norms *fw_path_norms(fw_path *p) {
-    return &p->norms;
+fw_kernel_norms fw_path_norms(const fw_path *p) {
+    return p->norms;
 }
 
 /* ---- projection: as in kernel_core.h ---- */
@@ -464,12 +465,10 @@ static bool project_velocity(fw_path *p, double *v, double *norm) {
 
 bool fw_path_project(fw_path *p, double *y, double *f) {
     double position, velocity;
-    p->norms.projections++;
     if (!project_position(p, y, &position)) return false;
     int kind = factor(p);
     if (kind < 0 || !project_velocity(p, y + p->nq, &velocity)) return false;
-    p->norms.position = fmax(p->norms.position, position);
-    p->norms.velocity = fmax(p->norms.velocity, velocity);
+    p->norms = (fw_kernel_norms){position, velocity};
     double power = set_accelerations(p, y + p->nq);
     if (kind > 0) {
         solve_by_sweeps(p);
@@ -498,7 +497,7 @@ static bool follow(const fw_model *m, const int *pins_of, int start, int end, tr
     int moving = end == m->nbody ? 0 : 1, pin = start, body = end;
     t->count = 0;
     t->body[0] = body;
-    while (pin >= 0 && t->count < m->npin) {
+    while (pin >= 0 && t->count < m->nblock) {
         body = m->body[2 * pin] == body ? m->body[2 * pin + 1] : m->body[2 * pin];
         t->pin[t->count++] = pin;
         t->body[t->count] = body;
@@ -506,24 +505,24 @@ static bool follow(const fw_model *m, const int *pins_of, int start, int end, tr
         moving++;
         pin = other_pin(pins_of, body, pin);
     }
-    return t->count == m->npin && moving == m->nbody;
+    return t->count == m->nblock && moving == m->nbody;
 }
 
 static fw_status find_trail(fw_arena *arena, const fw_model *m, trail *t, bool *found) {
     int *pins_of;
     *found = false;
     FW_NEED(pins_of = fw_arena_array(arena, int, 2 * (size_t)m->nbody));
-    FW_NEED(t->pin = fw_arena_array(arena, int, (size_t)m->npin));
-    FW_NEED(t->body = fw_arena_array(arena, int, (size_t)m->npin + 1));
+    FW_NEED(t->pin = fw_arena_array(arena, int, (size_t)m->nblock));
+    FW_NEED(t->body = fw_arena_array(arena, int, (size_t)m->nblock + 1));
     for (int i = 0; i < 2 * m->nbody; i++)
         pins_of[i] = -1;
-    for (int i = 0; i < 2 * m->npin; i++) {
+    for (int i = 0; i < 2 * m->nblock; i++) {
         int b = m->body[i];
         if (b == m->nbody) continue;
         if (pins_of[2 * b + 1] >= 0) return FW_OK; /* a branch */
         pins_of[2 * b + (pins_of[2 * b] >= 0)] = i / 2;
     }
-    for (int i = 0; i < 2 * m->npin && !*found; i++) {
+    for (int i = 0; i < 2 * m->nblock && !*found; i++) {
         int b = m->body[i];
         if (b == m->nbody || pins_of[2 * b + 1] < 0) *found = follow(m, pins_of, i / 2, b, t);
         if (*found) return FW_OK;
@@ -591,7 +590,7 @@ fw_status fw_path_new(fw_arena *arena, const fw_model *m, fw_path **path) {
     FW_NEED(p);
     int n = t.count;
     p->pins = n, p->half = n / 2, p->even = n % 2 == 0, p->records = n - n / 2;
-    p->nq = m->nq, p->dissipates = m->dissipates, p->size = m->size, p->healthy = fw_healthy;
+    p->nq = m->nq, p->dissipates = m->dissipated >= 0, p->size = m->size, p->healthy = fw_healthy;
     p->first = t.body[0] == m->nbody && t.body[n] == m->nbody && n > 1 ? 1 : 0;
     FW_NEED(p->r = fw_arena_array(arena, record, (size_t)p->records + 1));
     FW_NEED(p->keep = fw_arena_array(arena, real, 2 * (size_t)p->records));
