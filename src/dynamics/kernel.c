@@ -136,6 +136,22 @@ void fw_core_fill(fw_core *k, const fw_model *m, int lane) {
     k->rate[lane] = 1;
 }
 
+/* rows that depend on each other in two poses picked without regard to the joints do so in all */
+fw_status fw_core_examine(fw_arena *arena, fw_core *k) {
+    const int n = k->plan.nq, w = k->ops->width;
+    fw_mark mark = fw_arena_mark(arena);
+    double *u;
+    FW_NEED(u = fw_arena_array(arena, double, (size_t)(n * w)));
+    k->redundant = true;
+    for (int pose = 0; pose < 2 && k->redundant; pose++) {
+        for (int i = 0; i < n * w; i++)
+            u[i] = 0.3 * sin(7.1 * (i / w) + 1 + pose);
+        k->redundant = k->ops->singular(k, u);
+    }
+    fw_arena_rewind(arena, mark);
+    return FW_OK;
+}
+
 /* ---- one design ---- */
 
 fw_status fw_kernel_new(fw_arena *arena, const fw_model *m, fw_kernel **kernel) {
@@ -147,6 +163,7 @@ fw_status fw_kernel_new(fw_arena *arena, const fw_model *m, fw_kernel **kernel) 
     FW_TRY(fw_plan_new(arena, m, &plan));
     FW_TRY(fw_core_new(arena, &plan, &fw_core_single, &k->core));
     fw_core_fill(&k->core, m, 0);
+    FW_TRY(fw_core_examine(arena, &k->core));
     FW_TRY(fw_path_new(arena, m, &k->own));
     k->path = k->own;
     k->pins = m->nblock;

@@ -57,6 +57,7 @@ typedef struct fw_core_ops { /* one row per instruction set */
     const char *name;
     int width;
     void (*rhs)(fw_core *k, const double *y, double *f);
+    bool (*singular)(fw_core *k, const double *u); /* is a pivot sick at this pose? */
     bool (*project)(fw_core *k, double *y, double *f);
 } fw_core_ops;
 
@@ -69,6 +70,7 @@ struct fw_core {
     double *state, *row, *coupling, *keep;        /* work */
     double *angle, *sine, *cosine;                /* (bodies) width 1 only */
     double healthy;
+    bool redundant; /* some pivot vanishes in every pose: no use to try the plain solution */
     fw_kernel_norms norms;
 };
 
@@ -76,6 +78,8 @@ bool fw_core_plain(const fw_model *model);
 fw_status fw_plan_new(fw_arena *arena, const fw_model *model, fw_plan *plan);
 /* memory for `ops->width` designs of this plan */
 fw_status fw_core_new(fw_arena *arena, const fw_plan *plan, const fw_core_ops *ops, fw_core *core);
+/* after all lanes are filled: sets `redundant` */
+fw_status fw_core_examine(fw_arena *arena, fw_core *core);
 /* the numbers of a model of the same topology into one lane */
 void fw_core_fill(fw_core *core, const fw_model *model, int lane);
 
