@@ -12,9 +12,9 @@ typedef struct search {
 
 /* squared norm of Psi at u; psi and the arms are set */
 static double mismatch(search *s, const double *u) {
-    fw_model_residual(s->model, u, s->psi);
+    fw_model_residual(s->model, 0, u, s->psi);
     double sum = 0;
-    for (int i = 0; i < 2 * s->model->npin; i++)
+    for (int i = 0; i < 2 * s->model->nblock; i++)
         sum += s->psi[i] * s->psi[i];
     return sum;
 }
@@ -25,16 +25,16 @@ static double mismatch(search *s, const double *u) {
 static bool newton_step(search *s, double epsilon) {
     fw_model *m = s->model;
     double *d = m->chain.diagonal, largest = 0;
-    fw_model_residual(m, s->u, s->psi);
+    fw_model_residual(m, 0, s->u, s->psi);
     fw_chain_assemble(m);
-    for (int i = 0; i < m->npin; i++)
+    for (int i = 0; i < m->nblock; i++)
         largest = fmax(largest, fmax(d[3 * i], d[3 * i + 2]));
-    for (int i = 0; i < m->npin; i++) {
+    for (int i = 0; i < m->nblock; i++) {
         d[3 * i] += epsilon * largest;
         d[3 * i + 2] += epsilon * largest;
     }
     if (!fw_chain_factor(&m->chain, 0)) return false;
-    memcpy(s->lambda, s->psi, 2 * (size_t)m->npin * sizeof(double));
+    memcpy(s->lambda, s->psi, 2 * (size_t)m->nblock * sizeof(double));
     fw_chain_solve(&m->chain, s->lambda);
     memset(s->step, 0, (size_t)m->nq * sizeof(double));
     fw_model_apply(m, s->lambda, s->step);
@@ -46,7 +46,7 @@ static bool newton_step(search *s, double epsilon) {
         s->step[i] /= most;
     fw_model_jacobian(m, s->step, s->lambda);
     s->promise = 0;
-    for (int i = 0; i < 2 * m->npin; i++)
+    for (int i = 0; i < 2 * m->nblock; i++)
         s->promise -= 2 * s->psi[i] * s->lambda[i];
     return s->promise > 0;
 }
@@ -79,7 +79,7 @@ static bool solve(search *s) {
     double goal = 4 * DBL_EPSILON * s->model->size, value = mismatch(s, s->u);
     int level = 0, idle = 0;
     for (int i = 0; i < 500 && idle < 20; i++) {
-        double worst = fw_model_residual(s->model, s->u, s->psi);
+        double worst = fw_model_residual(s->model, 0, s->u, s->psi);
         if (worst <= goal) return true;
         double before = value;
         double taken = newton_step(s, epsilon[level]) ? line_search(s, &value) : 0;
@@ -91,28 +91,33 @@ static bool solve(search *s) {
         /* no progress: round-off, or the closest that an impossible mechanism comes */
         idle = value < (1 - 1e-7) * before ? 0 : idle + 1;
     }
-    return fw_model_residual(s->model, s->u, s->psi) <= 1e-13 * s->model->size;
+    return fw_model_residual(s->model, 0, s->u, s->psi) <= 1e-13 * s->model->size;
 }
 
 static fw_status cannot_close(const search *s, const fw_mechanism *mechanism, fw_diags *diags) {
     const fw_model *m = s->model;
     int worst = 0;
     double most = -1;
-    for (int i = 0; i < m->npin; i++) {
+    for (int i = 0; i < m->nblock; i++) {
         double gap = hypot(s->psi[2 * i], s->psi[2 * i + 1]);
         if (gap > most || isnan(gap)) most = gap, worst = i;
     }
-    const fw_pin *pin = &mechanism->pin[m->pin[worst]];
-    fw_place place = mechanism->device && m->pin[worst] < mechanism->device->njoint
-                         ? mechanism->device->joint[m->pin[worst]].place
-                         : (fw_place){0};
+    const fw_block *b = &m->block[worst];
+    const fw_driver *driver = b->driver != FW_NONE ? &mechanism->driver[b->driver] : NULL;
+    const char *id = b->pin != FW_NONE   ? mechanism->pin[b->pin].id
+                     : b->tie != FW_NONE ? mechanism->tie[b->tie].id
+                                         : driver->id;
+    fw_place place = {0};
+    if (b->tie != FW_NONE) place = mechanism->tie[b->tie].place;
+    if (driver) place = driver->place;
+    if (b->pin != FW_NONE && mechanism->device && b->pin < mechanism->device->njoint)
+        place = mechanism->device->joint[b->pin].place;
     char gap[32];
     fw_status status = fw_diag_error(
         diags, 100, place,
         "the mechanism cannot be assembled: joint %s stays open by %s um at best; check "
         "the joint points and the lengths around this loop",
-        pin->id ? pin->id : "(unnamed)",
-        fw_number_text(gap, sizeof gap, most * m->scale.length_m * 1e6, 4));
+        id ? id : "(unnamed)", fw_number_text(gap, sizeof gap, most * m->scale.length_m * 1e6, 4));
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
 
@@ -125,13 +130,14 @@ fw_status fw_assemble(fw_arena *arena, const fw_mechanism *mechanism, double *q,
         if (!isfinite(q[i]))
             return fw_diag_error(diags, 105, (fw_place){0},
                                  "the position to assemble is not finite");
-    if (mechanism->nbody == 0 || mechanism->npin == 0) return FW_OK;
-    FW_TRY(fw_model_new(arena, mechanism, NULL, q, 1, &s.model));
+    if (mechanism->nbody == 0 || mechanism->npin + mechanism->ntie == 0) return FW_OK;
+    FW_TRY(fw_model_new(arena, mechanism, NULL, q, 1, NULL, diags, &s.model));
+    size_t rows = 2 * (size_t)s.model->nblock;
     FW_NEED(s.u = fw_arena_array(arena, double, n));
     FW_NEED(s.trial = fw_arena_array(arena, double, n));
     FW_NEED(s.step = fw_arena_array(arena, double, n));
-    FW_NEED(s.psi = fw_arena_array(arena, double, 2 * (size_t)mechanism->npin));
-    FW_NEED(s.lambda = fw_arena_array(arena, double, 2 * (size_t)mechanism->npin));
+    FW_NEED(s.psi = fw_arena_array(arena, double, rows));
+    FW_NEED(s.lambda = fw_arena_array(arena, double, rows));
     if (!solve(&s)) return cannot_close(&s, mechanism, diags);
     for (size_t b = 0; b < n; b += 3) {
         double dx = s.model->scale.length_m * s.u[b], dy = s.model->scale.length_m * s.u[b + 1];

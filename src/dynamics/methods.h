@@ -1,0 +1,9 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The rows of the method table, one file each. Private to dynamics/. */
+#ifndef FW_DYNAMICS_METHODS_H
+#define FW_DYNAMICS_METHODS_H
+#include "dynamics/model.h"
+
+extern const fw_method fw_method_chain;
+
+#endif
