@@ -7,11 +7,11 @@
 
 typedef struct fw_reduced {
     int n, rows, rank, dof;        /* n = 3 nbody; dof = n - rank */
-    double largest, kept, dropped; /* singular values of balanced G M^-1/2: the largest, the smallest
-                                      that counts, the largest that does not (0: none) */
-    double *shape;                 /* (dof x n) modes: shape M shape^T = 1, shape K shape^T = value */
-    double *value;                 /* (dof) ascending, 1/time^2 */
-    double tolerance;              /* of `value`: below it a value is no more than round-off */
+    double largest, kept, dropped; /* singular values of balanced G M^-1/2: the largest, the
+                                      smallest that counts, the largest that does not (0: none) */
+    double *shape;    /* (dof x n) modes: shape M shape^T = 1, shape K shape^T = value */
+    double *value;    /* (dof) ascending, 1/time^2 */
+    double tolerance; /* of `value`: below it a value is no more than round-off */
     double *root, *balance, *a, *sigma, *left, *right, *small, *work;
 } fw_reduced;
 

@@ -104,7 +104,7 @@ static fw_status split_drivers(fw_rest *w) {
 static fw_status arrays(fw_rest *w) {
     const fw_model *m = w->model;
     size_t n = (size_t)m->nq, blocks = (size_t)m->nblock;
-    double **vector[] = {&w->force, &w->slope,    &w->follow, &w->push, &w->gradient,
+    double **vector[] = {&w->force, &w->slope,   &w->follow, &w->push, &w->gradient,
                          &w->noise, &w->gravity, &w->loads,  &w->step};
     for (size_t i = 0; i < sizeof vector / sizeof vector[0]; i++)
         FW_NEED(*vector[i] = fw_arena_array(w->arena, double, n + 3));
@@ -149,7 +149,8 @@ fw_status fw_rest_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_s
         w->q0[3 * b + 2] = mechanism->body[b].phi_rad;
     }
     FW_TRY(fw_assemble(arena, mechanism, w->q0, &moved, diags));
-    FW_TRY(fw_model_new(arena, mechanism, &terms, w->q0, scene->duration_s, NULL, diags, &w->model));
+    FW_TRY(
+        fw_model_new(arena, mechanism, &terms, w->q0, scene->duration_s, NULL, diags, &w->model));
     FW_TRY(arrays(w));
     split_loads(w);
     FW_TRY(split_drivers(w));
@@ -302,7 +303,8 @@ fw_status fw_rest_rank(const fw_rest *w, fw_rank *rank) {
                 double part = r->left[(size_t)row * (size_t)r->rows + (size_t)l];
                 share += part * part;
             }
-        if (share > 0.02) fw_text_printf(&names, "%s%s", names.length ? ", " : "", block_name(w, i));
+        if (share > 0.02)
+            fw_text_printf(&names, "%s%s", names.length ? ", " : "", block_name(w, i));
     }
     FW_TRY(fw_text_end(&names));
     rank->joints = names.data;

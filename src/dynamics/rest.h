@@ -52,6 +52,8 @@ fw_status fw_rest_evaluate(fw_rest *w);
 double fw_rest_newton(const fw_rest *w, double *step);
 /* from w->y to a stable equilibrium at the present s. FW_SOLVER without a message: there is none */
 fw_status fw_rest_descend(fw_rest *w, bool *left_unstable);
+/* from the assembled pose to the stable equilibrium at s = 1; says when there is none */
+fw_status fw_rest_settle(fw_rest *w, bool *left_unstable);
 /* path.c: from the equilibrium at s = 0; ends there where the path ends */
 fw_status fw_rest_follow(fw_rest *w, int most_points, fw_path **path);
 

@@ -13,9 +13,9 @@ enum { FW_NEWTON_STEPS = 400, FW_ESCAPES = 20 };
 
 /* ---- descent ---- */
 
-/* du = sum of modes times force / |stiffness|: the Newton step where all stiffnesses are positive, a
-   descent of the energy always. A mode without stiffness goes with its force when there is one above
-   round-off, else it rests. */
+/* du = sum of modes times force / |stiffness|: the Newton step where all stiffnesses are positive,
+   a descent of the energy always. A mode without stiffness goes with its force when there is one
+   above round-off, else it rests. */
 double fw_rest_newton(const fw_rest *w, double *step) {
     const fw_reduced *r = &w->reduced;
     size_t n = (size_t)r->n;
@@ -84,13 +84,13 @@ static bool too_far(const double *u, int n) {
 }
 
 /* Minimises the potential over the poses that the joints allow: Newton in the modes of the tangent
-   stiffness with |stiffness|, Armijo line search, corrections of the pose in the mass metric; saddles
-   are left along negative curvature. Near the end, where energies differ by round-off only, full
-   steps until they no longer halve. Start and result w->y, scaled; error: round-off times the ratio
-   of the stiffnesses. Cost: one evaluation (30 n^3) per step, about 5 to 15 steps. Stops and cables
-   bend the energy's slope but do not break it: their state follows the pose. Source: Nocedal and
-   Wright, Numerical Optimization 2006, ch. 3; modified spectrum, Greenstadt 1967.
-   Test: test_statics.c. */
+   stiffness with |stiffness|, Armijo line search, corrections of the pose in the mass metric;
+   saddles are left along negative curvature. Near the end, where energies differ by round-off only,
+   full steps until they no longer halve. Start and result w->y, scaled; error: round-off times the
+   ratio of the stiffnesses. Cost: one evaluation (30 n^3) per step, about 5 to 15 steps. Stops and
+   cables bend the energy's slope but do not break it: their state follows the pose. Source: Nocedal
+   and Wright, Numerical Optimization 2006, ch. 3; modified spectrum, Greenstadt 1967. Test:
+   test_statics.c. */
 fw_status fw_rest_descend(fw_rest *w, bool *left_unstable) {
     size_t bytes = (size_t)w->model->nq * sizeof(double);
     double *step, *next, before = (double)INFINITY;
@@ -139,13 +139,14 @@ static fw_status no_equilibrium(const fw_rest *w) {
     FW_TRY(fw_rest_bodies(w, w->y, &names));
     char turned[32], factor[32];
     int b = fw_rest_mover(w, w->y);
-    fw_status status = fw_diag_error(
-        w->diags, 111, w->scene->place,
-        "no equilibrium of scene %s was found at load factor %s: body %s keeps moving (it had turned "
-        "by %s rad); nothing holds %s against the loads",
-        fw_rest_scene_name(w), fw_number_text(factor, sizeof factor, w->factor, 4),
-        w->mechanism->body[b].id ? w->mechanism->body[b].id : "(unnamed)",
-        fw_number_text(turned, sizeof turned, w->y[3 * b + 2], 4), names);
+    fw_status status =
+        fw_diag_error(w->diags, 111, w->scene->place,
+                      "no equilibrium of scene %s was found at load factor %s: body %s keeps "
+                      "moving (it had turned "
+                      "by %s rad); nothing holds %s against the loads",
+                      fw_rest_scene_name(w), fw_number_text(factor, sizeof factor, w->factor, 4),
+                      w->mechanism->body[b].id ? w->mechanism->body[b].id : "(unnamed)",
+                      fw_number_text(turned, sizeof turned, w->y[3 * b + 2], 4), names);
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
 
@@ -156,7 +157,8 @@ static fw_status actives(const fw_rest *w, fw_statics *out) {
     for (int i = 0; i < m->nstop; i++)
         out->active[i] = (fw_active){w->mechanism->pin[m->stop[i].pin].id, m->stop[i].side, false};
     for (int i = 0, k = m->nstop; i < m->nspring; i++)
-        if (m->spring[i].cable) out->active[k++] = (fw_active){w->mechanism->spring[i].id, 0, false};
+        if (m->spring[i].cable)
+            out->active[k++] = (fw_active){w->mechanism->spring[i].id, 0, false};
     for (int i = 0; i < out->nactive; i++)
         out->active[i].on = fw_model_switch_on(m, i);
     return FW_OK;
@@ -216,23 +218,29 @@ static fw_status path_ends_early(const fw_rest *w, const fw_path *path) {
     return FW_OK;
 }
 
+/* drivers take the mechanism along in steps, since a joint may not close over the whole way */
+fw_status fw_rest_settle(fw_rest *w, bool *left_unstable) {
+    enum { STEPS = 16 };
+    memset(w->y, 0, (size_t)w->model->ny * sizeof(double));
+    for (int i = w->moving ? 0 : STEPS; i <= STEPS; i++) {
+        fw_rest_factor(w, (double)i / STEPS);
+        *left_unstable = false;
+        fw_status status = fw_rest_descend(w, left_unstable);
+        if (status != FW_OK) return status == FW_SOLVER ? no_equilibrium(w) : status;
+    }
+    return FW_OK;
+}
+
 /* along the path when it is asked for and complete, else straight down */
 static fw_status reach(fw_rest *w, const fw_static_options *o, fw_statics *out) {
-    bool complete = false;
     if (o->path) {
         fw_status status = fw_rest_descend(w, &out->left_unstable);
-        if (status == FW_SOLVER) return no_equilibrium(w);
-        FW_TRY(status);
+        if (status != FW_OK) return status == FW_SOLVER ? no_equilibrium(w) : status;
         FW_TRY(fw_rest_follow(w, o->most_points, &out->path));
-        complete = out->path->complete;
-        if (!complete) FW_TRY(path_ends_early(w, out->path));
+        if (out->path->complete) return FW_OK;
+        FW_TRY(path_ends_early(w, out->path));
     }
-    if (complete) return FW_OK;
-    memset(w->y, 0, (size_t)w->model->ny * sizeof(double));
-    fw_rest_factor(w, 1);
-    out->left_unstable = false;
-    fw_status status = fw_rest_descend(w, &out->left_unstable);
-    return status == FW_SOLVER ? no_equilibrium(w) : status;
+    return fw_rest_settle(w, &out->left_unstable);
 }
 
 fw_status fw_static_equilibrium(fw_arena *arena, const fw_mechanism *mechanism,

@@ -54,25 +54,25 @@ typedef struct fw_path { /* equilibria one after the other */
 
 typedef struct fw_statics {
     int nbody, npin, dof;
-    double *rest_q;             /* (3 nbody) assembled pose */
-    double *q;                  /* (3 nbody) the equilibrium at s = 1 */
-    double *angle_rad;          /* (npin) phi_b - phi_a - free angle */
-    double *reaction_N;         /* (2 npin) force on body b, world axes */
-    double *eigenvalue_per_s2;  /* (dof) of the reduced tangent stiffness, ascending: omega^2 */
-    int negative, neutral;      /* how many are below 0, and 0 within round-off */
-    const char *loose;          /* bodies that nothing holds, or NULL */
-    bool left_unstable;         /* the way there led over an unstable equilibrium */
-    double residual;            /* largest force along an allowed motion over the largest force */
-    int iterations;             /* Newton steps */
-    fw_active *active;          /* (nactive) */
+    double *rest_q;            /* (3 nbody) assembled pose */
+    double *q;                 /* (3 nbody) the equilibrium at s = 1 */
+    double *angle_rad;         /* (npin) phi_b - phi_a - free angle */
+    double *reaction_N;        /* (2 npin) force on body b, world axes */
+    double *eigenvalue_per_s2; /* (dof) of the reduced tangent stiffness, ascending: omega^2 */
+    int negative, neutral;     /* how many are below 0, and 0 within round-off */
+    const char *loose;         /* bodies that nothing holds, or NULL */
+    bool left_unstable;        /* the way there led over an unstable equilibrium */
+    double residual;           /* largest force along an allowed motion over the largest force */
+    int iterations;            /* Newton steps */
+    fw_active *active;         /* (nactive) */
     int nactive;
     fw_rank rank;
     fw_path *path; /* NULL: not asked for */
     fw_effect_ledger ledger;
 } fw_statics;
 
-/* the stable equilibrium that descent from the assembled pose reaches at s = 1; with a path, its end
-   when it reaches s = 1. FW_SOLVER with FW-D111 when there is none. */
+/* the stable equilibrium that descent from the assembled pose reaches at s = 1; with a path, its
+   end when it reaches s = 1. FW_SOLVER with FW-D111 when there is none. */
 fw_status fw_static_equilibrium(fw_arena *arena, const fw_mechanism *mechanism,
                                 const fw_scene *scene, const fw_static_options *options,
                                 fw_diags *diags, const fw_statics **statics);

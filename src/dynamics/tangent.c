@@ -7,9 +7,9 @@
        C = c grad g grad g^T
      constraint g = value with multiplier lambda:  K = lambda hess g
 
-   Coordinates of a pair of bodies: x_a, y_a, phi_a, x_b, y_b, phi_b. With arms r, p(r) = (-r_y, r_x)
-   and dp/dphi = -r. Error: round-off. Cost: a constant per element, and nq^2 zeros. Source: direct
-   differentiation; geometric stiffness as in Geradin and Cardona 2001, ch. 9. Test:
+   Coordinates of a pair of bodies: x_a, y_a, phi_a, x_b, y_b, phi_b. With arms r, p(r) = (-r_y,
+   r_x) and dp/dphi = -r. Error: round-off. Cost: a constant per element, and nq^2 zeros. Source:
+   direct differentiation; geometric stiffness as in Geradin and Cardona 2001, ch. 9. Test:
    test_tangent.c. */
 #include "dynamics/tangent.h"
 #include <math.h>
@@ -58,8 +58,8 @@ static pair pair_of(const fw_model *m, const double *u, int a, int b, const doub
     return p;
 }
 
-/* g = |d|; grad = D^T e, hess = D^T w w^T D / |d| + the arms' own curvature, D = dd/du, e = d/|d|, w
-   across. Points that coincide have no direction: all zero then. */
+/* g = |d|; grad = D^T e, hess = D^T w w^T D / |d| + the arms' own curvature, D = dd/du, e = d/|d|,
+   w across. Points that coincide have no direction: all zero then. */
 static gauge distance_of(const pair *p) {
     gauge g = {0};
     g.value = hypot(p->d[0], p->d[1]);

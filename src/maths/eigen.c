@@ -37,14 +37,14 @@ fw_status fw_svd(fw_arena *arena, int m, int n, double *a, double *sigma, double
     }
     if (!finite_all(a, rows * columns)) return FW_SOLVER;
     double size = 0, *work;
-    int info =
-        LAPACKE_dgesvd_work(LAPACK_COL_MAJOR, 'A', 'A', n, m, a, n, sigma, right, n, left, m, &size, -1);
+    int info = LAPACKE_dgesvd_work(LAPACK_COL_MAJOR, 'A', 'A', n, m, a, n, sigma, right, n, left, m,
+                                   &size, -1);
     size_t length = asked(info, size);
     if (!length) return FW_SOLVER;
     fw_mark mark = fw_arena_mark(arena);
     FW_NEED(work = fw_arena_array(arena, double, length));
-    info = LAPACKE_dgesvd_work(LAPACK_COL_MAJOR, 'A', 'A', n, m, a, n, sigma, right, n, left, m, work,
-                               (int)length);
+    info = LAPACKE_dgesvd_work(LAPACK_COL_MAJOR, 'A', 'A', n, m, a, n, sigma, right, n, left, m,
+                               work, (int)length);
     fw_arena_rewind(arena, mark);
     return info == 0 ? FW_OK : FW_SOLVER;
 }
@@ -68,7 +68,8 @@ fw_status fw_eigen_symmetric(fw_arena *arena, int n, double *a, double *value) {
 static void transpose(int n, double *a) {
     for (int i = 0; i < n; i++)
         for (int j = 0; j < i; j++) {
-            double *p = a + (size_t)i * (size_t)n + j, *q = a + (size_t)j * (size_t)n + i, keep = *p;
+            double *p = a + (size_t)i * (size_t)n + j, *q = a + (size_t)j * (size_t)n + i,
+                   keep = *p;
             *p = *q;
             *q = keep;
         }

@@ -16,7 +16,8 @@ static void singular_values_rebuild_the_matrix(void **state) {
     for (int round = 0; round < 60; round++) {
         fw_arena *arena = fw_arena_new(0);
         int m = round % MOST, n = (round * 5 + 1) % MOST, k = m < n ? m : n;
-        double a[MOST * MOST], copy[MOST * MOST], sigma[MOST], left[MOST * MOST], right[MOST * MOST];
+        double a[MOST * MOST], copy[MOST * MOST], sigma[MOST], left[MOST * MOST],
+            right[MOST * MOST];
         for (int i = 0; i < m * n; i++)
             a[i] = next(&seed);
         for (int j = 0; m > 2 && j < n; j++)
