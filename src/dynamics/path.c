@@ -49,10 +49,13 @@ static double product(const fw_model *m, const double *x, const double *y) {
     return sum;
 }
 
-/* a mode that nothing pushes and nothing holds takes no part */
+/* A soft mode in equilibrium that the load hardly pushes takes no part: round-off, and imperfections
+   of 1e-8 of the load, over a stiffness near zero would throw the state off the branch just where
+   another one crosses it. Once its force is above round-off it takes part. */
 static bool idle(const fw_rest *w, int k) {
-    return fabs(w->reduced.value[k]) <= w->reduced.tolerance && fabs(w->push[k]) <= w->noise[k] &&
-           fabs(w->gradient[k]) <= w->noise[k];
+    const double small = 1e-8 / (64 * DBL_EPSILON); /* in units of the noise */
+    return fabs(w->reduced.value[k]) <= fmax(w->reduced.tolerance, 1e-3) &&
+           fabs(w->push[k]) <= small * w->noise[k] && fabs(w->gradient[k]) <= w->noise[k];
 }
 
 /* step (n) and *ds with the arc-length row (tangent, rate): product(tangent, step) + rate ds = rho.
@@ -156,7 +159,7 @@ static fw_status correct(follower *f, const state *from, double length, state *t
         for (int k = 0; k < m->nq; k++)
             most = fmax(most, fabs(w->step[k]));
         most = fmax(most, fabs(ds));
-        if (most <= 1e-15 || (most < 1e-9 && most > 0.5 * before))
+        if (most <= 1e-15 || (most > 0.5 * before && (most < 1e-9 || fw_rest_quiet(w))))
             return take_state(f, from, to) ? FW_OK : FW_SOLVER;
         if (!(most < 4 * before) || most > 1) return FW_SOLVER;
         before = most;
@@ -184,6 +187,7 @@ static fw_status grow(follower *f) {
     FW_NEED(p->negative = fw_arena_grow(arena, p->negative, old, new, sizeof(int)));
     FW_NEED(p->mark = fw_arena_grow(arena, p->mark, old, new, sizeof(fw_path_mark)));
     FW_NEED(p->which = fw_arena_grow(arena, p->which, old, new, sizeof(int)));
+    FW_NEED(p->snap_m = fw_arena_grow(arena, p->snap_m, old, new, sizeof(double)));
     FW_NEED(p->snap_rad = fw_arena_grow(arena, p->snap_rad, old, new, sizeof(double)));
     f->capacity = (int)new;
     return FW_OK;
@@ -201,7 +205,7 @@ static fw_status record(follower *f, const state *p, fw_path_mark mark, int whic
     path->negative[i] = p->negative;
     path->mark[i] = mark;
     path->which[i] = which;
-    path->snap_rad[i] = (double)NAN;
+    path->snap_m[i] = path->snap_rad[i] = (double)NAN;
     return FW_OK;
 }
 
@@ -279,6 +283,14 @@ static int find_events(follower *f, double length, event *found, int most) {
     return count;
 }
 
+/* the state at an event; where branches meet the last one before it that converges */
+static fw_status state_at(follower *f, double length, double step) {
+    fw_status status = correct(f, &f->at, length, &f->probe);
+    for (double back = 1e-9 * step; status == FW_SOLVER && back < 0.2 * step; back *= 8)
+        status = correct(f, &f->at, fmax(length - back, 0), &f->probe);
+    return status;
+}
+
 /* records the events of the step; *ended when one of them is s = 1 */
 static fw_status record_events(follower *f, double length, bool *ended) {
     enum { MOST = 16 };
@@ -286,8 +298,8 @@ static fw_status record_events(follower *f, double length, bool *ended) {
     int count = find_events(f, length, found, MOST);
     FW_TRY(f->status);
     for (int i = 0; i < count; i++) {
-        fw_status status = correct(f, &f->at, found[i].length, &f->probe);
-        if (status == FW_SOLVER) continue; /* at the meeting of branches: its neighbours stand */
+        fw_status status = state_at(f, found[i].length, length);
+        if (status == FW_SOLVER) continue;
         FW_TRY(status);
         *ended = found[i].mark == FW_PATH_END;
         int which = found[i].mark == FW_PATH_SWITCH ? found[i].which : FW_NONE;
@@ -353,10 +365,9 @@ static fw_status snaps(follower *f) {
     fw_path *p = f->path;
     fw_rest *w = f->w;
     size_t n = (size_t)w->model->nq, bytes = n * sizeof(double);
-    double *keep, *q, *angle, s = w->factor;
+    double *keep, *q, s = w->factor;
     FW_NEED(keep = fw_arena_array(w->arena, double, n));
     FW_NEED(q = fw_arena_array(w->arena, double, n));
-    FW_NEED(angle = fw_arena_array(w->arena, double, (size_t)p->npin));
     memcpy(keep, w->y, bytes);
     for (int i = 1; i + 1 < p->count; i++) {
         if (p->mark[i] != FW_PATH_FOLD || p->factor[i - 1] > p->factor[i]) continue;
@@ -370,12 +381,13 @@ static fw_status snaps(follower *f) {
         fw_status status = fw_rest_descend(w, &unstable);
         if (status == FW_SOLVER) continue;
         FW_TRY(status);
-        fw_rest_pose(w, w->y, q, angle);
-        double most = 0;
-        for (int k = 0; k < p->npin; k++)
-            most =
-                fmax(most, fabs(angle[k] - p->angle_rad[(size_t)i * (size_t)p->npin + (size_t)k]));
-        p->snap_rad[i] = most;
+        fw_rest_pose(w, w->y, q, NULL);
+        p->snap_m[i] = p->snap_rad[i] = 0;
+        for (size_t k = 0; k < n; k += 3) {
+            double way = hypot(q[k] - fold[k], q[k + 1] - fold[k + 1]);
+            p->snap_m[i] = fmax(p->snap_m[i], way);
+            p->snap_rad[i] = fmax(p->snap_rad[i], fabs(q[k + 2] - fold[k + 2]));
+        }
     }
     memcpy(w->y, keep, bytes);
     fw_rest_factor(w, s);

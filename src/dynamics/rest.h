@@ -50,6 +50,8 @@ double fw_rest_energy(fw_rest *w, const double *u, double *size);
 fw_status fw_rest_evaluate(fw_rest *w);
 /* Newton step along the modes at an evaluated state: step (n), largest component returned */
 double fw_rest_newton(const fw_rest *w, double *step);
+/* the forces along all modes are round-off: what a soft mode does then means nothing */
+bool fw_rest_quiet(const fw_rest *w);
 /* from w->y to a stable equilibrium at the present s. FW_SOLVER without a message: there is none */
 fw_status fw_rest_descend(fw_rest *w, bool *left_unstable);
 /* from the assembled pose to the stable equilibrium at s = 1; says when there is none */

@@ -35,6 +35,12 @@ double fw_rest_newton(const fw_rest *w, double *step) {
     return most;
 }
 
+bool fw_rest_quiet(const fw_rest *w) {
+    for (int k = 0; k < w->reduced.dof; k++)
+        if (fabs(w->gradient[k]) > w->noise[k]) return false;
+    return true;
+}
+
 static double slope_along(const fw_rest *w, const double *step) {
     double slope = 0;
     for (int i = 0; i < w->model->nq; i++)
@@ -104,7 +110,8 @@ fw_status fw_rest_descend(fw_rest *w, bool *left_unstable) {
         status = fw_rest_evaluate(w);
         if (status != FW_OK) break;
         double most = fw_rest_newton(w, step);
-        bool settled = most <= 1e-15 || (most < 1e-9 && most > 0.5 * before);
+        bool settled =
+            most <= 1e-15 || (most > 0.5 * before && (most < 1e-9 || fw_rest_quiet(w)));
         before = most;
         if (settled) {
             if (escapes == FW_ESCAPES || !escape(w, next)) break;

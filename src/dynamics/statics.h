@@ -46,9 +46,10 @@ typedef struct fw_path { /* equilibria one after the other */
     int *negative;         /* (count) how many are below 0; 0: stable */
     fw_path_mark *mark;    /* (count) */
     int *which;            /* (count) of FW_PATH_SWITCH: index into `active`; else FW_NONE */
-    /* of FW_PATH_FOLD where the load was growing: where the mechanism snaps to, as the largest
-       change of a joint angle; NaN: nowhere, or no fold of this kind */
-    double *snap_rad; /* (count) */
+    /* of FW_PATH_FOLD where the load was growing: how far the mechanism snaps under a load a little
+       above, as the largest way of a centre of mass and the largest rotation; NaN: nowhere, or no
+       fold of this kind */
+    double *snap_m, *snap_rad; /* (count) */
     bool complete;    /* reached s = 1 */
 } fw_path;
 
