@@ -138,28 +138,35 @@ static double share(const damped *d, int dof, int i, int k) {
     return sum > 0 ? part / sum : 0;
 }
 
-/* every eigenvalue goes to the mode that it has most of, a pair takes both places of a mode: the
-   best match first. owner (2 dof): mode of each eigenvalue. */
+/* the best match of what is not given yet: pairs (two places of a mode) or real values (one) */
+static bool best_match(const damped *d, int dof, bool pairs, const int *owner, const int *room,
+                       int *value, int *mode) {
+    double most = -1;
+    for (int i = 0; i < 2 * dof; i++) {
+        if (owner[i] != FW_NONE || d->im[i] < 0 || (d->im[i] > 0) != pairs) continue;
+        for (int k = 0; k < dof; k++) {
+            double now = room[k] >= (pairs ? 2 : 1) ? share(d, dof, i, k) : -1;
+            if (now > most) most = now, *value = i, *mode = k;
+        }
+    }
+    return most >= 0;
+}
+
+/* every eigenvalue goes to the mode that it has most of: pairs first, so that the real ones fill
+   what is left. owner (2 dof): mode of each eigenvalue. */
 static void match(const damped *d, int dof, int *owner, int *room) {
+    int value = 0, mode = 0;
     for (int k = 0; k < dof; k++)
         room[k] = 2;
     for (int i = 0; i < 2 * dof; i++)
         owner[i] = FW_NONE;
-    for (int given = 0; given < 2 * dof;) {
-        int best = FW_NONE, mode = FW_NONE;
-        double most = -1;
-        for (int i = 0; i < 2 * dof; i++) {
-            int needs = d->im[i] == 0 ? 1 : 2;
-            if (owner[i] != FW_NONE || d->im[i] < 0) continue;
-            for (int k = 0; k < dof; k++) {
-                double now = room[k] >= needs ? share(d, dof, i, k) : -1;
-                if (now > most) most = now, best = i, mode = k;
-            }
-        }
-        if (best == FW_NONE) return; /* a pair and two halves of different modes: keep what fits */
-        owner[best] = mode;
-        room[mode]--, given++;
-        if (d->im[best] > 0) owner[best + 1] = mode, room[mode]--, given++;
+    while (best_match(d, dof, true, owner, room, &value, &mode)) {
+        owner[value] = owner[value + 1] = mode;
+        room[mode] = 0;
+    }
+    while (best_match(d, dof, false, owner, room, &value, &mode)) {
+        owner[value] = mode;
+        room[mode]--;
     }
 }
 

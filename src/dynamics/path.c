@@ -49,9 +49,9 @@ static double product(const fw_model *m, const double *x, const double *y) {
     return sum;
 }
 
-/* A soft mode in equilibrium that the load hardly pushes takes no part: round-off, and imperfections
-   of 1e-8 of the load, over a stiffness near zero would throw the state off the branch just where
-   another one crosses it. Once its force is above round-off it takes part. */
+/* A soft mode in equilibrium that the load hardly pushes takes no part: round-off, and
+   imperfections of 1e-8 of the load, over a stiffness near zero would throw the state off the
+   branch just where another one crosses it. Once its force is above round-off it takes part. */
 static bool idle(const fw_rest *w, int k) {
     const double small = 1e-8 / (64 * DBL_EPSILON); /* in units of the noise */
     return fabs(w->reduced.value[k]) <= fmax(w->reduced.tolerance, 1e-3) &&

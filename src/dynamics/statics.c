@@ -110,8 +110,7 @@ fw_status fw_rest_descend(fw_rest *w, bool *left_unstable) {
         status = fw_rest_evaluate(w);
         if (status != FW_OK) break;
         double most = fw_rest_newton(w, step);
-        bool settled =
-            most <= 1e-15 || (most > 0.5 * before && (most < 1e-9 || fw_rest_quiet(w)));
+        bool settled = most <= 1e-15 || (most > 0.5 * before && (most < 1e-9 || fw_rest_quiet(w)));
         before = most;
         if (settled) {
             if (escapes == FW_ESCAPES || !escape(w, next)) break;

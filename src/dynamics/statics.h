@@ -50,7 +50,7 @@ typedef struct fw_path { /* equilibria one after the other */
        above, as the largest way of a centre of mass and the largest rotation; NaN: nowhere, or no
        fold of this kind */
     double *snap_m, *snap_rad; /* (count) */
-    bool complete;    /* reached s = 1 */
+    bool complete;             /* reached s = 1 */
 } fw_path;
 
 typedef struct fw_statics {

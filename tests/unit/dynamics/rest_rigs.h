@@ -22,7 +22,8 @@ static inline bool said(const fixture *f, int number) {
     return false;
 }
 
-/* ground and `body` slide along the direction `axis` through (x, y) and the body's centre of mass */
+/* ground and `body` slide along the direction `axis` through (x, y) and the body's centre of mass
+ */
 static inline fw_tie *rig_guide(fixture *f, rig *r, int body, double x, double y, double axis) {
     if (!r->m.tie) r->m.tie = fw_arena_array(f->arena, fw_tie, 8);
     fw_tie *t = &r->m.tie[r->m.ntie++];
@@ -36,8 +37,8 @@ static inline fw_tie *rig_guide(fixture *f, rig *r, int body, double x, double y
     return t;
 }
 
-static inline fw_spring *rig_spring(rig *r, int a, double ax, double ay, int b, double bx, double by,
-                                    double k, double length) {
+static inline fw_spring *rig_spring(rig *r, int a, double ax, double ay, int b, double bx,
+                                    double by, double k, double length) {
     fw_spring *s = &r->m.spring[r->m.nspring++];
     *s = (fw_spring){.id = "spring",
                      .body_a = a,

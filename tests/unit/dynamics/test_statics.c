@@ -38,11 +38,10 @@ static int count_marks(const fw_path *p, fw_path_mark mark) {
 static void six_bar_reference(void **state) {
     (void)state;
     static const double pose[15] = {
-        0.580982890219696333, 0.812540510142242657, -0.20276460090056886,
-        0.851082277851917696, 2.07598729537354477,  -0.142242773260803712,
-        1.94574108604816751,  2.82800626911484163,  -0.0339868842821703535,
-        2.87672363392112797,  1.99183206720253852,  -0.133436532625450505,
-        2.70617898674088477,  0.727185958535157151, -0.212979542122404647};
+        0.580982890219696333,   0.812540510142242657,  -0.20276460090056886, 0.851082277851917696,
+        2.07598729537354477,    -0.142242773260803712, 1.94574108604816751,  2.82800626911484163,
+        -0.0339868842821703535, 2.87672363392112797,   1.99183206720253852,  -0.133436532625450505,
+        2.70617898674088477,    0.727185958535157151,  -0.212979542122404647};
     static const double force[2][2] = {{0.194549318244111132, 0.184172615702201609},
                                        {-0.155450681755888868, 0.384172615702201609}};
     for (int kind = 0; kind < 4; kind++) {
@@ -55,7 +54,7 @@ static void six_bar_reference(void **state) {
             for (int c = 0; c < 2; c++) {
                 double got = s->reaction_N[2 * i + c];
                 if (i == 3 && (kind & 1)) got += s->reaction_N[12 + c]; /* D shares with D2 */
-                assert_near(-got / 1e-3, force[i / 3][c], 1e-13); /* theirs: on body a */
+                assert_near(-got / 1e-3, force[i / 3][c], 1e-13);       /* theirs: on body a */
             }
         assert_int_equal(s->dof, 3);
         assert_int_equal(s->negative + s->neutral, 0);
@@ -198,7 +197,8 @@ static void imperfection_rounds_the_corner(void **state) {
     fw_arena_free(f.arena);
 }
 
-/* a spring k and from x = gap on a cable k2: x = (F + k2 gap) / (k + k2), the switch at k gap / F */
+/* a spring k and from x = gap on a cable k2: x = (F + k2 gap) / (k + k2), the switch at k gap / F
+ */
 static void cable_takes_hold(void **state) {
     (void)state;
     fixture f = begin();
@@ -287,8 +287,8 @@ static void laws_at_the_end_of_the_scene(void **state) {
     rig_pin(&r, "P", 0, 1, 1, 0, 4, 0);
     r.m.driver = fw_arena_array(f.arena, fw_driver, 1);
     r.m.ndriver = 1;
-    r.m.driver[0] = (fw_driver){.id = "turn", .joint = 0, .tie = FW_NONE,
-                                .law = {.kind = FW_LAW_TABLE, .ntable = 2}};
+    r.m.driver[0] = (fw_driver){
+        .id = "turn", .joint = 0, .tie = FW_NONE, .law = {.kind = FW_LAW_TABLE, .ntable = 2}};
     const double t[2] = {0, 2}, angle[2] = {0, 7};
     r.m.driver[0].law.table_t_s = t;
     r.m.driver[0].law.table_value = angle;

@@ -16,10 +16,10 @@ static double pick(uint64_t *seed) {
     return 2 * rig_random(seed) - 1;
 }
 
-static int other_body(uint64_t *seed, int not) {
+static int other_body(uint64_t *seed, int not ) {
     for (;;) {
         int b = (int)(rig_random(seed) * (BODIES + 1)) - 1;
-        if (b != not) return b;
+        if (b != not ) return b;
     }
 }
 
@@ -86,8 +86,7 @@ static void random_terms(fw_arena *arena, plant *p, uint64_t *seed) {
                                               .damping_Ns_per_m = rig_random(seed),
                                               .length_m = rig_random(seed),
                                               .cable = i == 1};
-        t->load[t->nload++] =
-            (fw_point_load){i, pick(seed), pick(seed), pick(seed), pick(seed)};
+        t->load[t->nload++] = (fw_point_load){i, pick(seed), pick(seed), pick(seed), pick(seed)};
         t->timed[t->ntimed++] = (fw_timed_load){i + 1,      pick(seed), pick(seed), pick(seed),
                                                 pick(seed), pick(seed), &p->ramp};
     }
@@ -129,7 +128,8 @@ static void balance(fw_model *m, double t, const double *y, const double *lambda
 /* largest difference between column j of the tangent and the difference quotient of order 6 */
 static double column_error(fw_model *m, double t, double *y, const double *lambda, int j,
                            const double *matrix, int column) {
-    static const double weight[6] = {-1.0 / 60, 9.0 / 60, -45.0 / 60, 45.0 / 60, -9.0 / 60, 1.0 / 60};
+    static const double weight[6] = {-1.0 / 60, 9.0 / 60,  -45.0 / 60,
+                                     45.0 / 60, -9.0 / 60, 1.0 / 60};
     static const int at[6] = {-3, -2, -1, 1, 2, 3};
     double sum[N] = {0}, f[N], keep = y[j], h = 1e-3, worst = 0;
     for (int k = 0; k < 6; k++) {
