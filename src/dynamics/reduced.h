@@ -4,6 +4,7 @@
 #ifndef FW_DYNAMICS_REDUCED_H
 #define FW_DYNAMICS_REDUCED_H
 #include "dynamics/model.h"
+#include "maths/lapack.h"
 
 typedef struct fw_reduced {
     int n, rows, rank, dof;        /* n = 3 nbody; dof = n - rank */
@@ -12,14 +13,18 @@ typedef struct fw_reduced {
     double *shape;    /* (dof x n) modes: shape M shape^T = 1, shape K shape^T = value */
     double *value;    /* (dof) ascending, 1/time^2 */
     double tolerance; /* of `value`: below it a value is no more than round-off */
-    double *root, *balance, *a, *sigma, *left, *right, *small, *work;
+    double *root;     /* (n) M^-1/2 */
+    double *left;     /* (rows x min(rows, n)) column-major, singular vectors */
+    double *right;    /* (n x n) row-major: right singular vectors, those of the null space last */
+    double *balance, *g, *a, *sigma, *small, *work;
+    fw_lapack_space svd, eigen;
 } fw_reduced;
 
 fw_status fw_reduced_new(fw_arena *arena, const fw_model *m, fw_reduced *r);
 /* null space of G at the model's pose; FW_SOLVER: not finite */
-fw_status fw_reduced_null(fw_arena *arena, const fw_model *m, fw_reduced *r);
+fw_status fw_reduced_null(const fw_model *m, fw_reduced *r);
 /* modes of K (n x n) in it, after fw_reduced_null */
-fw_status fw_reduced_spectrum(fw_arena *arena, fw_reduced *r, const double *stiffness);
+fw_status fw_reduced_spectrum(fw_reduced *r, const double *stiffness);
 /* lambda (2 nblock) with G^T lambda as close to the force (n) as it gets in the mass metric; of all
    such, the one of least norm */
 void fw_reduced_multipliers(const fw_model *m, const fw_reduced *r, const double *force,

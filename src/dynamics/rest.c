@@ -245,7 +245,7 @@ static void project_on_modes(fw_rest *w) {
 fw_status fw_rest_evaluate(fw_rest *w) {
     fw_model *m = w->model;
     if (!fw_rest_close(w, w->y)) return FW_SOLVER;
-    FW_TRY(fw_reduced_null(w->arena, m, &w->reduced));
+    FW_TRY(fw_reduced_null(m, &w->reduced));
     fw_model_forces(m, 0, w->y);
     for (int i = 0; i < m->nq; i++) {
         w->force[i] = inertia_of(m, i) * m->accel[i];
@@ -253,7 +253,7 @@ fw_status fw_rest_evaluate(fw_rest *w) {
     }
     fw_reduced_multipliers(m, &w->reduced, w->force, w->lambda);
     fw_tangent(m, 0, w->y, w->lambda, w->stiffness, NULL);
-    FW_TRY(fw_reduced_spectrum(w->arena, &w->reduced, w->stiffness));
+    FW_TRY(fw_reduced_spectrum(&w->reduced, w->stiffness));
     derivative_by_factor(w);
     project_on_modes(w);
     return FW_OK;
@@ -287,7 +287,8 @@ static const char *block_name(const fw_rest *w, int block) {
     return id ? id : "(unnamed)";
 }
 
-/* rows that take part in a combination of rows that is zero */
+/* rows that take part in a combination of rows that is zero: what U_1, the part of U that counts,
+   misses of a unit row */
 fw_status fw_rest_rank(const fw_rest *w, fw_rank *rank) {
     const fw_reduced *r = &w->reduced;
     const fw_model *m = w->model;
@@ -297,13 +298,13 @@ fw_status fw_rest_rank(const fw_rest *w, fw_rank *rank) {
     fw_text names = fw_text_new(w->arena);
     for (int i = 0, row = 0; i < m->nblock; i++) {
         int count = m->block[i].rows == FW_ROWS_PIN || m->block[i].rows == FW_ROWS_SLIDE ? 2 : 1;
-        double share = 0;
+        double missing = count;
         for (int k = 0; k < count; k++, row++)
-            for (int l = r->rank; l < r->rows; l++) {
-                double part = r->left[(size_t)row * (size_t)r->rows + (size_t)l];
-                share += part * part;
+            for (int l = 0; l < r->rank; l++) {
+                double part = r->left[(size_t)l * (size_t)r->rows + (size_t)row];
+                missing -= part * part;
             }
-        if (share > 0.02)
+        if (missing > 0.02)
             fw_text_printf(&names, "%s%s", names.length ? ", " : "", block_name(w, i));
     }
     FW_TRY(fw_text_end(&names));

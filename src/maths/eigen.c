@@ -12,57 +12,9 @@ static bool finite_all(const double *value, size_t count) {
     return sum == 0;
 }
 
-static void identity(int n, double *a) {
-    memset(a, 0, (size_t)n * (size_t)n * sizeof *a);
-    for (int i = 0; i < n; i++)
-        a[(size_t)i * (size_t)n + (size_t)i] = 1;
-}
-
 /* LAPACK's answer to a query for the size of its work array; 0: nothing sensible */
 static size_t asked(int info, double size) {
     return info == 0 && size >= 1 && size < 1e9 ? (size_t)size : 0;
-}
-
-/* Singular values by dgesvd. The row-major a is LAPACK's transpose: a^T = V S U^T, so that the
-   columns of its first factor, which lie one after the other, are the right singular vectors of a.
-   Error: round-off times the largest singular value. Cost about 20 n^3. Source: LAPACK Users' Guide
-   2.4.6. Test: test_eigen.c. */
-fw_status fw_svd(fw_arena *arena, int m, int n, double *a, double *sigma, double *left,
-                 double *right) {
-    size_t rows = (size_t)m, columns = (size_t)n;
-    if (m == 0 || n == 0) {
-        identity(m, left);
-        identity(n, right);
-        return FW_OK;
-    }
-    if (!finite_all(a, rows * columns)) return FW_SOLVER;
-    double size = 0, *work;
-    int info = LAPACKE_dgesvd_work(LAPACK_COL_MAJOR, 'A', 'A', n, m, a, n, sigma, right, n, left, m,
-                                   &size, -1);
-    size_t length = asked(info, size);
-    if (!length) return FW_SOLVER;
-    fw_mark mark = fw_arena_mark(arena);
-    FW_NEED(work = fw_arena_array(arena, double, length));
-    info = LAPACKE_dgesvd_work(LAPACK_COL_MAJOR, 'A', 'A', n, m, a, n, sigma, right, n, left, m,
-                               work, (int)length);
-    fw_arena_rewind(arena, mark);
-    return info == 0 ? FW_OK : FW_SOLVER;
-}
-
-/* dsyev; the upper triangle of LAPACK's column-major view is the lower one of a. Error: round-off
-   times the largest |value|. Cost about 9 n^3. Test: test_eigen.c. */
-fw_status fw_eigen_symmetric(fw_arena *arena, int n, double *a, double *value) {
-    if (n == 0) return FW_OK;
-    if (!finite_all(a, (size_t)n * (size_t)n)) return FW_SOLVER;
-    double size = 0, *work;
-    int info = LAPACKE_dsyev_work(LAPACK_COL_MAJOR, 'V', 'U', n, a, n, value, &size, -1);
-    size_t length = asked(info, size);
-    if (!length) return FW_SOLVER;
-    fw_mark mark = fw_arena_mark(arena);
-    FW_NEED(work = fw_arena_array(arena, double, length));
-    info = LAPACKE_dsyev_work(LAPACK_COL_MAJOR, 'V', 'U', n, a, n, value, work, (int)length);
-    fw_arena_rewind(arena, mark);
-    return info == 0 ? FW_OK : FW_SOLVER;
 }
 
 static void transpose(int n, double *a) {
