@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double fw_visible = 0.16; /* amplitude of the frames: rad, or scaled lengths */
+static const double fw_visible = 0.22; /* amplitude of the frames: rad, or scaled lengths */
 
 typedef struct damped { /* in modal coordinates, scaled */
     double *damping;    /* (dof x dof) Phi^T C Phi */

@@ -59,13 +59,14 @@ static void torque(const picture *p, const fw_torque *t) {
     double value = at_end(p, t->law) * t->value_Nm, r = 17.0;
     if (value == 0.0) return;
     fw_vec2 c = place(p, t->body, 0.0, 0.0);
-    double sign = value > 0.0 ? 1.0 : -1.0; /* counter-clockwise, y down in the picture */
+    /* counter-clockwise from below to the left, else to the right: the tip points down there */
+    double sign = value > 0.0 ? 1.0 : -1.0;
     fw_report_markup(p->out,
                      "<path d=\"M{c} {c}A{c} {c} 0 1 {i} {c} {c}\" fill=\"none\" "
-                     "stroke=\"#D55E00\" stroke-width=\"2.5\"/><path d=\"M{c} {c}l{c} 9h{c}Z\" "
+                     "stroke=\"#D55E00\" stroke-width=\"2.5\"/><path d=\"M{c} {c}l-5-10h10Z\" "
                      "fill=\"#D55E00\"/>\n",
                      c.x, c.y + r, r, r, sign > 0.0 ? 0 : 1, c.x - sign * r, c.y, c.x - sign * r,
-                     c.y + 4.0, -5.0, 10.0);
+                     c.y + 9.0);
     label(p, c.x + r + 4.0, c.y - 8.0, value, "N\u00b7m");
 }
 
@@ -102,7 +103,7 @@ fw_status fw_report_statics_svg(fw_arena *arena, const fw_device *device, const 
     FW_TRY(poses(arena, mechanism, statics, &motion));
     fw_box box = fw_report_box_empty();
     fw_report_poses_reach(&box, mechanism, &motion);
-    fw_report_view view = fw_report_device_view(device, layout, &box, WIDTH);
+    fw_report_view view = fw_report_poses_view(device, layout, &box, WIDTH);
     const fw_report_film film = {.device = device,
                                  .layout = layout,
                                  .mechanism = mechanism,

@@ -91,9 +91,9 @@ static void bodies(const film *f) {
                              platform ? "#bcd0e3" : "#d5dbe1");
         else
             fw_report_markup(f->out,
-                             "<path fill=\"none\" stroke=\"{r}\" stroke-width=\"7\" "
+                             "<path fill=\"none\" stroke=\"{r}\" stroke-width=\"{i}\" "
                              "stroke-linecap=\"round\" d=\"",
-                             platform ? "#7f9fbd" : "#9aa4ae");
+                             platform ? "#7f9fbd" : "#9aa4ae", f->small ? 5 : 7);
         body_shape(f, b);
         fw_text_add(f->out, "\"/></g></g></g>\n");
     }
@@ -199,6 +199,13 @@ static void line_at(const film *f, const link_line *l, double t_s) {
                      fw_report_y(f->view, q.y));
 }
 
+/* where a spring or rod is held by the ground */
+static void anchor(const film *f, int body, double x, double y) {
+    if (body != FW_GROUND) return;
+    fw_report_markup(f->out, "<path d=\"M{c} {c}m-4-4h8v8h-8z\" fill=\"#57606a\"/>\n",
+                     fw_report_x(f->view, x), fw_report_y(f->view, y));
+}
+
 static void moving_line(const film *f, const link_line *l, const char *look) {
     fw_report_markup(f->out, "<path fill=\"none\" {r} d=\"", look);
     line_at(f, l, f->still_s);
@@ -223,6 +230,8 @@ static void links(const film *f) {
         moving_line(f, &l,
                     s->cable ? "stroke=\"#424a53\" stroke-width=\"1.2\""
                              : "stroke=\"#8250df\" stroke-width=\"2\" stroke-dasharray=\"2 2\"");
+        anchor(f, s->body_a, s->ax_m, s->ay_m);
+        anchor(f, s->body_b, s->bx_m, s->by_m);
     }
     for (int i = 0; i < f->mechanism->ntie; i++) {
         const fw_tie *t = &f->mechanism->tie[i];
@@ -244,6 +253,9 @@ static void links(const film *f) {
                     t->kind == FW_TIE_PRISMATIC
                         ? "stroke=\"#57606a\" stroke-width=\"2\" stroke-linecap=\"round\""
                         : "stroke=\"#1f2328\" stroke-width=\"2.5\" stroke-linecap=\"round\"");
+        if (t->kind == FW_TIE_PRISMATIC) continue;
+        anchor(f, t->body_a, t->ax_m, t->ay_m);
+        anchor(f, t->body_b, t->bx_m, t->by_m);
     }
 }
 
@@ -265,8 +277,9 @@ fw_status fw_report_film_draw(fw_arena *arena, const fw_report_film *from) {
     fw_report_bends bends;
     FW_TRY(fw_report_bends_make(arena, f.device, f.layout, &bends));
     still_parts(&f);
-    ghost(&f);
+    if (fw_report_drawn(f.layout)) ghost(&f);
     bodies(&f);
+    if (!fw_report_drawn(f.layout)) ghost(&f); /* sticks would hide it */
     flexures(&f, &bends);
     links(&f);
     pins(&f);
@@ -313,4 +326,11 @@ void fw_report_poses_reach(fw_box *box, const fw_mechanism *mechanism, const fw_
             add_point(box, &f, s->body_b, s->bx_m, s->by_m, t);
         }
     }
+}
+
+fw_report_view fw_report_poses_view(const fw_device *device, const fw_layout *layout,
+                                    const fw_box *reach, double width) {
+    if (fw_report_drawn(layout)) return fw_report_device_view(device, layout, reach, width);
+    double size = fmax(reach->x1 - reach->x0, reach->y1 - reach->y0);
+    return fw_report_view_fit(*reach, width, size > 0.0 && isfinite(size) ? 0.12 * size : 1e-3);
 }

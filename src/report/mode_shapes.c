@@ -79,7 +79,7 @@ static fw_status reach(sheet *s, int count) {
                                &motion));
         fw_report_poses_reach(&box, s->mechanism, &motion);
     }
-    s->view = fw_report_device_view(s->device, s->layout, &box, PANEL);
+    s->view = fw_report_poses_view(s->device, s->layout, &box, PANEL);
     return FW_OK;
 }
 

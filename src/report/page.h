@@ -115,6 +115,9 @@ fw_status fw_report_poses(fw_arena *arena, const fw_mechanism *mechanism, int co
                           fw_motion *motion);
 /* adds where bodies, joints, springs and rods get to */
 void fw_report_poses_reach(fw_box *box, const fw_mechanism *mechanism, const fw_motion *motion);
+/* a view of that; where the device is drawn, of the whole of it too */
+fw_report_view fw_report_poses_view(const fw_device *device, const fw_layout *layout,
+                                    const fw_box *reach, double width);
 
 /* ---- decimate.c ---- */
 /* at most `most` indices that keep the first, the last and every extreme; returns how many */

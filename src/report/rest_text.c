@@ -11,6 +11,11 @@ const char *fw_report_path_mark(fw_path_mark mark) {
     return text[mark];
 }
 
+/* eight decimals in a column; what rounds to zero has no sign */
+static void column(fw_text *out, double value) {
+    fw_text_real(out, "%14.8f", fabs(value) < 5e-9 ? 0.0 : value);
+}
+
 static void rank_line(fw_text *out, int dof, const fw_rank *r) {
     fw_text_printf(out, "%d degree%s of freedom; ", dof, dof == 1 ? "" : "s");
     if (r->rows == 0) {
@@ -125,19 +130,21 @@ fw_status fw_report_statics_text(const fw_mechanism *m, const fw_scene *scene, c
     stability(out, s);
     rank_line(out, s->dof, &s->rank);
     active(out, s);
-    fw_text_add(out, "\n  body             x mm           y mm        phi deg\n");
+    fw_text_add(out, "\n  body             x mm          y mm       phi deg\n");
     for (int b = 0; b < m->nbody; b++) {
         fw_text_printf(out, "  %-8s ", m->body[b].id);
-        fw_text_real(out, "%14.8f ", s->q[3 * b] * 1e3);
-        fw_text_real(out, "%14.8f ", s->q[3 * b + 1] * 1e3);
-        fw_text_real(out, "%14.8f\n", degrees(s->q[3 * b + 2]));
+        column(out, s->q[3 * b] * 1e3);
+        column(out, s->q[3 * b + 1] * 1e3);
+        column(out, degrees(s->q[3 * b + 2]));
+        fw_text_add(out, "\n");
     }
-    if (m->npin > 0) fw_text_add(out, "\n  joint        angle deg    force on body b (x, y) uN\n");
+    if (m->npin > 0) fw_text_add(out, "\n  joint       angle deg      force on b, x uN and y uN\n");
     for (int k = 0; k < m->npin; k++) {
         fw_text_printf(out, "  %-8s ", m->pin[k].id);
-        fw_text_real(out, "%13.8f ", degrees(s->angle_rad[k]));
-        fw_text_real(out, "%13.5f ", s->reaction_N[2 * k] * 1e6);
-        fw_text_real(out, "%13.5f\n", s->reaction_N[2 * k + 1] * 1e6);
+        column(out, degrees(s->angle_rad[k]));
+        column(out, s->reaction_N[2 * k] * 1e6);
+        column(out, s->reaction_N[2 * k + 1] * 1e6);
+        fw_text_add(out, "\n");
     }
     if (s->path) path_events(out, s);
     return fw_text_end(out);
