@@ -249,7 +249,7 @@ static fw_ode_result step(fw_stepper *b) {
 
 static fw_ode_span span_of(const fw_stepper *b) {
     const alpha *s = (const alpha *)b;
-    return (fw_ode_span){b->h, b->y_old, s->g_old, b->y, s->g, false};
+    return (fw_ode_span){b->h, b->y_old, s->g_old, b->y, s->g, true};
 }
 
 static void prepare(fw_stepper *s) {

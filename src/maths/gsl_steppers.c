@@ -80,7 +80,9 @@ static int jacobian(double t, const double *y, double *dfdy, double *dfdt, void 
         for (size_t k = 0; k < n; k++)
             dfdy[i * n + k] = k < columns ? s->j[i * columns + k] : 0;
     }
-    return fw_ode_finite(dfdt, b->ode.n) ? GSL_SUCCESS : GSL_FAILURE;
+    bool good = fw_ode_finite(dfdt, b->ode.n);
+    if (!good) s->nan = true;
+    return good ? GSL_SUCCESS : GSL_FAILURE;
 }
 
 static int error_level(void *context, double y, double dydt, double h, size_t i, double *level) {
