@@ -298,5 +298,5 @@ ROW(msadams, .name = "gsl-msadams",
     .summary = "GSL's Adams multistep method of order 1 to 12: few evaluations per step",
     .order = 12, .variable_order = true);
 ROW(bsimp, .name = "gsl-bsimp",
-    .summary = "GSL's semi-implicit extrapolation of Bader and Deuflhard", .order = 8,
-    .implicit = true);
+    .summary = "GSL's semi-implicit extrapolation of Bader and Deuflhard", .order = 12,
+    .implicit = true, .variable_order = true);

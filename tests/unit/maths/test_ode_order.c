@@ -47,7 +47,7 @@ static void convergence(const problem *p) {
             assert_true(quadrature[1] < 1e4 * tight);
             continue;
         }
-        if (!(order > row->order - 0.5 && order < row->order + 0.9))
+        if (!(order > row->order - 0.5 && order < row->order + 1.2))
             fail_msg("%s: order %.2f instead of %d (%g in %g steps, %g in %g)", row->name, order,
                      row->order, coarse, steps[0], fine, steps[1]);
         order = log(quadrature[0] / quadrature[1]) / log(steps[1] / steps[0]);
