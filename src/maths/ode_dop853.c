@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* DOP853 of Dormand and Prince: explicit Runge-Kutta of order 8 in 12 stages with error estimates
-   of order 5 and 3, PI step control, and dense output of order 7 from three more stages. Y_i = y +
-   h sum_j a_ij f(t + c_j h, Y_j),   y(t + h) = y + h sum_i b_i f(t + c_i h, Y_i) Source: Hairer,
-   Norsett and Wanner, Solving ODEs I, 2nd ed., II.5 and II.10. Cost of a step of n components: 12
-   right-hand sides and 74 n multiplications; of the dense output 3 and 72 n. Tests: test_dop853.c
-   (coefficients), test_ode_*.c */
+   of order 5 and 3, PI step control, and dense output of order 7 from three more stages.
+     Y_i = y + h sum_j a_ij f(t + c_j h, Y_j),   y(t + h) = y + h sum_i b_i f(t + c_i h, Y_i)
+   Source: Hairer, Norsett and Wanner, Solving ODEs I, 2nd ed., II.5 and II.10. Cost of a step of n
+   components: 12 right-hand sides and 74 n multiplications; of the dense output 3 and 72 n.
+   Tests: test_ode_rk.c (coefficients), test_ode_*.c */
 #include "maths/dop853_table.h"
 #include "maths/ode.h"
 #include "maths/rk_kernels.h"

@@ -5,7 +5,7 @@
    number, so that a step needs one real and one complex factorisation of (sigma I - J). Error
    estimate of order 3, filtered by the real factor; Gustafsson's predictive step control.
    The estimate falls with h^4 and the error at the end with h^5, so the tolerance inside is
-   0.34 rtol^0.8: the error is proportional to rtol, and at 1e-4 the steps are those of RADAU5.
+   0.34 rtol^0.8: the error is proportional to rtol, and at 1e-4 the steps are about RADAU5's.
    Dense output: the collocation polynomial (order 3); for u of second order problems the quintic
    through both ends where the two agree within the tolerance, that is where the step is not stiff.
    Quadratures do not enter Newton's iteration: they are summed over the converged stages.

@@ -1,9 +1,45 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The coefficients of dopri5 and radau5, and the vector kernels. */
+/* The coefficients of dop853, dopri5 and radau5, and the vector kernels. */
+#include "maths/dop853_table.h"
 #include "maths/dopri5_table.h"
 #include "maths/radau5_table.h"
 #include "maths/rk_kernels.h"
 #include "test.h"
+
+/* row sums; quadrature conditions of b (order 8), of the fifth and the third order error; trees of
+   height two */
+static void test_dop853(void **state) {
+    (void)state;
+    for (int i = 1; i < DOP_ALL; i++) {
+        double sum = 0;
+        for (int j = dop_row[i]; j < dop_row[i + 1]; j++) {
+            sum += dop_a[j].a;
+            assert_true(dop_a[j].stage < i && (j > dop_row[i] || dop_a[j].stage == 0));
+        }
+        assert_near(sum, dop_c[i], 1e-14);
+    }
+    const dop_entry *b = dop_a + dop_row[12];
+    for (int power = 0; power < 8; power++) {
+        double sum = 0, five = 0, three = 0;
+        for (int j = 0; j < 8; j++) {
+            assert_int_equal(b[j].stage, dop_e5[j].stage); /* the step relies on it */
+            sum += b[j].a * pow(dop_c[b[j].stage], power);
+            five += dop_e5[j].a * pow(dop_c[dop_e5[j].stage], power);
+        }
+        for (int j = 0; j < 3; j++)
+            three += dop_b3[j].a * pow(dop_c[dop_b3[j].stage], power);
+        assert_near(sum, 1.0 / (power + 1), 1e-14);
+        if (power < 5) assert_near(five, 0, 1e-14);
+        if (power < 3) assert_near(three, 1.0 / (power + 1), 1e-14);
+    }
+    for (int power = 1; power < 7; power++) {
+        double sum = 0;
+        for (int j = 0; j < 8; j++)
+            for (int m = dop_row[b[j].stage]; m < dop_row[b[j].stage + 1]; m++)
+                sum += b[j].a * dop_a[m].a * pow(dop_c[dop_a[m].stage], power);
+        assert_near(sum, 1.0 / ((power + 1) * (power + 2)), 1e-13);
+    }
+}
 
 /* row sums; quadrature conditions of b (order 5), of b - e (order 4) and of the dense output; trees
    of height two */
@@ -167,6 +203,7 @@ static void test_kernels_stop_nothing(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_dop853),
         cmocka_unit_test(test_dopri5),
         cmocka_unit_test(test_radau5),
         cmocka_unit_test(test_kernels),
