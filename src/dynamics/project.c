@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "dynamics/model.h"
+#include "dynamics/kernel.h"
 #include <float.h>
 #include <math.h>
 
@@ -78,6 +78,13 @@ bool fw_model_project(void *model, double t, double *y, double *f) {
         return !m->broken;
     }
     m->projections++;
+    if (m->kernel) {
+        if (!fw_kernel_project(m->kernel, y, f)) return false;
+        fw_kernel_norms norms = fw_kernel_norms_of(m->kernel);
+        m->worst_position = fmax(m->worst_position, norms.position);
+        m->worst_velocity = fmax(m->worst_velocity, norms.velocity);
+        return true;
+    }
     double worst = m->worst_position, worst_velocity = m->worst_velocity;
     bool good = fw_model_project_position(m, t, y);
     if (good) {
