@@ -47,17 +47,17 @@ fw_status fw_kernel_plan_new(fw_arena *arena, const fw_model *m, fw_kernel_plan 
     const fw_chain *c = &m->chain;
     int *torsion;
     *p = (fw_kernel_plan){.bodies = m->nbody,
-                   .pins = m->nblock,
-                   .blocks = c->blocks,
-                   .torsions = m->ntorsion,
-                   .nq = m->nq,
-                   .ny = m->ny,
-                   .dissipates = m->dissipated >= 0,
-                   .body = m->body,
-                   .column = c->column,
-                   .row = c->row,
-                   .first = c->first,
-                   .update = c->update};
+                          .pins = m->nblock,
+                          .blocks = c->blocks,
+                          .torsions = m->ntorsion,
+                          .nq = m->nq,
+                          .ny = m->ny,
+                          .dissipates = m->dissipated >= 0,
+                          .body = m->body,
+                          .column = c->column,
+                          .row = c->row,
+                          .first = c->first,
+                          .update = c->update};
     FW_TRY(plan_couplings(arena, m, p));
     FW_NEED(torsion = fw_arena_array(arena, int, 2 * (size_t)m->ntorsion));
     for (int i = 0; i < m->ntorsion; i++)
@@ -66,7 +66,8 @@ fw_status fw_kernel_plan_new(fw_arena *arena, const fw_model *m, fw_kernel_plan 
     return FW_OK;
 }
 
-fw_status fw_core_new(fw_arena *arena, const fw_kernel_plan *plan, const fw_core_ops *ops, fw_core *k) {
+fw_status fw_core_new(fw_arena *arena, const fw_kernel_plan *plan, const fw_core_ops *ops,
+                      fw_core *k) {
     const fw_kernel_plan *p = plan;
     size_t w = (size_t)ops->width, n = (size_t)p->bodies + 1, m = (size_t)p->pins;
     *k = (fw_core){.plan = *plan, .ops = ops, .healthy = fw_healthy};

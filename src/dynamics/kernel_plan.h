@@ -75,7 +75,8 @@ struct fw_core {
 bool fw_core_plain(const fw_model *model);
 fw_status fw_kernel_plan_new(fw_arena *arena, const fw_model *model, fw_kernel_plan *plan);
 /* memory for `ops->width` designs of this plan */
-fw_status fw_core_new(fw_arena *arena, const fw_kernel_plan *plan, const fw_core_ops *ops, fw_core *core);
+fw_status fw_core_new(fw_arena *arena, const fw_kernel_plan *plan, const fw_core_ops *ops,
+                      fw_core *core);
 /* the numbers of a model of the same topology into one lane */
 void fw_core_fill(fw_core *core, const fw_model *model, int lane);
 
