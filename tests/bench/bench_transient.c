@@ -132,12 +132,15 @@ static void scaling(const request *wish) {
         j.r = rig_windows(j.arena, sizes[i]);
         j.r.scene.duration_s = 1;
         j.options.samples = 2;
-        j.options.rtol = 1e-10;
         char setting[64];
         snprintf(setting, sizeof setting, "N=%d", sizes[i]);
-        outcome o = measure(simulate, &j);
-        o.error = (double)NAN;
-        print_row("flexwright", setting, j.options.rtol, o);
+        for (int e = 6; e <= 10; e += 2) {
+            if (!wanted(wish, setting, e)) continue;
+            j.options.rtol = pow(10, -e);
+            outcome o = measure(simulate, &j);
+            o.error = (double)NAN;
+            print_row("flexwright", setting, j.options.rtol, o);
+        }
         fw_arena_free(j.arena);
     }
 }
