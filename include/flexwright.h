@@ -86,6 +86,7 @@ typedef struct fw_design_options {
     double mask_tolerance_m; /* largest distance of an arc from its polygon, 1.42e-9..1e-6 m;
                                 default 5e-9 */
     size_t memory_cap;       /* most bytes that one design holds; default 256 MiB */
+    const char *stabilise;   /* "projection" (default), "baumgarte" or "none" */
 } fw_design_options;
 
 /* Fills `size` bytes (as the caller's header defines the struct) with the defaults. NULL options:

@@ -125,29 +125,25 @@ static const char *take_scene(fw_cli_options *o, const char *v) {
     return *v ? NULL : "needs the name of a scene";
 }
 
-static const char *from_table(const char *v, const fw_method_row *row, size_t n) {
-    for (size_t i = 0; i < n; i++)
-        if (strcmp(v, row[i].name) == 0) return NULL;
+static const char *from_table(const char *v, fw_method_row (*at)(size_t)) {
+    for (size_t i = 0; at(i).name; i++)
+        if (strcmp(v, at(i).name) == 0) return NULL;
     return "is not known in this version; see --help for those that are";
 }
 
 static const char *take_method(fw_cli_options *o, const char *v) {
-    size_t n;
-    const fw_method_row *row = fw_method_table(&n);
     o->design.method = v;
-    return from_table(v, row, n);
+    return from_table(v, fw_method_at);
 }
 
 static const char *take_integrator(fw_cli_options *o, const char *v) {
-    size_t n;
-    const fw_method_row *row = fw_integrator_table(&n);
     o->design.integrator = v;
-    return from_table(v, row, n);
+    return from_table(v, fw_integrator_at);
 }
 
 static const char *take_stabilise(fw_cli_options *o, const char *v) {
-    (void)o;
-    return strcmp(v, "projection") == 0 ? NULL : "knows only projection in this version";
+    o->design.stabilise = v;
+    return from_table(v, fw_stabilisation_at);
 }
 
 static const char *take_hinge_model(fw_cli_options *o, const char *v) {
@@ -204,8 +200,9 @@ static const option_row table[] = {
     {"method", 0, "NAME", "how the constraint forces are found; default chain", FW_OPT_SIMULATE,
      take_method},
     {"integrator", 0, "NAME", "default auto", FW_OPT_SIMULATE, take_integrator},
-    {"stabilise", 0, "HOW", "projection", FW_OPT_SIMULATE, take_stabilise},
-    {"rtol", 0, "R", "relative tolerance of the integrator, used between 1e-13 and 1e-5; default from --accuracy",
+    {"stabilise", 0, "HOW", "projection, baumgarte or none", FW_OPT_SIMULATE, take_stabilise},
+    {"rtol", 0, "R",
+     "relative tolerance of the integrator, used between 1e-13 and 1e-5; default from --accuracy",
      FW_OPT_SIMULATE, take_rtol},
     {"samples", 0, "N", "rows of the CSV, evenly over the scene; default 1001", FW_OPT_SIMULATE,
      take_samples},
@@ -329,21 +326,21 @@ void fw_cli_help(void) {
         stdout);
 }
 
+static void print_rows(const char *title, fw_method_row (*at)(size_t)) {
+    puts(title);
+    for (size_t i = 0; at(i).name; i++)
+        printf("  %-24s %s\n", at(i).name, at(i).summary);
+}
+
 void fw_cli_command_help(const fw_command *command) {
     printf("flexwright %s%s%s [options]\n\n  %s\n\n%s\n\nOptions:\n", command->name,
            command->argument ? " " : "", command->argument ? command->argument : "",
            command->example, command->text);
     print_options(command->options, stdout);
     if (command->options & FW_OPT_SIMULATE) {
-        size_t n;
-        fputs("\nMethods:\n", stdout);
-        const fw_method_row *row = fw_method_table(&n);
-        for (size_t i = 0; i < n; i++)
-            printf("  %-12s %s\n", row[i].name, row[i].summary);
-        fputs("Integrators:\n", stdout);
-        row = fw_integrator_table(&n);
-        for (size_t i = 0; i < n; i++)
-            printf("  %-12s %s\n", row[i].name, row[i].summary);
+        print_rows("\nMethods:", fw_method_at);
+        print_rows("Integrators:", fw_integrator_at);
+        print_rows("Stabilisation:", fw_stabilisation_at);
     }
 }
 

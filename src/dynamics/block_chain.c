@@ -3,12 +3,11 @@
 #include <math.h>
 #include <string.h>
 
-/* S = G M^-1 G^T from the arms r (world axes): with p(r) = (-r_y, r_x), the rows of pin i on body b
-   are +-[I, p(r)], so the block of pins i, j that share b is +-(I/m + p(r_i) p(r_j)^T / J).
-   Inputs arm (4 pins), minv, jinv; outputs diagonal (3 pins), block (4 blocks). Exact.
-   Cost 15 flops per pin and body. Source: reference-point coordinates, e.g. Garcia de Jalon and
-   Bayo 1994, ch. 2 and 5. Test: test_block_chain.c. */
-void fw_chain_assemble(fw_model *m) {
+/* ---- S where every block is a pin ---- */
+
+/* with p(r) = (-r_y, r_x) the rows of pin i on body b are +-[I, p(r_i)], so the block of pins i, j
+   that share b is +-(I/m + p(r_i) p(r_j)^T / J); 15 flops per pin and body */
+static void assemble_pins(fw_model *m) {
     fw_chain *restrict c = &m->chain;
     const double *restrict arm = m->arm, *restrict minv = m->minv, *restrict jinv = m->jinv;
     for (int i = 0; i < c->pins; i++) {
@@ -19,7 +18,6 @@ void fw_chain_assemble(fw_model *m) {
         c->diagonal[3 * i + 1] = -(ja * ax * ay + jb * bx * by);
         c->diagonal[3 * i + 2] = mass + ja * ax * ax + jb * bx * bx;
     }
-    memset(c->block, 0, 4 * (size_t)c->blocks * sizeof *c->block);
     for (int i = 0; i < c->ncoupling; i++) {
         const fw_coupling *k = &c->coupling[i];
         const double *r = arm + 2 * k->row_arm, *s = arm + 2 * k->column_arm;
@@ -32,17 +30,63 @@ void fw_chain_assemble(fw_model *m) {
     }
 }
 
-/* S + eps (1/m_a + 1/m_b) = L D L^T, column by column in the compiled order. The shift goes with
-   the smaller eigenvalue of a pin's block: one that went with the larger, r^2/J, would drown it
-   where J is small against m r^2. Outputs pivot (inverse pivot blocks), factor (L). `block` is used
-   up. Error: backward stable, S + eps D is positive definite. Cost: chains and rings O(pins).
-   Source: Golub and Van Loan, Matrix Computations, ch. 4. Test: test_block_chain.c. */
+/* ---- S of any blocks, from their 2 x 3 Jacobians ---- */
+
+/* row k of g times M^-1 times row l of h */
+static double weighted(const double *g, int k, const double *h, int l, double minv, double jinv) {
+    g += 3 * k, h += 3 * l;
+    return minv * (g[0] * h[0] + g[1] * h[1]) + jinv * g[2] * h[2];
+}
+
+static void assemble_any(fw_model *m) {
+    fw_chain *c = &m->chain;
+    for (int i = 0; i < c->pins; i++) {
+        double *d = c->diagonal + 3 * i;
+        fw_rows rows = m->block[i].rows;
+        d[0] = d[1] = 0;
+        d[2] = rows == FW_ROWS_PIN || rows == FW_ROWS_SLIDE ? 0 : 1; /* an empty row: lambda = 0 */
+        for (int side = 0; side < 2; side++) {
+            int body = m->body[2 * i + side];
+            const double *g = m->jac + 12 * i + 6 * side;
+            double minv = m->minv[body], jinv = m->jinv[body];
+            d[0] += weighted(g, 0, g, 0, minv, jinv);
+            d[1] += weighted(g, 0, g, 1, minv, jinv);
+            d[2] += weighted(g, 1, g, 1, minv, jinv);
+        }
+    }
+    for (int i = 0; i < c->ncoupling; i++) {
+        const fw_coupling *k = &c->coupling[i];
+        const double *g = m->jac + 6 * k->row_arm, *h = m->jac + 6 * k->column_arm;
+        double *to = c->block + 4 * k->block, minv = m->minv[k->body], jinv = m->jinv[k->body];
+        for (int e = 0; e < 4; e++)
+            to[e] += weighted(g, e / 2, h, e % 2, minv, jinv);
+    }
+}
+
+/* S = G M^-1 G^T in 2 x 2 blocks along the joint graph. Inputs: the pose (arms or jac), minv, jinv;
+   outputs diagonal (3 pins), block (4 blocks). Exact but for rounding. Cost O(pins). Source:
+   reference-point coordinates, e.g. Garcia de Jalon and Bayo 1994, ch. 2 and 5. Test:
+   test_block_chain.c. */
+void fw_chain_assemble(fw_model *m) {
+    memset(m->chain.block, 0, 4 * (size_t)m->chain.blocks * sizeof *m->chain.block);
+    if (m->plain)
+        assemble_pins(m);
+    else
+        assemble_any(m);
+}
+
+/* S + eps D = L D L^T, D = 1/m_a + 1/m_b for pins, column by column in the compiled order. The
+   shift goes with the smaller eigenvalue of a pin's block: one that went with the larger, r^2/J,
+   would drown it where J is small against m r^2. Outputs pivot (inverse pivot blocks), factor (L).
+   `block` is used up. Error: backward stable, S + eps D is positive definite. Cost: chains and
+   rings O(pins). Source: Golub and Van Loan, Matrix Computations, ch. 4. Test: test_block_chain.c.
+ */
 bool fw_chain_factor(fw_chain *c, double epsilon) {
     double *restrict d = c->diagonal, *restrict block = c->block, *restrict factor = c->factor;
     c->shift = epsilon;
     for (int i = 0; i < c->pins; i++) {
-        d[3 * i] += epsilon * c->isotropic[i];
-        d[3 * i + 2] += epsilon * c->isotropic[i];
+        d[3 * i] += epsilon * c->isotropic[2 * i];
+        d[3 * i + 2] += epsilon * c->isotropic[2 * i + 1];
     }
     bool positive = true;
     for (int k = 0; k < c->pins; k++) {
@@ -117,7 +161,7 @@ void fw_chain_proximal(const fw_chain *c, const double *right, double *x, double
         double residual = 0;
         for (int i = 0; i < n; i++) {
             x[i] += more[i];
-            more[i] *= c->shift * c->isotropic[i / 2];
+            more[i] *= c->shift * c->isotropic[i];
             residual = fmax(residual, fabs(more[i]));
         }
         if (sweep > 0 && !(residual > 1e-14 * size)) return;

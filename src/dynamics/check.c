@@ -15,36 +15,26 @@ static const char *name_of(const char *id) {
 /* ---- names ---- */
 
 static fw_status pick(fw_diags *diags, int number, const char *what, const char *wanted,
-                      const fw_method_row *row, size_t count, const char **name) {
-    *name = row[0].name;
+                      fw_method_row (*at)(size_t), const char **name) {
+    *name = at(0).name;
     if (!wanted) return FW_OK;
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(row[i].name, wanted) == 0) {
-            *name = row[i].name;
+    fw_text names = fw_text_new(diags->arena);
+    for (size_t i = 0; at(i).name; i++) {
+        if (strcmp(at(i).name, wanted) == 0) {
+            *name = at(i).name;
             return FW_OK;
         }
-    fw_text names = fw_text_new(diags->arena);
-    for (size_t i = 0; i < count; i++)
-        fw_text_printf(&names, "%s%s", i ? ", " : "", row[i].name);
+        fw_text_printf(&names, "%s%s", i ? ", " : "", at(i).name);
+    }
     FW_TRY(fw_text_end(&names));
     return usage(fw_diag_error(diags, number, (fw_place){0},
                                "there is no %s \"%.60s\"; known are %s", what, wanted, names.data));
 }
 
 fw_status fw_check_names(const fw_motion_options *o, fw_diags *diags, fw_motion *motion) {
-    size_t count;
-    const char *name;
-    const fw_method_row *row = fw_method_table(&count);
-    FW_TRY(pick(diags, 103, "method", o->method, row, count, &motion->method));
-    row = fw_integrator_table(&count);
-    FW_TRY(pick(diags, 104, "integrator", o->integrator, row, count, &name));
-    bool automatic = strcmp(name, "auto") == 0;
-    motion->integrator = "dop853";
-    motion->reason = automatic
-                         ? "auto: the equations are smooth and all loads constant; explicit order "
-                           "8 with projection needs the fewest evaluations"
-                         : "asked for";
-    return FW_OK;
+    FW_TRY(pick(diags, 103, "method", o->method, fw_method_at, &motion->method));
+    FW_TRY(pick(diags, 104, "integrator", o->integrator, fw_integrator_at, &motion->integrator));
+    return pick(diags, 104, "stabilisation", o->stabilise, fw_stabilisation_at, &motion->stabilise);
 }
 
 fw_status fw_check_options(const fw_motion_options *o, const fw_scene *scene, fw_diags *diags) {
@@ -70,6 +60,36 @@ static bool finite_all(const double *value, int count) {
 
 static bool body_ok(const fw_mechanism *m, int body) {
     return body >= FW_GROUND && body < m->nbody;
+}
+
+static fw_status check_ties(const fw_mechanism *m, fw_place place, fw_diags *diags) {
+    for (int i = 0; i < m->ntie; i++) {
+        const fw_tie *t = &m->tie[i];
+        const double all[10] = {t->ax_m,
+                                t->ay_m,
+                                t->bx_m,
+                                t->by_m,
+                                t->axis_rad,
+                                t->stiffness_N_per_m,
+                                t->damping_Ns_per_m,
+                                t->free_length_m,
+                                t->kind == FW_TIE_DISTANCE ? t->length_m : 1,
+                                t->kind == FW_TIE_DISTANCE ? 0 : t->angle_rad};
+        if (!finite_all(all, 10) || all[5] < 0 || all[6] < 0 || all[8] <= 0 ||
+            !body_ok(m, t->body_a) || !body_ok(m, t->body_b) || t->body_a == t->body_b)
+            return fw_diag_error(diags, 107, place,
+                                 "joint %s needs two different bodies and finite values",
+                                 name_of(t->id));
+    }
+    for (int i = 0; i < m->ndriver; i++) {
+        const fw_driver *d = &m->driver[i];
+        bool pin = d->joint >= 0 && d->joint < m->npin && d->tie == FW_NONE;
+        bool tie = d->tie >= 0 && d->tie < m->ntie && d->joint == FW_NONE;
+        if (!pin && !(tie && m->tie[d->tie].kind != FW_TIE_WELD))
+            return fw_diag_error(diags, 107, place, "driver %s needs one joint that can move",
+                                 name_of(d->id));
+    }
+    return FW_OK;
 }
 
 static fw_status check_mechanism(const fw_mechanism *m, fw_place place, fw_diags *diags) {
@@ -113,6 +133,7 @@ static fw_status check_mechanism(const fw_mechanism *m, fw_place place, fw_diags
 
 fw_status fw_check_motion(const fw_mechanism *m, const fw_scene *s, fw_diags *diags) {
     FW_TRY(check_mechanism(m, s->place, diags));
+    FW_TRY(check_ties(m, s->place, diags));
     bool good = finite_all((const double[2]){s->gx_m_per_s2, s->gy_m_per_s2}, 2) || !s->gravity;
     for (int i = 0; i < s->nforce; i++) {
         const fw_force *f = &s->force[i];

@@ -22,12 +22,14 @@ typedef void (*fw_observer)(void *context, const fw_instant *instant);
 enum { FW_INSTANTS = 12 };
 
 typedef struct fw_motion_options {
-    const char *method;     /* "chain" (default, NULL) */
-    const char *integrator; /* "auto" (NULL), "dop853" */
+    const char *method;     /* one of fw_method_table; NULL: chain */
+    const char *integrator; /* one of fw_integrator_table; NULL: auto */
+    const char *stabilise;  /* "projection" (NULL), "baumgarte", "none" */
     double rtol;            /* relative tolerance of the integrator; 0: from `accuracy` */
     double accuracy;        /* relative error wanted on the peak hinge deflection; default 1e-3 */
     int samples; /* rows of `sample`, evenly over the scene, first at 0, last at the end */
     fw_effect_choice effects;
+    bool reactions;        /* peaks of the joint forces too */
     double most_angle_rad; /* ends the run when a joint has turned further: the verdict needs no
                               more; 0: never */
     fw_observer observe;   /* NULL: nobody looks */
@@ -40,32 +42,45 @@ typedef struct fw_peak { /* per pin: extreme of |phi_b - phi_a - free angle| ove
     double error_rad; /* estimate, >= 0 */
 } fw_peak;
 
+typedef struct fw_force_peak { /* per pin: extreme of the joint force */
+    double force_N, t_s, error_N;
+} fw_force_peak;
+
 typedef struct fw_motion_stats {
     long steps, rejected, rhs, projections;
-    double cpu_s;               /* of the integration */
-    double max_constraint_norm; /* |Psi| over the scene's length, after projection, all steps */
-    double max_velocity_norm;   /* |G q'| likewise, scaled */
-    double energy_error;        /* |T + V + dissipated - work| / largest energy; dimensionless */
-    double rtol;                /* used */
-    double assembly_moved_m;    /* largest correction of the initial position */
-    double estimate_cpu_s;      /* of the second run that the peaks' error estimates come from */
+    long events;                    /* stops and cables that took hold or let go */
+    long jacobians, factorisations; /* of implicit integrators */
+    double cpu_s;                   /* of the integration */
+    double max_constraint_norm;     /* |Psi| over the scene's length, after projection, all steps */
+    double max_velocity_norm;       /* |G q'| likewise, scaled */
+    double energy_error;     /* |T + V + dissipated - work| / largest energy; dimensionless */
+    double rtol;             /* used */
+    double largest_energy_J; /* that energy */
+    double assembly_moved_m; /* largest correction of the initial position */
+    double velocity_moved;   /* largest change of an initial velocity, relative */
+    double estimate_cpu_s;   /* of the second run that the peaks' error estimates come from */
 } fw_motion_stats;
 
 typedef struct fw_motion {
-    int nbody, npin, nsample;
+    int nbody, npin, ntie, ndriver, nsample;
     double *t_s;        /* (nsample) */
     double *q;          /* (nsample x 3 nbody) x, y, phi in m and rad */
     double *v;          /* (nsample x 3 nbody) */
+    double *accel;      /* (nsample x 3 nbody) */
     double *angle_rad;  /* (nsample x npin) phi_b - phi_a - free angle */
     double *reaction_N; /* (nsample x 2 npin) force of the pin on body b (ground: on the ground),
                            world axes, without the springs' torque */
-    fw_peak *peak;      /* (npin) */
+    double *tie_N;    /* (nsample x 3 ntie) force on body b, torque on it about its point b (N m) */
+    double *driver_N; /* (nsample x ndriver) N or N m along the driven coordinate */
+    fw_peak *peak;    /* (npin) */
+    fw_force_peak *force_peak; /* (npin) when asked for, else NULL */
     fw_motion_stats stats;
     fw_effect_ledger ledger;
     bool ended;                      /* by most_angle_rad, before the scene's end */
     double end_s;                    /* the scene's duration, or where it was ended */
     const char *integrator, *method; /* used, and why: `reason` */
     const char *reason;
+    const char *stabilise, *method_report; /* what the method has to say, or NULL */
 } fw_motion;
 
 /* solves Psi(q) = 0 from the guess q (3 nbody) by damped Newton with mass-weighted steps; *moved_m
@@ -77,11 +92,12 @@ fw_status fw_assemble(fw_arena *arena, const fw_mechanism *mechanism, double *q,
 fw_status fw_simulate(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                       const fw_motion_options *options, fw_diags *diags, const fw_motion **motion);
 
-typedef struct fw_method_row { /* one row per method, integrator: feeds --help and reference pages
-                                */
+typedef struct fw_method_row { /* feeds --help and reference pages */
     const char *name, *summary;
 } fw_method_row;
-const fw_method_row *fw_method_table(size_t *count);
-const fw_method_row *fw_integrator_table(size_t *count);
+/* the i-th one; name NULL behind the last */
+fw_method_row fw_method_at(size_t i);
+fw_method_row fw_integrator_at(size_t i);
+fw_method_row fw_stabilisation_at(size_t i);
 
 #endif

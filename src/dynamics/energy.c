@@ -18,35 +18,42 @@ static double work_of_loads(const fw_model *m, const double *u) {
     return work;
 }
 
-static void point(const fw_model *m, int b, double x, double y, const double *u, double out[2]) {
-    out[0] = m->origin[3 * b] + m->cosine[b] * x - m->sine[b] * y;
-    out[1] = m->origin[3 * b + 1] + m->sine[b] * x + m->cosine[b] * y;
-    if (b < m->nbody) out[0] += u[3 * b], out[1] += u[3 * b + 1];
+static double stored(const fw_model *m, const double *y) {
+    double energy = 0, stretch, rate;
+    for (int i = 0; i < m->ntorsion; i++) {
+        const fw_model_torsion *t = &m->torsion[i];
+        stretch = t->angle0 + (t->b < m->nbody ? y[3 * t->b + 2] : 0) -
+                  (t->a < m->nbody ? y[3 * t->a + 2] : 0);
+        energy += 0.5 * t->k * stretch * stretch;
+    }
+    for (int i = 0; i < m->nstop; i++) {
+        if (!m->stop[i].on) continue;
+        fw_model_stopped(m, &m->stop[i], y, &stretch, &rate);
+        energy += 0.5 * m->stop[i].k * stretch * stretch;
+    }
+    for (int i = 0; i < m->nspring; i++) {
+        if (!m->spring[i].on) continue;
+        stretch = fw_model_pull(m, &m->spring[i], y).length - m->spring[i].length;
+        energy += 0.5 * m->spring[i].k * stretch * stretch;
+    }
+    for (int i = 0; i < m->nslide; i++) {
+        fw_model_travel(m, &m->slide[i], y, &stretch, &rate);
+        energy += 0.5 * m->slide[i].k * stretch * stretch;
+    }
+    return energy;
 }
 
-/* T = v^T M v / 2, V = sum k angle^2 / 2 + sum k (l - l0)^2 / 2, W = work of constant loads from
-   the assembled pose, D = integral of the damping power (carried with the state). T + V + D - W is
-   constant. Scaled units. Uses the sines of the pose (fw_model_pose). Test: test_simulate.c. */
+/* T = v^T M v / 2; V of torsion springs, stops, point springs and slides, k x^2 / 2 each; W = work
+   of constant loads from the assembled pose, and of drivers and timed loads as carried with the
+   state; D = what dampers took, carried with the state. T + V + D - W is constant. Scaled units.
+   Uses the sines of the pose (fw_model_pose). Test: test_simulate.c, test_forces.c. */
 fw_energy fw_model_energy(fw_model *m, const double *y) {
     const double *u = y, *v = y + m->nq;
-    fw_energy e = {.dissipated = m->dissipates ? y[2 * m->nq] : 0};
+    fw_energy e = {.dissipated = m->dissipated >= 0 ? y[m->dissipated] : 0};
     for (int b = 0; b < m->nbody; b++)
         e.kinetic += 0.5 * (m->mass[b] * (v[3 * b] * v[3 * b] + v[3 * b + 1] * v[3 * b + 1]) +
                             m->inertia[b] * v[3 * b + 2] * v[3 * b + 2]);
-    for (int i = 0; i < m->ntorsion; i++) {
-        const fw_model_torsion *t = &m->torsion[i];
-        double turn = t->angle0 + (t->b < m->nbody ? u[3 * t->b + 2] : 0) -
-                      (t->a < m->nbody ? u[3 * t->a + 2] : 0);
-        e.elastic += 0.5 * t->k * turn * turn;
-    }
-    for (int i = 0; i < m->nspring; i++) {
-        const fw_model_spring *s = &m->spring[i];
-        double a[2], b[2];
-        point(m, s->a, s->ax, s->ay, u, a);
-        point(m, s->b, s->bx, s->by, u, b);
-        double stretch = hypot(b[0] - a[0], b[1] - a[1]) - s->length;
-        e.elastic += 0.5 * s->k * stretch * stretch;
-    }
-    e.work = work_of_loads(m, u);
+    e.elastic = stored(m, y);
+    e.work = work_of_loads(m, u) + (m->worked >= 0 ? y[m->worked] : 0);
     return e;
 }

@@ -35,25 +35,36 @@ static void offer(fw_peak *peak, double angle, double t) {
     if (fabs(angle) > fabs(peak->angle_rad)) peak->angle_rad = angle, peak->t_s = t;
 }
 
-static double slope_of(const void *coefficients, double theta) {
+typedef struct turn { /* of one pin along the last step */
+    fw_stepper *stepper;
+    int a, b; /* components, or -1 */
+} turn;
+
+/* value and slope of y[b] - y[a] over theta */
+static void along(const turn *p, double theta, double *value, double *slope) {
+    if (p->b < 0)
+        fw_stepper_component(p->stepper, p->a, -1, -1, 0, theta, value, slope);
+    else
+        fw_stepper_component(p->stepper, p->b, 1, p->a, -1, theta, value, slope);
+}
+
+static double slope_of(const void *context, double theta) {
     double value, slope;
-    fw_dop853_dense_value(coefficients, theta, &value, &slope);
+    along(context, theta, &value, &slope);
     return slope;
 }
 
-/* extremes of one angle inside the step: the derivative of the dense polynomial (order 7) is
-   sampled at 16 places, its sign changes refined by Brent's method */
-static void search(fw_peak *peak, const fw_dop853 *s, double start, int a, int b) {
-    double r[8], before;
-    for (int i = 0; i < 8; i++)
-        r[i] = difference(s->dense + (size_t)i * (size_t)s->ode.n, a, b);
-    before = slope_of(r, 0);
+/* extremes of one angle inside the step up to `end`: the derivative of the dense output is sampled
+   at 16 places, its sign changes refined by Brent's method */
+static void search(fw_peak *peak, const turn *p, double start, double end) {
+    const fw_stepper *s = p->stepper;
+    double before = slope_of(p, 0);
     for (int i = 1; i <= 16; i++) {
-        double at = i / 16.0, now = slope_of(r, at);
+        double at = end * i / 16, now = slope_of(p, at);
         if ((before < 0) != (now < 0)) {
-            double value, slope, root = fw_brent_root(slope_of, r, at - 1.0 / 16, at, 1e-12);
+            double value, slope, root = fw_brent_root(slope_of, p, at - end / 16, at, 1e-12);
             if (!isnan(root)) {
-                fw_dop853_dense_value(r, root, &value, &slope);
+                along(p, root, &value, &slope);
                 offer(peak, start + value, s->t_old + root * s->h);
             }
         }
@@ -63,7 +74,7 @@ static void search(fw_peak *peak, const fw_dop853 *s, double start, int a, int b
 
 /* can the angle exceed its peak inside the step, and turn there? From the angles, rates and second
    rates at both ends; counts every contribution twice, so that a wrong no would need derivatives
-   that the error control of an eighth-order step excludes */
+   that the error control of the step excludes */
 static bool may_exceed(double peak, const double angle[2], const double rate[2],
                        const double bend[2], double h) {
     double most = fmax(fabs(bend[0]), fabs(bend[1])) * h;
@@ -74,18 +85,20 @@ static bool may_exceed(double peak, const double angle[2], const double rate[2],
     return turns && reach > peak;
 }
 
-void fw_peaks_step(fw_peaks *peaks, const fw_model *m, fw_dop853 *s) {
+void fw_peaks_step(fw_peaks *peaks, const fw_model *m, fw_stepper *s, double theta_end) {
     for (int i = 0; i < peaks->npin; i++) {
         int a = peaks->a[i], b = peaks->b[i], n = m->nq;
         double start = peaks->start[i];
-        const double angle[2] = {start + difference(s->y_old, a, b),
+        const turn p = {s, a, b};
+        if (a < 0 && b < 0) continue;
+        const double value[2] = {start + difference(s->y_old, a, b),
                                  start + difference(s->y, a, b)};
-        const double rate[2] = {difference(s->k, a, b), difference(s->f, a, b)};
-        const double bend[2] = {difference(s->k + n, a, b), difference(s->f + n, a, b)};
-        offer(&peaks->peak[i], angle[1], s->t);
-        if (may_exceed(fabs(peaks->peak[i].angle_rad), angle, rate, bend, s->h)) {
-            fw_dop853_dense_prepare(s);
-            search(&peaks->peak[i], s, start, a, b);
-        }
+        const double rate[2] = {difference(s->f_old, a, b), difference(s->f, a, b)};
+        const double bend[2] = {difference(s->f_old + n, a, b), difference(s->f + n, a, b)};
+        if (may_exceed(fabs(peaks->peak[i].angle_rad), value, rate, bend, s->h))
+            search(&peaks->peak[i], &p, start, theta_end);
+        double last = value[1], slope;
+        if (theta_end < 1) along(&p, theta_end, &last, &slope), last += start;
+        offer(&peaks->peak[i], last, s->t_old + theta_end * (s->t - s->t_old));
     }
 }

@@ -1,23 +1,47 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "dynamics/dynamics.h"
+/* The methods and integrators that can be asked for by name. */
+#include "dynamics/methods.h"
+#include "dynamics/run.h"
+#include <string.h>
 
-static const fw_method_row methods[] = {
-    {"chain", "reference-point coordinates, block elimination along the joint graph, proximal "
-              "iteration; linear time, redundant joints and singular positions allowed"},
+static const fw_method *const methods[] = {
+    &fw_method_chain,
+    &fw_method_augmented,
+    &fw_method_coordinate_partitioning,
+    &fw_method_udwadia_kalaba,
+    &fw_method_svd,
+    &fw_method_qr,
+    &fw_method_schur,
+    &fw_method_block_least_squares,
 };
+enum { METHODS = sizeof methods / sizeof methods[0] };
 
-static const fw_method_row integrators[] = {
-    {"auto", "picks by the problem and says why; dop853 here"},
-    {"dop853", "explicit Runge-Kutta 8(5,3) of Dormand and Prince, dense output of order 7, "
-               "projection of positions and velocities after every step"},
-};
-
-const fw_method_row *fw_method_table(size_t *count) {
-    *count = sizeof methods / sizeof methods[0];
-    return methods;
+const fw_method *fw_method_find(const char *name) {
+    if (!name) return methods[0];
+    for (size_t i = 0; i < METHODS; i++)
+        if (strcmp(methods[i]->name, name) == 0) return methods[i];
+    return NULL;
 }
 
-const fw_method_row *fw_integrator_table(size_t *count) {
-    *count = sizeof integrators / sizeof integrators[0];
-    return integrators;
+fw_method_row fw_method_at(size_t i) {
+    return i < METHODS ? (fw_method_row){methods[i]->name, methods[i]->summary}
+                       : (fw_method_row){NULL, NULL};
+}
+
+fw_method_row fw_integrator_at(size_t i) {
+    size_t count;
+    const fw_stepper_row *const *stepper = fw_stepper_table(&count);
+    if (i == 0) return (fw_method_row){"auto", "chooses by the spectrum of the scene and says why"};
+    return i <= count ? (fw_method_row){stepper[i - 1]->name, stepper[i - 1]->summary}
+                      : (fw_method_row){NULL, NULL};
+}
+
+fw_method_row fw_stabilisation_at(size_t i) {
+    static const fw_method_row row[] = {
+        {"projection", "every accepted step is moved onto the constraints, to round-off"},
+        {"baumgarte", "violations are damped away by the equations; an error floor remains"},
+        {"none", "violations grow; for comparison"},
+        {NULL, NULL},
+    };
+    return row[i < 3 ? i : 3];
 }

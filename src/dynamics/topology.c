@@ -50,32 +50,22 @@ static fw_status joint_graph(fw_arena *arena, int npin, const int *body, int gro
     return FW_OK;
 }
 
-static fw_status body_table(fw_arena *arena, const fw_mechanism *m, int **body) {
-    FW_NEED(*body = fw_arena_array(arena, int, 2 * (size_t)m->npin));
-    for (int i = 0; i < m->npin; i++) {
-        (*body)[2 * i] = m->pin[i].body_a == FW_GROUND ? m->nbody : m->pin[i].body_a;
-        (*body)[2 * i + 1] = m->pin[i].body_b == FW_GROUND ? m->nbody : m->pin[i].body_b;
-    }
-    return FW_OK;
-}
-
 /* minimum degree; among equals the one whose subtree is lowest, so that a chain is eliminated from
    both ends at once (half the dependent inversions); then the lowest index. Chains and rings have
    no fill beyond one block per pin. Inputs the joint graph; output order (npin). Cost O(npin^2)
    worst, once per topology. Test: test_block_chain.c. */
-fw_status fw_topology_order(fw_arena *arena, const fw_mechanism *m, int *order) {
+fw_status fw_topology_order(fw_arena *arena, int n, const int *body, int ground, int *order) {
     set *graph;
-    int *body, *level;
+    int *level;
     char *done;
     fw_mark mark = fw_arena_mark(arena);
-    FW_NEED(graph = fw_arena_array(arena, set, (size_t)m->npin));
-    FW_NEED(level = fw_arena_array(arena, int, (size_t)m->npin));
-    FW_NEED(done = fw_arena_array(arena, char, (size_t)m->npin));
-    FW_TRY(body_table(arena, m, &body));
-    FW_TRY(joint_graph(arena, m->npin, body, m->nbody, graph));
-    for (int k = 0; k < m->npin; k++) {
+    FW_NEED(graph = fw_arena_array(arena, set, (size_t)n));
+    FW_NEED(level = fw_arena_array(arena, int, (size_t)n));
+    FW_NEED(done = fw_arena_array(arena, char, (size_t)n));
+    FW_TRY(joint_graph(arena, n, body, ground, graph));
+    for (int k = 0; k < n; k++) {
         int best = -1;
-        for (int i = 0; i < m->npin; i++) {
+        for (int i = 0; i < n; i++) {
             if (done[i]) continue;
             if (best < 0 || graph[i].count < graph[best].count ||
                 (graph[i].count == graph[best].count && level[i] < level[best]))
@@ -118,7 +108,7 @@ static fw_status couplings(fw_arena *arena, fw_model *m) {
     set *arms_of;
     FW_NEED(arms_of = fw_arena_array(arena, set, (size_t)m->nbody + 1));
     int count = 0;
-    for (int i = 0; i < 2 * m->npin; i++)
+    for (int i = 0; i < 2 * m->nblock; i++)
         if (m->body[i] != m->nbody) {
             count += arms_of[m->body[i]].count;
             FW_TRY(insert(arena, &arms_of[m->body[i]], i));
@@ -154,17 +144,26 @@ static fw_status updates(fw_arena *arena, fw_chain *c) {
     return FW_OK;
 }
 
+/* D of the proximal term: the size of a row of S that no arm has lengthened; 1 for an empty row */
+static void proximal_weights(const fw_model *m, int i, double weight[2]) {
+    int a = m->body[2 * i], b = m->body[2 * i + 1];
+    double move = m->minv[a] + m->minv[b], turn = m->jinv[a] + m->jinv[b];
+    fw_rows rows = m->block[i].rows;
+    weight[0] = rows == FW_ROWS_TURN || rows == FW_ROWS_SLIDE ? turn : move;
+    weight[1] = rows == FW_ROWS_PIN || rows == FW_ROWS_SLIDE ? move : 1;
+}
+
 /* the flat schedule: block columns with their fill-in, which bodies add to which block, which block
    products an elimination step needs */
 fw_status fw_chain_compile(fw_arena *arena, fw_model *m) {
     fw_chain *c = &m->chain;
-    size_t p = (size_t)m->npin;
+    size_t p = (size_t)m->nblock;
     set *graph, *below;
     FW_NEED(graph = fw_arena_array(arena, set, p));
     FW_NEED(below = fw_arena_array(arena, set, p));
-    FW_TRY(joint_graph(arena, m->npin, m->body, m->nbody, graph));
-    FW_TRY(fill_in(arena, m->npin, graph, below));
-    c->pins = m->npin;
+    FW_TRY(joint_graph(arena, m->nblock, m->body, m->nbody, graph));
+    FW_TRY(fill_in(arena, m->nblock, graph, below));
+    c->pins = m->nblock;
     FW_NEED(c->column = fw_arena_array(arena, int, p + 1));
     for (int k = 0; k < c->pins; k++)
         c->column[k + 1] = c->column[k] + below[k].count;
@@ -176,9 +175,9 @@ fw_status fw_chain_compile(fw_arena *arena, fw_model *m) {
     FW_TRY(couplings(arena, m));
     FW_TRY(updates(arena, c));
     FW_NEED(c->diagonal = fw_arena_array(arena, double, 3 * p));
-    FW_NEED(c->isotropic = fw_arena_array(arena, double, p));
-    for (size_t i = 0; i < p; i++)
-        c->isotropic[i] = m->minv[m->body[2 * i]] + m->minv[m->body[2 * i + 1]];
+    FW_NEED(c->isotropic = fw_arena_array(arena, double, 2 * p));
+    for (int i = 0; i < m->nblock; i++)
+        proximal_weights(m, i, c->isotropic + 2 * i);
     FW_NEED(c->pivot = fw_arena_array(arena, double, 3 * p));
     FW_NEED(c->block = fw_arena_array(arena, double, 4 * (size_t)c->blocks));
     FW_NEED(c->factor = fw_arena_array(arena, double, 4 * (size_t)c->blocks));

@@ -20,7 +20,10 @@ typedef struct fw_ode { /* the problem */
     int controlled; /* the first ones count in the error; the rest are quadratures: f does not
                        depend on them */
     int positions;  /* y = (u, v, quadratures) with u' = v: number of u, as many v; 0: first order.
-                       Needed by generalised-alpha; lets others interpolate better */
+                       Needed by generalised-alpha; lets others interpolate better and radau5
+                       factor matrices of half the size (when controlled = 2 positions) */
+    /* j (n x controlled), by rows: df_i/dy_j at (t, y). NULL: by differences */
+    void (*jacobian)(void *context, double t, const double *y, double *j);
 } fw_ode;
 
 typedef enum fw_ode_result {
@@ -34,9 +37,14 @@ typedef struct fw_stepper fw_stepper;
 
 typedef struct fw_stepper_row { /* one row per integrator; feeds --help and the reference page */
     const char *name, *summary;
-    int order, dense_order; /* of the step and of the dense output (for the u of second order) */
-    bool implicit;          /* stable for stiff problems */
-    bool fixed_step;        /* takes fw_stepper.h_fixed and knows no error */
+    /* order p: the error at the end falls with h^p. dense_order q: in a step from exact values the
+       dense output is off by O(h^(q+1)); dense_order_u is that of the u of second order problems
+       (their v have at least dense_order). Proven for every row in test_ode_order.c */
+    int order, dense_order, dense_order_u;
+    bool implicit;       /* stable for stiff problems */
+    bool fixed_step;     /* takes fw_stepper.h_fixed and knows no error */
+    bool second_order;   /* only for problems with positions */
+    bool variable_order; /* `order` is the highest, chosen by the error */
     fw_status (*create)(fw_arena *arena, const fw_ode *ode, fw_stepper **stepper);
     void (*start)(fw_stepper *s);         /* y, t, t_end are set: f, first step, history */
     fw_ode_result (*step)(fw_stepper *s); /* one accepted step */
@@ -45,17 +53,22 @@ typedef struct fw_stepper_row { /* one row per integrator; feeds --help and the 
     /* value and d/dtheta of w_a y[a] + w_b y[b] (b < 0: only a): for peaks and events */
     void (*component)(const fw_stepper *s, int a, double wa, int b, double wb, double theta,
                       double *value, double *slope);
+    void (*destroy)(fw_stepper *s); /* gives back what is not in the arena; NULL: nothing */
 } fw_stepper_row;
 
 struct fw_stepper { /* first member of every integrator's own struct */
     const fw_stepper_row *row;
     fw_ode ode;
     double rtol;
-    const double *atol;    /* (n) */
-    double h_max, h_fixed; /* h_max: infinite; h_fixed: fixed_step integrators */
+    const double *atol; /* (n) */
+    /* may be changed before fw_stepper_start. h_max: infinite; h_fixed: of fixed_step integrators,
+       0 means a thousandth of the way; spectral_radius: of generalised-alpha, 0.9 */
+    double h_max, h_fixed, spectral_radius;
     double t_old, t, h, h_next, t_end;
-    double *y_old, *y; /* (n) at t_old, t */
+    double *y_old, *y; /* (n) at t_old, t; all vectors are padded with zeros to `padded` */
     double *f_old, *f; /* (n) f there */
+    int padded;        /* n, rounded up to whole vectors of 8 */
+    double *tolerance; /* (padded) atol; infinite where the error does not count */
     bool dense_ready;
     long steps, rejected, rhs, jacobians, factorisations, newton; /* kept over restarts */
 };
@@ -63,10 +76,13 @@ struct fw_stepper { /* first member of every integrator's own struct */
 /* by name; NULL: unknown */
 const fw_stepper_row *fw_stepper_find(const char *name);
 const fw_stepper_row *const *fw_stepper_table(size_t *count);
-/* memory for ode->n components; atol (n) must live as long as the stepper */
+/* memory for ode->n components; atol (n) is read at every start and must live as long as the
+   stepper. FW_INPUT: the integrator needs positions, or sizes contradict each other. The arena owns
+   the stepper, but not what GSL takes from malloc: call fw_stepper_free before the arena goes. */
 fw_status fw_stepper_new(fw_arena *arena, const fw_stepper_row *row, const fw_ode *ode, double rtol,
                          const double *atol, fw_stepper **stepper);
-/* (re)start at t with y (n), on the manifold; counts go on */
+void fw_stepper_free(fw_stepper *s); /* NULL and twice allowed */
+/* (re)start at t < t_end with y (n), on the manifold; counts go on */
 void fw_stepper_start(fw_stepper *s, double t, const double *y, double t_end);
 fw_ode_result fw_stepper_step(fw_stepper *s);
 void fw_stepper_dense(fw_stepper *s, double theta, double *y); /* prepares when needed */
@@ -75,20 +91,44 @@ void fw_stepper_component(fw_stepper *s, int a, double wa, int b, double wb, dou
 
 /* ---- shared by the integrators (ode.c) ---- */
 
+extern const fw_stepper_row fw_dop853_row, fw_dopri5_row, fw_radau5_row, fw_generalised_alpha_row,
+    fw_rk4_row, fw_gsl_rkf45_row, fw_gsl_rk8pd_row, fw_gsl_msadams_row, fw_gsl_bsimp_row;
+
+int fw_ode_padded(int n);
+double *fw_ode_vector(fw_arena *arena, int n); /* zeros, padded; NULL when memory is short */
 /* weighted rms of e over the controlled components, scale_i = atol_i + rtol max(|y_i|, |z_i|) */
 double fw_ode_norm(const fw_stepper *s, const double *e, const double *y, const double *z);
-/* first step for a method of this order: Hairer, Norsett and Wanner I, II.4; work: 2 n */
+/* first step for a method of this order: Hairer, Norsett and Wanner I, II.4; work: 2 padded */
 double fw_ode_first_step(fw_stepper *s, int order, double *work);
 void fw_ode_evaluate(fw_stepper *s, double t, const double *y, double *f); /* counts */
 bool fw_ode_finite(const double *y, int n);
+/* where a step of about h ends: t_end when it comes close, else t + h; h becomes the difference of
+   the two times as they are stored, so that rounding t does not shift the phase of long runs */
+double fw_ode_target(const fw_stepper *s, double *h);
+/* projects or evaluates: f_new = f(t_new, y_new); false: not acceptable, or not a number */
+bool fw_ode_finish(fw_stepper *s, double t_new, double *y_new, double *f_new);
 /* accepts y_new, f_new as the state at t_new (swaps buffers), counts the step */
 void fw_ode_accept(fw_stepper *s, double t_new, double **y_new, double **f_new);
 /* is h too small to go on at t? */
 bool fw_ode_too_small(const fw_stepper *s, double h);
+/* counts a rejected step; is it worth trying h instead? tries: rejections of this step so far */
+bool fw_ode_retry(fw_stepper *s, double h, int *tries);
 /* dense output for steppers without one of their own: u by the quintic through (u, v, a) at both
    ends, v by its derivative, the rest by the cubic through (y, f) */
 void fw_ode_hermite(const fw_stepper *s, double theta, double *y);
 void fw_ode_hermite_component(const fw_stepper *s, int a, double wa, int b, double wb, double theta,
                               double *value, double *slope);
+/* the same for component c between any two states h apart */
+typedef struct fw_ode_span {
+    double h;
+    const double *y_old, *f_old, *y, *f;
+    bool v_alone; /* v by its own cubic: where the local error of u over h would hurt u' */
+} fw_ode_span;
+void fw_ode_span_value(const fw_ode *ode, const fw_ode_span *span, int c, double theta,
+                       double *value, double *slope);
+/* p(theta) = r_0 + theta (r_1 + (1 - theta) (r_2 + theta (r_3 + ...))): the weight of every row,
+   and value and slope of one such polynomial */
+void fw_ode_nested_weights(int count, double theta, double *weight);
+void fw_ode_nested_value(int count, const double *r, double theta, double *value, double *slope);
 
 #endif

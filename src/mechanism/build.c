@@ -1,30 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "mechanism/mechanism.h"
+#include "mechanism/builder.h"
 #include <math.h>
-#include <string.h>
-
-typedef struct builder {
-    fw_arena *arena;
-    const fw_device *device;
-    const fw_layout *layout; /* may be NULL */
-    const fw_variant *variant;
-    fw_diags *diags;
-    fw_mechanism *mechanism;
-} builder;
-
-static const char *name_of(const char *id) {
-    return id ? id : "(unnamed)";
-}
-
-static bool all_finite(const double *value, int count) {
-    for (int i = 0; i < count; i++)
-        if (!isfinite(value[i])) return false;
-    return true;
-}
 
 /* ---- the variant ---- */
 
-static fw_status check_variant(const builder *b) {
+static fw_status check_variant(const fw_builder *b) {
     const fw_variant *v = b->variant;
     const fw_place nowhere = {b->device->file, 0, 0};
     const double scale[3] = {v->explicit_mass_scale, v->explicit_stiffness_scale,
@@ -33,26 +13,26 @@ static fw_status check_variant(const builder *b) {
     if (!(v->thickness_m > 0) || !isfinite(v->thickness_m))
         return fw_diag_error(b->diags, 80, nowhere, "layer thickness is %s m; give one above 0",
                              fw_number_text(text, sizeof text, v->thickness_m, 4));
-    if (!all_finite(scale, 3) || scale[0] <= 0 || scale[1] < 0 || scale[2] < 0)
+    if (!fw_all_finite(scale, 3) || scale[0] <= 0 || scale[1] < 0 || scale[2] < 0)
         return fw_diag_error(b->diags, 80, nowhere,
                              "scales of the explicit values must be finite and not negative");
     return FW_OK;
 }
 
 /* a property that is needed now; FW_INPUT when the material does not have it */
-static fw_status need_property(const builder *b, const fw_quantity *q, const char *what,
+static fw_status need_property(const fw_builder *b, const fw_quantity *q, const char *what,
                                const char *why, fw_place place) {
     if (!q->unknown && isfinite(q->value) && q->value > 0) return FW_OK;
     return fw_diag_error(b->diags, 81, place,
                          "%s of material %s is not known, and %s needs it; give it in <material>",
-                         what, name_of(b->variant->material.id), why);
+                         what, fw_name_or_none(b->variant->material.id), why);
 }
 
 /* ---- bodies ---- */
 
 /* explicit values scaled by the variant's scales; NaN ones from the outline: m = rho h A,
    J = rho h I_p, centre of mass = centroid */
-static fw_status build_body(const builder *b, int i) {
+static fw_status build_body(const fw_builder *b, int i) {
     const fw_body *from = &b->device->body[i];
     const fw_body_layout *shape = b->layout && b->layout->drawn && b->layout->body[i].area_m2 > 0
                                       ? &b->layout->body[i]
@@ -70,7 +50,7 @@ static fw_status build_body(const builder *b, int i) {
         return fw_diag_error(b->diags, 82, from->place,
                              "body %s has no shape that could give its mass, inertia and position; "
                              "give mass, inertia, x and y, or a width",
-                             name_of(from->id));
+                             fw_name_or_none(from->id));
     if (isnan(to->mass_kg) || isnan(to->inertia_kg_m2)) {
         FW_TRY(
             need_property(b, &v->material.density, "density", "the mass of a body", from->place));
@@ -86,24 +66,19 @@ static fw_status build_body(const builder *b, int i) {
         !isfinite(to->inertia_kg_m2))
         return fw_diag_error(b->diags, 83, from->place,
                              "body %s has mass %s kg and inertia %s kg m2; both must be above 0",
-                             name_of(from->id), fw_number_text(mass, sizeof mass, to->mass_kg, 4),
+                             fw_name_or_none(from->id),
+                             fw_number_text(mass, sizeof mass, to->mass_kg, 4),
                              fw_number_text(inertia, sizeof inertia, to->inertia_kg_m2, 4));
-    if (!all_finite(pose, 3))
+    if (!fw_all_finite(pose, 3))
         return fw_diag_error(b->diags, 83, from->place, "the pose of body %s is not finite",
-                             name_of(from->id));
+                             fw_name_or_none(from->id));
     return FW_OK;
 }
 
 /* ---- pins ---- */
 
-static const fw_mass *body_of(const builder *b, int index) {
+static const fw_mass *body_of(const fw_builder *b, int index) {
     return index == FW_GROUND ? NULL : &b->mechanism->body[index];
-}
-
-static fw_vec2 to_world(const fw_mass *m, fw_vec2 local) {
-    if (!m) return local;
-    double c = cos(m->phi_rad), s = sin(m->phi_rad);
-    return (fw_vec2){m->x_m + c * local.x - s * local.y, m->y_m + s * local.x + c * local.y};
 }
 
 static fw_vec2 to_local(const fw_mass *m, fw_vec2 world) {
@@ -117,22 +92,22 @@ static bool known(fw_vec2 p) {
     return !isnan(p.x) && !isnan(p.y);
 }
 
-static fw_status pin_points(const builder *b, const fw_joint *from, fw_pin *to) {
+static fw_status pin_points(const fw_builder *b, const fw_joint *from, fw_pin *to) {
     const fw_mass *ma = body_of(b, to->body_a), *mb = body_of(b, to->body_b);
     fw_vec2 world = {from->x_m, from->y_m};
     fw_vec2 a = {from->ax_m, from->ay_m}, c = {from->bx_m, from->by_m};
     if (!known(world) && known(a))
-        world = to_world(ma, a);
+        world = fw_body_point(ma, a);
     else if (!known(world) && known(c))
-        world = to_world(mb, c);
+        world = fw_body_point(mb, c);
     if (!known(a)) a = to_local(ma, world);
     if (!known(c)) c = to_local(mb, world);
     to->ax_m = a.x, to->ay_m = a.y, to->bx_m = c.x, to->by_m = c.y;
     const double all[4] = {a.x, a.y, c.x, c.y};
-    if (!all_finite(all, 4))
+    if (!fw_all_finite(all, 4))
         return fw_diag_error(b->diags, 84, from->place,
                              "joint %s has no place; give x and y, or local points on its bodies",
-                             name_of(from->id));
+                             fw_name_or_none(from->id));
     return FW_OK;
 }
 
@@ -141,7 +116,7 @@ static double inertia_about(const fw_mass *m, double x, double y) {
     return m ? m->inertia_kg_m2 + m->mass_kg * (x * x + y * y) : (double)INFINITY;
 }
 
-static fw_status flexure_result(const builder *b, int j, const fw_joint *joint,
+static fw_status flexure_result(const fw_builder *b, int j, const fw_joint *joint,
                                 fw_flexure_result *result) {
     const fw_flexure *f = &b->device->flexure[joint->flexure];
     const fw_material *m = &b->variant->material;
@@ -170,43 +145,36 @@ static fw_status flexure_result(const builder *b, int j, const fw_joint *joint,
         return fw_diag_error(
             b->diags, 85, f->place,
             "flexure %s has no finite stiffness; check its length, angle and width",
-            name_of(f->id));
+            fw_name_or_none(f->id));
     return FW_OK;
 }
 
-static bool said_already(const fw_diags *diags, int number, fw_place place) {
-    for (size_t i = 0; i < diags->count; i++)
-        if (diags->item[i].number == number && diags->item[i].place.line == place.line &&
-            diags->item[i].place.column == place.column && place.line > 0)
-            return true;
-    return false;
-}
-
 /* the file's number wins, but a number that its own geometry contradicts is worth a word */
-static void compare_stiffness(const builder *b, const fw_joint *joint, double given, double own) {
-    if (!(fabs(given - own) > 0.1 * own) || said_already(b->diags, 86, joint->place)) return;
+static void compare_stiffness(const fw_builder *b, const fw_joint *joint, double given,
+                              double own) {
+    if (!(fabs(given - own) > 0.1 * own) || fw_said_already(b->diags, 86, joint->place)) return;
     char g[32], o[32];
     fw_diag_warning(b->diags, 86, joint->place,
                     "stiffness of joint %s is given as %s N m/rad, its flexure's geometry has %s; "
                     "they differ by more than 10 %%: check which of the two is meant",
-                    name_of(joint->id), fw_number_text(g, sizeof g, given, 4),
+                    fw_name_or_none(joint->id), fw_number_text(g, sizeof g, given, 4),
                     fw_number_text(o, sizeof o, own, 4));
 }
 
-static fw_status check_pin_bodies(const builder *b, const fw_joint *joint) {
+static fw_status check_pin_bodies(const fw_builder *b, const fw_joint *joint) {
     int n = b->device->nbody, x = joint->body_a, y = joint->body_b;
     if (x < FW_GROUND || y < FW_GROUND || x >= n || y >= n || x == y || joint->flexure < FW_NONE ||
         joint->flexure >= b->device->nflexure)
         return fw_diag_error(b->diags, 87, joint->place,
                              "joint %s must join two different bodies of the mechanism",
-                             name_of(joint->id));
+                             fw_name_or_none(joint->id));
     return FW_OK;
 }
 
 /* damping of a flexure from the material's loss factor eta. c = eta k / omega holds at one
    frequency only; here omega = sqrt(k/J) with the smaller inertia of the two bodies about the pin,
    hence c = eta sqrt(k J): an assumption, stated in docs/theory/dynamics.md */
-static double loss_damping(const builder *b, const fw_pin *pin) {
+static double loss_damping(const fw_builder *b, const fw_pin *pin) {
     const fw_quantity *loss = &b->variant->material.loss;
     if (loss->unknown || !isfinite(loss->value) || loss->value <= 0) return 0;
     double ja = inertia_about(body_of(b, pin->body_a), pin->ax_m, pin->ay_m);
@@ -214,7 +182,17 @@ static double loss_damping(const builder *b, const fw_pin *pin) {
     return loss->value * sqrt(pin->stiffness_Nm_per_rad * fmin(ja, jb));
 }
 
-static fw_status build_pin(const builder *b, int j) {
+/* stops scale like the joint's own spring and damper; without any stop angle there is none */
+static void build_stops(const fw_builder *b, const fw_joint *from, fw_pin *to) {
+    double k = from->stop_stiffness_Nm_per_rad, c = from->stop_damping_Nms_per_rad;
+    bool any = (!isnan(from->stop_min_rad) || !isnan(from->stop_max_rad)) && !isnan(k) && k != 0;
+    to->stop_min_rad = any ? from->stop_min_rad : (double)NAN;
+    to->stop_max_rad = any ? from->stop_max_rad : (double)NAN;
+    to->stop_stiffness_Nm_per_rad = any ? k * b->variant->explicit_stiffness_scale : 0;
+    to->stop_damping_Nms_per_rad = any && !isnan(c) ? c * b->variant->explicit_damping_scale : 0;
+}
+
+static fw_status build_pin(const fw_builder *b, int j) {
     const fw_joint *from = &b->device->joint[j];
     const fw_variant *v = b->variant;
     fw_pin *to = &b->mechanism->pin[j];
@@ -240,37 +218,14 @@ static fw_status build_pin(const builder *b, int j) {
     if (isnan(to->stiffness_Nm_per_rad)) to->stiffness_Nm_per_rad = 0;
     if (isnan(to->damping_Nms_per_rad))
         to->damping_Nms_per_rad = from->flexure == FW_NONE ? 0 : loss_damping(b, to);
-    const double all[3] = {to->stiffness_Nm_per_rad, to->damping_Nms_per_rad, to->free_angle_rad};
-    if (!all_finite(all, 3) || all[0] < 0 || all[1] < 0)
+    build_stops(b, from, to);
+    const double all[5] = {to->stiffness_Nm_per_rad, to->damping_Nms_per_rad, to->free_angle_rad,
+                           to->stop_stiffness_Nm_per_rad, to->stop_damping_Nms_per_rad};
+    if (!fw_all_finite(all, 5) || all[0] < 0 || all[1] < 0 || all[3] < 0 || all[4] < 0 ||
+        isinf(to->stop_min_rad) || isinf(to->stop_max_rad))
         return fw_diag_error(b->diags, 88, from->place,
                              "stiffness and damping of joint %s must be finite and not negative",
-                             name_of(from->id));
-    return FW_OK;
-}
-
-/* ---- point-to-point springs ---- */
-
-static fw_status build_spring(const builder *b, int i) {
-    const fw_spring *from = &b->device->spring[i];
-    const fw_variant *v = b->variant;
-    fw_spring *to = &b->mechanism->spring[i];
-    int n = b->device->nbody;
-    *to = *from;
-    to->stiffness_N_per_m =
-        isnan(from->stiffness_N_per_m) ? 0 : from->stiffness_N_per_m * v->explicit_stiffness_scale;
-    to->damping_Ns_per_m =
-        isnan(from->damping_Ns_per_m) ? 0 : from->damping_Ns_per_m * v->explicit_damping_scale;
-    bool bodies = to->body_a >= FW_GROUND && to->body_a < n && to->body_b >= FW_GROUND &&
-                  to->body_b < n && to->body_a != to->body_b;
-    const double all[7] = {
-        to->ax_m,    to->ay_m, to->bx_m, to->by_m, to->stiffness_N_per_m, to->damping_Ns_per_m,
-        to->length_m};
-    if (!bodies || !all_finite(all, 7) || all[4] < 0 || all[5] < 0 || all[6] < 0)
-        return fw_diag_error(
-            b->diags, 89, from->place,
-            "spring %s must join two different bodies, with finite points and with "
-            "stiffness, damping and length that are not negative",
-            name_of(from->id));
+                             fw_name_or_none(from->id));
     return FW_OK;
 }
 
@@ -284,7 +239,7 @@ fw_status fw_mechanism_build(fw_arena *arena, const fw_device *device, const fw_
                              const fw_mechanism **mechanism) {
     fw_mechanism *m = fw_arena_one(arena, fw_mechanism);
     FW_NEED(m);
-    builder b = {arena, device, layout, variant, diags, m};
+    fw_builder b = {arena, device, layout, variant, diags, m};
     *mechanism = NULL;
     FW_TRY(check_variant(&b));
     m->device = device;
@@ -293,9 +248,13 @@ fw_status fw_mechanism_build(fw_arena *arena, const fw_device *device, const fw_
     FW_NEED(m->pin = fw_arena_array(arena, fw_pin, (size_t)device->njoint));
     FW_NEED(m->spring = fw_arena_array(arena, fw_spring, (size_t)device->nspring));
     FW_NEED(m->hinge = fw_arena_array(arena, fw_hinge, (size_t)device->njoint));
+    FW_NEED(m->tie = fw_arena_array(arena, fw_tie, (size_t)device->ntie));
+    FW_NEED(m->driver = fw_arena_array(arena, fw_driver, (size_t)device->ndriver));
     m->nbody = device->nbody;
     m->npin = device->njoint;
     m->nspring = device->nspring;
+    m->ntie = device->ntie;
+    m->ndriver = device->ndriver;
     fw_status status = FW_OK;
     for (int i = 0; i < m->nbody; i++)
         status = keep_going(status, build_body(&b, i));
@@ -303,7 +262,11 @@ fw_status fw_mechanism_build(fw_arena *arena, const fw_device *device, const fw_
     for (int j = 0; j < m->npin; j++)
         status = keep_going(status, build_pin(&b, j));
     for (int i = 0; i < m->nspring; i++)
-        status = keep_going(status, build_spring(&b, i));
+        status = keep_going(status, fw_build_spring(&b, i));
+    for (int i = 0; i < m->ntie; i++)
+        status = keep_going(status, fw_build_tie(&b, i));
+    for (int i = 0; i < m->ndriver; i++)
+        status = keep_going(status, fw_build_driver(&b, i));
     if (status == FW_OK) *mechanism = m;
     return status;
 }

@@ -43,9 +43,10 @@ typedef struct fw_hinge { /* a pin that is a flexure */
 typedef struct fw_mechanism {
     const fw_device *device;
     const fw_variant *variant;
-    fw_mass *body;     /* (nbody) */
-    fw_pin *pin;       /* (npin) */
-    fw_tie *tie;       /* (ntie) all values known; local points refer to centres of mass */
+    fw_mass *body; /* (nbody) */
+    fw_pin *pin;   /* (npin) */
+    fw_tie *tie;   /* (ntie) all values known (angle, length: as drawn where the file leaves them
+                      open; 0 where they mean nothing); local points refer to centres of mass */
     fw_driver *driver; /* (ndriver) joint is an index of pin, tie of tie */
     fw_spring *spring; /* (nspring) local points refer to centres of mass */
     fw_hinge *hinge;   /* (nhinge) */
@@ -54,6 +55,9 @@ typedef struct fw_mechanism {
 
 /* world position, in the drawn pose, that body a (side 0) or body b (side 1) gives to a pin */
 fw_vec2 fw_pin_place(const fw_mechanism *mechanism, const fw_pin *pin, int side);
+
+/* the same of any local point (ground: world) */
+fw_vec2 fw_local_place(const fw_mechanism *mechanism, int body, double x_m, double y_m);
 
 fw_status fw_mechanism_build(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_variant *variant, fw_diags *diags,

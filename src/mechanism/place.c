@@ -1,12 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "mechanism/mechanism.h"
+#include "mechanism/builder.h"
 #include <math.h>
 
-fw_vec2 fw_pin_place(const fw_mechanism *m, const fw_pin *pin, int side) {
-    int index = side ? pin->body_b : pin->body_a;
-    double x = side ? pin->bx_m : pin->ax_m, y = side ? pin->by_m : pin->ay_m;
-    if (index == FW_GROUND) return (fw_vec2){x, y};
-    const fw_mass *body = &m->body[index];
+fw_vec2 fw_body_point(const fw_mass *body, fw_vec2 local) {
+    if (!body) return local;
     double c = cos(body->phi_rad), s = sin(body->phi_rad);
-    return (fw_vec2){body->x_m + c * x - s * y, body->y_m + s * x + c * y};
+    return (fw_vec2){body->x_m + c * local.x - s * local.y, body->y_m + s * local.x + c * local.y};
+}
+
+fw_vec2 fw_local_place(const fw_mechanism *m, int body, double x_m, double y_m) {
+    return fw_body_point(body == FW_GROUND ? NULL : &m->body[body], (fw_vec2){x_m, y_m});
+}
+
+fw_vec2 fw_pin_place(const fw_mechanism *m, const fw_pin *pin, int side) {
+    return side ? fw_local_place(m, pin->body_b, pin->bx_m, pin->by_m)
+                : fw_local_place(m, pin->body_a, pin->ax_m, pin->ay_m);
 }

@@ -72,17 +72,14 @@ void fw_design_options_init(fw_design_options *options, size_t size) {
     memcpy(options, &all, size < sizeof all ? size : sizeof all);
 }
 
-static bool known(const char *name, const fw_method_row *row, size_t n) {
-    for (size_t i = 0; name && i < n; i++)
-        if (strcmp(name, row[i].name) == 0) return true;
+static bool known(const char *name, fw_method_row (*at)(size_t)) {
+    for (size_t i = 0; name && at(i).name; i++)
+        if (strcmp(name, at(i).name) == 0) return true;
     return !name;
 }
 
 /* what is wrong, or NULL; 0 and NULL are defaults. Comparisons are written so that NaN fails. */
 static const char *wrong_option(const fw_design_options *o) {
-    size_t nmethod, nintegrator;
-    const fw_method_row *method = fw_method_table(&nmethod);
-    const fw_method_row *integrator = fw_integrator_table(&nintegrator);
     if (o->accuracy != 0.0 && !(o->accuracy >= 1e-12 && o->accuracy <= 0.1))
         return "accuracy must be 0 (default) or between 1e-12 and 0.1";
     if (o->rtol != 0.0 && !(o->rtol >= 1e-14 && o->rtol <= 1e-2))
@@ -93,9 +90,9 @@ static const char *wrong_option(const fw_design_options *o) {
     if (o->mask_tolerance_m != 0.0 && !(o->mask_tolerance_m >= 1.42e-9 * (1.0 - 1e-12) &&
                                         o->mask_tolerance_m <= 1e-6 * (1.0 + 1e-12)))
         return "mask_tolerance_m must be 0 (default) or between 1.42e-9 and 1e-6";
-    if (!known(o->method, method, nmethod)) return "method is not known in this version";
-    if (!known(o->integrator, integrator, nintegrator))
-        return "integrator is not known in this version";
+    if (!known(o->method, fw_method_at)) return "method is not known in this version";
+    if (!known(o->integrator, fw_integrator_at)) return "integrator is not known in this version";
+    if (!known(o->stabilise, fw_stabilisation_at)) return "there is no such stabilisation";
     return NULL;
 }
 
@@ -130,8 +127,8 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     if (d->wrong_option) return FW_OK;
     if (given) memcpy(&o, given, given->size < sizeof o ? given->size : sizeof o);
     fw_arena *arena = d->plan->arena;
-    const char **text[] = {&o.data_directory, &o.flow,   &o.scene,
-                           &o.effects,        &o.method, &o.integrator};
+    const char **text[] = {&o.data_directory, &o.flow,       &o.scene,    &o.effects,
+                           &o.method,         &o.integrator, &o.stabilise};
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
         FW_TRY(keep(arena, text[i]));
     d->wrong_option = wrong_option(&o);
@@ -145,6 +142,7 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     m->effects = effects_of(o.effects);
     m->method = o.method;
     m->integrator = o.integrator;
+    m->stabilise = o.stabilise;
     m->rtol = o.rtol;
     if (o.accuracy != 0.0) m->accuracy = o.accuracy;
     if (o.samples != 0) m->samples = o.samples;

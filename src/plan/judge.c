@@ -4,6 +4,7 @@
 
 fw_status fw_plan_judge(fw_plan *plan) {
     fw_verdict *verdict = &plan->verdict;
+    FW_TRY(fw_plan_need_material(plan));
     *verdict = (fw_verdict){.nvariant = plan->nflow};
     FW_NEED(verdict->variant =
                 fw_arena_array(plan->arena, fw_variant_verdict, (size_t)plan->nflow));
@@ -67,6 +68,7 @@ fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mec
     if (status != FW_OK) plan->layout = NULL;
     FW_TRY(fw_mechanism_build(plan->arena, plan->device, plan->layout, variant_of(plan, *scene),
                               &plan->diags, mechanism));
-    return fw_simulate(plan->arena, *mechanism, *scene, &plan->options.verdict.motion, &plan->diags,
-                       motion);
+    fw_motion_options options = plan->options.verdict.motion;
+    options.reactions = true;
+    return fw_simulate(plan->arena, *mechanism, *scene, &options, &plan->diags, motion);
 }

@@ -2,6 +2,7 @@
 /* Recursive descent: sum -> product -> signed -> power -> primary. */
 #include "base/text.h"
 #include "quantity/functions.h"
+#include "quantity/program.h"
 #include <math.h>
 #include <string.h>
 
@@ -13,6 +14,7 @@ typedef struct parser {
     fw_token token; /* the one not yet used */
     const fw_names *names;
     fw_expression_error *error;
+    fw_program *program; /* what varies with time is compiled to this; NULL: time is not known */
     int depth;
 } parser;
 
@@ -37,9 +39,49 @@ static const char *dimension(parser *p, fw_dimension d) {
 }
 
 static bool finite_at(parser *p, size_t offset, const fw_value *v) {
-    if (isfinite(v->value)) return true;
+    if (v->varies || isfinite(v->value)) return true;
     return fail(p, offset, 28,
                 "the result is too large for a number (beyond 1e308); check units and exponents");
+}
+
+/* v = a op b: a step of the program when one of them varies; true when it was */
+static bool emit(parser *p, fw_op op, const fw_value *a, const fw_value *b, fw_value *v) {
+    if (!a->varies && !b->varies) return false;
+    double constant = a->varies ? b->value : a->value;
+    fw_program_emit(p->program, op,
+                    !a->varies   ? FW_LEFT_CONSTANT
+                    : !b->varies ? FW_RIGHT_CONSTANT
+                                 : FW_BOTH_ON_STACK,
+                    constant);
+    v->value = (double)NAN; /* not known before t is */
+    v->varies = true;
+    return true;
+}
+
+/* the arguments that vary lie on the stack in their order; min and max go through them from the
+   back, the constant ones folded into one */
+static void emit_call(parser *p, int function, const fw_value *argument, int n) {
+    fw_op op = fw_function_op(function);
+    if (n == 1) {
+        fw_program_emit(p->program, op, FW_BOTH_ON_STACK, 0);
+        return;
+    }
+    fw_value folded = argument[0];
+    if (op == FW_OP_ATAN2) {
+        emit(p, op, &argument[0], &argument[1], &folded);
+        return;
+    }
+    fw_value constant = {.value = op == FW_OP_MIN ? (double)INFINITY : -(double)INFINITY};
+    int varying = 0;
+    for (int i = 0; i < n; i++) {
+        const double x = argument[i].value;
+        varying += argument[i].varies;
+        if (!argument[i].varies)
+            constant.value = op == FW_OP_MIN ? fmin(constant.value, x) : fmax(constant.value, x);
+    }
+    for (int i = 1; i < varying; i++)
+        fw_program_emit(p->program, op, FW_BOTH_ON_STACK, 0);
+    if (varying < n) fw_program_emit(p->program, op, FW_RIGHT_CONSTANT, constant.value);
 }
 
 static bool parse_sum(parser *p, fw_value *v);
@@ -75,6 +117,7 @@ static bool parse_call(parser *p, const fw_token *name, fw_value *v) {
     const char *message;
     if (!fw_function_apply(p->arena, function, argument, n, v, &number, &message))
         return fail(p, name->start, number, message);
+    if (v->varies) emit_call(p, function, argument, n);
     return finite_at(p, name->start, v) && advance(p);
 }
 
@@ -105,17 +148,44 @@ static bool unknown_name(parser *p, const fw_token *name) {
                                  word, word));
 }
 
+static const fw_name_value *parameter(const parser *p, const char *text, size_t n) {
+    for (size_t i = 0; p->names && i < p->names->count; i++) {
+        const fw_name_value *item = &p->names->item[i];
+        if (strncmp(item->name, text, n) == 0 && item->name[n] == '\0') return item;
+    }
+    return NULL;
+}
+
+/* t or time; a parameter of the same name makes it ambiguous, and then the other word must do */
+static bool parse_time(parser *p, const fw_token *name, fw_value *v) {
+    const char *text = p->lexer.text + name->start;
+    const char *other = name->length == 1 ? "time" : "t";
+    if (parameter(p, text, name->length))
+        return fail(p, name->start, 34,
+                    parameter(p, other, strlen(other))
+                        ? "time has no name of its own here, because parameters are called both "
+                          "'t' and 'time'; rename one of them"
+                        : fw_arena_printf(p->arena,
+                                          "'%.*s' could mean the time or the parameter of this "
+                                          "name; write '%s' for the time, or rename the parameter",
+                                          (int)name->length, text, other));
+    fw_program_emit(p->program, FW_OP_TIME, FW_BOTH_ON_STACK, 0);
+    *v = (fw_value){.value = (double)NAN, .dimension = {.s = 1}, .varies = true};
+    return true;
+}
+
 static bool parse_name(parser *p, fw_value *v) {
     fw_token name = p->token;
     const char *text = p->lexer.text + name.start;
     if (!advance(p)) return false;
     if (is_mark(p, '(')) return parse_call(p, &name, v);
-    for (size_t i = 0; p->names && i < p->names->count; i++) {
-        const fw_name_value *item = &p->names->item[i];
-        if (strncmp(item->name, text, name.length) == 0 && item->name[name.length] == '\0') {
-            *v = (fw_value){.value = item->value, .dimension = item->dimension};
-            return finite_at(p, name.start, v);
-        }
+    bool time =
+        (name.length == 1 && text[0] == 't') || (name.length == 4 && memcmp(text, "time", 4) == 0);
+    if (p->program && time) return parse_time(p, &name, v);
+    const fw_name_value *item = parameter(p, text, name.length);
+    if (item) {
+        *v = (fw_value){.value = item->value, .dimension = item->dimension};
+        return finite_at(p, name.start, v);
     }
     if (name.length == 2 && memcmp(text, "pi", 2) == 0) {
         *v = (fw_value){.value = 3.14159265358979323846};
@@ -164,6 +234,22 @@ static bool parse_primary(parser *p, fw_value *v) {
         fw_arena_printf(p->arena, "a number or a name is wanted here, not '%c'", p->token.mark));
 }
 
+/* pure number to a power that goes with time */
+static bool raise_to_varying(parser *p, size_t offset, fw_value *base, const fw_value *exponent) {
+    if (!fw_dimension_equal(base->dimension, pure))
+        return fail(p, offset, 30,
+                    fw_arena_printf(p->arena,
+                                    "%s to a power that changes with time has no dimension; the "
+                                    "base must be a pure number",
+                                    dimension(p, base->dimension)));
+    if (!base->varies && base->value <= 0.0)
+        return fail(p, offset, 29,
+                    "a power that changes with time needs a positive base; check the sign");
+    base->composite = false;
+    emit(p, FW_OP_POWER, base, exponent, base);
+    return true;
+}
+
 /* base^exponent; with a dimension only where every exponent of it stays whole */
 static bool raise(parser *p, size_t offset, fw_value *base, const fw_value *exponent) {
     double e = exponent->value;
@@ -171,6 +257,7 @@ static bool raise(parser *p, size_t offset, fw_value *base, const fw_value *expo
         return fail(p, offset, 30,
                     fw_arena_printf(p->arena, "the exponent is %s; it must be a pure number",
                                     dimension(p, exponent->dimension)));
+    if (exponent->varies) return raise_to_varying(p, offset, base, exponent);
     if (base->value == 0.0 && e < 0.0)
         return fail(p, offset, 27, "division by zero: zero to a negative power");
     if (base->value < 0.0 && e != rint(e))
@@ -189,7 +276,7 @@ static bool raise(parser *p, size_t offset, fw_value *base, const fw_value *expo
                                         dimension(p, base->dimension)));
         *part[i] = (int8_t)raised;
     }
-    base->value = pow(base->value, e);
+    if (!emit(p, FW_OP_POWER, base, exponent, base)) base->value = pow(base->value, e);
     return finite_at(p, offset, base);
 }
 
@@ -212,6 +299,8 @@ static bool parse_signed(parser *p, fw_value *v) {
     if (minus || is_mark(p, '+')) {
         ok = advance(p) && parse_signed(p, v);
         if (ok && minus) v->value = -v->value;
+        if (ok && minus && v->varies)
+            fw_program_emit(p->program, FW_OP_NEGATE, FW_BOTH_ON_STACK, 0);
     } else
         ok = parse_power(p, v);
     p->depth--;
@@ -234,7 +323,8 @@ static bool parse_product(parser *p, fw_value *v) {
             return fail(p, offset, 27, "division by zero; the divisor must not vanish");
         v->composite = v->composite || right.composite || has_length_or_more(v->dimension) ||
                        has_length_or_more(right.dimension);
-        v->value = over ? v->value / right.value : v->value * right.value;
+        if (!emit(p, over ? FW_OP_DIVIDE : FW_OP_MULTIPLY, v, &right, v))
+            v->value = over ? v->value / right.value : v->value * right.value;
         if (!fw_dimension_combine(&v->dimension, right.dimension, over ? -1 : 1))
             return fail(p, offset, 30, "the exponents of the dimension leave -127 to 127");
         if (!finite_at(p, offset, v)) return false;
@@ -258,7 +348,8 @@ static bool parse_sum(parser *p, fw_value *v) {
                                         dimension(p, minus ? right.dimension : v->dimension),
                                         minus ? "subtracted from" : "added to",
                                         dimension(p, minus ? v->dimension : right.dimension)));
-        v->value += minus ? -right.value : right.value;
+        if (!emit(p, minus ? FW_OP_SUBTRACT : FW_OP_ADD, v, &right, v))
+            v->value += minus ? -right.value : right.value;
         v->dimension = common;
         v->composite = v->composite && right.composite;
         if (!finite_at(p, offset, v)) return false;
@@ -280,7 +371,8 @@ static bool parse_all(parser *p, fw_value *v) {
 }
 
 static fw_status run(fw_arena *arena, const char *text, size_t n, const fw_names *names,
-                     const fw_dimension *wanted, fw_value *v, fw_expression_error *error) {
+                     const fw_dimension *wanted, fw_program *program, fw_value *v,
+                     fw_expression_error *error) {
     *error = (fw_expression_error){0};
     *v = (fw_value){0};
     parser p = {.arena = arena,
@@ -290,8 +382,13 @@ static fw_status run(fw_arena *arena, const char *text, size_t n, const fw_names
                           .error = error,
                           .usual = wanted ? fw_dimension_unit(*wanted) : NULL},
                 .names = names,
-                .error = error};
-    if (parse_all(&p, v)) return FW_OK;
+                .error = error,
+                .program = program};
+    if (parse_all(&p, v) &&
+        (!program || !program->too_deep ||
+         fail(&p, 0, 31,
+              "too many parts wait for each other; split the expression with a <parameter>")))
+        return FW_OK;
     return error->message ? FW_INPUT : FW_NOMEM;
 }
 
@@ -335,17 +432,36 @@ static fw_status wrong_dimension(fw_arena *arena, fw_dimension got, fw_dimension
     return error->message ? FW_INPUT : FW_NOMEM;
 }
 
+static fw_status check_dimension(fw_arena *arena, const char *text, size_t n, const fw_value *v,
+                                 fw_dimension wanted, fw_expression_error *error) {
+    bool fits = fw_dimension_equal(v->dimension, wanted) ||
+                (v->composite && fw_dimension_differs_in_angle(v->dimension, wanted));
+    if (!fits && fw_dimension_equal(v->dimension, pure))
+        return no_unit(arena, text, n, wanted, error);
+    return fits ? FW_OK : wrong_dimension(arena, v->dimension, wanted, error);
+}
+
 fw_status fw_expression_evaluate(fw_arena *arena, const char *text, size_t n, const fw_names *names,
                                  fw_dimension wanted, double *value, fw_expression_error *error) {
     fw_value v;
     *value = (double)NAN;
-    FW_TRY(run(arena, text, n, names, &wanted, &v, error));
-    bool fits = fw_dimension_equal(v.dimension, wanted) ||
-                (v.composite && fw_dimension_differs_in_angle(v.dimension, wanted));
-    if (!fits && fw_dimension_equal(v.dimension, pure))
-        return no_unit(arena, text, n, wanted, error);
-    if (!fits) return wrong_dimension(arena, v.dimension, wanted, error);
+    FW_TRY(run(arena, text, n, names, &wanted, NULL, &v, error));
+    FW_TRY(check_dimension(arena, text, n, &v, wanted, error));
     *value = v.value;
+    return FW_OK;
+}
+
+fw_status fw_program_compile(fw_arena *arena, const char *text, size_t n, const fw_names *names,
+                             fw_dimension wanted, fw_program **program,
+                             fw_expression_error *error) {
+    fw_value v;
+    fw_program *p;
+    *program = NULL;
+    FW_TRY(fw_program_new(arena, n, &p));
+    FW_TRY(run(arena, text, n, names, &wanted, p, &v, error));
+    FW_TRY(check_dimension(arena, text, n, &v, wanted, error));
+    if (!v.varies) fw_program_emit(p, FW_OP_CONSTANT, FW_BOTH_ON_STACK, v.value);
+    *program = p;
     return FW_OK;
 }
 
@@ -355,7 +471,7 @@ fw_status fw_expression_evaluate_any(fw_arena *arena, const char *text, size_t n
     fw_value v;
     *value = (double)NAN;
     *dimension_found = pure;
-    FW_TRY(run(arena, text, n, names, NULL, &v, error));
+    FW_TRY(run(arena, text, n, names, NULL, NULL, &v, error));
     *value = v.value;
     *dimension_found = v.dimension;
     return FW_OK;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "quantity/functions.h"
-#include <float.h>
+#include "quantity/program.h"
 #include <math.h>
 #include <string.h>
 
@@ -37,6 +37,15 @@ int fw_function_find(const char *name, size_t n) {
     for (int i = 0; i < COUNT; i++)
         if (strlen(table[i].name) == n && memcmp(table[i].name, name, n) == 0) return i;
     return -1;
+}
+
+fw_op fw_function_op(int function) {
+    static const fw_op op[COUNT] = {
+        [SQRT] = FW_OP_SQRT, [EXP] = FW_OP_EXP,     [LN] = FW_OP_LN,     [SIN] = FW_OP_SIN,
+        [COS] = FW_OP_COS,   [TAN] = FW_OP_TAN,     [ASIN] = FW_OP_ASIN, [ACOS] = FW_OP_ACOS,
+        [ATAN] = FW_OP_ATAN, [ATAN2] = FW_OP_ATAN2, [MIN] = FW_OP_MIN,   [MAX] = FW_OP_MAX,
+        [ABS] = FW_OP_ABS};
+    return op[function];
 }
 
 const char *fw_function_name(int function) {
@@ -139,7 +148,9 @@ bool fw_function_apply(fw_arena *arena, int function, const fw_value *argument, 
         return false;
     }
     *number = 26;
+    bool varies = false;
     for (int i = 0; i < n; i++) {
+        varies = varies || argument[i].varies;
         if (!dimension_allowed(f->takes, &argument[i])) {
             *message = fw_arena_printf(arena, "%s takes %s, not %s", f->name,
                                        f->takes == TAKES_ANGLE ? "an angle or a pure number"
@@ -155,7 +166,7 @@ bool fw_function_apply(fw_arena *arena, int function, const fw_value *argument, 
         }
     }
     *number = 29;
-    *message = outside_domain(function, argument[0].value);
+    *message = argument[0].varies ? NULL : outside_domain(function, argument[0].value);
     if (*message) return false;
     if (f->gives == GIVES_ROOT && !halve(&result->dimension)) {
         *number = 30;
@@ -164,6 +175,7 @@ bool fw_function_apply(fw_arena *arena, int function, const fw_value *argument, 
     }
     if (f->gives == GIVES_PURE || f->gives == GIVES_ANGLE)
         *result = (fw_value){.dimension = {.rad = f->gives == GIVES_ANGLE}};
-    result->value = compute(function, argument, n);
+    result->varies = varies;
+    result->value = varies ? (double)NAN : compute(function, argument, n);
     return true;
 }

@@ -12,6 +12,7 @@ typedef struct fw_value {
     /* made by * or / of something with a dimension beyond angles: a missing or extra rad is then
        forgiven (length / angle is a radius) */
     bool composite;
+    bool varies; /* with time: the value is not known yet */
 } fw_value;
 
 bool fw_dimension_differs_in_angle(fw_dimension a, fw_dimension b); /* in nothing else */

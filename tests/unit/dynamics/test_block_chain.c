@@ -13,7 +13,7 @@ static fw_model *model_of(fw_arena *arena, const rig *r) {
         q[3 * b + 2] = r->m.body[b].phi_rad;
     }
     fw_model *m;
-    assert_int_equal(fw_model_new(arena, &r->m, NULL, q, 1, &m), FW_OK);
+    assert_int_equal(fw_model_new(arena, &r->m, NULL, q, 1, NULL, NULL, &m), FW_OK);
     return m;
 }
 
@@ -117,7 +117,7 @@ static void test_topology(void **state) {
     /* both ends first */
     const int order[6] = {0, 5, 1, 4, 2, 3};
     for (int i = 0; i < 6; i++)
-        assert_int_equal(m->pin[i], order[i]);
+        assert_int_equal(m->block[i].pin, order[i]);
     for (int n = 5; n <= 80; n *= 2) {
         rig w = rig_windows(arena, n);
         fw_model *big = model_of(arena, &w);
@@ -125,8 +125,8 @@ static void test_topology(void **state) {
         assert_true(big->chain.first[big->npin] <= 3 * n);
         char seen[300] = {0};
         for (int i = 0; i < big->npin; i++) {
-            assert_false(seen[big->pin[i]]);
-            seen[big->pin[i]] = 1;
+            assert_false(seen[big->block[i].pin]);
+            seen[big->block[i].pin] = 1;
         }
     }
     fw_arena_free(arena);

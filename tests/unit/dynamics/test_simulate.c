@@ -133,7 +133,8 @@ static void test_six_bar_reactions(void **state) {
     fw_arena_free(f.arena);
 }
 
-/* nearly a point mass: m r^2/J up to 1e13. Released level, it swings through half a turn, whatever J. */
+/* nearly a point mass: m r^2/J up to 1e13. Released level, it swings through half a turn, whatever
+ * J. */
 static void test_tiny_inertia(void **state) {
     (void)state;
     fixture f = begin();

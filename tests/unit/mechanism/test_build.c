@@ -246,6 +246,170 @@ static void test_mistakes(void **state) {
     fw_arena_free(d.arena);
 }
 
+/* bodies at (1, 0.5) mm and (3, 1) mm, the second turned by 0.5 rad */
+typedef struct ties {
+    fw_tie tie[3];
+    fw_driver driver[2];
+} ties;
+
+static fw_law law_of(fw_arena *arena, const char *text, fw_dimension wanted) {
+    fw_expression_error error;
+    fw_program *program;
+    if (fw_program_compile(arena, text, strlen(text), NULL, wanted, &program, &error) != FW_OK)
+        fail_msg("%s: %s", text, error.message);
+    return (fw_law){.kind = FW_LAW_EXPRESSION, .program = program};
+}
+
+static void ties_new(desk *d, ties *t) {
+    desk_new(d);
+    memset(t, 0, sizeof *t);
+    t->tie[0] = (fw_tie){.id = "p",
+                         .kind = FW_TIE_PRISMATIC,
+                         .body_a = 0,
+                         .body_b = 1,
+                         .bx_m = 1e-3,
+                         .axis_rad = 0.3,
+                         .angle_rad = unset,
+                         .length_m = unset,
+                         .stiffness_N_per_m = 2,
+                         .damping_Ns_per_m = unset,
+                         .free_length_m = 1e-4,
+                         .place = {"d.xml", 9, 1}};
+    t->tie[1] = t->tie[0];
+    t->tie[1].id = "d", t->tie[1].kind = FW_TIE_DISTANCE, t->tie[1].body_a = FW_GROUND;
+    t->tie[1].place.line = 10;
+    t->tie[2] = t->tie[0];
+    t->tie[2].id = "w", t->tie[2].kind = FW_TIE_WELD, t->tie[2].place.line = 11;
+    t->driver[0] = (fw_driver){.id = "A",
+                               .joint = 0,
+                               .tie = FW_NONE,
+                               .law = law_of(d->arena, "3 rad/s * t", (fw_dimension){.rad = 1}),
+                               .place = {"d.xml", 12, 1}};
+    t->driver[1] = (fw_driver){.id = "d",
+                               .joint = FW_NONE,
+                               .tie = 1,
+                               .law = law_of(d->arena, "1 mm + 2 mm/s*t", (fw_dimension){.m = 1}),
+                               .place = {"d.xml", 13, 1}};
+    d->device.tie = t->tie, d->device.ntie = 3;
+    d->device.driver = t->driver, d->device.ndriver = 2;
+}
+
+static void test_ties(void **state) {
+    (void)state;
+    desk d;
+    ties t;
+    const fw_mechanism *m;
+    ties_new(&d, &t);
+    d.variant.explicit_stiffness_scale = 3, d.variant.explicit_damping_scale = 5;
+    t.tie[0].damping_Ns_per_m = 7;
+    assert_int_equal(build(&d, &m), FW_OK);
+    assert_int_equal(d.diags.count, 0);
+    assert_int_equal(m->ntie, 3);
+    assert_int_equal(m->ndriver, 2);
+    assert_near(m->tie[0].angle_rad, 0.5, 0); /* as drawn */
+    assert_near(m->tie[0].stiffness_N_per_m, 6, 0);
+    assert_near(m->tie[0].damping_Ns_per_m, 35, 0);
+    assert_near(m->tie[0].free_length_m, 1e-4, 0);
+    assert_near(m->tie[1].length_m, hypot(3e-3 + 1e-3 * cos(0.5), 1e-3 + 1e-3 * sin(0.5)), 1e-18);
+    assert_near(m->tie[1].stiffness_N_per_m, 0, 0); /* a rod has none */
+    assert_near(m->tie[2].angle_rad, 0.5, 0);
+    fw_vec2 p = fw_local_place(m, 1, 1e-3, 0);
+    assert_near(p.x, 3e-3 + 1e-3 * cos(0.5), 1e-18);
+    /* what the file gives stays */
+    t.tie[0].angle_rad = 0.25, t.tie[1].length_m = 4e-3;
+    assert_int_equal(build(&d, &m), FW_OK);
+    assert_near(m->tie[0].angle_rad, 0.25, 0);
+    assert_near(m->tie[1].length_m, 4e-3, 0);
+    fw_arena_free(d.arena);
+}
+
+static void test_stops(void **state) {
+    (void)state;
+    desk d;
+    const fw_mechanism *m;
+    desk_new(&d);
+    d.joint[0].stop_min_rad = -0.1, d.joint[0].stop_max_rad = unset;
+    d.joint[0].stop_stiffness_Nm_per_rad = 2e-3, d.joint[0].stop_damping_Nms_per_rad = 3e-6;
+    d.joint[1].stop_min_rad = d.joint[1].stop_max_rad = unset;
+    d.joint[1].stop_stiffness_Nm_per_rad = d.joint[1].stop_damping_Nms_per_rad = unset;
+    d.variant.explicit_stiffness_scale = 3, d.variant.explicit_damping_scale = 5;
+    assert_int_equal(build(&d, &m), FW_OK);
+    assert_near(m->pin[0].stop_min_rad, -0.1, 0);
+    assert_true(isnan(m->pin[0].stop_max_rad));
+    assert_near(m->pin[0].stop_stiffness_Nm_per_rad, 6e-3, 1e-18);
+    assert_near(m->pin[0].stop_damping_Nms_per_rad, 15e-6, 1e-18);
+    assert_true(isnan(m->pin[1].stop_min_rad) && m->pin[1].stop_stiffness_Nm_per_rad == 0 &&
+                m->pin[1].stop_damping_Nms_per_rad == 0);
+    fw_arena_free(d.arena);
+}
+
+static void test_mistakes_of_ties(void **state) {
+    (void)state;
+    static const int number[] = {90, 90, 90, 90, 92, 92, 92, 92, 92};
+    for (size_t i = 0; i < sizeof number / sizeof number[0]; i++) {
+        desk d;
+        ties t;
+        const fw_mechanism *m = NULL;
+        ties_new(&d, &t);
+        switch (i) {
+        case 0:
+            t.tie[0].body_b = 0;
+            break;
+        case 1:
+            t.tie[1].length_m = 0;
+            break;
+        case 2: /* as drawn, and drawn on one point */
+            t.tie[1].ax_m = 3e-3, t.tie[1].ay_m = 1e-3, t.tie[1].bx_m = 0;
+            break;
+        case 3:
+            t.tie[2].bx_m = (double)INFINITY;
+            break;
+        case 4:
+            t.driver[0].joint = 7;
+            break;
+        case 5: /* a weld */
+            t.driver[1].tie = 2;
+            break;
+        case 6: /* both */
+            t.driver[0].tie = 1;
+            break;
+        case 7:
+            t.driver[0].law = law_of(d.arena, "1 rad*ln(t/(1 s))", (fw_dimension){.rad = 1});
+            break;
+        default:
+            t.driver[1].law = law_of(d.arena, "2 mm/s*t", (fw_dimension){.m = 1});
+            break;
+        }
+        assert_int_equal(build(&d, &m), FW_INPUT);
+        assert_null(m);
+        assert_int_equal(d.diags.errors, 1);
+        assert_int_equal(d.diags.item[0].number, number[i]);
+        assert_non_null(fw_diag_find(number[i]));
+        fw_arena_free(d.arena);
+    }
+}
+
+/* a spring with a rest length whose ends coincide has no direction: said once, not per flow */
+static void test_spring_without_direction(void **state) {
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        desk d;
+        const fw_mechanism *m;
+        desk_new(&d);
+        d.spring[0].ax_m = 3e-3, d.spring[0].ay_m = 1e-3;
+        d.spring[0].place = (fw_place){"d.xml", 20, 5};
+        if (i == 1) d.spring[0].length_m = 0;
+        if (i == 2) d.spring[0].cable = true;
+        if (i == 3) d.spring[0].ax_m = 3.1e-3;
+        assert_int_equal(build(&d, &m), FW_OK);
+        assert_int_equal(build(&d, &m), FW_OK);
+        assert_int_equal(d.diags.count, i == 0);
+        if (i == 0) assert_int_equal(d.diags.item[0].number, 91);
+        if (i == 0) assert_int_equal(d.diags.item[0].place.line, 20);
+        fw_arena_free(d.arena);
+    }
+}
+
 static void test_out_of_memory(void **state) {
     (void)state;
     for (long n = 1; n < 20; n++) {
@@ -268,6 +432,10 @@ int main(void) {
         cmocka_unit_test(test_stiffness_and_damping),
         cmocka_unit_test(test_without_a_layout),
         cmocka_unit_test(test_mistakes),
+        cmocka_unit_test(test_ties),
+        cmocka_unit_test(test_stops),
+        cmocka_unit_test(test_mistakes_of_ties),
+        cmocka_unit_test(test_spring_without_direction),
         cmocka_unit_test(test_out_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

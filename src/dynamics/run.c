@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The loop over steps, smooth pieces and events. */
+#include "base/cancel.h"
+#include "dynamics/run.h"
+#include <math.h>
+#include <string.h>
+
+static const long fw_most_steps = 2 * 1000 * 1000, fw_most_events = 100 * 1000;
+
+static const char *scene_name(const fw_run *r) {
+    return r->scene->name ? r->scene->name : "(unnamed)";
+}
+
+/* ---- what can go wrong ---- */
+
+static fw_status solver_error(fw_status status) {
+    return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
+}
+
+static fw_status stopped(const fw_run *r, const fw_stepper *s, fw_ode_result why) {
+    const fw_model *m = r->model;
+    int worst = 0;
+    double most = -1;
+    for (int b = 0; b < m->nbody; b++) {
+        const double *a = s->f + m->nq + 3 * b;
+        double size = fabs(a[0]) + fabs(a[1]) + fabs(a[2]);
+        if (size > most || isnan(size)) most = isnan(size) ? (double)INFINITY : size, worst = b;
+    }
+    const char *id = r->mechanism->body[worst].id ? r->mechanism->body[worst].id : "(unnamed)";
+    char time[32];
+    fw_number_text(time, sizeof time, s->t * m->scale.time_s, 6);
+    if (why == FW_ODE_NAN)
+        return solver_error(fw_diag_error(
+            r->diags, 102, r->scene->place,
+            "the motion of scene %s is no longer a number after %s s, at body %s; check "
+            "loads, masses and stiffnesses",
+            scene_name(r), time, id));
+    return solver_error(fw_diag_error(
+        r->diags, 101, r->scene->place,
+        "the steps of scene %s become too small at %s s, at body %s; the motion "
+        "runs into a position it cannot pass%s, or rtol is too tight",
+        scene_name(r), time, id,
+        strcmp(m->method->name, "chain") == 0 ? "" : " by this method (--method chain may)"));
+}
+
+/* the step says which of the two it is: a few per period of the motion, or tiny ones */
+static fw_status too_long(const fw_run *r, const fw_stepper *s) {
+    char step[32], at[32];
+    double unit = r->model->scale.time_s;
+    fw_status status =
+        fw_diag_error(r->diags, 108, r->scene->place,
+                      "scene %s needs more than 2 million steps (they are %s s, and %s s are "
+                      "reached): shorten it, or "
+                      "look for a stiffness or damping that is extreme against the masses",
+                      scene_name(r), fw_number_text(step, sizeof step, s->h * unit, 2),
+                      fw_number_text(at, sizeof at, s->t * unit, 3));
+    return status == FW_NOMEM ? FW_NOMEM : FW_LIMIT;
+}
+
+/* ---- energy ---- */
+
+static void watch_energy(fw_run *r, const double *y) {
+    fw_model_pose(r->model, y);
+    fw_energy e = fw_model_energy(r->model, y);
+    double balance = e.kinetic + e.elastic + e.dissipated - e.work;
+    double start = r->first.kinetic + r->first.elastic + r->first.dissipated - r->first.work;
+    r->drift = fmax(r->drift, fabs(balance - start));
+    r->largest = fmax(r->largest, fmax(e.kinetic + e.elastic + e.dissipated, fabs(e.work)));
+}
+
+static void first_energy(fw_run *r, const double *y) {
+    fw_model_pose(r->model, y);
+    r->first = fw_model_energy(r->model, y);
+    r->drift = 0;
+    r->largest = r->first.kinetic + r->first.elastic;
+}
+
+/* ---- events ---- */
+
+/* does switch i no longer fit its flag at theta? */
+static bool unfit(fw_run *r, fw_stepper *s, int i, double theta) {
+    fw_stepper_dense(s, theta, r->moved);
+    fw_model_pose(r->model, r->moved);
+    return (fw_model_switch_value(r->model, i, r->moved) > 0) != fw_model_switch_on(r->model, i);
+}
+
+/* first place in (low, high] where switch i does not fit, given that it does at low and not at
+   high; to round-off of theta, from above */
+static double bisect(fw_run *r, fw_stepper *s, int i, double low, double high) {
+    for (int k = 0; k < 52 && high - low > 1e-15; k++) {
+        double middle = 0.5 * (low + high);
+        *(unfit(r, s, i, middle) ? &high : &low) = middle;
+    }
+    return high;
+}
+
+/* the earliest event of the last step: its theta, and which switch; 1 and -1 when there is none.
+   Flags are compared at 16 places: a touch that is shorter than that is not seen. */
+static double find_event(fw_run *r, fw_stepper *s, int *which) {
+    int count = fw_model_switches(r->model);
+    double first = 1;
+    *which = -1;
+    for (int k = 1; k <= 16 && *which < 0 && count > 0; k++)
+        for (int i = 0; i < count; i++)
+            if (unfit(r, s, i, k / 16.0)) {
+                double at = bisect(r, s, i, (k - 1) / 16.0, k / 16.0);
+                if (*which < 0 || at < first) first = at, *which = i;
+            }
+    return first;
+}
+
+/* goes on from the event with the flag changed */
+static bool pass_event(fw_run *r, fw_stepper *s, int which, double theta) {
+    fw_model *m = r->model;
+    double t = s->t_old + theta * s->h;
+    fw_stepper_dense(s, theta, r->moved);
+    fw_model_flip(m, which, r->moved);
+    if (m->projecting) {
+        fw_model_pose(m, r->moved);
+        if (!m->method->factor(m) || !fw_model_project_position(m, t, r->moved) ||
+            !m->method->factor(m) || !fw_model_project_velocity(m, t, r->moved + m->nq))
+            return false;
+    }
+    fw_stepper_start(s, t, r->moved, s->t_end);
+    return true;
+}
+
+/* ---- pieces ---- */
+
+static double kinetic(const fw_model *m, const double *v) {
+    double sum = 0;
+    for (int i = 0; i < m->nq; i++)
+        sum += 0.5 * (i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]) * v[i] * v[i];
+    return sum;
+}
+
+/* a driver whose speed jumps moves the velocities at once (an impact without rebound); the energy
+   that brings or takes is the driver's work */
+static fw_status next_piece(fw_run *r, fw_stepper *s, int piece) {
+    fw_model *m = r->model;
+    double t = s->t, *y = r->moved;
+    memcpy(y, s->y, (size_t)m->ny * sizeof *y);
+    m->piece = 0.5 * (r->end[piece - 1] + r->end[piece]) * m->scale.time_s;
+    if (m->driven) {
+        double before = kinetic(m, y + m->nq), psi;
+        psi = fw_model_residual(m, t, y, m->right);
+        if (psi > 1e-9 * m->size) {
+            char at[32];
+            return solver_error(fw_diag_error(
+                r->diags, 101, r->scene->place,
+                "a driver of scene %s jumps at %s s: a position cannot; give it a ramp",
+                scene_name(r), fw_number_text(at, sizeof at, t * m->scale.time_s, 6)));
+        }
+        if (!m->method->factor(m) || !fw_model_project_velocity(m, t, y + m->nq))
+            return stopped(r, s, FW_ODE_SMALL);
+        if (m->worked >= 0) y[m->worked] += kinetic(m, y + m->nq) - before;
+    }
+    fw_stepper_start(s, t, y, r->end[piece]);
+    return FW_OK;
+}
+
+static bool turned_too_far(const fw_run *r, const fw_peaks *peaks) {
+    for (int i = 0; i < peaks->npin; i++)
+        if (fabs(peaks->peak[i].angle_rad) > r->most_angle) return true;
+    return false;
+}
+
+/* everything that looks at the step just made, up to theta_end */
+static bool look(fw_run *r, fw_stepper *s, fw_peaks *peaks, double theta_end) {
+    fw_peaks_step(peaks, r->model, s, theta_end);
+    fw_run_forces(r, s, theta_end);
+    if (!r->full) return true;
+    if (theta_end == 1) watch_energy(r, s->y);
+    fw_run_show(r, s, theta_end);
+    return fw_run_samples(r, s, theta_end);
+}
+
+static fw_status begin(fw_run *r, fw_stepper *s) {
+    fw_model *m = r->model;
+    if (r->full && r->options->observe) r->options->observe(r->options->context, NULL);
+    m->projections = m->events = 0;
+    m->worst_position = m->worst_velocity = 0;
+    m->piece = 0.5 * r->end[0] * m->scale.time_s;
+    fw_model_set_switches(m, r->start);
+    fw_stepper_start(s, 0, r->start, r->end[0]);
+    if (!r->full) return FW_OK;
+    first_energy(r, s->y);
+    fw_run_first_sample(r, s->y);
+    return FW_OK;
+}
+
+fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks) {
+    fw_model *m = r->model;
+    bool ended = false;
+    FW_TRY(begin(r, s));
+    for (int piece = 0; piece < r->npiece && !ended; piece++) {
+        if (piece > 0) FW_TRY(next_piece(r, s, piece));
+        while (s->t < r->end[piece] && !ended) {
+            if (fw_cancel_requested()) return FW_CANCELLED;
+            fw_ode_result result = fw_stepper_step(s);
+            if (result != FW_ODE_STEP) return stopped(r, s, result);
+            int which;
+            double theta = find_event(r, s, &which);
+            if (!look(r, s, peaks, theta)) return stopped(r, s, FW_ODE_SMALL);
+            if (which >= 0 && !pass_event(r, s, which, theta)) return stopped(r, s, FW_ODE_SMALL);
+            if (++r->steps > fw_most_steps || m->events > fw_most_events) return too_long(r, s);
+            ended = turned_too_far(r, peaks);
+        }
+    }
+    if (!r->full) return FW_OK;
+    r->motion->ended = ended && s->t < r->end[r->npiece - 1];
+    r->motion->end_s = r->motion->ended ? s->t * m->scale.time_s : r->scene->duration_s;
+    r->motion->nsample = r->row;
+    return FW_OK;
+}

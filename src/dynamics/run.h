@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One simulation while it runs. Private to dynamics/. */
+#ifndef FW_DYNAMICS_RUN_H
+#define FW_DYNAMICS_RUN_H
+#include "dynamics/model.h"
+
+typedef struct fw_run {
+    fw_arena *arena;
+    const fw_mechanism *mechanism;
+    const fw_scene *scene;
+    const fw_motion_options *options;
+    fw_diags *diags;
+    fw_motion *motion;
+    fw_model *model;
+    const fw_stepper_row *integrator;
+    double *q0;       /* (3 nbody) assembled, SI */
+    double *start;    /* (ny) */
+    double *state;    /* (ny) a sample */
+    double *rate;     /* (ny) its derivative */
+    double *moved;    /* (ny) a state at an event */
+    double amplitude; /* scaled size of the motion: the absolute tolerance is rtol times this */
+    fw_energy first;
+    double drift, largest;
+    double *seen_q, *seen_angle, *seen_force; /* what the observer is shown, SI */
+    double most_angle;                        /* rad; HUGE_VAL: no end before the end */
+    long steps;                               /* over all tries */
+    double *end; /* (npiece) scaled times at which a smooth piece ends */
+    int npiece;
+    int row;              /* next sample */
+    bool full;            /* samples, observer and energy too */
+    fw_force_peak *force; /* (npin) of this pass, scaled time; NULL: not asked for */
+    double *force_now;    /* (npin) */
+    double *force_grid;   /* (9 npin) along a step */
+} fw_run;
+
+/* start.c: pieces, assembled state with fitting velocities, size of the motion, output arrays */
+fw_status fw_run_prepare(fw_run *r, const fw_terms *terms);
+fw_status fw_run_arrays(fw_run *r);
+
+/* choose.c: by name, or by the scene; says why in motion->reason */
+fw_status fw_integrator_choose(fw_run *r, const fw_terms *terms, const char *name);
+
+/* sample.c */
+void fw_run_first_sample(fw_run *r, const double *y);
+/* rows and observer along the last step up to theta_end; false: a state cannot be projected */
+bool fw_run_samples(fw_run *r, fw_stepper *s, double theta_end);
+void fw_run_show(fw_run *r, fw_stepper *s, double theta_end);
+/* largest joint forces along the last step */
+void fw_run_forces(fw_run *r, fw_stepper *s, double theta_end);
+
+/* run.c: from start to end with one stepper; counts and norms are in model and stepper */
+fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks);
+
+#endif

@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is read off the steps: evenly spaced rows, the observer's instants, extremes of the joint
+   forces. All from the dense output; rows are projected like accepted steps. */
+#include "dynamics/run.h"
+#include <math.h>
+
+/* state y in SI: pose and joint angles */
+static void pose_in_SI(const fw_run *r, const double *y, double *q, double *angle) {
+    const fw_model *m = r->model;
+    for (int i = 0; i < m->nq; i++)
+        q[i] = r->q0[i] + (i % 3 == 2 ? 1 : m->scale.length_m) * y[i];
+    for (int i = 0; i < r->mechanism->npin; i++) {
+        const fw_pin *p = &r->mechanism->pin[i];
+        angle[i] = (p->body_b == FW_GROUND ? 0 : q[3 * p->body_b + 2]) -
+                   (p->body_a == FW_GROUND ? 0 : q[3 * p->body_a + 2]) - p->free_angle_rad;
+    }
+}
+
+static double newton(const fw_model *m) {
+    const fw_scale s = m->scale;
+    return s.mass_kg * s.length_m / (s.time_s * s.time_s);
+}
+
+/* force of every pin on its body b, world axes: the multipliers at the last right-hand side */
+static void pin_forces(const fw_model *m, double *out) {
+    double unit = newton(m);
+    for (int i = 0; i < m->npin; i++)
+        for (int k = 0; k < 2; k++)
+            out[2 * i + k] = unit * m->lambda[2 * m->pin_block[i] + k];
+}
+
+/* -G_b^T lambda of one block, as force and torque about its point b */
+static void add_block_force(const fw_model *m, int block, double *out) {
+    const double *g = m->jac + 12 * block + 6, *l = m->lambda + 2 * block,
+                 *r = m->arm + 4 * block + 2;
+    double fx = -(g[0] * l[0] + g[3] * l[1]), fy = -(g[1] * l[0] + g[4] * l[1]);
+    if (m->body[2 * block + 1] == m->nbody) { /* the ground has no row: the opposite of a's */
+        g -= 6;
+        fx = g[0] * l[0] + g[3] * l[1], fy = g[1] * l[0] + g[4] * l[1];
+        const double *ra = r - 2;
+        out[2] +=
+            newton(m) * m->scale.length_m * (g[2] * l[0] + g[5] * l[1] - ra[0] * fy + ra[1] * fx);
+    } else {
+        out[2] += newton(m) * m->scale.length_m *
+                  (-(g[2] * l[0] + g[5] * l[1]) - (r[0] * fy - r[1] * fx));
+    }
+    out[0] += newton(m) * fx;
+    out[1] += newton(m) * fy;
+}
+
+static void tie_forces(const fw_run *r, double *tie, double *driver) {
+    const fw_model *m = r->model;
+    for (int i = 0; i < m->ntie; i++) {
+        int block = m->tie_block[i];
+        tie[3 * i] = tie[3 * i + 1] = tie[3 * i + 2] = 0;
+        add_block_force(m, block, tie + 3 * i);
+        for (int k = 0; k < m->nblock && r->mechanism->tie[i].kind == FW_TIE_WELD; k++)
+            if (m->block[k].tie == i && k != block) add_block_force(m, k, tie + 3 * i);
+    }
+    for (int i = 0; i < m->ndriver; i++) {
+        const fw_block *b = &m->block[m->driver_block[i]];
+        double unit = newton(m) * (b->rows == FW_ROWS_TURN ? m->scale.length_m : 1);
+        driver[i] = -unit * m->lambda[2 * m->driver_block[i]];
+    }
+}
+
+static void store(fw_run *r, double t_s, double t, const double *y) {
+    fw_motion *out = r->motion;
+    fw_model *m = r->model;
+    const fw_scale s = m->scale;
+    size_t row = (size_t)r->row, base = row * (size_t)m->nq;
+    out->t_s[row] = t_s;
+    pose_in_SI(r, y, out->q + base, out->angle_rad + row * (size_t)out->npin);
+    fw_model_rhs(m, t, y, r->rate);
+    for (int i = 0; i < m->nq; i++) {
+        double unit = (i % 3 == 2 ? 1 : s.length_m) / s.time_s;
+        out->v[base + (size_t)i] = unit * y[m->nq + i];
+        out->accel[base + (size_t)i] = unit / s.time_s * r->rate[m->nq + i];
+    }
+    pin_forces(m, out->reaction_N + row * 2 * (size_t)out->npin);
+    tie_forces(r, out->tie_N + row * 3 * (size_t)out->ntie,
+               out->driver_N + row * (size_t)out->ndriver);
+    r->row++;
+}
+
+static double sample_time(const fw_run *r, int row) {
+    int last = r->motion->nsample - 1;
+    return row == last ? r->scene->duration_s : r->scene->duration_s * row / (last > 0 ? last : 1);
+}
+
+void fw_run_first_sample(fw_run *r, const double *y) {
+    r->row = 0;
+    if (r->motion->nsample > 0) store(r, 0, 0, y);
+}
+
+/* onto the constraints, as accepted steps are; without projection as it is */
+static bool settle(fw_model *m, double t, double *y) {
+    if (!m->projecting) return true;
+    fw_model_pose(m, y);
+    return m->method->factor(m) && fw_model_project_position(m, t, y) && m->method->factor(m) &&
+           fw_model_project_velocity(m, t, y + m->nq);
+}
+
+bool fw_run_samples(fw_run *r, fw_stepper *s, double theta_end) {
+    fw_model *m = r->model;
+    double reached = theta_end < 1 ? s->t_old + theta_end * s->h : s->t;
+    double final = r->end[r->npiece - 1];
+    for (; r->row < r->motion->nsample;) {
+        double t_s = sample_time(r, r->row), t = t_s / m->scale.time_s;
+        bool end = r->row == r->motion->nsample - 1;
+        if (end ? reached < final : t > reached) return true;
+        if (theta_end == 1 && (t >= s->t || end)) {
+            store(r, t_s, s->t, s->y);
+            continue;
+        }
+        fw_stepper_dense(s, fmin(theta_end, (t - s->t_old) / s->h), r->state);
+        if (!settle(m, t, r->state)) return false;
+        store(r, t_s, t, r->state);
+    }
+    return true;
+}
+
+void fw_run_show(fw_run *r, fw_stepper *s, double theta_end) {
+    if (!r->options->observe) return;
+    for (int i = s->t_old > 0 ? 1 : 0; i <= FW_INSTANTS; i++) {
+        double theta = theta_end * i / FW_INSTANTS;
+        fw_stepper_dense(s, theta, r->state);
+        pose_in_SI(r, r->state, r->seen_q, r->seen_angle);
+        fw_model_rhs(r->model, s->t_old + theta * s->h, r->state, r->rate);
+        pin_forces(r->model, r->seen_force);
+        const fw_instant now = {(s->t_old + theta * s->h) * r->model->scale.time_s, r->seen_q,
+                                r->seen_angle, r->seen_force};
+        r->options->observe(r->options->context, &now);
+    }
+}
+
+/* ---- extremes of the joint forces ---- */
+
+static void forces_at(fw_run *r, fw_stepper *s, double theta) {
+    const fw_model *m = r->model;
+    fw_stepper_dense(s, theta, r->state);
+    fw_model_rhs(r->model, s->t_old + theta * s->h, r->state, r->rate);
+    for (int i = 0; i < m->npin; i++) {
+        const double *l = m->lambda + 2 * m->pin_block[i];
+        r->force_now[i] = newton(m) * sqrt(l[0] * l[0] + l[1] * l[1]);
+    }
+}
+
+static void offer(fw_force_peak *peak, double force, double t) {
+    if (force > peak->force_N) peak->force_N = force, peak->t_s = t;
+}
+
+enum { GRID = 8 };
+
+/* maximum of one force around grid point k, by golden section on the force itself */
+static void refine(fw_run *r, fw_stepper *s, int pin, double low, double high) {
+    const double golden = 0.6180339887498949;
+    double a = low, b = high, x = b - golden * (b - a), y = a + golden * (b - a);
+    forces_at(r, s, x);
+    double fx = r->force_now[pin];
+    forces_at(r, s, y);
+    double fy = r->force_now[pin];
+    for (int i = 0; i < 32 && b - a > 1e-7; i++) {
+        bool left = fx > fy;
+        if (left)
+            b = y, y = x, fy = fx, x = b - golden * (b - a);
+        else
+            a = x, x = y, fx = fy, y = a + golden * (b - a);
+        forces_at(r, s, left ? x : y);
+        *(left ? &fx : &fy) = r->force_now[pin];
+    }
+    double theta = fx > fy ? x : y;
+    offer(&r->force[pin], fmax(fx, fy), s->t_old + theta * s->h);
+}
+
+/* every force at nine places of the step; where the middle one of three is highest and comes near
+   the peak so far, its maximum is searched */
+void fw_run_forces(fw_run *r, fw_stepper *s, double theta_end) {
+    if (!r->force) return;
+    int pins = r->model->npin;
+    double *grid = r->force_grid;
+    for (int k = 0; k <= GRID; k++) {
+        forces_at(r, s, theta_end * k / GRID);
+        for (int i = 0; i < pins; i++)
+            grid[k * pins + i] = r->force_now[i];
+    }
+    for (int i = 0; i < pins; i++) {
+        int best = 0;
+        for (int k = 1; k <= GRID; k++)
+            if (grid[k * pins + i] > grid[best * pins + i]) best = k;
+        double most = grid[best * pins + i];
+        offer(&r->force[i], most, s->t_old + theta_end * best / GRID * s->h);
+        int low = best > 0 ? best - 1 : 0, high = best < GRID ? best + 1 : GRID;
+        /* a parabola through three points rises above the middle one by an eighth of its bend */
+        double bend = fabs(grid[low * pins + i] - 2 * most + grid[high * pins + i]);
+        if (most + bend >= r->force[i].force_N && best > 0 && best < GRID)
+            refine(r, s, i, theta_end * low / GRID, theta_end * high / GRID);
+    }
+}

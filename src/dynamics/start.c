@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What must be known before the first step. */
+#include "dynamics/run.h"
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+static const char *scene_name(const fw_run *r) {
+    return r->scene->name ? r->scene->name : "(unnamed)";
+}
+
+/* ---- smooth pieces between the breaks of all laws ---- */
+
+static int by_size(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static const fw_law *law_of(const fw_run *r, const fw_terms *terms, int i) {
+    return i < terms->ntimed ? terms->timed[i].law : &r->mechanism->driver[i - terms->ntimed].law;
+}
+
+static fw_status pieces(fw_run *r, const fw_terms *terms) {
+    int laws = terms->ntimed + r->mechanism->ndriver, count = 0;
+    double end = r->scene->duration_s, unit = r->model->scale.time_s;
+    for (int i = 0; i < laws; i++)
+        count += fw_law_breaks(law_of(r, terms, i), end, NULL, 0);
+    double *at;
+    FW_NEED(at = fw_arena_array(r->arena, double, (size_t)count + 1));
+    int have = 0;
+    for (int i = 0; i < laws; i++)
+        have += fw_law_breaks(law_of(r, terms, i), end, at + have, count - have);
+    if (have > 1) qsort(at, (size_t)have, sizeof *at, by_size);
+    int kept = 0;
+    for (int i = 0; i < have; i++)
+        if (at[i] > 0 && at[i] < end && (kept == 0 || at[i] > at[kept - 1])) at[kept++] = at[i];
+    at[kept++] = end;
+    for (int i = 0; i < kept; i++)
+        at[i] /= unit;
+    r->end = at;
+    r->npiece = kept;
+    r->model->piece = 0.5 * at[0] * unit;
+    return FW_OK;
+}
+
+/* ---- size of the motion ---- */
+
+/* in scaled units, at most 1: twice the linear static response to what acts, and the starting
+   velocity; 1 when the mechanism can move freely or is driven */
+static fw_status motion_size(fw_run *r, const fw_terms *terms) {
+    const fw_mechanism *m = r->mechanism;
+    size_t n = 3 * (size_t)m->nbody;
+    double *force, *displacement, *rotation, size = 0, speed = 0;
+    r->amplitude = 1;
+    if (r->model->driven) return FW_OK;
+    fw_mark mark = fw_arena_mark(r->arena);
+    bool valid = false;
+    FW_NEED(force = fw_arena_array(r->arena, double, n));
+    FW_NEED(displacement = fw_arena_array(r->arena, double, n));
+    FW_NEED(rotation = fw_arena_array(r->arena, double, (size_t)m->npin));
+    fw_terms_initial_force(m, terms, force);
+    FW_TRY(fw_static_response(r->arena, m, terms, force, displacement, rotation, &valid));
+    const fw_scale s = r->model->scale;
+    for (size_t i = 0; i < n; i++) {
+        double unit = i % 3 == 2 ? 1 : s.length_m;
+        if (valid) size = fmax(size, 2 * fabs(displacement[i]) / unit);
+        speed = fmax(speed, fabs(r->start[n + i]));
+    }
+    fw_arena_rewind(r->arena, mark);
+    size = fmax(size, speed);
+    if (valid && size > 0) r->amplitude = fmin(1, size);
+    return FW_OK;
+}
+
+/* ---- start values ---- */
+
+/* assembled pose, initial velocities moved onto G v = -Psi_t; says so when they contradicted the
+   joints */
+static fw_status start_values(fw_run *r, const fw_terms *terms) {
+    fw_model *m = r->model;
+    const fw_scale s = m->scale;
+    double *v = r->start + m->nq, size = 0, moved = 0, before = 0, after = 0;
+    for (int i = 0; i < m->nq; i++) {
+        v[i] = terms->velocity[i] * s.time_s / (i % 3 == 2 ? 1 : s.length_m);
+        r->state[i] = v[i];
+        size = fmax(size, fabs(v[i]));
+        before += 0.5 * (i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]) * v[i] * v[i];
+    }
+    fw_model_pose(m, r->start);
+    if (!m->method->factor(m) || !fw_model_project_position(m, 0, r->start) ||
+        !m->method->factor(m) || !fw_model_project_velocity(m, 0, v))
+        return fw_diag_error(r->diags, 109, r->scene->place,
+                             "method %s cannot start scene %s: its equations are singular in the "
+                             "assembled position; use --method chain",
+                             m->method->name, scene_name(r)) == FW_NOMEM
+                   ? FW_NOMEM
+                   : FW_SOLVER;
+    for (int i = 0; i < m->nq; i++) {
+        moved = fmax(moved, fabs(v[i] - r->state[i]));
+        after += 0.5 * (i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]) * v[i] * v[i];
+    }
+    r->motion->stats.velocity_moved = size > 0 ? moved / size : 0;
+    if (size > 0 && moved > 1e-6 * size) {
+        char most[32], energy[32];
+        fw_diag_warning(
+            r->diags, 106, r->scene->place,
+            "initial velocities of scene %s contradict the joints; they were changed by up "
+            "to %s %% to fit, the kinetic energy by %s %%",
+            scene_name(r), fw_number_text(most, sizeof most, 100 * moved / size, 3),
+            fw_number_text(energy, sizeof energy, 100 * (after - before) / before, 3));
+    }
+    fw_model_set_switches(m, r->start);
+    return FW_OK;
+}
+
+fw_status fw_run_prepare(fw_run *r, const fw_terms *terms) {
+    FW_TRY(pieces(r, terms));
+    FW_TRY(start_values(r, terms));
+    return motion_size(r, terms);
+}
+
+fw_status fw_run_arrays(fw_run *r) {
+    fw_motion *m = r->motion;
+    const fw_mechanism *from = r->mechanism;
+    int samples = r->options->samples;
+    size_t rows = (size_t)samples, n = 3 * (size_t)from->nbody, pins = (size_t)from->npin;
+    m->nbody = from->nbody, m->npin = from->npin;
+    m->ntie = from->ntie, m->ndriver = from->ndriver;
+    m->nsample = samples;
+    if (rows > ((size_t)1 << 40) / (n + pins + 1)) return FW_LIMIT;
+    FW_NEED(m->t_s = fw_arena_array(r->arena, double, rows));
+    FW_NEED(m->q = fw_arena_array(r->arena, double, rows *n));
+    FW_NEED(m->v = fw_arena_array(r->arena, double, rows *n));
+    FW_NEED(m->accel = fw_arena_array(r->arena, double, rows *n));
+    FW_NEED(m->angle_rad = fw_arena_array(r->arena, double, rows *pins));
+    FW_NEED(m->reaction_N = fw_arena_array(r->arena, double, rows * 2 * pins));
+    FW_NEED(m->tie_N = fw_arena_array(r->arena, double, rows * 3 * (size_t)from->ntie));
+    FW_NEED(m->driver_N = fw_arena_array(r->arena, double, rows *(size_t)from->ndriver));
+    FW_NEED(m->peak = fw_arena_array(r->arena, fw_peak, pins));
+    FW_NEED(r->seen_q = fw_arena_array(r->arena, double, n));
+    FW_NEED(r->seen_angle = fw_arena_array(r->arena, double, pins));
+    FW_NEED(r->seen_force = fw_arena_array(r->arena, double, 2 * pins));
+    FW_NEED(r->force_now = fw_arena_array(r->arena, double, pins));
+    if (r->options->reactions)
+        FW_NEED(m->force_peak = fw_arena_array(r->arena, fw_force_peak, pins));
+    FW_NEED(r->force_grid = fw_arena_array(r->arena, double, 9 * pins));
+    size_t ny = (size_t)r->model->ny;
+    FW_NEED(r->start = fw_arena_array(r->arena, double, ny));
+    FW_NEED(r->state = fw_arena_array(r->arena, double, ny));
+    FW_NEED(r->rate = fw_arena_array(r->arena, double, ny));
+    FW_NEED(r->moved = fw_arena_array(r->arena, double, ny));
+    return FW_OK;
+}
