@@ -188,8 +188,8 @@ function curves(p, wish)
               'svd lsode adams loop', @jacobian_loop, @svd_null_space, 'adams';
               'KKT lsode adams vectorised', @jacobian_vectorised, @kkt, 'adams';
               'KKT lsode bdf vectorised', @jacobian_vectorised, @kkt, 'bdf'};
-  tolerances = 5:11;
-  if wish.quick, tolerances = 6:2:10; end
+  tolerances = 4:11;
+  if wish.quick, tolerances = 4:2:10; end
   for i = 1:rows(settings)
     f = @(t, y) rate(t, y, p, settings{i, 2}, settings{i, 3});
     f(0, y0);
