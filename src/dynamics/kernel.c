@@ -20,7 +20,7 @@ bool fw_core_plain(const fw_model *m) {
 
 /* the first coupling of every block goes into the table by block, further ones into a list;
    a block without any (fill) gets a sign of zero */
-static fw_status plan_couplings(fw_arena *arena, const fw_model *m, fw_plan *p) {
+static fw_status plan_couplings(fw_arena *arena, const fw_model *m, fw_kernel_plan *p) {
     const fw_chain *c = &m->chain;
     int *arm, *extra;
     size_t blocks = (size_t)c->blocks, more = (size_t)(c->ncoupling);
@@ -43,21 +43,21 @@ static fw_status plan_couplings(fw_arena *arena, const fw_model *m, fw_plan *p) 
     return FW_OK;
 }
 
-fw_status fw_plan_new(fw_arena *arena, const fw_model *m, fw_plan *p) {
+fw_status fw_kernel_plan_new(fw_arena *arena, const fw_model *m, fw_kernel_plan *p) {
     const fw_chain *c = &m->chain;
     int *torsion;
-    *p = (fw_plan){.bodies = m->nbody,
-                   .pins = m->nblock,
-                   .blocks = c->blocks,
-                   .torsions = m->ntorsion,
-                   .nq = m->nq,
-                   .ny = m->ny,
-                   .dissipates = m->dissipated >= 0,
-                   .body = m->body,
-                   .column = c->column,
-                   .row = c->row,
-                   .first = c->first,
-                   .update = c->update};
+    *p = (fw_kernel_plan){.bodies = m->nbody,
+                          .pins = m->nblock,
+                          .blocks = c->blocks,
+                          .torsions = m->ntorsion,
+                          .nq = m->nq,
+                          .ny = m->ny,
+                          .dissipates = m->dissipated >= 0,
+                          .body = m->body,
+                          .column = c->column,
+                          .row = c->row,
+                          .first = c->first,
+                          .update = c->update};
     FW_TRY(plan_couplings(arena, m, p));
     FW_NEED(torsion = fw_arena_array(arena, int, 2 * (size_t)m->ntorsion));
     for (int i = 0; i < m->ntorsion; i++)
@@ -66,8 +66,9 @@ fw_status fw_plan_new(fw_arena *arena, const fw_model *m, fw_plan *p) {
     return FW_OK;
 }
 
-fw_status fw_core_new(fw_arena *arena, const fw_plan *plan, const fw_core_ops *ops, fw_core *k) {
-    const fw_plan *p = plan;
+fw_status fw_core_new(fw_arena *arena, const fw_kernel_plan *plan, const fw_core_ops *ops,
+                      fw_core *k) {
+    const fw_kernel_plan *p = plan;
     size_t w = (size_t)ops->width, n = (size_t)p->bodies + 1, m = (size_t)p->pins;
     *k = (fw_core){.plan = *plan, .ops = ops, .healthy = fw_healthy};
     FW_NEED(k->body = fw_arena_array(arena, double, w *FW_BODY *n));
@@ -109,7 +110,7 @@ static void fill_pin(const fw_model *m, int i, double *to, int w) {
 }
 
 void fw_core_fill(fw_core *k, const fw_model *m, int lane) {
-    const fw_plan *p = &k->plan;
+    const fw_kernel_plan *p = &k->plan;
     const int w = k->ops->width;
     for (int b = 0; b <= p->bodies; b++) {
         double *to = k->body + w * FW_BODY * b + lane;
@@ -158,9 +159,9 @@ fw_status fw_kernel_new(fw_arena *arena, const fw_model *m, fw_kernel **kernel) 
     *kernel = NULL;
     if (!fw_core_plain(m)) return FW_OK;
     fw_kernel *k = fw_arena_one(arena, fw_kernel);
-    fw_plan plan;
+    fw_kernel_plan plan;
     FW_NEED(k);
-    FW_TRY(fw_plan_new(arena, m, &plan));
+    FW_TRY(fw_kernel_plan_new(arena, m, &plan));
     FW_TRY(fw_core_new(arena, &plan, &fw_core_single, &k->core));
     fw_core_fill(&k->core, m, 0);
     FW_TRY(fw_core_examine(arena, &k->core));

@@ -97,7 +97,7 @@ static inline void couple(const fw_core *k, int row_arm, int column_arm, const r
 }
 
 static void set_blocks(fw_core *k) {
-    const fw_plan *p = &k->plan;
+    const fw_kernel_plan *p = &k->plan;
     for (int e = 0; e < p->blocks; e++)
         couple(k, p->arm[2 * e], p->arm[2 * e + 1], CONST(block) + FW_BLOCK * e,
                WORK(coupling) + FW_COUPLING * e + FW_B);
@@ -123,7 +123,7 @@ static void set_matrix(fw_core *k) {
    `limit` (relative to the masses) are set in the answer; NaN passes and shows in the result. */
 static inline __attribute__((always_inline)) bits eliminate(fw_core *k, double epsilon,
                                                             double limit, bool forward) {
-    const fw_plan *p = &k->plan;
+    const fw_kernel_plan *p = &k->plan;
     real *const rows = WORK(row), *const couplings = WORK(coupling);
     bits sick = {0};
     for (int i = 0; i < p->pins; i++) {
@@ -174,7 +174,7 @@ static inline __attribute__((always_inline)) bits eliminate(fw_core *k, double e
 }
 
 static void substitute_forward(fw_core *k) {
-    const fw_plan *p = &k->plan;
+    const fw_kernel_plan *p = &k->plan;
     for (int i = 0; i < p->pins; i++) {
         real *w = WORK(row) + FW_ROW * i;
         real x0 = w[FW_X], x1 = w[FW_X + 1];
@@ -190,7 +190,7 @@ static void substitute_forward(fw_core *k) {
 }
 
 static void substitute_backward(fw_core *k) {
-    const fw_plan *p = &k->plan;
+    const fw_kernel_plan *p = &k->plan;
     for (int i = p->pins - 1; i >= 0; i--) {
         real *w = WORK(row) + FW_ROW * i;
         real x0 = w[FW_X], x1 = w[FW_X + 1];
@@ -207,7 +207,7 @@ static void substitute_backward(fw_core *k) {
 /* to -= M^-1 G^T x; `to` holds triples `stride` apart, the ground's too when it has them */
 static inline __attribute__((always_inline)) void apply(const fw_core *k, real *to, int stride,
                                                         bool ground) {
-    const fw_plan *p = &k->plan;
+    const fw_kernel_plan *p = &k->plan;
     for (int i = 0; i < p->pins; i++) {
         const real *w = CONST(row) + FW_ROW * i, *r = w + FW_ARM;
         const int a = p->body[2 * i], b = p->body[2 * i + 1];
@@ -233,7 +233,7 @@ static inline __attribute__((always_inline)) void apply(const fw_core *k, real *
 
 /* angles, speeds and accelerations M^-1 Q of every body; the power that is dissipated */
 static real set_accelerations(fw_core *k, const real *u, const real *v) {
-    const fw_plan *p = &k->plan;
+    const fw_kernel_plan *p = &k->plan;
     real *state = WORK(state);
     for (int b = 0; b < p->bodies; b++) {
         const real *c = CONST(body) + FW_BODY * b;
@@ -270,7 +270,7 @@ static inline void set_right(const fw_core *k, int i, real *w) {
 /* the proximal iteration for the lanes that are sick; the others keep their plain solution. Answers
    the lanes that have no solution at all. */
 static __attribute__((noinline)) bits solve_with_care(fw_core *k, bits sick, bool assembled) {
-    const fw_plan *p = &k->plan;
+    const fw_kernel_plan *p = &k->plan;
     real size = {0};
     if (!assembled) set_matrix(k);
     bits broken = assembled ? (bits){0} : eliminate(k, fw_epsilon, DBL_MIN, false);
@@ -306,7 +306,7 @@ static __attribute__((noinline)) bits solve_with_care(fw_core *k, bits sick, boo
 
 /* lambda is known: f = (v, a, power) times the rate of each lane */
 static void finish(fw_core *k, bits broken, real power, const real *y, real *f) {
-    const fw_plan *p = &k->plan;
+    const fw_kernel_plan *p = &k->plan;
     real *state = WORK(state);
     apply(k, state + FW_A, FW_STATE, true);
     const real *v = y + p->nq;
@@ -335,7 +335,7 @@ static void finish(fw_core *k, bits broken, real power, const real *y, real *f) 
 }
 
 static void core_rhs(fw_core *k, const double *at, double *slope) {
-    const fw_plan *p = &k->plan;
+    const fw_kernel_plan *p = &k->plan;
     const real *y = (const real *)at;
     set_sines(k, y);
     real power = set_accelerations(k, y, y + p->nq);
@@ -359,7 +359,7 @@ static void core_rhs(fw_core *k, const double *at, double *slope) {
 
 /* Psi into the rows; the largest |Psi| of any design, and that relative to its size */
 static double residual(fw_core *k, const real *u, double *relative) {
-    const fw_plan *p = &k->plan;
+    const fw_kernel_plan *p = &k->plan;
     static const double still[3 * 8] __attribute__((aligned(64))) = {0};
     set_pose(k, u);
     real worst = {0};
@@ -416,7 +416,7 @@ static bool project_position(fw_core *k, real *u, double *norm) {
 
 /* v -= M^-1 G^T S^-1 G v with the factor of the pose */
 static bool project_velocity(fw_core *k, real *v, double *norm) {
-    const fw_plan *p = &k->plan;
+    const fw_kernel_plan *p = &k->plan;
     static const double still[3 * 8] __attribute__((aligned(64))) = {0};
     real size = real_of(DBL_MIN);
     double before = (double)INFINITY;
@@ -447,7 +447,7 @@ static bool project_velocity(fw_core *k, real *v, double *norm) {
 
 /* position, velocity, then f with the same factor */
 static bool core_project(fw_core *k, double *at, double *slope) {
-    const fw_plan *p = &k->plan;
+    const fw_kernel_plan *p = &k->plan;
     real *y = (real *)at;
     double position, velocity;
     bits broken, sick;

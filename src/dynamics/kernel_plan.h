@@ -5,7 +5,7 @@
 #define FW_DYNAMICS_KERNEL_PLAN_H
 #include "dynamics/kernel.h"
 
-typedef struct fw_plan {
+typedef struct fw_kernel_plan {
     int bodies, pins, blocks, extras, torsions;
     int nq, ny;
     bool dissipates;
@@ -17,7 +17,7 @@ typedef struct fw_plan {
     const int *first;  /* (pins + 1) first update of each column */
     const fw_update *update;
     const int *torsion; /* (2 torsions) */
-} fw_plan;
+} fw_kernel_plan;
 
 enum { /* records of constants */
        FW_MINV,
@@ -62,7 +62,7 @@ typedef struct fw_core_ops { /* one row per instruction set */
 } fw_core_ops;
 
 struct fw_core {
-    fw_plan plan;
+    fw_kernel_plan plan;
     const fw_core_ops *ops;
     double *body, *pin, *block, *extra, *torsion; /* constants */
     double *size;                                 /* (1) largest |offset| + arms of each design */
@@ -75,9 +75,10 @@ struct fw_core {
 };
 
 bool fw_core_plain(const fw_model *model);
-fw_status fw_plan_new(fw_arena *arena, const fw_model *model, fw_plan *plan);
+fw_status fw_kernel_plan_new(fw_arena *arena, const fw_model *model, fw_kernel_plan *plan);
 /* memory for `ops->width` designs of this plan */
-fw_status fw_core_new(fw_arena *arena, const fw_plan *plan, const fw_core_ops *ops, fw_core *core);
+fw_status fw_core_new(fw_arena *arena, const fw_kernel_plan *plan, const fw_core_ops *ops,
+                      fw_core *core);
 /* after all lanes are filled: sets `redundant` */
 fw_status fw_core_examine(fw_arena *arena, fw_core *core);
 /* the numbers of a model of the same topology into one lane */

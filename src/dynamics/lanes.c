@@ -70,12 +70,12 @@ static bool same_topology(const fw_model *a, const fw_model *b) {
 fw_status fw_lanes_new(fw_arena *arena, const fw_model *const *models, int count, const char *set,
                        fw_lanes **lanes) {
     const fw_core_ops *ops = find_set(set);
-    fw_plan plan;
+    fw_kernel_plan plan;
     *lanes = NULL;
     if (!ops || count <= 0) return FW_USAGE;
     for (int i = 0; i < count; i++)
         if (!fw_core_plain(models[i]) || !same_topology(models[0], models[i])) return FW_OK;
-    FW_TRY(fw_plan_new(arena, models[0], &plan));
+    FW_TRY(fw_kernel_plan_new(arena, models[0], &plan));
     fw_lanes *l = fw_arena_one(arena, fw_lanes);
     FW_NEED(l);
     *l = (fw_lanes){.ops = ops,

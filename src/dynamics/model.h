@@ -151,6 +151,8 @@ typedef struct fw_model {
     /* kept over a run */
     long projections, events;
     double worst_position, worst_velocity;
+    int stuck; /* block that a projection could not close, and when; -1: none */
+    double stuck_time;
 } fw_model;
 
 /* ---- methods: one file each, method_*.c; rows in table.c ---- */

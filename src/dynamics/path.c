@@ -1,609 +1,423 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The kernel of a path: bodies in a row, each pinned to the next, the ends free or on the ground -
-   every chain, and the single loop of a six-bar. The elimination starts from both ends at once, one
-   end in each lane of a register, and meets in the middle.
+/* Load paths: the curve of equilibria (u, s) from s = 0, followed by arc length so that it may turn
+   back. The multipliers are functions of (u, s) and stay eliminated. With the modes Phi of the
+   tangent stiffness at the present state (Phi^T K Phi = diag(mu)), forces g = Phi^T Q and
+   p = Phi^T (dQ/ds - K du/ds), one Newton step of the corrector is
 
-   Record i holds the i-th bodies from both ends and the i-th pins from both ends. In its lane a pin
-   reads Psi = x_outer - x_inner, outer being the side of its own end; both lanes then do the same.
-   With an even number of pins they meet in a body: the last pivot of either lane is updated by the
-   other lane's (both Schur complements at once, no substitution between the two). With an odd
-   number they meet in a pin, which both lanes hold with opposite signs. Ground: 1/m = 1/J = 0.
-   Methods, errors and sources as in kernel_core.h. Test: test_kernel.c. */
-#define FW_W 2
-#include "dynamics/kernel_plan.h"
-#include "dynamics/kernel_sincos.h"
+       diag(mu) z - p ds = g,     a z + b ds = rho,      u += Phi z + ds du/ds,
+
+   the second row asking for the length along the tangent. It is solved by elimination around the
+   mode of least |mu|, so that a single mu through zero, as at a fold, does no harm. */
+#include "base/cancel.h"
+#include "dynamics/rest.h"
+#include "maths/brent.h"
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
-typedef struct record {
-    /* constants: bodies, then pins */
-    real minv, jinv, ax, ay, at, phi0;
-    real outer_x, outer_y, inner_x, inner_y; /* local arms */
-    real masses, k, c, torque0, offset_x, offset_y;
-    bits moves; /* 0 in the lane of a ground */
-    int body[2], pin[2];
-    double sign[2]; /* of the multiplier in the model */
-    /* work: bodies */
-    real cosine, sine, phi, w, a0, a1, a2;
-    /* pins: arms at this pose and divided by J, pivot block and 1/determinant, L to the pin before,
-       solution */
-    real rox, roy, rix, riy, pox, poy, pix, piy;
-    real xx, xy, yy, inverse, l0, l1, l2, l3, x0, x1;
-} record;
+enum { FW_POINTS = 2000, FW_CORRECTIONS = 14 };
+static const double fw_first_length = 0.02, fw_longest = 0.05, fw_shortest = 1e-10;
+static const double fw_turn = 0.995;    /* cosine between two tangents, at least */
+static const double fw_most_move = 0.1; /* of any coordinate in one step, scaled */
+static const double fw_far_away = 32;   /* |u| or |s| */
 
-struct fw_path {
-    int pins, records, half; /* records of pins; those before the middle */
-    int first;               /* 1: both ends on the ground, record 0 never turns */
-    bool even, dissipates;
-    int nq;
-    record *r; /* (records + 1): the last one is the middle body of an even path, in both lanes */
-    /* the last pivot of an even path: M adj(other)/det(other), and the pivot after the update */
-    real m0, m1, m2, m3, last_xx, last_xy, last_yy, last_inverse;
-    double size, healthy;
-    real *keep; /* (4 records) */
-    fw_kernel_norms norms;
-};
+typedef struct state { /* on the path, scaled, with the unit tangent and what events look at */
+    double *u, *tangent, s, rate; /* rate = ds along the tangent */
+    double *value;                /* (dof) mu */
+    double *hold;                 /* (switches) > 0: acts */
+    int negative, dof;
+} state;
 
-static inline real swap(real a) {
-    return __builtin_shufflevector(a, a, 1, 0);
-}
-static inline real gather(const record *r, const double *y, int c) {
-    real both = {y[3 * r->body[0] + c], y[3 * r->body[1] + c]};
-    return (real)((bits)both & r->moves);
-}
-/* the inner body of record i is the outer one of the next */
-static inline int bodies(const fw_path *p) {
-    return p->records + (p->even ? 1 : 0);
+typedef struct follower {
+    fw_rest *w;
+    fw_path *path;
+    state at, next, probe;
+    int most, switches, capacity;
+    fw_status status; /* of a failed probe inside a root search */
+} follower;
+
+/* ---- one bordered solve ---- */
+
+static double weight(const fw_model *m, int i) {
+    return (i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]) / m->nbody;
 }
 
-/* ---- pose and arms ---- */
+static double product(const fw_model *m, const double *x, const double *y) {
+    double sum = 0;
+    for (int i = 0; i < m->nq; i++)
+        sum += weight(m, i) * x[i] * y[i];
+    return sum;
+}
 
-static void set_sines(fw_path *p, const double *u) {
-    bits outside = {0};
-    for (int i = p->first; i < bodies(p); i++) {
-        record *r = &p->r[i];
-        r->phi = gather(r, u, 2);
-        real angle = r->phi0 + r->phi;
-        outside |= bits_of(fw_sincos_range - real_abs(angle));
-        real_sincos(angle, &r->sine, &r->cosine);
+/* A soft mode in equilibrium that the load hardly pushes takes no part: round-off, and
+   imperfections of 1e-8 of the load, over a stiffness near zero would throw the state off the
+   branch just where another one crosses it. Once its force is above round-off it takes part. */
+static bool idle(const fw_rest *w, int k) {
+    const double small = 1e-8 / (64 * DBL_EPSILON); /* in units of the noise */
+    return fabs(w->reduced.value[k]) <= fmax(w->reduced.tolerance, 1e-3) &&
+           fabs(w->push[k]) <= small * w->noise[k] && fabs(w->gradient[k]) <= w->noise[k];
+}
+
+/* step (n) and *ds with the arc-length row (tangent, rate): product(tangent, step) + rate ds = rho.
+   `forced`: with the forces g, else for the tangent (g = 0). false: singular, as where branches
+   meet at this very point */
+static bool bordered(const fw_rest *w, const state *along, double rho, bool forced, double *step,
+                     double *ds) {
+    const fw_reduced *r = &w->reduced;
+    const fw_model *m = w->model;
+    size_t n = (size_t)r->n;
+    int pivot = -1;
+    for (int k = 0; k < r->dof; k++)
+        if (!idle(w, k) && (pivot < 0 || fabs(r->value[k]) < fabs(r->value[pivot]))) pivot = k;
+    double b = along->rate + product(m, along->tangent, w->follow), zp = 0, ap = 0;
+    for (int k = 0; k < r->dof; k++) {
+        if (k == pivot || idle(w, k)) continue;
+        double a = product(m, along->tangent, r->shape + (size_t)k * n);
+        b += a * w->push[k] / r->value[k];
+        if (forced) rho -= a * w->gradient[k] / r->value[k];
     }
-    if (!bits_any(bits_negative(outside))) return;
-    for (int i = p->first; i < bodies(p); i++)
-        for (int lane = 0; lane < 2; lane++) {
-            double angle = p->r[i].phi0[lane] + p->r[i].phi[lane], s, c;
-            if (!(fabs(angle) > fw_sincos_range)) continue;
-            sincos(angle, &s, &c);
-            p->r[i].sine[lane] = s, p->r[i].cosine[lane] = c;
-        }
-}
-
-static inline __attribute__((always_inline)) void set_arms(fw_path *p, int i, bool middle) {
-    record *r = &p->r[i], *n = r + 1;
-    r->rox = r->cosine * r->outer_x - r->sine * r->outer_y;
-    r->roy = r->sine * r->outer_x + r->cosine * r->outer_y;
-    r->pox = r->jinv * r->rox;
-    r->poy = r->jinv * r->roy;
-    if (middle) {
-        r->rix = swap(r->rox), r->riy = swap(r->roy);
-        r->pix = swap(r->pox), r->piy = swap(r->poy);
-        return;
-    }
-    r->rix = n->cosine * r->inner_x - n->sine * r->inner_y;
-    r->riy = n->sine * r->inner_x + n->cosine * r->inner_y;
-    r->pix = n->jinv * r->rix;
-    r->piy = n->jinv * r->riy;
-}
-
-static void set_pose(fw_path *p, const double *u) {
-    set_sines(p, u);
-    for (int i = 0; i < p->half; i++)
-        set_arms(p, i, false);
-    if (!p->even) set_arms(p, p->half, true);
-}
-
-/* ---- S and right-hand side ---- */
-
-static inline __attribute__((always_inline)) void set_pivot(record *r, double epsilon) {
-    real mass = r->masses;
-    if (epsilon > 0) mass += epsilon * r->masses;
-    r->xx = mass + (r->poy * r->roy + r->piy * r->riy);
-    r->xy = -(r->poy * r->rox + r->piy * r->rix);
-    r->yy = mass + (r->pox * r->rox + r->pix * r->rix);
-}
-
-static inline __attribute__((always_inline)) void set_right(record *r, bool middle) {
-    const record *n = r + 1;
-    real wo = r->w * r->w, wi = middle ? swap(wo) : n->w * n->w;
-    real a0 = middle ? swap(r->a0) : n->a0, a1 = middle ? swap(r->a1) : n->a1;
-    real a2 = middle ? swap(r->a2) : n->a2;
-    r->x0 = ((r->a0 - r->a2 * r->roy) - wo * r->rox) - ((a0 - a2 * r->riy) - wi * r->rix);
-    r->x1 = ((r->a1 + r->a2 * r->rox) - wo * r->roy) - ((a1 + a2 * r->rix) - wi * r->riy);
-}
-
-/* M^-1 Q of all bodies; the power dissipated */
-static double set_accelerations(fw_path *p, const double *v) {
-    real power = {0}, before = {0};
-    for (int i = p->first; i < bodies(p); i++)
-        p->r[i].w = gather(&p->r[i], v, 2);
-    for (int i = 0; i < p->half; i++) {
-        record *r = &p->r[i], *n = r + 1;
-        real rate = n->w - r->w, damping = r->c * rate;
-        real torque = (r->torque0 + r->k * (n->phi - r->phi)) + damping;
-        r->a0 = r->ax, r->a1 = r->ay;
-        r->a2 = r->at + r->jinv * (torque - before);
-        before = torque;
-        power += damping * rate;
-    }
-    record *r = &p->r[p->half];
-    r->a0 = r->ax, r->a1 = r->ay;
-    if (p->even) {
-        r->a2 = r->at - r->jinv * (before + swap(before));
-        return power[0] + power[1];
-    }
-    real rate = swap(r->w) - r->w, damping = r->c * rate;
-    real torque = (r->torque0 + r->k * (swap(r->phi) - r->phi)) + damping;
-    r->a2 = r->at + r->jinv * (torque - before);
-    return power[0] + power[1] + damping[0] * rate[0];
-}
-
-/* ---- elimination ---- */
-
-/* B adj B^T / det into the pivot, B z / det into the right-hand side, L = B adj / det */
-typedef struct coupling {
-    real b0, b1, b2, b3;
-} coupling;
-
-static inline __attribute__((always_inline)) coupling couple(real minv, real px, real py, real rx,
-                                                             real ry) {
-    return (coupling){minv + py * ry, -(py * rx), -(px * ry), minv + px * rx};
-}
-
-typedef struct update { /* what one pin takes off the next: of the pivot, of the right-hand side */
-    real xx, xy, yy, x0, x1, l0, l1, l2, l3;
-} update;
-
-static inline __attribute__((always_inline)) update take(coupling b, real xx, real xy, real yy,
-                                                         real inverse, real z0, real z1) {
-    real t0 = b.b0 * yy - b.b1 * xy, t1 = b.b1 * xx - b.b0 * xy;
-    real t2 = b.b2 * yy - b.b3 * xy, t3 = b.b3 * xx - b.b2 * xy;
-    return (update){(t0 * b.b0 + t1 * b.b1) * inverse,
-                    (t0 * b.b2 + t1 * b.b3) * inverse,
-                    (t2 * b.b2 + t3 * b.b3) * inverse,
-                    (b.b0 * z0 + b.b1 * z1) * inverse,
-                    (b.b2 * z0 + b.b3 * z1) * inverse,
-                    t0 * inverse,
-                    t1 * inverse,
-                    t2 * inverse,
-                    t3 * inverse};
-}
-
-/* negative: the pivot is not above the limit; NaN passes and shows in the result */
-static inline __attribute__((always_inline)) bits check(real determinant, real xx, real yy,
-                                                        real masses, double limit) {
-    real least = limit * masses; /* det/trace is below the smaller eigenvalue */
-    return bits_of(determinant - least * (xx + yy)) | bits_of(xx - least);
-}
-
-typedef struct carry { /* the pin before, in registers: pivot, reduced right-hand side, inner arm */
-    real xx, xy, yy, inverse, z0, z1, rix, riy;
-} carry;
-
-static inline __attribute__((always_inline)) update take_from(const carry *b, coupling c) {
-    return take(c, b->xx, b->xy, b->yy, b->inverse, b->z0, b->z1);
-}
-
-/* the last pivots of an even path: each lane's is updated by the other's */
-static inline __attribute__((always_inline)) bits meet(fw_path *p, record *r, const carry *b,
-                                                       double limit, bool forward) {
-    const carry o = {swap(b->xx), swap(b->xy), swap(b->yy),  swap(b->inverse),
-                     swap(b->z0), swap(b->z1), swap(b->rix), swap(b->riy)};
-    update u = take_from(&o, couple(r[1].minv, r->pix, r->piy, o.rix, o.riy));
-    real xx = b->xx - u.xx, xy = b->xy - u.xy, yy = b->yy - u.yy;
-    real determinant = xx * yy - xy * xy, inverse = 1.0 / determinant;
-    p->m0 = u.l0, p->m1 = u.l1, p->m2 = u.l2, p->m3 = u.l3;
-    p->last_xx = xx, p->last_xy = xy, p->last_yy = yy, p->last_inverse = inverse;
-    if (forward) {
-        real x0 = r->x0 - u.x0, x1 = r->x1 - u.x1;
-        r->x0 = (yy * x0 - xy * x1) * inverse;
-        r->x1 = (xx * x1 - xy * x0) * inverse;
-    }
-    return check(determinant, xx, yy, r->masses, limit);
-}
-
-/* all pivots from the arms; with `forward` the right-hand sides are made and reduced on the way.
-   Answers whether a pivot is not above `limit`. */
-static inline __attribute__((always_inline)) bool eliminate(fw_path *p, double epsilon,
-                                                            double limit, bool arms, bool forward) {
-    bits sick = {0};
-    carry b = {0};
-    for (int i = 0; i < p->records; i++) {
-        record *r = &p->r[i];
-        bool middle = i == p->half;
-        if (arms) set_arms(p, i, middle);
-        set_pivot(r, epsilon);
-        if (forward) set_right(r, middle);
-        real xx = r->xx, xy = r->xy, yy = r->yy, x0 = r->x0, x1 = r->x1;
-        if (i > 0) {
-            /* of -B, since the bodies of the two pins differ in sign */
-            update u = take_from(&b, couple(r->minv, r->pox, r->poy, b.rix, b.riy));
-            r->l0 = u.l0, r->l1 = u.l1, r->l2 = u.l2, r->l3 = u.l3;
-            if (middle) { /* both lanes take their share off the same pin */
-                u.xx += swap(u.xx), u.xy += swap(u.xy), u.yy += swap(u.yy);
-                u.x0 -= swap(u.x0), u.x1 -= swap(u.x1);
-            }
-            xx -= u.xx, xy -= u.xy, yy -= u.yy;
-            x0 += u.x0, x1 += u.x1;
-        }
-        real determinant = xx * yy - xy * xy;
-        sick |= check(determinant, xx, yy, r->masses, limit);
-        b = (carry){xx,     xy,    yy, 1.0 / determinant, yy * x0 - xy * x1, xx * x1 - xy * x0,
-                    r->rix, r->riy};
-        r->xx = xx, r->xy = xy, r->yy = yy, r->inverse = b.inverse;
-        if (!forward) continue;
-        bool last = p->even && i + 1 == p->records;
-        r->x0 = last ? x0 : b.z0 * b.inverse;
-        r->x1 = last ? x1 : b.z1 * b.inverse;
-    }
-    if (p->even) sick |= meet(p, &p->r[p->half - 1], &b, limit, forward);
-    return bits_any(bits_negative(sick));
-}
-
-static inline void substitute_backward(fw_path *p) {
-    const record *last = &p->r[p->records - 1];
-    real x0 = last->x0, x1 = last->x1;
-    for (int i = p->records - 1; i > 0; i--) {
-        record *r = &p->r[i], *b = r - 1;
-        real y0 = b->x0 + (r->l0 * x0 + r->l2 * x1);
-        x1 = b->x1 + (r->l1 * x0 + r->l3 * x1), x0 = y0;
-        b->x0 = x0, b->x1 = x1;
-    }
-}
-
-/* solves with the factor at hand, in place */
-static void solve(fw_path *p) {
-    real b0 = {0}, b1 = {0}; /* reduced right-hand side of the pin before */
-    for (int i = 0; i < p->records; i++) {
-        record *r = &p->r[i];
-        real x0 = r->x0, x1 = r->x1;
-        if (i > 0) {
-            real u0 = r->l0 * b0 + r->l1 * b1, u1 = r->l2 * b0 + r->l3 * b1;
-            bool middle = i == p->half;
-            x0 += middle ? u0 - swap(u0) : u0;
-            x1 += middle ? u1 - swap(u1) : u1;
-        }
-        b0 = x0, b1 = x1;
-        if (p->even && i + 1 == p->records) {
-            real s0 = swap(b0), s1 = swap(b1);
-            x0 -= p->m0 * s0 + p->m1 * s1;
-            x1 -= p->m2 * s0 + p->m3 * s1;
-            r->x0 = (p->last_yy * x0 - p->last_xy * x1) * p->last_inverse;
-            r->x1 = (p->last_xx * x1 - p->last_xy * x0) * p->last_inverse;
-        } else {
-            r->x0 = (r->yy * x0 - r->xy * x1) * r->inverse;
-            r->x1 = (r->xx * x1 - r->xy * x0) * r->inverse;
-        }
-    }
-    substitute_backward(p);
-}
-
-/* the factor of the arms at hand: 0 plain, 1 shifted, -1 none */
-static int factor(fw_path *p) {
-    if (!eliminate(p, 0, p->healthy, false, false)) return 0;
-    return eliminate(p, fw_epsilon, DBL_MIN, false, false) ? -1 : 1;
-}
-
-/* right-hand side again, proximal iteration with the shifted factor */
-static void solve_by_sweeps(fw_path *p) {
-    real size = {0};
-    for (int i = 0; i < p->records; i++) {
-        record *r = &p->r[i];
-        set_right(r, i == p->half);
-        p->keep[2 * i] = p->keep[2 * i + 1] = real_of(0);
-        size = real_max(size, real_max(real_abs(r->x0), real_abs(r->x1)));
-    }
-    for (int sweep = 0; sweep < 6; sweep++) {
-        real left = {0};
-        solve(p);
-        for (int i = 0; i < p->records; i++) {
-            record *r = &p->r[i];
-            p->keep[2 * i] += r->x0, p->keep[2 * i + 1] += r->x1;
-            r->x0 *= fw_epsilon * r->masses, r->x1 *= fw_epsilon * r->masses;
-            left = real_max(left, real_max(real_abs(r->x0), real_abs(r->x1)));
-        }
-        if (sweep > 0 && !(real_most(left) > 1e-14 * real_most(size))) break;
-    }
-    for (int i = 0; i < p->records; i++)
-        p->r[i].x0 = p->keep[2 * i], p->r[i].x1 = p->keep[2 * i + 1];
-}
-
-static __attribute__((noinline)) bool solve_with_care(fw_path *p) {
-    bool broken = eliminate(p, fw_epsilon, DBL_MIN, false, false);
-    solve_by_sweeps(p);
-    return !broken;
-}
-
-/* ---- results ---- */
-
-typedef struct triple {
-    real x, y, phi;
-} triple;
-
-/* -M^-1 G^T lambda of the i-th bodies */
-static inline triple push_of(const fw_path *p, int i) {
-    const record *r = &p->r[i], *b = r - 1;
-    if (i == p->records) { /* middle body: inner of both lanes */
-        real x = b->x0, y = b->x1, turn = b->pix * y - b->piy * x;
-        return (triple){r->minv * (x + swap(x)), r->minv * (y + swap(y)), turn + swap(turn)};
-    }
-    triple t = {-(r->minv * r->x0), -(r->minv * r->x1), r->poy * r->x0 - r->pox * r->x1};
-    if (i > 0) {
-        t.x += r->minv * b->x0;
-        t.y += r->minv * b->x1;
-        t.phi += b->pix * b->x1 - b->piy * b->x0;
-    }
-    return t;
-}
-
-static inline void scatter(const record *r, double *to, real x, real y, real phi) {
-    for (int lane = 0; lane < 2; lane++) {
-        if (!r->moves[lane]) continue;
-        double *t = to + 3 * r->body[lane];
-        t[0] = x[lane], t[1] = y[lane], t[2] = phi[lane];
-    }
-}
-
-static void finish(fw_path *p, bool good, double power, const double *y, double *f) {
-    const double *v = y + p->nq;
-    double *a = f + p->nq;
-    for (int i = p->first; i < bodies(p); i++) {
-        const record *r = &p->r[i];
-        triple t = push_of(p, i);
-        scatter(r, a, r->a0 + t.x, r->a1 + t.y, r->a2 + t.phi);
-    }
-    for (int i = 0; i < p->nq; i++)
-        f[i] = v[i];
-    for (int i = 0; i < p->nq && !good; i++)
-        a[i] = (double)NAN;
-    if (p->dissipates) f[2 * p->nq] = power;
-}
-
-void fw_path_rhs(fw_path *p, const double *y, double *f) {
-    set_sines(p, y);
-    double power = set_accelerations(p, y + p->nq);
-    bool good = true;
-    if (eliminate(p, 0, p->healthy, true, true))
-        good = solve_with_care(p);
+    if (pivot >= 0) {
+        double mu = r->value[pivot], p = w->push[pivot], g = forced ? w->gradient[pivot] : 0;
+        ap = product(m, along->tangent, r->shape + (size_t)pivot * n);
+        double det = mu * b + ap * p;
+        if (!(fabs(det) > 1e-14 * (fabs(mu * b) + fabs(ap * p)))) return false;
+        zp = (b * g + p * rho) / det;
+        *ds = (mu * rho - ap * g) / det;
+    } else if (b != 0)
+        *ds = rho / b;
     else
-        substitute_backward(p);
-    finish(p, good, power, y, f);
+        return false;
+    for (size_t i = 0; i < n; i++)
+        step[i] = *ds * w->follow[i];
+    for (int k = 0; k < r->dof; k++) {
+        if (idle(w, k)) continue;
+        double z =
+            k == pivot ? zp : ((forced ? w->gradient[k] : 0) + w->push[k] * *ds) / r->value[k];
+        for (size_t i = 0; i < n; i++)
+            step[i] += z * r->shape[(size_t)k * n + i];
+    }
+    return isfinite(*ds);
 }
 
-void fw_path_lambda(const fw_path *p, double *lambda) {
-    for (int i = 0; i < p->records; i++)
-        for (int lane = 0; lane < 2; lane++) {
-            const record *r = &p->r[i];
-            lambda[2 * r->pin[lane]] = r->sign[lane] * r->x0[lane];
-            lambda[2 * r->pin[lane] + 1] = r->sign[lane] * r->x1[lane];
+/* ---- states ---- */
+
+static fw_status state_new(fw_arena *arena, const fw_model *m, int switches, state *p) {
+    FW_NEED(p->u = fw_arena_array(arena, double, (size_t)m->nq));
+    FW_NEED(p->tangent = fw_arena_array(arena, double, (size_t)m->nq));
+    FW_NEED(p->value = fw_arena_array(arena, double, (size_t)m->nq));
+    FW_NEED(p->hold = fw_arena_array(arena, double, (size_t)switches));
+    return FW_OK;
+}
+
+static void copy_state(const follower *f, const state *from, state *to) {
+    size_t n = (size_t)f->w->model->nq;
+    memcpy(to->u, from->u, n * sizeof(double));
+    memcpy(to->tangent, from->tangent, n * sizeof(double));
+    memcpy(to->value, from->value, n * sizeof(double));
+    if (f->switches) memcpy(to->hold, from->hold, (size_t)f->switches * sizeof(double));
+    to->s = from->s, to->rate = from->rate, to->negative = from->negative, to->dof = from->dof;
+}
+
+/* fills `to` from the evaluated state; its tangent continues that of `along` */
+static bool take_state(follower *f, const state *along, state *to) {
+    fw_rest *w = f->w;
+    const fw_model *m = w->model;
+    double ds;
+    if (!bordered(w, along, 1, false, w->step, &ds)) return false;
+    double length = sqrt(product(m, w->step, w->step) + ds * ds);
+    for (int i = 0; i < m->nq; i++)
+        to->u[i] = w->y[i], to->tangent[i] = w->step[i] / length;
+    to->s = w->factor;
+    to->rate = ds / length;
+    to->negative = 0;
+    to->dof = w->reduced.dof;
+    for (int k = 0; k < to->dof; k++) {
+        to->value[k] = w->reduced.value[k];
+        to->negative += to->value[k] < -w->reduced.tolerance;
+    }
+    for (int i = 0; i < f->switches; i++)
+        to->hold[i] = fw_model_switch_value(w->model, i, w->y);
+    return isfinite(length);
+}
+
+/* Newton onto the equilibrium at `length` along the tangent of `from`; quadratic, ended where steps
+   no longer halve. FW_SOLVER: it does not converge. */
+static fw_status correct(follower *f, const state *from, double length, state *to) {
+    fw_rest *w = f->w;
+    const fw_model *m = w->model;
+    double before = (double)INFINITY, *gap = to->tangent;
+    for (int i = 0; i < m->nq; i++)
+        w->y[i] = from->u[i] + length * from->tangent[i];
+    fw_rest_factor(w, from->s + length * from->rate);
+    for (int i = 0; i < FW_CORRECTIONS; i++, w->iterations++) {
+        FW_TRY(fw_rest_evaluate(w));
+        for (int k = 0; k < m->nq; k++)
+            gap[k] = w->y[k] - from->u[k];
+        double rho = length - product(m, from->tangent, gap) - from->rate * (w->factor - from->s);
+        double ds, most = 0;
+        if (!bordered(w, from, rho, true, w->step, &ds)) return FW_SOLVER;
+        for (int k = 0; k < m->nq; k++)
+            most = fmax(most, fabs(w->step[k]));
+        most = fmax(most, fabs(ds));
+        if (most <= 1e-15 || (most > 0.5 * before && (most < 1e-9 || fw_rest_quiet(w))))
+            return take_state(f, from, to) ? FW_OK : FW_SOLVER;
+        if (!(most < 4 * before) || most > 1) return FW_SOLVER;
+        before = most;
+        for (int k = 0; k < m->nq; k++)
+            w->y[k] += w->step[k];
+        fw_rest_factor(w, w->factor + ds);
+    }
+    return FW_SOLVER;
+}
+
+/* ---- what is kept ---- */
+
+static fw_status grow(follower *f) {
+    fw_path *p = f->path;
+    fw_arena *arena = f->w->arena;
+    size_t old = (size_t)f->capacity, new = old ? 2 * old : 128;
+    size_t n = 3 * (size_t)p->nbody, pins = (size_t)p->npin;
+    FW_NEED(p->factor = fw_arena_grow(arena, p->factor, old, new, sizeof(double)));
+    FW_NEED(p->q = fw_arena_grow(arena, p->q, old * n, new *n, sizeof(double)));
+    FW_NEED(p->angle_rad =
+                fw_arena_grow(arena, p->angle_rad, old * pins, new *pins, sizeof(double)));
+    FW_NEED(p->reaction_N = fw_arena_grow(arena, p->reaction_N, old * 2 * pins, new * 2 * pins,
+                                          sizeof(double)));
+    FW_NEED(p->lowest_per_s2 = fw_arena_grow(arena, p->lowest_per_s2, old, new, sizeof(double)));
+    FW_NEED(p->negative = fw_arena_grow(arena, p->negative, old, new, sizeof(int)));
+    FW_NEED(p->mark = fw_arena_grow(arena, p->mark, old, new, sizeof(fw_path_mark)));
+    FW_NEED(p->which = fw_arena_grow(arena, p->which, old, new, sizeof(int)));
+    FW_NEED(p->snap_m = fw_arena_grow(arena, p->snap_m, old, new, sizeof(double)));
+    FW_NEED(p->snap_rad = fw_arena_grow(arena, p->snap_rad, old, new, sizeof(double)));
+    f->capacity = (int)new;
+    return FW_OK;
+}
+
+/* the evaluated state as a point of the path */
+static fw_status record(follower *f, const state *p, fw_path_mark mark, int which) {
+    fw_path *path = f->path;
+    if (path->count == f->capacity) FW_TRY(grow(f));
+    size_t i = (size_t)path->count++, n = 3 * (size_t)path->nbody, pins = (size_t)path->npin;
+    path->factor[i] = mark == FW_PATH_END ? 1 : p->s;
+    fw_rest_pose(f->w, p->u, path->q + i * n, path->angle_rad + i * pins);
+    fw_rest_reactions(f->w, path->reaction_N + i * 2 * pins);
+    path->lowest_per_s2[i] = p->dof ? p->value[0] * fw_rest_per_s2(f->w) : (double)NAN;
+    path->negative[i] = p->negative;
+    path->mark[i] = mark;
+    path->which[i] = which;
+    path->snap_m[i] = path->snap_rad[i] = (double)NAN;
+    return FW_OK;
+}
+
+/* ---- events inside a step ---- */
+
+typedef struct event {
+    fw_path_mark mark;
+    int which; /* a switch, or the eigenvalue that passes zero */
+    double length;
+} event;
+
+typedef struct search {
+    follower *f;
+    const event *event;
+} search;
+
+static double event_value(const event *e, const state *p) {
+    switch (e->mark) {
+    case FW_PATH_FOLD:
+        return p->rate;
+    case FW_PATH_BIFURCATION:
+        return p->value[e->which];
+    case FW_PATH_SWITCH:
+        return p->hold[e->which];
+    case FW_PATH_POINT:
+    case FW_PATH_END:
+    default:
+        return p->s - 1;
+    }
+}
+
+static double probe(const void *context, double length) {
+    const search *in = context;
+    follower *f = in->f;
+    if (length == 0) return event_value(in->event, &f->at);
+    fw_status status = correct(f, &f->at, length, &f->probe);
+    if (status != FW_OK) {
+        if (status != FW_SOLVER) f->status = status;
+        return (double)NAN;
+    }
+    return event_value(in->event, &f->probe);
+}
+
+static bool sign_changes(double a, double b) {
+    return (a < 0) != (b < 0);
+}
+
+/* what happens between f->at and f->next, `length` apart, in order; at most `most` */
+static int find_events(follower *f, double length, event *found, int most) {
+    const state *a = &f->at, *b = &f->next;
+    int count = 0;
+    bool fold = sign_changes(a->rate, b->rate);
+    if (fold) found[count++] = (event){FW_PATH_FOLD, FW_NONE, length};
+    if (a->dof == b->dof && a->negative != b->negative) {
+        int change =
+            a->negative > b->negative ? a->negative - b->negative : b->negative - a->negative;
+        int lowest = a->negative < b->negative ? a->negative : b->negative;
+        if (!fold || change > 1) found[count++] = (event){FW_PATH_BIFURCATION, lowest, length};
+    }
+    for (int i = 0; i < f->switches && count + 1 < most; i++)
+        if ((a->hold[i] > 0) != (b->hold[i] > 0))
+            found[count++] = (event){FW_PATH_SWITCH, i, length};
+    if (a->s < 1 && b->s >= 1) found[count++] = (event){FW_PATH_END, FW_NONE, length};
+    for (int i = 0; i < count; i++) {
+        const search in = {f, &found[i]};
+        double where = fw_brent_root(probe, &in, 0, length, 1e-16);
+        if (isfinite(where)) found[i].length = where;
+    }
+    for (int i = 1; i < count; i++) /* few: by insertion */
+        for (int k = i; k > 0 && found[k].length < found[k - 1].length; k--) {
+            event keep = found[k];
+            found[k] = found[k - 1];
+            found[k - 1] = keep;
         }
+    return count;
 }
 
-void fw_path_set_healthy(fw_path *p, double relative) {
-    p->healthy = relative;
+/* the state at an event; where branches meet the last one before it that converges */
+static fw_status state_at(follower *f, double length, double step) {
+    fw_status status = correct(f, &f->at, length, &f->probe);
+    for (double back = 1e-9 * step; status == FW_SOLVER && back < 0.2 * step; back *= 8)
+        status = correct(f, &f->at, fmax(length - back, 0), &f->probe);
+    return status;
 }
 
-fw_kernel_norms fw_path_norms(const fw_path *p) {
-    return p->norms;
-}
-
-/* ---- projection: as in kernel_core.h ---- */
-
-static double residual(fw_path *p, const double *u) {
-    real worst = {0};
-    set_pose(p, u);
-    for (int i = 0; i < p->records; i++) {
-        record *r = &p->r[i];
-        bool middle = i == p->half;
-        real ox = gather(r, u, 0), oy = gather(r, u, 1);
-        real ix = middle ? swap(ox) : gather(r + 1, u, 0);
-        real iy = middle ? swap(oy) : gather(r + 1, u, 1);
-        r->x0 = r->offset_x + ox - ix + r->rox - r->rix;
-        r->x1 = r->offset_y + oy - iy + r->roy - r->riy;
-        worst = real_max(worst, r->x0 * r->x0 + r->x1 * r->x1);
-    }
-    return sqrt(real_most(worst));
-}
-
-static void move(fw_path *p, double *to) {
-    for (int i = p->first; i < bodies(p); i++) {
-        const record *r = &p->r[i];
-        triple t = push_of(p, i);
-        real x = gather(r, to, 0), y = gather(r, to, 1), phi = gather(r, to, 2);
-        scatter(r, to, x + t.x, y + t.y, phi + t.phi);
-    }
-}
-
-static bool project_position(fw_path *p, double *u, double *norm) {
-    double before = (double)INFINITY;
-    for (int i = 0; i < 20; i++) {
-        *norm = residual(p, u);
-        if (!(*norm < (double)INFINITY)) return false;
-        bool slow = *norm > 0.25 * before;
-        if (*norm <= 2 * DBL_EPSILON * p->size || (slow && *norm <= 1e-13 * p->size)) break;
-        if ((slow || i == 4) && factor(p) < 0) return false;
-        before = *norm;
-        solve(p);
-        move(p, u);
-    }
-    return *norm <= 1e-12;
-}
-
-static bool project_velocity(fw_path *p, double *v, double *norm) {
-    double before = (double)INFINITY, size = DBL_MIN;
-    for (int i = 0; i < p->nq; i++)
-        size = fmax(size, fabs(v[i]));
-    for (int sweep = 0; sweep < 6; sweep++) {
-        real worst = {0};
-        for (int i = 0; i < p->records; i++) {
-            record *r = &p->r[i];
-            bool middle = i == p->half;
-            real ox = gather(r, v, 0), oy = gather(r, v, 1), ow = gather(r, v, 2);
-            real ix = middle ? swap(ox) : gather(r + 1, v, 0);
-            real iy = middle ? swap(oy) : gather(r + 1, v, 1);
-            real iw = middle ? swap(ow) : gather(r + 1, v, 2);
-            r->x0 = (ox - ow * r->roy) - (ix - iw * r->riy);
-            r->x1 = (oy + ow * r->rox) - (iy + iw * r->rix);
-            worst = real_max(worst, real_max(real_abs(r->x0), real_abs(r->x1)));
-        }
-        *norm = real_most(worst);
-        if (*norm <= 2 * DBL_EPSILON * size || *norm > 0.25 * before) break;
-        before = *norm;
-        solve(p);
-        move(p, v);
-    }
-    return *norm < (double)INFINITY;
-}
-
-bool fw_path_project(fw_path *p, double *y, double *f) {
-    double position, velocity;
-    if (!project_position(p, y, &position)) return false;
-    int kind = factor(p);
-    if (kind < 0 || !project_velocity(p, y + p->nq, &velocity)) return false;
-    p->norms = (fw_kernel_norms){position, velocity};
-    double power = set_accelerations(p, y + p->nq);
-    if (kind > 0) {
-        solve_by_sweeps(p);
-    } else {
-        for (int i = 0; i < p->records; i++)
-            set_right(&p->r[i], i == p->half);
-        solve(p);
-    }
-    finish(p, true, power, y, f);
-    return true;
-}
-
-/* ---- the path of a model ---- */
-
-typedef struct trail {
-    int *pin, *body; /* pins in a row; bodies around them, one more */
-    int count;
-} trail;
-
-static int other_pin(const int *pins_of, int body, int pin) {
-    return pins_of[2 * body] == pin ? pins_of[2 * body + 1] : pins_of[2 * body];
-}
-
-/* follows the bodies from one end; false when that does not reach every pin and body once */
-static bool follow(const fw_model *m, const int *pins_of, int start, int end, trail *t) {
-    int moving = end == m->nbody ? 0 : 1, pin = start, body = end;
-    t->count = 0;
-    t->body[0] = body;
-    while (pin >= 0 && t->count < m->nblock) {
-        body = m->body[2 * pin] == body ? m->body[2 * pin + 1] : m->body[2 * pin];
-        t->pin[t->count++] = pin;
-        t->body[t->count] = body;
-        if (body == m->nbody) break;
-        moving++;
-        pin = other_pin(pins_of, body, pin);
-    }
-    return t->count == m->nblock && moving == m->nbody;
-}
-
-static fw_status find_trail(fw_arena *arena, const fw_model *m, trail *t, bool *found) {
-    int *pins_of;
-    *found = false;
-    FW_NEED(pins_of = fw_arena_array(arena, int, 2 * (size_t)m->nbody));
-    FW_NEED(t->pin = fw_arena_array(arena, int, (size_t)m->nblock));
-    FW_NEED(t->body = fw_arena_array(arena, int, (size_t)m->nblock + 1));
-    for (int i = 0; i < 2 * m->nbody; i++)
-        pins_of[i] = -1;
-    for (int i = 0; i < 2 * m->nblock; i++) {
-        int b = m->body[i];
-        if (b == m->nbody) continue;
-        if (pins_of[2 * b + 1] >= 0) return FW_OK; /* a branch */
-        pins_of[2 * b + (pins_of[2 * b] >= 0)] = i / 2;
-    }
-    for (int i = 0; i < 2 * m->nblock && !*found; i++) {
-        int b = m->body[i];
-        if (b == m->nbody || pins_of[2 * b + 1] < 0) *found = follow(m, pins_of, i / 2, b, t);
-        if (*found) return FW_OK;
+/* records the events of the step; *ended when one of them is s = 1 */
+static fw_status record_events(follower *f, double length, bool *ended) {
+    enum { MOST = 16 };
+    event found[MOST];
+    int count = find_events(f, length, found, MOST);
+    FW_TRY(f->status);
+    for (int i = 0; i < count; i++) {
+        fw_status status = state_at(f, found[i].length, length);
+        if (status == FW_SOLVER) continue;
+        FW_TRY(status);
+        *ended = found[i].mark == FW_PATH_END;
+        int which = found[i].mark == FW_PATH_SWITCH ? found[i].which : FW_NONE;
+        FW_TRY(record(f, &f->probe, found[i].mark, which));
+        if (*ended) break;
     }
     return FW_OK;
 }
 
-static void fill_body(const fw_model *m, record *r, int lane, int body) {
-    bool ground = body == m->nbody;
-    r->body[lane] = ground ? 0 : body;
-    r->moves[lane] = ground ? 0 : -1;
-    r->cosine[lane] = 1;
-    if (ground) return;
-    r->minv[lane] = m->minv[body], r->jinv[lane] = m->jinv[body];
-    r->ax[lane] = m->constant[3 * body], r->ay[lane] = m->constant[3 * body + 1];
-    r->at[lane] = m->constant[3 * body + 2];
-    r->phi0[lane] = m->origin[3 * body + 2];
+/* ---- the walk ---- */
+
+static double largest_move(const follower *f) {
+    double most = 0;
+    for (int i = 0; i < f->w->model->nq; i++)
+        most = fmax(most, fabs(f->next.u[i] - f->at.u[i]));
+    return most;
 }
 
-static void fill_pin(const fw_model *m, record *r, int lane, int pin, int outer) {
-    bool same = m->body[2 * pin] == outer;
-    const double *l = m->local + 4 * pin;
-    double sign = same ? 1 : -1;
-    r->pin[lane] = pin, r->sign[lane] = sign;
-    r->outer_x[lane] = l[same ? 0 : 2], r->outer_y[lane] = l[same ? 1 : 3];
-    r->inner_x[lane] = l[same ? 2 : 0], r->inner_y[lane] = l[same ? 3 : 1];
-    r->masses[lane] = m->minv[m->body[2 * pin]] + m->minv[m->body[2 * pin + 1]];
-    r->offset_x[lane] = sign * m->offset[2 * pin];
-    r->offset_y[lane] = sign * m->offset[2 * pin + 1];
+/* small enough that the tangent turns little and nothing jumps; a switch may bend the path */
+static bool acceptable(const follower *f, double length) {
+    const fw_model *m = f->w->model;
+    bool bends = false;
+    for (int i = 0; i < f->switches; i++)
+        bends = bends || (f->at.hold[i] > 0) != (f->next.hold[i] > 0);
+    if (bends && length < 1e-3) return true;
+    double cosine = product(m, f->at.tangent, f->next.tangent) + f->at.rate * f->next.rate;
+    return cosine >= fw_turn && largest_move(f) <= fw_most_move;
 }
 
-/* a spring across pin number `at` of the trail, in the lanes that hold the pin */
-static void add_torsion(fw_path *p, const trail *t, const fw_model_torsion *s, int at) {
-    for (int lane = 0; lane < 2; lane++) {
-        int i = lane ? p->pins - 1 - at : at;
-        if (i >= p->records) continue;
-        record *r = &p->r[i];
-        int outer = t->body[lane ? at + 1 : at];
-        r->k[lane] += s->k, r->c[lane] += s->c;
-        r->torque0[lane] += (s->a == outer ? 1 : -1) * s->k * s->angle0;
+static bool out_of_reach(const follower *f) {
+    for (int i = 0; i < f->w->model->nq; i++)
+        if (!(fabs(f->at.u[i]) < fw_far_away)) return true;
+    return !(fabs(f->at.s) < fw_far_away);
+}
+
+static fw_status walk(follower *f) {
+    double length = fw_first_length;
+    bool ended = false;
+    while (!ended && f->path->count < f->most && !out_of_reach(f)) {
+        if (fw_cancel_requested()) return FW_CANCELLED;
+        fw_status status = correct(f, &f->at, length, &f->next);
+        if (status != FW_OK && status != FW_SOLVER) return status;
+        if (status != FW_OK || !acceptable(f, length)) {
+            length /= 2;
+            if (length < fw_shortest) return FW_OK;
+            continue;
+        }
+        FW_TRY(record_events(f, length, &ended));
+        if (ended) break;
+        FW_TRY(correct(f, &f->at, length, &f->next)); /* the search left the model elsewhere */
+        FW_TRY(record(f, &f->next, FW_PATH_POINT, FW_NONE));
+        copy_state(f, &f->next, &f->at);
+        length = fmin(fw_longest, 1.5 * length);
     }
+    f->path->complete = ended;
+    return FW_OK;
 }
 
-static bool add_torsions(fw_path *p, const fw_model *m, const trail *t, const int *place) {
-    for (int i = 0; i < m->ntorsion; i++) {
-        const fw_model_torsion *s = &m->torsion[i];
-        int inner = s->a == m->nbody ? s->b : s->a, outer = s->a == m->nbody ? s->a : s->b, at = -1;
-        if (inner == m->nbody) return false;
-        for (int k = place[inner] - 1; k <= place[inner]; k++) /* pins beside this body */
-            if (k >= 0 && k < p->pins && (t->body[k] == outer || t->body[k + 1] == outer)) at = k;
-        if (at < 0) return false;
-        add_torsion(p, t, s, at);
+/* ---- snapping ---- */
+
+/* from each fold at which the load was growing: the equilibrium that descent finds just above it */
+static fw_status snaps(follower *f) {
+    fw_path *p = f->path;
+    fw_rest *w = f->w;
+    size_t n = (size_t)w->model->nq, bytes = n * sizeof(double);
+    double *keep, *q, s = w->factor;
+    FW_NEED(keep = fw_arena_array(w->arena, double, n));
+    FW_NEED(q = fw_arena_array(w->arena, double, n));
+    memcpy(keep, w->y, bytes);
+    for (int i = 1; i + 1 < p->count; i++) {
+        if (p->mark[i] != FW_PATH_FOLD || p->factor[i - 1] > p->factor[i]) continue;
+        const double *fold = p->q + (size_t)i * n, *after = fold + n;
+        for (size_t k = 0; k < n; k++) { /* a little past the fold, where the path goes on */
+            double unit = k % 3 == 2 ? 1 : w->model->scale.length_m;
+            w->y[k] = (fold[k] + 1e-2 * (after[k] - fold[k]) - w->q0[k]) / unit;
+        }
+        fw_rest_factor(w, p->factor[i] + 1e-6 * fmax(1, fabs(p->factor[i])));
+        bool unstable = false;
+        fw_status status = fw_rest_descend(w, &unstable);
+        if (status == FW_SOLVER) continue;
+        FW_TRY(status);
+        fw_rest_pose(w, w->y, q, NULL);
+        p->snap_m[i] = p->snap_rad[i] = 0;
+        for (size_t k = 0; k < n; k += 3) {
+            double way = hypot(q[k] - fold[k], q[k + 1] - fold[k + 1]);
+            p->snap_m[i] = fmax(p->snap_m[i], way);
+            p->snap_rad[i] = fmax(p->snap_rad[i], fabs(q[k + 2] - fold[k + 2]));
+        }
     }
-    return true;
+    memcpy(w->y, keep, bytes);
+    fw_rest_factor(w, s);
+    return fw_rest_evaluate(w);
 }
 
-fw_status fw_path_new(fw_arena *arena, const fw_model *m, fw_path **path) {
-    trail t;
-    bool found;
-    int *place;
-    *path = NULL;
-    FW_TRY(find_trail(arena, m, &t, &found));
-    if (!found) return FW_OK;
-    fw_path *p = fw_arena_one(arena, fw_path);
-    FW_NEED(p);
-    int n = t.count;
-    p->pins = n, p->half = n / 2, p->even = n % 2 == 0, p->records = n - n / 2;
-    p->nq = m->nq, p->dissipates = m->dissipated >= 0, p->size = m->size, p->healthy = fw_healthy;
-    p->first = t.body[0] == m->nbody && t.body[n] == m->nbody && n > 1 ? 1 : 0;
-    FW_NEED(p->r = fw_arena_array(arena, record, (size_t)p->records + 1));
-    FW_NEED(p->keep = fw_arena_array(arena, real, 2 * (size_t)p->records));
-    FW_NEED(place = fw_arena_array(arena, int, (size_t)m->nbody + 1));
-    for (int i = 0; i <= n; i++)
-        place[t.body[i]] = i;
-    for (int i = 0; i < p->records + (p->even ? 1 : 0); i++)
-        for (int lane = 0; lane < 2; lane++)
-            fill_body(m, &p->r[i], lane, t.body[lane ? n - i : i]);
-    for (int i = 0; i < p->records; i++) {
-        fill_pin(m, &p->r[i], 0, t.pin[i], t.body[i]);
-        fill_pin(m, &p->r[i], 1, t.pin[n - 1 - i], t.body[n - i]);
-    }
-    if (add_torsions(p, m, &t, place)) *path = p;
+/* Follows the equilibria from w->y, which is one at s = 0, to s = 1 or to where they end. Steps
+   adapt to the turning of the tangent; limit points, bifurcations, switches and s = 1 are located
+   as roots along the arc to round-off (Brent). A limit point is where ds along the tangent changes
+   sign; a sign change of an eigenvalue of the reduced stiffness without one is a bifurcation. Cost:
+   about 4 evaluations (30 n^3) per point. Source: Keller 1977; Allgower and Georg, Numerical
+   Continuation Methods 1990, ch. 6; block elimination of the bordered system, Chan 1984. Test:
+   test_statics.c (von Mises truss, buckling columns). */
+fw_status fw_rest_follow(fw_rest *w, int most_points, fw_path **out) {
+    follower f = {.w = w, .most = most_points > 0 ? most_points : FW_POINTS};
+    fw_path *path;
+    f.switches = fw_model_switches(w->model);
+    FW_NEED(path = f.path = fw_arena_one(w->arena, fw_path));
+    path->nbody = w->mechanism->nbody;
+    path->npin = w->mechanism->npin;
+    FW_TRY(state_new(w->arena, w->model, f.switches, &f.at));
+    FW_TRY(state_new(w->arena, w->model, f.switches, &f.next));
+    FW_TRY(state_new(w->arena, w->model, f.switches, &f.probe));
+    f.probe.rate = 1; /* the first tangent: more load */
+    if (!take_state(&f, &f.probe, &f.at)) return FW_SOLVER;
+    FW_TRY(record(&f, &f.at, FW_PATH_POINT, FW_NONE));
+    fw_status status = walk(&f);
+    if (status == FW_SOLVER) status = FW_OK; /* what was found stands; complete says no */
+    FW_TRY(status);
+    if (path->complete) FW_TRY(snaps(&f));
+    *out = path;
     return FW_OK;
 }

@@ -10,6 +10,14 @@ static void move(const fw_model *m, double *x) {
         x[i] += m->correction[i];
 }
 
+/* the joint that stays open, for the message when no smaller step helps; Psi is in m->right */
+static void remember_stuck(fw_model *m, double t, double norm) {
+    m->stuck = 0;
+    for (int i = 0; i < m->nblock; i++)
+        if (hypot(m->right[2 * i], m->right[2 * i + 1]) >= norm) m->stuck = i;
+    m->stuck_time = t;
+}
+
 /* Newton u += d, G d = -Psi with the factor at hand (of a pose a step's error away); it is renewed
    when that converges slowly. Ends at round-off: below 2 eps times the size, or no longer halving
    below 1e-13 of it. false: |Psi| stays above 1e-12 scaled. Input and output u (3 nbody), scaled;
@@ -34,7 +42,9 @@ bool fw_model_project_position(fw_model *m, double t, double *u) {
         move(m, u);
     }
     m->worst_position = fmax(m->worst_position, norm);
-    return norm <= fw_position_limit;
+    if (norm <= fw_position_limit) return true;
+    remember_stuck(m, t, norm);
+    return false;
 }
 
 /* v += d, G d = -(G v + Psi_t); factor and pose must belong together */
