@@ -132,7 +132,9 @@ static inline __attribute__((always_inline)) bits eliminate(fw_core *k, double e
         real xx = w[FW_DIAGONAL] + shift, xy = w[FW_DIAGONAL + 1];
         real yy = w[FW_DIAGONAL + 2] + shift;
         real determinant = xx * yy - xy * xy;
-        real least = limit * mass; /* det/trace is below the smaller eigenvalue */
+        real least =
+            limit *
+            CONST(pin)[FW_PIN * i + FW_FLOOR]; /* det/trace is below the smaller eigenvalue */
         sick |= bits_of(determinant - least * (xx + yy)) | bits_of(xx - least);
         real inverse = 1.0 / determinant;
         w[FW_PIVOT] = yy * inverse;
@@ -487,7 +489,7 @@ static bool project(fw_core *k, double *y, double *f) {
 static bool core_singular(fw_core *k, const double *u) {
     set_pose(k, (const real *)u);
     set_matrix(k);
-    return bits_any(eliminate(k, 0, 1e-12, false));
+    return bits_any(eliminate(k, 0, k->healthy, false));
 }
 
 const fw_core_ops FW_CORE = {FW_CORE_NAME, FW_W, rhs, core_singular, project};

@@ -5,7 +5,7 @@
    third of 53 bits; r is kept as a sum of two doubles. Then minimax polynomials of degree 13 (sine,
    relative error 2^-57.9) and 14 (cosine, 2^-63.9) of r, and the quadrant by masks.
    Input x in rad, any; output s, c. Valid for |x| <= fw_sincos_range; beyond it, and
-   for NaN, the callers ask the C library. Error below 0.8 ulp
+   for NaN, the callers ask the C library. Error below 0.9 ulp (0.83 found)
    without FMA. Cost about 55 operations, no branch. Source: Cody and Waite 1980, ch. 8; polynomials
    by the Remez exchange in 60 digits. Test: test_kernel.c (quad precision). */
 #ifndef FW_DYNAMICS_KERNEL_SINCOS_H

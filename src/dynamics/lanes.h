@@ -14,7 +14,7 @@
 typedef struct fw_lanes fw_lanes;
 
 /* names of the instruction sets of this processor, best first; NULL after the last */
-const char *const *fw_lanes_sets(void);
+const char *fw_lanes_set(int i);
 /* *lanes = NULL when a model is not plain, or has not the joints, springs and state of the first.
    `set` NULL: the best; FW_USAGE for one that this processor has not. count > 0. */
 fw_status fw_lanes_new(fw_arena *arena, const fw_model *const *models, int count, const char *set,

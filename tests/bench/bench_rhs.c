@@ -146,8 +146,8 @@ static int make_all(fw_arena *arena, bench *b) {
     memcpy(b[n].y, b[n].start, (size_t)m->ny * sizeof(double));
     fw_kernel_rhs(b[n].kernel, b[n].y, b[n].f);
     b[n++].project = true;
-    for (const char *const *set = fw_lanes_sets(); *set; set++)
-        b[n++] = make_lanes(arena, m, *set);
+    for (int i = 0; fw_lanes_set(i); i++)
+        b[n++] = make_lanes(arena, m, fw_lanes_set(i));
     for (int i = 0, windows = 10; windows <= 10000; windows *= 10, i++) {
         rig *r = fw_arena_one(arena, rig);
         double ms;
