@@ -22,9 +22,9 @@ set(FW_EXTERN_base PkgConfig::JANSSON m)
 set(kernels ${PROJECT_SOURCE_DIR}/src/dynamics)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     set_source_files_properties(${kernels}/kernel_core_avx2.c ${kernels}/kernel_path_avx2.c PROPERTIES COMPILE_OPTIONS
-                                "-mavx2;-mfma;-ffp-contract=fast")
+                                "-O3;-mavx2;-mfma;-ffp-contract=fast")
     set_source_files_properties(${kernels}/kernel_core_avx512.c ${kernels}/kernel_path_avx512.c PROPERTIES COMPILE_OPTIONS
-                                "-mavx512f;-mavx512dq;-mavx512vl;-mfma;-ffp-contract=fast")
+                                "-O3;-mavx512f;-mavx512dq;-mavx512vl;-mfma;-ffp-contract=fast")
 endif()
 
 set(below)

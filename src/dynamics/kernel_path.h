@@ -24,6 +24,10 @@ enum { ENDS = 2, DESIGNS = 1 };
 enum { ENDS = 1, DESIGNS = FW_W };
 #endif
 
+typedef struct arms { /* outer and inner, at this pose; then divided by J */
+    real rox, roy, rix, riy, pox, poy, pix, piy;
+} arms;
+
 typedef struct record {
     /* constants: bodies, then pins */
     real minv, jinv, ax, ay, at, phi0;
@@ -33,10 +37,8 @@ typedef struct record {
     int body[ENDS], pin[ENDS];
     double sign[ENDS]; /* of the multiplier in the model */
     /* work: bodies */
-    real cosine, sine, phi, w, a0, a1, a2;
-    /* pins: arms at this pose and divided by J, pivot block and 1/determinant, L to the pin before,
-       solution */
-    real rox, roy, rix, riy, pox, poy, pix, piy;
+    real cosine, sine, phi, w, turn; /* turn: angular acceleration M^-1 Q; ax, ay are constant */
+    arms arm; /* pins: then pivot block and 1/determinant, L to the pin before, solution */
     real xx, xy, yy, inverse, l0, l1, l2, l3, x0, x1;
 } record;
 
@@ -121,55 +123,64 @@ static inline __attribute__((always_inline)) void set_sines(path *p, const doubl
     if (bits_any(bits_negative(outside))) sines_of_far(p);
 }
 
-static inline __attribute__((always_inline)) void set_outer_arm(record *r) {
-    r->rox = r->cosine * r->outer_x - r->sine * r->outer_y;
-    r->roy = r->sine * r->outer_x + r->cosine * r->outer_y;
-    r->pox = r->jinv * r->rox;
-    r->poy = r->jinv * r->roy;
+static inline __attribute__((always_inline)) void outer_arm(const record *r, arms *a) {
+    a->rox = r->cosine * r->outer_x - r->sine * r->outer_y;
+    a->roy = r->sine * r->outer_x + r->cosine * r->outer_y;
+    a->pox = r->jinv * a->rox;
+    a->poy = r->jinv * a->roy;
 }
 
-/* of a middle pin: the other side's outer arm, which must be there */
-static inline __attribute__((always_inline)) void set_inner_arm(record *r, int side, bool middle) {
-    const record *n = NEXT(r), *o = mate(r, side);
-    if (middle) {
-        r->rix = cross(o->rox), r->riy = cross(o->roy);
-        r->pix = cross(o->pox), r->piy = cross(o->poy);
-        return;
-    }
-    r->rix = n->cosine * r->inner_x - n->sine * r->inner_y;
-    r->riy = n->sine * r->inner_x + n->cosine * r->inner_y;
-    r->pix = n->jinv * r->rix;
-    r->piy = n->jinv * r->riy;
+static inline __attribute__((always_inline)) arms arms_of(const record *r) {
+    const record *n = NEXT(r);
+    arms a;
+    outer_arm(r, &a);
+    a.rix = n->cosine * r->inner_x - n->sine * r->inner_y;
+    a.riy = n->sine * r->inner_x + n->cosine * r->inner_y;
+    a.pix = n->jinv * a.rix;
+    a.piy = n->jinv * a.riy;
+    return a;
 }
 
-static inline __attribute__((always_inline)) void set_arms(path *p, int i, bool middle) {
-    SIDES(s) set_outer_arm(RECORD(p, i, s));
-    SIDES(s) set_inner_arm(RECORD(p, i, s), s, middle);
+/* of a middle pin: the inner arm is the other side's outer one */
+static inline __attribute__((always_inline)) arms middle_arms(const record *r, int side) {
+    arms a, o;
+    outer_arm(r, &a);
+    outer_arm(mate(r, side), &o);
+    a.rix = cross(o.rox), a.riy = cross(o.roy);
+    a.pix = cross(o.pox), a.piy = cross(o.poy);
+    return a;
+}
+
+static void set_arms(path *p) {
+    for (int i = 0; i < p->half; i++)
+        SIDES(s) RECORD(p, i, s)->arm = arms_of(RECORD(p, i, s));
+    if (!p->even) SIDES(s) RECORD(p, p->half, s)->arm = middle_arms(RECORD(p, p->half, s), s);
 }
 
 static void set_pose(path *p, const double *u) {
     set_sines(p, u);
-    for (int i = 0; i < p->records; i++)
-        set_arms(p, i, i == p->half);
+    set_arms(p);
 }
 
 /* ---- S and right-hand side ---- */
 
-static inline __attribute__((always_inline)) void set_pivot(record *r, double epsilon) {
+static inline __attribute__((always_inline)) void set_pivot(record *r, const arms *a,
+                                                            double epsilon) {
     real mass = r->masses;
     if (epsilon > 0) mass += epsilon * r->masses;
-    r->xx = mass + (r->poy * r->roy + r->piy * r->riy);
-    r->xy = -(r->poy * r->rox + r->piy * r->rix);
-    r->yy = mass + (r->pox * r->rox + r->pix * r->rix);
+    r->xx = mass + (a->poy * a->roy + a->piy * a->riy);
+    r->xy = -(a->poy * a->rox + a->piy * a->rix);
+    r->yy = mass + (a->pox * a->rox + a->pix * a->rix);
 }
 
-static inline __attribute__((always_inline)) void set_right(record *r, int side, bool middle) {
+static inline __attribute__((always_inline)) void set_right(record *r, const arms *a, int side,
+                                                            bool middle) {
     const record *n = NEXT(r), *o = mate(r, side);
     real wo = r->w * r->w, w = middle ? cross(o->w) : n->w, wi = w * w;
-    real a0 = middle ? cross(o->a0) : n->a0, a1 = middle ? cross(o->a1) : n->a1;
-    real a2 = middle ? cross(o->a2) : n->a2;
-    r->x0 = ((r->a0 - r->a2 * r->roy) - wo * r->rox) - ((a0 - a2 * r->riy) - wi * r->rix);
-    r->x1 = ((r->a1 + r->a2 * r->rox) - wo * r->roy) - ((a1 + a2 * r->rix) - wi * r->riy);
+    real ax = middle ? cross(o->ax) : n->ax, ay = middle ? cross(o->ay) : n->ay;
+    real turn = middle ? cross(o->turn) : n->turn;
+    r->x0 = ((r->ax - r->turn * a->roy) - wo * a->rox) - ((ax - turn * a->riy) - wi * a->rix);
+    r->x1 = ((r->ay + r->turn * a->rox) - wo * a->roy) - ((ay + turn * a->rix) - wi * a->riy);
 }
 
 /* M^-1 Q of all bodies; the power dissipated (one side: sum of the lanes) */
@@ -184,22 +195,20 @@ static inline __attribute__((always_inline)) real set_accelerations(path *p, con
             record *r = RECORD(p, i, s), *n = NEXT(r);
             real rate = n->w - r->w, damping = r->c * rate;
             real torque = (r->torque0 + r->k * (n->phi - r->phi)) + damping;
-            r->a0 = r->ax, r->a1 = r->ay;
-            r->a2 = r->at + r->jinv * (torque - before[s]);
+            r->turn = r->at + r->jinv * (torque - before[s]);
             before[s] = torque;
             power += damping * rate;
         }
     SIDES(s) {
         record *r = RECORD(p, p->half, s);
         const record *o = mate(r, s);
-        r->a0 = r->ax, r->a1 = r->ay;
         if (p->even) {
-            r->a2 = r->at - r->jinv * (before[s] + cross(before[FW_SIDES - 1 - s]));
+            r->turn = r->at - r->jinv * (before[s] + cross(before[FW_SIDES - 1 - s]));
             continue;
         }
         real rate = cross(o->w) - r->w, damping = r->c * rate;
         real torque = (r->torque0 + r->k * (cross(o->phi) - r->phi)) + damping;
-        r->a2 = r->at + r->jinv * (torque - before[s]);
+        r->turn = r->at + r->jinv * (torque - before[s]);
         power += 0.5 * (damping * rate); /* both sides hold the pin */
     }
     return power;
@@ -251,7 +260,7 @@ static inline __attribute__((always_inline)) bits meet(record *r, const carry *b
                                                        corner *last, double limit, bool forward) {
     const carry other = {cross(o->xx), cross(o->xy), cross(o->yy),  cross(o->inverse),
                          cross(o->z0), cross(o->z1), cross(o->rix), cross(o->riy)};
-    update u = take(&other, couple(NEXT(r)->minv, r->pix, r->piy, other.rix, other.riy));
+    update u = take(&other, couple(NEXT(r)->minv, r->arm.pix, r->arm.piy, other.rix, other.riy));
     real xx = b->xx - u.xx, xy = b->xy - u.xy, yy = b->yy - u.yy;
     real determinant = xx * yy - xy * xy, inverse = 1.0 / determinant;
     *last = (corner){u.l0, u.l1, u.l2, u.l3, xx, xy, yy, inverse};
@@ -263,57 +272,93 @@ static inline __attribute__((always_inline)) bits meet(record *r, const carry *b
     return check(determinant, xx, yy, r->floor, limit);
 }
 
-/* pivot and reduced right-hand side of a pin, less what the pin before takes (u) and, in the
-   middle, the other side's (o) */
-static inline __attribute__((always_inline)) bits reduce(record *r, const update *u,
-                                                         const update *o, carry *b, double limit,
-                                                         bool middle, bool forward, bool last) {
+/* pivot and right-hand side of a pin are in its record, less what others take: inverts, reduces.
+   `last`: the right-hand side is kept as it is, for `meet` */
+static inline __attribute__((always_inline)) bits close(record *r, const arms *a, carry *b,
+                                                        double limit, bool forward, bool last) {
     real xx = r->xx, xy = r->xy, yy = r->yy, x0 = r->x0, x1 = r->x1;
-    if (u) {
-        r->l0 = u->l0, r->l1 = u->l1, r->l2 = u->l2, r->l3 = u->l3;
-        xx -= middle ? u->xx + cross(o->xx) : u->xx;
-        xy -= middle ? u->xy + cross(o->xy) : u->xy;
-        yy -= middle ? u->yy + cross(o->yy) : u->yy;
-        x0 += middle ? u->x0 - cross(o->x0) : u->x0;
-        x1 += middle ? u->x1 - cross(o->x1) : u->x1;
-    }
     real determinant = xx * yy - xy * xy, inverse = 1.0 / determinant;
-    *b = (carry){xx, xy, yy, inverse, yy * x0 - xy * x1, xx * x1 - xy * x0, r->rix, r->riy};
-    r->xx = xx, r->xy = xy, r->yy = yy, r->inverse = inverse;
+    b->xx = xx, b->xy = xy, b->yy = yy, b->inverse = inverse;
+    b->rix = a->rix, b->riy = a->riy;
+    r->inverse = inverse;
     if (forward) {
-        r->x0 = last ? x0 : b->z0 * inverse;
-        r->x1 = last ? x1 : b->z1 * inverse;
+        b->z0 = yy * x0 - xy * x1, b->z1 = xx * x1 - xy * x0;
+        if (!last) r->x0 = b->z0 * inverse, r->x1 = b->z1 * inverse;
     }
     return check(determinant, xx, yy, r->floor, limit);
 }
 
-/* all pivots from the arms; with `forward` the right-hand sides are made and reduced on the way.
-   Answers the designs in which a pivot is not above `limit`. */
-static inline __attribute__((always_inline)) bits eliminate(path *p, double epsilon, double limit,
-                                                            bool arms, bool forward) {
-    bits sick = {0};
+/* of -B, since the two pins hold their common body with opposite signs */
+static inline __attribute__((always_inline)) update from_before(record *r, const arms *a,
+                                                                const carry *b) {
+    update u = take(b, couple(r->minv, a->pox, a->poy, b->rix, b->riy));
+    r->l0 = u.l0, r->l1 = u.l1, r->l2 = u.l2, r->l3 = u.l3;
+    return u;
+}
+
+/* one side up to the middle; `make`: the arms are made on the way, and only those divided by J are
+   stored */
+static inline __attribute__((always_inline)) bits
+eliminate_side(path *p, int s, double epsilon, double limit, bool make, bool forward, carry *out) {
     const real nothing = {0};
-    carry b[FW_SIDES];
-    update u[FW_SIDES];
-    SIDES(s)
-    b[s] = (carry){nothing, nothing, nothing, nothing, nothing, nothing, nothing, nothing};
-    for (int i = 0; i < p->records; i++) {
-        bool middle = i == p->half, last = p->even && i + 1 == p->records;
-        if (arms) set_arms(p, i, middle);
-        SIDES(s) {
-            record *r = RECORD(p, i, s);
-            set_pivot(r, epsilon);
-            if (forward) set_right(r, s, middle);
-            /* of -B, since the two pins hold their common body with opposite signs */
-            if (i > 0) u[s] = take(&b[s], couple(r->minv, r->pox, r->poy, b[s].rix, b[s].riy));
+    bits sick = {0};
+    carry b = {nothing, nothing, nothing, nothing, nothing, nothing, nothing, nothing};
+    for (int i = 0; i < p->half; i++) {
+        record *r = RECORD(p, i, s);
+        arms a = make ? arms_of(r) : r->arm;
+        if (make) r->arm.pox = a.pox, r->arm.poy = a.poy, r->arm.pix = a.pix, r->arm.piy = a.piy;
+        set_pivot(r, &a, epsilon);
+        if (forward) set_right(r, &a, s, false);
+        if (i > 0) {
+            update u = from_before(r, &a, &b);
+            r->xx -= u.xx, r->xy -= u.xy, r->yy -= u.yy;
+            if (forward) r->x0 += u.x0, r->x1 += u.x1;
         }
-        SIDES(s)
-        sick |= reduce(RECORD(p, i, s), i > 0 ? &u[s] : NULL, &u[FW_SIDES - 1 - s], &b[s], limit,
-                       middle, forward, last);
+        sick |= close(r, &a, &b, limit, forward, p->even && i + 1 == p->half);
     }
-    if (p->even) SIDES(s)
-    sick |=
-        meet(RECORD(p, p->half - 1, s), &b[s], &b[FW_SIDES - 1 - s], &p->last[s], limit, forward);
+    *out = b;
+    return sick;
+}
+
+/* the middle pin of an odd path: both sides take their share off it */
+static inline __attribute__((always_inline)) bits
+eliminate_middle(path *p, double epsilon, double limit, bool make, bool forward, const carry *b) {
+    bits sick = {0};
+    arms a[FW_SIDES];
+    update u[FW_SIDES];
+    SIDES(s) {
+        record *r = RECORD(p, p->half, s);
+        a[s] = make ? middle_arms(r, s) : r->arm;
+        r->arm = a[s];
+        u[s] = from_before(r, &a[s], &b[s]); /* nothing, when no pin is before */
+    }
+    SIDES(s) {
+        record *r = RECORD(p, p->half, s);
+        set_pivot(r, &a[s], epsilon);
+        if (forward) set_right(r, &a[s], s, true);
+        const update *v = &u[s], *o = &u[FW_SIDES - 1 - s];
+        r->xx -= v->xx + cross(o->xx), r->xy -= v->xy + cross(o->xy);
+        r->yy -= v->yy + cross(o->yy);
+        if (forward) r->x0 += v->x0 - cross(o->x0), r->x1 += v->x1 - cross(o->x1);
+        carry end;
+        sick |= close(r, &a[s], &end, limit, forward, false);
+    }
+    return sick;
+}
+
+/* all pivots; with `forward` the right-hand sides are made and reduced on the way. Answers the
+   designs in which a pivot is not above `limit`. */
+static inline __attribute__((always_inline)) bits eliminate(path *p, double epsilon, double limit,
+                                                            bool make, bool forward) {
+    bits sick = {0};
+    carry b[FW_SIDES];
+    SIDES(s) sick |= eliminate_side(p, s, epsilon, limit, make, forward, &b[s]);
+    if (p->even) SIDES(s) {
+            record *r = RECORD(p, p->half - 1, s);
+            sick |= meet(r, &b[s], &b[FW_SIDES - 1 - s], &p->last[s], limit, forward);
+        }
+    else
+        sick |= eliminate_middle(p, epsilon, limit, make, forward, b);
     sick = bits_negative(sick);
 #if FW_SIDES == 1
     sick |= __builtin_shufflevector(sick, sick, 1, 0);
@@ -336,15 +381,16 @@ static inline __attribute__((always_inline)) void substitute_backward(path *p) {
 
 /* solves with the factor at hand, in place */
 static void solve(path *p) {
-    real b0[FW_SIDES] = {{0}}, b1[FW_SIDES] = {{0}}; /* reduced right-hand side of the pin before */
+    real b0[FW_SIDES], b1[FW_SIDES]; /* reduced right-hand side of the pin before */
+    const real nothing = {0};
+    SIDES(s) b0[s] = b1[s] = nothing;
     for (int i = 0; i < p->records; i++) {
         bool middle = i == p->half;
-        real u0[FW_SIDES] = {{0}}, u1[FW_SIDES] = {{0}};
+        real u0[FW_SIDES], u1[FW_SIDES];
         SIDES(s) {
-            record *r = RECORD(p, i, s);
-            if (i == 0) continue;
-            u0[s] = r->l0 * b0[s] + r->l1 * b1[s];
-            u1[s] = r->l2 * b0[s] + r->l3 * b1[s];
+            const record *r = RECORD(p, i, s);
+            u0[s] = i > 0 ? r->l0 * b0[s] + r->l1 * b1[s] : nothing;
+            u1[s] = i > 0 ? r->l2 * b0[s] + r->l3 * b1[s] : nothing;
         }
         SIDES(s) {
             record *r = RECORD(p, i, s);
@@ -384,7 +430,7 @@ static void solve_by_sweeps(path *p, bits sick) {
         real *keep = p->keep + 4 * i;
         keep[0] = r->x0, keep[1] = r->x1;
         keep[2] = keep[3] = real_of(0);
-        set_right(r, i % FW_SIDES, i / FW_SIDES == p->half);
+        set_right(r, &r->arm, i % FW_SIDES, i / FW_SIDES == p->half);
         size = real_max(size, real_max(real_abs(r->x0), real_abs(r->x1)));
     }
     for (int sweep = 0; sweep < 6; sweep++) {
@@ -405,6 +451,7 @@ static void solve_by_sweeps(path *p, bits sick) {
 }
 
 static __attribute__((noinline)) bits solve_with_care(path *p, bits sick) {
+    set_arms(p);
     bits broken = eliminate(p, fw_epsilon, DBL_MIN, false, false) & sick;
     solve_by_sweeps(p, sick);
     return broken;
@@ -422,13 +469,14 @@ static inline __attribute__((always_inline)) triple push_of(const path *p, int i
     if (i == p->records) { /* middle body: inner of both sides */
         const record *o = mate(b, side);
         return (triple){r->minv * (b->x0 + cross(o->x0)), r->minv * (b->x1 + cross(o->x1)),
-                        (b->pix * b->x1 - b->piy * b->x0) + cross(o->pix * o->x1 - o->piy * o->x0)};
+                        (b->arm.pix * b->x1 - b->arm.piy * b->x0) +
+                            cross(o->arm.pix * o->x1 - o->arm.piy * o->x0)};
     }
-    triple t = {-(r->minv * r->x0), -(r->minv * r->x1), r->poy * r->x0 - r->pox * r->x1};
+    triple t = {-(r->minv * r->x0), -(r->minv * r->x1), r->arm.poy * r->x0 - r->arm.pox * r->x1};
     if (i > 0) {
         t.x += r->minv * b->x0;
         t.y += r->minv * b->x1;
-        t.phi += b->pix * b->x1 - b->piy * b->x0;
+        t.phi += b->arm.pix * b->x1 - b->arm.piy * b->x0;
     }
     return t;
 }
@@ -472,7 +520,7 @@ static inline __attribute__((always_inline)) void finish(path *p, bits broken, r
             const record *r = RECORD(p, i, s);
             if (!writes(p, i, s)) continue;
             triple t = push_of(p, i, s);
-            t = (triple){r->a0 + t.x, r->a1 + t.y, r->a2 + t.phi};
+            t = (triple){r->ax + t.x, r->ay + t.y, r->turn + t.phi};
             if (FW_SIDES == 2) t.x *= rate, t.y *= rate, t.phi *= rate;
             scatter(r, a, t.x, t.y, t.phi);
         }
@@ -503,8 +551,8 @@ static double residual(path *p, const double *u, double *relative) {
             real ox = gather(r, u, 0), oy = gather(r, u, 1);
             real ix = middle ? cross(gather(o, u, 0)) : gather(NEXT(r), u, 0);
             real iy = middle ? cross(gather(o, u, 1)) : gather(NEXT(r), u, 1);
-            r->x0 = r->offset_x + ox - ix + r->rox - r->rix;
-            r->x1 = r->offset_y + oy - iy + r->roy - r->riy;
+            r->x0 = r->offset_x + ox - ix + r->arm.rox - r->arm.rix;
+            r->x1 = r->offset_y + oy - iy + r->arm.roy - r->arm.riy;
             worst = real_max(worst, r->x0 * r->x0 + r->x1 * r->x1);
         }
     *relative = sqrt(real_most(worst / (p->size * p->size)));
@@ -546,7 +594,8 @@ static bool project_velocity(path *p, double *v, double *norm) {
     real size = real_of(DBL_MIN);
     for (int i = p->first; i < p->bodies; i++)
         SIDES(s)
-        for (int c = 0; c < 3; c++) size = real_max(size, real_abs(gather(RECORD(p, i, s), v, c)));
+    for (int c = 0; c < 3; c++)
+        size = real_max(size, real_abs(gather(RECORD(p, i, s), v, c)));
 #if FW_SIDES == 1
     size = real_max(size, cross(size));
 #endif
@@ -561,8 +610,8 @@ static bool project_velocity(path *p, double *v, double *norm) {
                 real ix = middle ? cross(gather(o, v, 0)) : gather(NEXT(r), v, 0);
                 real iy = middle ? cross(gather(o, v, 1)) : gather(NEXT(r), v, 1);
                 real iw = middle ? cross(gather(o, v, 2)) : gather(NEXT(r), v, 2);
-                r->x0 = (ox - ow * r->roy) - (ix - iw * r->riy);
-                r->x1 = (oy + ow * r->rox) - (iy + iw * r->rix);
+                r->x0 = (ox - ow * r->arm.roy) - (ix - iw * r->arm.riy);
+                r->x1 = (oy + ow * r->arm.rox) - (iy + iw * r->arm.rix);
                 worst = real_max(worst, real_max(real_abs(r->x0), real_abs(r->x1)));
             }
         *norm = real_most(worst);
@@ -587,7 +636,7 @@ static bool path_project(path *p, double *y, double *f) {
         solve_by_sweeps(p, ~(bits){0});
     } else {
         for (int i = 0; i < p->records; i++)
-            SIDES(s) set_right(RECORD(p, i, s), s, i == p->half);
+            SIDES(s) set_right(RECORD(p, i, s), &RECORD(p, i, s)->arm, s, i == p->half);
         solve(p);
     }
     finish(p, broken, power, y, f);
