@@ -164,23 +164,38 @@ static void set_pose(path *p, const double *u) {
 
 /* ---- S and right-hand side ---- */
 
-static inline __attribute__((always_inline)) void set_pivot(record *r, const arms *a,
-                                                            double epsilon) {
+typedef struct pivot { /* block and right-hand side, in registers while others are taken off */
+    real xx, xy, yy, x0, x1;
+} pivot;
+
+static inline __attribute__((always_inline)) void set_pivot(pivot *t, const record *r,
+                                                            const arms *a, double epsilon) {
     real mass = r->masses;
     if (epsilon > 0) mass += epsilon * r->masses;
-    r->xx = mass + (a->poy * a->roy + a->piy * a->riy);
-    r->xy = -(a->poy * a->rox + a->piy * a->rix);
-    r->yy = mass + (a->pox * a->rox + a->pix * a->rix);
+    t->xx = mass + (a->poy * a->roy + a->piy * a->riy);
+    t->xy = -(a->poy * a->rox + a->piy * a->rix);
+    t->yy = mass + (a->pox * a->rox + a->pix * a->rix);
 }
 
-static inline __attribute__((always_inline)) void set_right(record *r, const arms *a, int side,
-                                                            bool middle) {
+static inline __attribute__((always_inline)) void set_right(pivot *t, const record *r,
+                                                            const arms *a, int side, bool middle) {
     const record *n = NEXT(r), *o = mate(r, side);
     real wo = r->w * r->w, w = middle ? cross(o->w) : n->w, wi = w * w;
     real ax = middle ? cross(o->ax) : n->ax, ay = middle ? cross(o->ay) : n->ay;
     real turn = middle ? cross(o->turn) : n->turn;
-    r->x0 = ((r->ax - r->turn * a->roy) - wo * a->rox) - ((ax - turn * a->riy) - wi * a->rix);
-    r->x1 = ((r->ay + r->turn * a->rox) - wo * a->roy) - ((ay + turn * a->rix) - wi * a->riy);
+    t->x0 = ((r->ax - r->turn * a->roy) - wo * a->rox) - ((ax - turn * a->riy) - wi * a->rix);
+    t->x1 = ((r->ay + r->turn * a->rox) - wo * a->roy) - ((ay + turn * a->rix) - wi * a->riy);
+}
+
+/* G M^-1 Q + G' v of all pins, for `solve` */
+static void set_rights(path *p) {
+    for (int i = 0; i < p->records; i++)
+        SIDES(s) {
+            record *r = RECORD(p, i, s);
+            pivot t;
+            set_right(&t, r, &r->arm, s, i == p->half);
+            r->x0 = t.x0, r->x1 = t.x1;
+        }
 }
 
 /* M^-1 Q of all bodies; the power dissipated (one side: sum of the lanes) */
@@ -272,20 +287,20 @@ static inline __attribute__((always_inline)) bits meet(record *r, const carry *b
     return check(determinant, xx, yy, r->floor, limit);
 }
 
-/* pivot and right-hand side of a pin are in its record, less what others take: inverts, reduces.
-   `last`: the right-hand side is kept as it is, for `meet` */
-static inline __attribute__((always_inline)) bits close(record *r, const arms *a, carry *b,
-                                                        double limit, bool forward, bool last) {
-    real xx = r->xx, xy = r->xy, yy = r->yy, x0 = r->x0, x1 = r->x1;
-    real determinant = xx * yy - xy * xy, inverse = 1.0 / determinant;
-    b->xx = xx, b->xy = xy, b->yy = yy, b->inverse = inverse;
+/* a pin from which all others are taken off: inverts, reduces, stores. `last`: the right-hand side
+   is kept as it is, for `meet` */
+static inline __attribute__((always_inline)) bits
+close(record *r, const pivot *t, const arms *a, carry *b, double limit, bool forward, bool last) {
+    real determinant = t->xx * t->yy - t->xy * t->xy, inverse = 1.0 / determinant;
+    b->xx = r->xx = t->xx, b->xy = r->xy = t->xy, b->yy = r->yy = t->yy;
+    b->inverse = r->inverse = inverse;
     b->rix = a->rix, b->riy = a->riy;
-    r->inverse = inverse;
     if (forward) {
-        b->z0 = yy * x0 - xy * x1, b->z1 = xx * x1 - xy * x0;
-        if (!last) r->x0 = b->z0 * inverse, r->x1 = b->z1 * inverse;
+        b->z0 = t->yy * t->x0 - t->xy * t->x1, b->z1 = t->xx * t->x1 - t->xy * t->x0;
+        r->x0 = last ? t->x0 : b->z0 * inverse;
+        r->x1 = last ? t->x1 : b->z1 * inverse;
     }
-    return check(determinant, xx, yy, r->floor, limit);
+    return check(determinant, t->xx, t->yy, r->floor, limit);
 }
 
 /* of -B, since the two pins hold their common body with opposite signs */
@@ -307,14 +322,15 @@ eliminate_side(path *p, int s, double epsilon, double limit, bool make, bool for
         record *r = RECORD(p, i, s);
         arms a = make ? arms_of(r) : r->arm;
         if (make) r->arm.pox = a.pox, r->arm.poy = a.poy, r->arm.pix = a.pix, r->arm.piy = a.piy;
-        set_pivot(r, &a, epsilon);
-        if (forward) set_right(r, &a, s, false);
+        pivot t = {nothing, nothing, nothing, nothing, nothing};
+        set_pivot(&t, r, &a, epsilon);
+        if (forward) set_right(&t, r, &a, s, false);
         if (i > 0) {
             update u = from_before(r, &a, &b);
-            r->xx -= u.xx, r->xy -= u.xy, r->yy -= u.yy;
-            if (forward) r->x0 += u.x0, r->x1 += u.x1;
+            t.xx -= u.xx, t.xy -= u.xy, t.yy -= u.yy;
+            if (forward) t.x0 += u.x0, t.x1 += u.x1;
         }
-        sick |= close(r, &a, &b, limit, forward, p->even && i + 1 == p->half);
+        sick |= close(r, &t, &a, &b, limit, forward, p->even && i + 1 == p->half);
     }
     *out = b;
     return sick;
@@ -334,14 +350,17 @@ eliminate_middle(path *p, double epsilon, double limit, bool make, bool forward,
     }
     SIDES(s) {
         record *r = RECORD(p, p->half, s);
-        set_pivot(r, &a[s], epsilon);
-        if (forward) set_right(r, &a[s], s, true);
         const update *v = &u[s], *o = &u[FW_SIDES - 1 - s];
-        r->xx -= v->xx + cross(o->xx), r->xy -= v->xy + cross(o->xy);
-        r->yy -= v->yy + cross(o->yy);
-        if (forward) r->x0 += v->x0 - cross(o->x0), r->x1 += v->x1 - cross(o->x1);
+        pivot t;
+        set_pivot(&t, r, &a[s], epsilon);
+        t.xx -= v->xx + cross(o->xx), t.xy -= v->xy + cross(o->xy);
+        t.yy -= v->yy + cross(o->yy);
+        if (forward) {
+            set_right(&t, r, &a[s], s, true);
+            t.x0 += v->x0 - cross(o->x0), t.x1 += v->x1 - cross(o->x1);
+        }
         carry end;
-        sick |= close(r, &a[s], &end, limit, forward, false);
+        sick |= close(r, &t, &a[s], &end, limit, forward, false);
     }
     return sick;
 }
@@ -425,12 +444,12 @@ static bits factor(path *p, bits *broken) {
 static void solve_by_sweeps(path *p, bits sick) {
     const int n = p->records * FW_SIDES;
     real size = {0};
+    for (int i = 0; i < n; i++)
+        p->keep[4 * i] = p->r[i].x0, p->keep[4 * i + 1] = p->r[i].x1;
+    set_rights(p);
     for (int i = 0; i < n; i++) {
-        record *r = &p->r[i];
-        real *keep = p->keep + 4 * i;
-        keep[0] = r->x0, keep[1] = r->x1;
-        keep[2] = keep[3] = real_of(0);
-        set_right(r, &r->arm, i % FW_SIDES, i / FW_SIDES == p->half);
+        const record *r = &p->r[i];
+        p->keep[4 * i + 2] = p->keep[4 * i + 3] = real_of(0);
         size = real_max(size, real_max(real_abs(r->x0), real_abs(r->x1)));
     }
     for (int sweep = 0; sweep < 6; sweep++) {
@@ -538,109 +557,6 @@ static void path_rhs(path *p, const double *y, double *f) {
     finish(p, broken, power, y, f);
 }
 
-/* ---- projection: as in kernel_core.h ---- */
-
-static double residual(path *p, const double *u, double *relative) {
-    real worst = {0};
-    set_pose(p, u);
-    for (int i = 0; i < p->records; i++)
-        SIDES(s) {
-            record *r = RECORD(p, i, s);
-            bool middle = i == p->half;
-            const record *o = mate(r, s);
-            real ox = gather(r, u, 0), oy = gather(r, u, 1);
-            real ix = middle ? cross(gather(o, u, 0)) : gather(NEXT(r), u, 0);
-            real iy = middle ? cross(gather(o, u, 1)) : gather(NEXT(r), u, 1);
-            r->x0 = r->offset_x + ox - ix + r->arm.rox - r->arm.rix;
-            r->x1 = r->offset_y + oy - iy + r->arm.roy - r->arm.riy;
-            worst = real_max(worst, r->x0 * r->x0 + r->x1 * r->x1);
-        }
-    *relative = sqrt(real_most(worst / (p->size * p->size)));
-    return sqrt(real_most(worst));
-}
-
-static void move(path *p, double *to) {
-    for (int i = p->first; i < p->bodies; i++)
-        SIDES(s) {
-            const record *r = RECORD(p, i, s);
-            if (!writes(p, i, s)) continue;
-            triple t = push_of(p, i, s);
-            real x = gather(r, to, 0), y = gather(r, to, 1), phi = gather(r, to, 2);
-            scatter(r, to, x + t.x, y + t.y, phi + t.phi);
-        }
-}
-
-static bool project_position(path *p, double *u, double *norm) {
-    double before = (double)INFINITY, relative = 0;
-    bits broken;
-    for (int i = 0; i < 20; i++) {
-        *norm = residual(p, u, &relative);
-        if (!(*norm < (double)INFINITY)) return false;
-        bool slow = relative > 0.25 * before;
-        if (relative <= 2 * DBL_EPSILON || (slow && relative <= 1e-13)) break;
-        if (slow || i == 4) {
-            factor(p, &broken);
-            if (bits_any(broken)) return false;
-        }
-        before = relative;
-        solve(p);
-        move(p, u);
-    }
-    return *norm <= 1e-12;
-}
-
-static bool project_velocity(path *p, double *v, double *norm) {
-    double before = (double)INFINITY;
-    real size = real_of(DBL_MIN);
-    for (int i = p->first; i < p->bodies; i++)
-        SIDES(s)
-    for (int c = 0; c < 3; c++)
-        size = real_max(size, real_abs(gather(RECORD(p, i, s), v, c)));
-#if FW_SIDES == 1
-    size = real_max(size, cross(size));
-#endif
-    for (int sweep = 0; sweep < 6; sweep++) {
-        real worst = {0};
-        for (int i = 0; i < p->records; i++)
-            SIDES(s) {
-                record *r = RECORD(p, i, s);
-                bool middle = i == p->half;
-                const record *o = mate(r, s);
-                real ox = gather(r, v, 0), oy = gather(r, v, 1), ow = gather(r, v, 2);
-                real ix = middle ? cross(gather(o, v, 0)) : gather(NEXT(r), v, 0);
-                real iy = middle ? cross(gather(o, v, 1)) : gather(NEXT(r), v, 1);
-                real iw = middle ? cross(gather(o, v, 2)) : gather(NEXT(r), v, 2);
-                r->x0 = (ox - ow * r->arm.roy) - (ix - iw * r->arm.riy);
-                r->x1 = (oy + ow * r->arm.rox) - (iy + iw * r->arm.rix);
-                worst = real_max(worst, real_max(real_abs(r->x0), real_abs(r->x1)));
-            }
-        *norm = real_most(worst);
-        double relative = real_most(worst / size);
-        if (relative <= 2 * DBL_EPSILON || relative > 0.25 * before) break;
-        before = relative;
-        solve(p);
-        move(p, v);
-    }
-    return *norm < (double)INFINITY;
-}
-
-static bool path_project(path *p, double *y, double *f) {
-    double position, velocity, *v = y + p->nq * DESIGNS;
-    bits broken, sick;
-    if (!project_position(p, y, &position)) return false;
-    sick = factor(p, &broken);
-    if (bits_any(broken) || !project_velocity(p, v, &velocity)) return false;
-    p->norms = (fw_kernel_norms){position, velocity};
-    real power = set_accelerations(p, v);
-    if (bits_any(sick)) {
-        solve_by_sweeps(p, ~(bits){0});
-    } else {
-        for (int i = 0; i < p->records; i++)
-            SIDES(s) set_right(RECORD(p, i, s), &RECORD(p, i, s)->arm, s, i == p->half);
-        solve(p);
-    }
-    finish(p, broken, power, y, f);
-    return true;
-}
+#include "dynamics/kernel_path_project.h"
 
 #include "dynamics/kernel_path_fill.h"

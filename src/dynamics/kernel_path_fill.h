@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Second half of kernel_path.h: the numbers of the models, and the row of functions. */
+/* Third part of kernel_path.h: the numbers of the models, and the row of functions. */
 
 /* end 0 counts from the front, end 1 from the back; where the value of that end and design goes */
 static inline record *at_end(path *p, int i, int end) {
