@@ -4,6 +4,8 @@
 #define FW_DYNAMICS_METHODS_H
 #include "dynamics/model.h"
 
-extern const fw_method fw_method_chain;
+extern const fw_method fw_method_chain, fw_method_augmented, fw_method_coordinate_partitioning,
+    fw_method_udwadia_kalaba, fw_method_svd, fw_method_qr, fw_method_schur,
+    fw_method_block_least_squares;
 
 #endif

@@ -38,7 +38,7 @@ fw_status fw_run_prepare(fw_run *r, const fw_terms *terms);
 fw_status fw_run_arrays(fw_run *r);
 
 /* choose.c: by name, or by the scene; says why in motion->reason */
-fw_status fw_integrator_choose(fw_run *r, const char *name);
+fw_status fw_integrator_choose(fw_run *r, const fw_terms *terms, const char *name);
 
 /* sample.c */
 void fw_run_first_sample(fw_run *r, const double *y);

@@ -201,7 +201,7 @@ fw_status fw_simulate(fw_arena *arena, const fw_mechanism *mechanism, const fw_s
     set_stabilisation(&r);
     r.most_angle = options->most_angle_rad > 0 ? options->most_angle_rad : HUGE_VAL;
     FW_TRY(fw_run_prepare(&r, &terms));
-    FW_TRY(fw_integrator_choose(&r, options->integrator));
+    FW_TRY(fw_integrator_choose(&r, &terms, options->integrator));
     FW_TRY(solve(&r));
     FW_TRY(say_method(&r));
     *motion = r.motion;

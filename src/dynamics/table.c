@@ -6,6 +6,13 @@
 
 static const fw_method *const methods[] = {
     &fw_method_chain,
+    &fw_method_augmented,
+    &fw_method_coordinate_partitioning,
+    &fw_method_udwadia_kalaba,
+    &fw_method_svd,
+    &fw_method_qr,
+    &fw_method_schur,
+    &fw_method_block_least_squares,
 };
 enum { METHODS = sizeof methods / sizeof methods[0] };
 

@@ -17,24 +17,34 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
-/* forces at the centre of mass and torques are constants; a force elsewhere turns its arm */
+static void add_force(const fw_force *f, fw_terms *terms) {
+    if (f->body == FW_GROUND) return;
+    if (!fw_law_is_constant(f->law))
+        terms->timed[terms->ntimed++] =
+            (fw_timed_load){f->body, f->x_m, f->y_m, f->fx_N, f->fy_N, 0, f->law};
+    else if (f->x_m == 0 && f->y_m == 0) {
+        terms->constant[3 * f->body] += f->fx_N;
+        terms->constant[3 * f->body + 1] += f->fy_N;
+    } else
+        terms->load[terms->nload++] = (fw_point_load){f->body, f->x_m, f->y_m, f->fx_N, f->fy_N};
+}
+
+/* what a law changes with time goes to `timed`; of the rest, forces at the centre of mass and
+   torques are constants, and a force elsewhere turns its arm */
 static void add(const fw_effect_case *c, fw_terms *terms) {
-    for (int i = 0; i < c->scene->nforce; i++) {
-        const fw_force *f = &c->scene->force[i];
-        if (f->body == FW_GROUND) continue;
-        if (f->x_m == 0 && f->y_m == 0) {
-            terms->constant[3 * f->body] += f->fx_N;
-            terms->constant[3 * f->body + 1] += f->fy_N;
-        } else {
-            terms->load[terms->nload++] =
-                (fw_point_load){f->body, f->x_m, f->y_m, f->fx_N, f->fy_N};
-        }
+    for (int i = 0; i < c->scene->nforce; i++)
+        add_force(&c->scene->force[i], terms);
+    for (int i = 0; i < c->scene->ntorque; i++) {
+        const fw_torque *t = &c->scene->torque[i];
+        if (t->body == FW_GROUND) continue;
+        if (fw_law_is_constant(t->law))
+            terms->constant[3 * t->body + 2] += t->value_Nm;
+        else
+            terms->timed[terms->ntimed++] =
+                (fw_timed_load){.body = t->body, .torque_Nm = t->value_Nm, .law = t->law};
     }
-    for (int i = 0; i < c->scene->ntorque; i++)
-        if (c->scene->torque[i].body != FW_GROUND)
-            terms->constant[3 * c->scene->torque[i].body + 2] += c->scene->torque[i].value_Nm;
 }
 
 const fw_effect_row fw_effect_applied_load = {
-    "applied-load", "forces and torques of the scene, constant from the start", called_for, bound,
+    "applied-load", "forces and torques of the scene with their laws in time", called_for, bound,
     add};

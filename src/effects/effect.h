@@ -5,10 +5,19 @@
 #include "effects/effects.h"
 
 extern const fw_effect_row fw_effect_joint_elasticity, fw_effect_joint_damping,
-    fw_effect_point_spring, fw_effect_applied_load, fw_effect_gravity, fw_effect_initial_velocity;
+    fw_effect_joint_stop, fw_effect_point_spring, fw_effect_applied_load, fw_effect_gravity,
+    fw_effect_initial_velocity;
 
 /* the entry of a pin, made on first use */
 fw_torsion *fw_terms_torsion(const fw_mechanism *mechanism, fw_terms *terms, int pin);
+/* of a prismatic joint, made on first use */
+fw_slide *fw_terms_slide(fw_terms *terms, int tie);
+/* something in the scene or the mechanism answers out of proportion to a load: its response to a
+   part of the loads says nothing about the whole (loads that go with time, drivers, stops, cables)
+ */
+bool fw_effect_not_proportional(const fw_effect_case *c);
+/* a cable that is not stretched in the drawn pose */
+bool fw_spring_slack(const fw_mechanism *mechanism, const fw_spring *spring);
 /* empty terms with room for everything that mechanism and scene can ask for */
 fw_status fw_terms_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                        fw_terms *terms);

@@ -62,10 +62,12 @@ typedef struct fw_terms {
     double *constant;     /* (3 nbody) force on the centre of mass, torque */
     double *velocity;     /* (3 nbody) initial velocities as the scene states them */
     fw_torsion *torsion;  /* (ntorsion) */
+    int *torsion_of;      /* (npin) 1 + index in torsion; 0: none */
     fw_point_load *load;  /* (nload) off the centre of mass */
     fw_timed_load *timed; /* (ntimed) */
     fw_stop *stop;        /* (nstop) */
     fw_slide *slide;      /* (nslide) */
+    int *slide_of;        /* (ntie) likewise in slide */
     fw_spring *spring;    /* (nspring) */
     int ntorsion, nload, ntimed, nstop, nslide, nspring;
 } fw_terms;
@@ -92,14 +94,15 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, con
                              fw_effect_ledger *ledger, fw_terms *terms);
 
 /* linear static response of the constrained mechanism about its initial pose to the generalized
-   forces `force` (3 nbody), with the springs of `terms`: displacements (3 nbody) and pin rotations
-   (npin). *valid false when there is none (free motion) or the mechanism has more than
-   FW_RESPONSE_MOST unknowns. */
+   forces `force` (3 nbody), with the springs of `terms`, drivers held: displacements (3 nbody) and
+   pin rotations (npin). Stops and slack cables do not act. *valid false when there is none (free
+   motion, redundant joints) or the mechanism has more than FW_RESPONSE_MOST unknowns. */
 enum { FW_RESPONSE_MOST = 250 };
 fw_status fw_static_response(fw_arena *arena, const fw_mechanism *mechanism, const fw_terms *terms,
                              const double *force, double *displacement, double *rotation,
                              bool *valid);
-/* generalized forces (3 nbody) of the terms at the initial pose: constants, loads, spring forces */
+/* generalized forces (3 nbody) of the terms at the initial pose, just behind t = 0: constants,
+   loads, springs, slides, stops */
 void fw_terms_initial_force(const fw_mechanism *mechanism, const fw_terms *terms, double *force);
 
 #endif

@@ -20,9 +20,23 @@ static double largest(const double *value, int count) {
     return most;
 }
 
+bool fw_effect_not_proportional(const fw_effect_case *c) {
+    const fw_mechanism *m = c->mechanism;
+    if (m->ndriver > 0 || fw_effect_joint_stop.called_for(c)) return true;
+    for (int i = 0; i < m->nspring; i++)
+        if (m->spring[i].cable) return true;
+    for (int i = 0; i < c->scene->nforce; i++)
+        if (!fw_law_is_constant(c->scene->force[i].law)) return true;
+    for (int i = 0; i < c->scene->ntorque; i++)
+        if (!fw_law_is_constant(c->scene->torque[i].law)) return true;
+    return false;
+}
+
 /* 2 max|theta_gravity| / max|theta_rest| of the linear static responses: a load put on at once
    moves up to twice its static response, and the rest moves at least by its own. Infinite where the
-   mechanism has a free motion, nothing else moves it, or it starts with a velocity.
+   mechanism has a free motion, nothing else moves it, it starts with a velocity, or the motion is
+   not that of constant loads on springs: a load that comes late, a driver, a stop or a cable may
+   move it by less than its own static response.
    Output dimensionless; conservative for small angles. Cost one dense solve each.
    Test: test_effects.c. */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
@@ -31,6 +45,11 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     *value = (double)INFINITY;
     *reason = "weight has nothing to be small against: kept";
     if (fw_effect_initial_velocity.called_for(c)) return FW_OK;
+    if (fw_effect_not_proportional(c)) {
+        *reason = "drivers, stops, cables or loads that change with time move the mechanism: "
+                  "weight has no constant load to be small against: kept";
+        return FW_OK;
+    }
     fw_mark mark = fw_arena_mark(c->arena);
     fw_terms rest, weight;
     double *force, *displacement, *rotation;

@@ -5,23 +5,31 @@
 static bool called_for(const fw_effect_case *c) {
     for (int i = 0; i < c->mechanism->npin; i++)
         if (c->mechanism->pin[i].stiffness_Nm_per_rad > 0) return true;
+    for (int i = 0; i < c->mechanism->ntie; i++)
+        if (c->mechanism->tie[i].stiffness_N_per_m > 0) return true;
     return false;
 }
 
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
     (void)c;
     *value = (double)INFINITY;
-    *reason = "hinges have stiffness: it is the motion itself";
+    *reason = "joints have stiffness: it is the motion itself";
     return FW_OK;
 }
 
-/* torque -k (phi_b - phi_a - free angle) on b, the opposite on a */
+/* turning: torque -k (phi_b - phi_a - free angle) on b, the opposite on a; sliding: force -k travel
+   along the axis on b, the opposite on a */
 static void add(const fw_effect_case *c, fw_terms *terms) {
     for (int i = 0; i < c->mechanism->npin; i++)
         if (c->mechanism->pin[i].stiffness_Nm_per_rad > 0)
             fw_terms_torsion(c->mechanism, terms, i)->stiffness_Nm_per_rad =
                 c->mechanism->pin[i].stiffness_Nm_per_rad;
+    for (int i = 0; i < c->mechanism->ntie; i++)
+        if (c->mechanism->tie[i].stiffness_N_per_m > 0)
+            fw_terms_slide(terms, i)->stiffness_N_per_m = c->mechanism->tie[i].stiffness_N_per_m;
 }
 
 const fw_effect_row fw_effect_joint_elasticity = {
-    "joint-elasticity", "elastic torque of the hinges, k times angle", called_for, bound, add};
+    "joint-elasticity",
+    "elastic torque of hinges and force of sliding joints, k times angle or travel", called_for,
+    bound, add};

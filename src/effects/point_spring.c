@@ -17,7 +17,7 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
-/* force k (l - l0) + c l' along the line between the two points */
+/* force k (l - l0) + c l' along the line between the two points; a cable only pulls */
 static void add(const fw_effect_case *c, fw_terms *terms) {
     for (int i = 0; i < c->mechanism->nspring; i++) {
         const fw_spring *s = &c->mechanism->spring[i];
@@ -27,4 +27,4 @@ static void add(const fw_effect_case *c, fw_terms *terms) {
 }
 
 const fw_effect_row fw_effect_point_spring = {
-    "point-spring", "springs and dampers between two points", called_for, bound, add};
+    "point-spring", "springs, dampers and cables between two points", called_for, bound, add};

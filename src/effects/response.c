@@ -20,14 +20,27 @@ static fw_vec2 arm(const fw_mechanism *m, int body, double x, double y) {
     return (fw_vec2){c * x - s * y, s * x + c * y};
 }
 
-/* mean distance between the centres of mass and their pins, m */
+static void add_arm(int body, double x, double y, double *sum, int *count) {
+    if (body == FW_GROUND) return;
+    *sum += hypot(x, y);
+    ++*count;
+}
+
+/* mean distance between the centres of mass and the points of joints and springs, m */
 static double typical_length(const fw_mechanism *m) {
     double sum = 0;
     int count = 0;
     for (int i = 0; i < m->npin; i++) {
-        const fw_pin *p = &m->pin[i];
-        if (p->body_a != FW_GROUND) sum += hypot(p->ax_m, p->ay_m), count++;
-        if (p->body_b != FW_GROUND) sum += hypot(p->bx_m, p->by_m), count++;
+        add_arm(m->pin[i].body_a, m->pin[i].ax_m, m->pin[i].ay_m, &sum, &count);
+        add_arm(m->pin[i].body_b, m->pin[i].bx_m, m->pin[i].by_m, &sum, &count);
+    }
+    for (int i = 0; i < m->ntie; i++) {
+        add_arm(m->tie[i].body_a, m->tie[i].ax_m, m->tie[i].ay_m, &sum, &count);
+        add_arm(m->tie[i].body_b, m->tie[i].bx_m, m->tie[i].by_m, &sum, &count);
+    }
+    for (int i = 0; i < m->nspring && sum == 0; i++) {
+        add_arm(m->spring[i].body_a, m->spring[i].ax_m, m->spring[i].ay_m, &sum, &count);
+        add_arm(m->spring[i].body_b, m->spring[i].bx_m, m->spring[i].by_m, &sum, &count);
     }
     return sum > 0 ? sum / count : 1;
 }
@@ -41,74 +54,180 @@ static void add_torsion(const system *s, const fw_torsion *t) {
     if (a >= 0 && b >= 0) put(s, a, b, -k), put(s, b, a, -k);
 }
 
-/* k u u^T along the spring's direction: the material part of the tangent */
-static void add_spring(const system *s, const fw_mechanism *m, const fw_spring *p) {
-    fw_vec2 ra = arm(m, p->body_a, p->ax_m, p->ay_m), rb = arm(m, p->body_b, p->bx_m, p->by_m);
-    fw_vec2 a = ra, b = rb;
-    if (p->body_a != FW_GROUND) a.x += m->body[p->body_a].x_m, a.y += m->body[p->body_a].y_m;
-    if (p->body_b != FW_GROUND) b.x += m->body[p->body_b].x_m, b.y += m->body[p->body_b].y_m;
-    double dx = b.x - a.x, dy = b.y - a.y, l = hypot(dx, dy);
-    if (!(l > 0)) return;
-    double ux = dx / l, uy = dy / l, k = p->stiffness_N_per_m / s->force;
-    int index[6];
+/* what changes a length along the unit vector u between point a and point b: -u on a, u on b, with
+   their arms */
+typedef struct line {
+    int index[6], count;
     double row[6];
-    int count = 0;
-    if (p->body_a != FW_GROUND) {
-        double turn = (-ra.y * ux + ra.x * uy) / s->length;
-        const double part[3] = {-ux, -uy, -turn};
-        for (int c = 0; c < 3; c++, count++)
-            index[count] = 3 * p->body_a + c, row[count] = part[c];
-    }
-    if (p->body_b != FW_GROUND) {
-        double turn = (-rb.y * ux + rb.x * uy) / s->length;
-        const double part[3] = {ux, uy, turn};
-        for (int c = 0; c < 3; c++, count++)
-            index[count] = 3 * p->body_b + c, row[count] = part[c];
-    }
-    for (int i = 0; i < count; i++)
-        for (int j = 0; j < count; j++)
-            put(s, index[i], index[j], k * row[i] * row[j]);
+} line;
+
+static void add_end(const system *s, line *l, int body, fw_vec2 r, double ux, double uy,
+                    double sign) {
+    if (body == FW_GROUND) return;
+    const double part[3] = {sign * ux, sign * uy, sign * (r.x * uy - r.y * ux) / s->length};
+    for (int c = 0; c < 3; c++, l->count++)
+        l->index[l->count] = 3 * body + c, l->row[l->count] = part[c];
 }
 
-static void add_constraint(const system *s, int row, int body, fw_vec2 r, double sign) {
-    if (body == FW_GROUND) return;
-    const double gx[3] = {sign, 0, -sign * r.y / s->length};
-    const double gy[3] = {0, sign, sign * r.x / s->length};
-    for (int c = 0; c < 3; c++) {
-        put(s, row, 3 * body + c, gx[c]), put(s, 3 * body + c, row, gx[c]);
-        put(s, row + 1, 3 * body + c, gy[c]), put(s, 3 * body + c, row + 1, gy[c]);
+/* k u u^T along the line: the material part of the tangent */
+static void add_stiffness(const system *s, const line *l, double k) {
+    for (int i = 0; i < l->count; i++)
+        for (int j = 0; j < l->count; j++)
+            put(s, l->index[i], l->index[j], k * l->row[i] * l->row[j]);
+}
+
+static void add_row(const system *s, int row, const line *l) {
+    for (int i = 0; i < l->count; i++)
+        put(s, row, l->index[i], l->row[i]), put(s, l->index[i], row, l->row[i]);
+}
+
+static void add_spring(const system *s, const fw_mechanism *m, const fw_spring *p) {
+    fw_vec2 a = fw_local_place(m, p->body_a, p->ax_m, p->ay_m);
+    fw_vec2 b = fw_local_place(m, p->body_b, p->bx_m, p->by_m);
+    double dx = b.x - a.x, dy = b.y - a.y, l = hypot(dx, dy);
+    if (!(l > 0) || fw_spring_slack(m, p)) return;
+    line along = {.count = 0};
+    add_end(s, &along, p->body_a, arm(m, p->body_a, p->ax_m, p->ay_m), dx / l, dy / l, -1);
+    add_end(s, &along, p->body_b, arm(m, p->body_b, p->bx_m, p->by_m), dx / l, dy / l, 1);
+    add_stiffness(s, &along, p->stiffness_N_per_m / s->force);
+}
+
+/* a direction (ux, uy) fixed in body a: turning it moves the point b, at a distance from a */
+static line tie_line(const system *s, const fw_mechanism *m, const fw_tie *t, double ux, double uy,
+                     bool turns) {
+    fw_vec2 a = fw_local_place(m, t->body_a, t->ax_m, t->ay_m);
+    fw_vec2 b = fw_local_place(m, t->body_b, t->bx_m, t->by_m);
+    fw_vec2 ra = arm(m, t->body_a, t->ax_m, t->ay_m), rb = arm(m, t->body_b, t->bx_m, t->by_m);
+    if (turns) ra.x += b.x - a.x, ra.y += b.y - a.y;
+    line l = {.count = 0};
+    add_end(s, &l, t->body_a, ra, ux, uy, -1);
+    add_end(s, &l, t->body_b, rb, ux, uy, 1);
+    return l;
+}
+
+static line tie_axis(const system *s, const fw_mechanism *m, const fw_tie *t, bool normal) {
+    double turned = t->axis_rad + (t->body_a == FW_GROUND ? 0 : m->body[t->body_a].phi_rad);
+    double c = cos(turned), n = sin(turned);
+    return normal ? tie_line(s, m, t, -n, c, true) : tie_line(s, m, t, c, n, true);
+}
+
+/* phi_b - phi_a held */
+static void hold_angle(const system *s, int row, int body_a, int body_b) {
+    line l = {.count = 0};
+    if (body_a != FW_GROUND) l.index[l.count] = 3 * body_a + 2, l.row[l.count++] = -1;
+    if (body_b != FW_GROUND) l.index[l.count] = 3 * body_b + 2, l.row[l.count++] = 1;
+    add_row(s, row, &l);
+}
+
+static int tie_rows(const fw_tie *t) {
+    return t->kind == FW_TIE_PRISMATIC ? 2 : t->kind == FW_TIE_DISTANCE ? 1 : 3;
+}
+
+/* a driver holds one motion more; that of a rod replaces its length */
+static int driver_rows(const fw_mechanism *m, const fw_driver *d) {
+    return d->tie == FW_NONE || m->tie[d->tie].kind == FW_TIE_PRISMATIC;
+}
+
+static void add_tie(const system *s, const fw_mechanism *m, const fw_tie *t, int row) {
+    fw_vec2 a = fw_local_place(m, t->body_a, t->ax_m, t->ay_m);
+    fw_vec2 b = fw_local_place(m, t->body_b, t->bx_m, t->by_m);
+    double dx = b.x - a.x, dy = b.y - a.y, length = hypot(dx, dy);
+    line l;
+    switch (t->kind) {
+    case FW_TIE_PRISMATIC:
+        l = tie_axis(s, m, t, true);
+        add_row(s, row, &l);
+        hold_angle(s, row + 1, t->body_a, t->body_b);
+        return;
+    case FW_TIE_DISTANCE:
+        l = tie_line(s, m, t, length > 0 ? dx / length : 1, length > 0 ? dy / length : 0, false);
+        add_row(s, row, &l);
+        return;
+    case FW_TIE_WELD:
+    default:
+        l = tie_line(s, m, t, 1, 0, false);
+        add_row(s, row, &l);
+        l = tie_line(s, m, t, 0, 1, false);
+        add_row(s, row + 1, &l);
+        hold_angle(s, row + 2, t->body_a, t->body_b);
+        return;
+    }
+}
+
+static void add_constraints(const system *s, const fw_mechanism *m) {
+    int row = 3 * m->nbody;
+    for (int i = 0; i < m->npin; i++, row += 2) {
+        const fw_pin *p = &m->pin[i];
+        const fw_tie same = {.body_a = p->body_a,
+                             .body_b = p->body_b,
+                             .ax_m = p->ax_m,
+                             .ay_m = p->ay_m,
+                             .bx_m = p->bx_m,
+                             .by_m = p->by_m};
+        line x = tie_line(s, m, &same, 1, 0, false), y = tie_line(s, m, &same, 0, 1, false);
+        add_row(s, row, &x);
+        add_row(s, row + 1, &y);
+    }
+    for (int i = 0; i < m->ntie; row += tie_rows(&m->tie[i]), i++)
+        add_tie(s, m, &m->tie[i], row);
+    for (int i = 0; i < m->ndriver; row += driver_rows(m, &m->driver[i]), i++) {
+        const fw_driver *d = &m->driver[i];
+        if (d->tie == FW_NONE)
+            hold_angle(s, row, m->pin[d->joint].body_a, m->pin[d->joint].body_b);
+        else if (m->tie[d->tie].kind == FW_TIE_PRISMATIC) {
+            line l = tie_axis(s, m, &m->tie[d->tie], false);
+            add_row(s, row, &l);
+        }
+    }
+}
+
+/* largest stiffness, N/m: the unit of the rows of forces; 0 when nothing is elastic */
+static double typical_stiffness(const fw_terms *terms, double length) {
+    double most = 0;
+    for (int i = 0; i < terms->ntorsion; i++)
+        most = fmax(most, terms->torsion[i].stiffness_Nm_per_rad / (length * length));
+    for (int i = 0; i < terms->nspring; i++)
+        most = fmax(most, terms->spring[i].stiffness_N_per_m);
+    for (int i = 0; i < terms->nslide; i++)
+        most = fmax(most, terms->slide[i].stiffness_N_per_m);
+    return most;
+}
+
+static void add_elastic(const system *s, const fw_mechanism *m, const fw_terms *terms) {
+    for (int i = 0; i < terms->ntorsion; i++)
+        add_torsion(s, &terms->torsion[i]);
+    for (int i = 0; i < terms->nspring; i++)
+        add_spring(s, m, &terms->spring[i]);
+    for (int i = 0; i < terms->nslide; i++) {
+        line l = tie_axis(s, m, &m->tie[terms->slide[i].tie], false);
+        add_stiffness(s, &l, terms->slide[i].stiffness_N_per_m / s->force);
     }
 }
 
 /* [K G^T; G 0] [dq; lambda] = [F; 0] at the initial pose, rows balanced by a length and a
    stiffness. Geometric stiffness (lambda Psi_qq, turning loads) is left out: callers take a factor
-   for it. Inputs SI; outputs displacement (3 nbody) in m and rad, rotation (npin) in rad. Cost (3n
-   + 2p)^3/3. Source: standard static condensation of a constrained system. Test: test_effects.c. */
+   for it. Inputs SI; outputs displacement (3 nbody) in m and rad, rotation (npin) in rad. Cost the
+   cube of 3 nbody + 2 npin + rows of ties and drivers, over 3. Source: standard static condensation
+   of a constrained system. Test: test_effects.c. */
 fw_status fw_static_response(fw_arena *arena, const fw_mechanism *m, const fw_terms *terms,
                              const double *force, double *displacement, double *rotation,
                              bool *valid) {
     int n = 3 * m->nbody, total = n + 2 * m->npin;
     *valid = false;
+    for (int i = 0; i < m->ntie && total <= FW_RESPONSE_MOST; i++)
+        total += tie_rows(&m->tie[i]);
+    for (int i = 0; i < m->ndriver && total <= FW_RESPONSE_MOST; i++)
+        total += driver_rows(m, &m->driver[i]);
     if (total > FW_RESPONSE_MOST || total == 0) return FW_OK;
     fw_mark mark = fw_arena_mark(arena);
     system s = {.n = total, .length = typical_length(m)};
-    for (int i = 0; i < terms->ntorsion; i++)
-        s.force = fmax(s.force, terms->torsion[i].stiffness_Nm_per_rad / (s.length * s.length));
-    for (int i = 0; i < terms->nspring; i++)
-        s.force = fmax(s.force, terms->spring[i].stiffness_N_per_m);
+    s.force = typical_stiffness(terms, s.length);
     if (!(s.force > 0)) return FW_OK;
     double *x;
     FW_NEED(s.a = fw_arena_array(arena, double, (size_t)total *(size_t)total));
     FW_NEED(x = fw_arena_array(arena, double, (size_t)total));
-    for (int i = 0; i < terms->ntorsion; i++)
-        add_torsion(&s, &terms->torsion[i]);
-    for (int i = 0; i < terms->nspring; i++)
-        add_spring(&s, m, &terms->spring[i]);
-    for (int i = 0; i < m->npin; i++) {
-        const fw_pin *p = &m->pin[i];
-        add_constraint(&s, n + 2 * i, p->body_a, arm(m, p->body_a, p->ax_m, p->ay_m), 1);
-        add_constraint(&s, n + 2 * i, p->body_b, arm(m, p->body_b, p->bx_m, p->by_m), -1);
-    }
+    add_elastic(&s, m, terms);
+    add_constraints(&s, m);
     double largest = 0;
     for (int i = 0; i < n; i++) {
         x[i] = force[i] / (s.force * s.length) / (i % 3 == 2 ? s.length : 1);

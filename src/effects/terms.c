@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "effects/effect.h"
+#include <float.h>
 #include <math.h>
 
 fw_status fw_terms_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
@@ -9,59 +10,125 @@ fw_status fw_terms_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_
     FW_NEED(terms->constant = fw_arena_array(arena, double, n));
     FW_NEED(terms->velocity = fw_arena_array(arena, double, n));
     FW_NEED(terms->torsion = fw_arena_array(arena, fw_torsion, (size_t)mechanism->npin));
+    FW_NEED(terms->torsion_of = fw_arena_array(arena, int, (size_t)mechanism->npin));
     FW_NEED(terms->load = fw_arena_array(arena, fw_point_load, (size_t)scene->nforce));
+    FW_NEED(terms->timed = fw_arena_array(arena, fw_timed_load,
+                                          (size_t)scene->nforce + (size_t)scene->ntorque));
+    FW_NEED(terms->stop = fw_arena_array(arena, fw_stop, 2 * (size_t)mechanism->npin));
+    FW_NEED(terms->slide = fw_arena_array(arena, fw_slide, (size_t)mechanism->ntie));
+    FW_NEED(terms->slide_of = fw_arena_array(arena, int, (size_t)mechanism->ntie));
     FW_NEED(terms->spring = fw_arena_array(arena, fw_spring, (size_t)mechanism->nspring));
     return FW_OK;
 }
 
 fw_torsion *fw_terms_torsion(const fw_mechanism *mechanism, fw_terms *terms, int pin) {
-    for (int i = 0; i < terms->ntorsion; i++)
-        if (terms->torsion[i].pin == pin) return &terms->torsion[i];
+    if (terms->torsion_of[pin]) return &terms->torsion[terms->torsion_of[pin] - 1];
     fw_torsion *t = &terms->torsion[terms->ntorsion++];
     const fw_pin *p = &mechanism->pin[pin];
     *t = (fw_torsion){pin, p->body_a, p->body_b, 0, 0, p->free_angle_rad};
+    terms->torsion_of[pin] = terms->ntorsion;
     return t;
 }
 
-static void add_at(const fw_mechanism *m, double *force, int body, double x, double y, double fx,
-                   double fy) {
-    if (body == FW_GROUND) return;
-    double c = cos(m->body[body].phi_rad), s = sin(m->body[body].phi_rad);
-    double rx = c * x - s * y, ry = s * x + c * y;
-    force[3 * body] += fx;
-    force[3 * body + 1] += fy;
-    force[3 * body + 2] += rx * fy - ry * fx;
+fw_slide *fw_terms_slide(fw_terms *terms, int tie) {
+    if (terms->slide_of[tie]) return &terms->slide[terms->slide_of[tie] - 1];
+    fw_slide *s = &terms->slide[terms->nslide++];
+    *s = (fw_slide){tie, 0, 0};
+    terms->slide_of[tie] = terms->nslide;
+    return s;
 }
 
-static fw_vec2 world_point(const fw_mechanism *m, int body, double x, double y) {
-    if (body == FW_GROUND) return (fw_vec2){x, y};
-    const fw_mass *b = &m->body[body];
-    double c = cos(b->phi_rad), s = sin(b->phi_rad);
-    return (fw_vec2){b->x_m + c * x - s * y, b->y_m + s * x + c * y};
+static double turn_of(const fw_mechanism *m, int body) {
+    return body == FW_GROUND ? 0 : m->body[body].phi_rad;
+}
+
+/* force (fx, fy) at the world point p */
+static void push(const fw_mechanism *m, double *force, int body, fw_vec2 p, double fx, double fy) {
+    if (body == FW_GROUND) return;
+    force[3 * body] += fx;
+    force[3 * body + 1] += fy;
+    force[3 * body + 2] += (p.x - m->body[body].x_m) * fy - (p.y - m->body[body].y_m) * fx;
+}
+
+static void turn(double *force, int body, double torque) {
+    if (body != FW_GROUND) force[3 * body + 2] += torque;
+}
+
+static void push_at(const fw_mechanism *m, double *force, int body, double x, double y, double fx,
+                    double fy) {
+    push(m, force, body, fw_local_place(m, body, x, y), fx, fy);
+}
+
+bool fw_spring_slack(const fw_mechanism *m, const fw_spring *s) {
+    fw_vec2 a = fw_local_place(m, s->body_a, s->ax_m, s->ay_m);
+    fw_vec2 b = fw_local_place(m, s->body_b, s->bx_m, s->by_m);
+    return s->cable && !(hypot(b.x - a.x, b.y - a.y) > s->length_m);
+}
+
+static void add_loads(const fw_mechanism *m, const fw_terms *terms, double *force) {
+    for (int i = 0; i < terms->nload; i++) {
+        const fw_point_load *l = &terms->load[i];
+        push_at(m, force, l->body, l->x_m, l->y_m, l->fx_N, l->fy_N);
+    }
+    for (int i = 0; i < terms->ntimed; i++) {
+        const fw_timed_load *l = &terms->timed[i];
+        double factor[3];
+        fw_law_value(l->law, 0, DBL_MIN, factor); /* the piece that begins at 0 */
+        push_at(m, force, l->body, l->x_m, l->y_m, factor[0] * l->fx_N, factor[0] * l->fy_N);
+        turn(force, l->body, factor[0] * l->torque_Nm);
+    }
+}
+
+static void add_springs(const fw_mechanism *m, const fw_terms *terms, double *force) {
+    for (int i = 0; i < terms->nspring; i++) {
+        const fw_spring *s = &terms->spring[i];
+        fw_vec2 a = fw_local_place(m, s->body_a, s->ax_m, s->ay_m);
+        fw_vec2 b = fw_local_place(m, s->body_b, s->bx_m, s->by_m);
+        double dx = b.x - a.x, dy = b.y - a.y, l = hypot(dx, dy);
+        if (!(l > 0) || fw_spring_slack(m, s)) continue;
+        double f = s->stiffness_N_per_m * (l - s->length_m) / l;
+        push(m, force, s->body_a, a, f * dx, f * dy);
+        push(m, force, s->body_b, b, -f * dx, -f * dy);
+    }
+}
+
+/* -k s ds/dq with the travel s = u (p_b - p_a) - free length and u turning with body a */
+static void add_slides(const fw_mechanism *m, const fw_terms *terms, double *force) {
+    for (int i = 0; i < terms->nslide; i++) {
+        const fw_tie *t = &m->tie[terms->slide[i].tie];
+        fw_vec2 a = fw_local_place(m, t->body_a, t->ax_m, t->ay_m);
+        fw_vec2 b = fw_local_place(m, t->body_b, t->bx_m, t->by_m);
+        double turned = turn_of(m, t->body_a) + t->axis_rad, ux = cos(turned), uy = sin(turned);
+        double dx = b.x - a.x, dy = b.y - a.y;
+        double f = -terms->slide[i].stiffness_N_per_m * (ux * dx + uy * dy - t->free_length_m);
+        push(m, force, t->body_b, b, f * ux, f * uy);
+        push(m, force, t->body_a, a, -f * ux, -f * uy);
+        turn(force, t->body_a, f * (ux * dy - uy * dx));
+    }
+}
+
+static void add_torques(const fw_mechanism *m, const fw_terms *terms, double *force) {
+    for (int i = 0; i < terms->ntorsion; i++) {
+        const fw_torsion *t = &terms->torsion[i];
+        double angle = turn_of(m, t->body_b) - turn_of(m, t->body_a) - t->free_angle_rad;
+        turn(force, t->body_a, t->stiffness_Nm_per_rad * angle);
+        turn(force, t->body_b, -t->stiffness_Nm_per_rad * angle);
+    }
+    for (int i = 0; i < terms->nstop; i++) {
+        const fw_stop *s = &terms->stop[i];
+        double angle = turn_of(m, s->body_b) - turn_of(m, s->body_a) - s->free_angle_rad;
+        double inside = s->side * (angle - s->at_rad); /* how far the stop is pressed in */
+        if (!(inside > 0)) continue;
+        turn(force, s->body_a, s->side * s->stiffness_Nm_per_rad * inside);
+        turn(force, s->body_b, -s->side * s->stiffness_Nm_per_rad * inside);
+    }
 }
 
 void fw_terms_initial_force(const fw_mechanism *m, const fw_terms *terms, double *force) {
     for (int i = 0; i < 3 * terms->nbody; i++)
         force[i] = terms->constant[i];
-    for (int i = 0; i < terms->nload; i++) {
-        const fw_point_load *l = &terms->load[i];
-        add_at(m, force, l->body, l->x_m, l->y_m, l->fx_N, l->fy_N);
-    }
-    for (int i = 0; i < terms->ntorsion; i++) {
-        const fw_torsion *t = &terms->torsion[i];
-        double a = t->body_a == FW_GROUND ? 0 : m->body[t->body_a].phi_rad;
-        double b = t->body_b == FW_GROUND ? 0 : m->body[t->body_b].phi_rad;
-        double torque = -t->stiffness_Nm_per_rad * (b - a - t->free_angle_rad);
-        if (t->body_a != FW_GROUND) force[3 * t->body_a + 2] -= torque;
-        if (t->body_b != FW_GROUND) force[3 * t->body_b + 2] += torque;
-    }
-    for (int i = 0; i < terms->nspring; i++) {
-        const fw_spring *s = &terms->spring[i];
-        fw_vec2 a = world_point(m, s->body_a, s->ax_m, s->ay_m);
-        fw_vec2 b = world_point(m, s->body_b, s->bx_m, s->by_m);
-        double dx = b.x - a.x, dy = b.y - a.y, l = hypot(dx, dy);
-        double f = l > 0 ? s->stiffness_N_per_m * (l - s->length_m) / l : 0;
-        add_at(m, force, s->body_a, s->ax_m, s->ay_m, f * dx, f * dy);
-        add_at(m, force, s->body_b, s->bx_m, s->by_m, -f * dx, -f * dy);
-    }
+    add_loads(m, terms, force);
+    add_torques(m, terms, force);
+    add_springs(m, terms, force);
+    add_slides(m, terms, force);
 }

@@ -199,7 +199,7 @@ void fw_ode_span_value(const fw_ode *ode, const fw_ode_span *span, int c, double
                        double *value, double *slope) {
     double h = span->h, out[3];
     int n = ode->positions;
-    if (c >= 2 * n) {
+    if (c >= 2 * n || (c >= n && span->v_alone)) {
         const double p[2] = {span->y_old[c], span->y[c]};
         const double d[2] = {h * span->f_old[c], h * span->f[c]};
         hermite3(p, d, theta, out);
@@ -216,7 +216,7 @@ void fw_ode_span_value(const fw_ode *ode, const fw_ode_span *span, int c, double
 }
 
 static fw_ode_span whole_step(const fw_stepper *s) {
-    return (fw_ode_span){s->h, s->y_old, s->f_old, s->y, s->f};
+    return (fw_ode_span){s->h, s->y_old, s->f_old, s->y, s->f, false};
 }
 
 void fw_ode_hermite(const fw_stepper *s, double theta, double *y) {

@@ -37,9 +37,9 @@ typedef struct fw_stepper fw_stepper;
 
 typedef struct fw_stepper_row { /* one row per integrator; feeds --help and the reference page */
     const char *name, *summary;
-    /* a step is exact for polynomials of degree `order`: halving it divides the error at the end by
-       2^order. The same inside a step for dense_order, and for dense_order_u for the u of second
-       order problems, whose v have one less. All proven in test_ode_order.c and test_ode_dense.c */
+    /* order p: the error at the end falls with h^p. dense_order q: in a step from exact values the
+       dense output is off by O(h^(q+1)); dense_order_u is that of the u of second order problems
+       (their v have at least dense_order). Proven for every row in test_ode_order.c */
     int order, dense_order, dense_order_u;
     bool implicit;       /* stable for stiff problems */
     bool fixed_step;     /* takes fw_stepper.h_fixed and knows no error */
@@ -122,6 +122,7 @@ void fw_ode_hermite_component(const fw_stepper *s, int a, double wa, int b, doub
 typedef struct fw_ode_span {
     double h;
     const double *y_old, *f_old, *y, *f;
+    bool v_alone; /* v by its own cubic: where the local error of u over h would hurt u' */
 } fw_ode_span;
 void fw_ode_span_value(const fw_ode *ode, const fw_ode_span *span, int c, double theta,
                        double *value, double *slope);

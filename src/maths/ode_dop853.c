@@ -82,7 +82,7 @@ static double error(const dop853 *s, double h) {
 static double next_step(const dop853 *s, double h, double err) {
     const double beta = 0.04, safety = 0.9;
     double factor = pow(err, 0.125 - 0.2 * beta) / pow(s->err_old, beta) / safety;
-    double next = h / fmin(6, fmax(1.0 / 3, factor));
+    double next = h / fmin(3, fmax(1.0 / 6, factor));
     return s->rejected_last ? fmin(h, next) : next;
 }
 
@@ -107,7 +107,7 @@ static fw_ode_result step(fw_stepper *b) {
             fw_ode_accept(b, t_new, &s->y_new, &s->f_new);
             return FW_ODE_STEP;
         }
-        h = good || !isfinite(err) ? h / 4 : h / fmin(6, pow(err, 0.117) / 0.9);
+        h = good || !isfinite(err) ? h / 4 : h / fmin(3, pow(err, 0.117) / 0.9);
         s->rejected_last = true;
         if (!fw_ode_retry(b, h, &tries)) return isfinite(err) ? FW_ODE_SMALL : FW_ODE_NAN;
     }

@@ -3,9 +3,9 @@
 #include <string.h>
 
 static const fw_stepper_row *const table[] = {
-    &fw_dop853_row,
-    &fw_dopri5_row,
-    &fw_rk4_row,
+    &fw_dop853_row,    &fw_dopri5_row,    &fw_radau5_row,    &fw_generalised_alpha_row,
+    &fw_rk4_row,       &fw_gsl_rkf45_row, &fw_gsl_rk8pd_row, &fw_gsl_msadams_row,
+    &fw_gsl_bsimp_row,
 };
 
 const fw_stepper_row *const *fw_stepper_table(size_t *count) {

@@ -185,7 +185,7 @@ static double loss_damping(const fw_builder *b, const fw_pin *pin) {
 /* stops scale like the joint's own spring and damper; without any stop angle there is none */
 static void build_stops(const fw_builder *b, const fw_joint *from, fw_pin *to) {
     double k = from->stop_stiffness_Nm_per_rad, c = from->stop_damping_Nms_per_rad;
-    bool any = (!isnan(from->stop_min_rad) || !isnan(from->stop_max_rad)) && !isnan(k);
+    bool any = (!isnan(from->stop_min_rad) || !isnan(from->stop_max_rad)) && !isnan(k) && k != 0;
     to->stop_min_rad = any ? from->stop_min_rad : (double)NAN;
     to->stop_max_rad = any ? from->stop_max_rad : (double)NAN;
     to->stop_stiffness_Nm_per_rad = any ? k * b->variant->explicit_stiffness_scale : 0;

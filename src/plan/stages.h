@@ -6,6 +6,8 @@
 #include "plan/plan.h"
 
 const char *fw_plan_material_names(fw_plan *plan);
+/* FW_INPUT when the device names no material: what is judged or made needs one, a motion does not */
+fw_status fw_plan_need_material(fw_plan *plan);
 fw_status fw_plan_assume(fw_plan *plan, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 /* times, bias and judgement of every flow, from the exact outlines */

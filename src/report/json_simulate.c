@@ -13,8 +13,13 @@ static json_t *stats(const fw_motion *m, bool *failed) {
     fw_json_put(o, "max_constraint_norm", fw_json_real(s->max_constraint_norm), failed);
     fw_json_put(o, "max_velocity_norm", fw_json_real(s->max_velocity_norm), failed);
     fw_json_put(o, "energy_error", fw_json_real(s->energy_error), failed);
+    fw_json_put(o, "largest_energy_J", fw_json_real(s->largest_energy_J), failed);
+    fw_json_put(o, "events", json_integer(s->events), failed);
+    fw_json_put(o, "jacobians", json_integer(s->jacobians), failed);
+    fw_json_put(o, "factorisations", json_integer(s->factorisations), failed);
     fw_json_put(o, "rtol", fw_json_real(s->rtol), failed);
     fw_json_put(o, "assembly_moved_m", fw_json_real(s->assembly_moved_m), failed);
+    fw_json_put(o, "velocity_moved", fw_json_real(s->velocity_moved), failed);
     return o;
 }
 
@@ -26,6 +31,20 @@ static json_t *peaks(const fw_mechanism *mechanism, const fw_motion *m, bool *fa
         fw_json_put(o, "angle_rad", fw_json_real(m->peak[k].angle_rad), failed);
         fw_json_put(o, "t_s", fw_json_real(m->peak[k].t_s), failed);
         fw_json_put(o, "error_rad", fw_json_real(m->peak[k].error_rad), failed);
+        fw_json_push(list, o, failed);
+    }
+    return list;
+}
+
+/* largest joint forces */
+static json_t *reactions(const fw_mechanism *mechanism, const fw_motion *m, bool *failed) {
+    json_t *list = json_array();
+    for (int k = 0; m->force_peak && k < m->npin; k++) {
+        json_t *o = json_object();
+        fw_json_put(o, "joint", fw_json_text(mechanism->pin[k].id), failed);
+        fw_json_put(o, "force_N", fw_json_real(m->force_peak[k].force_N), failed);
+        fw_json_put(o, "t_s", fw_json_real(m->force_peak[k].t_s), failed);
+        fw_json_put(o, "error_N", fw_json_real(m->force_peak[k].error_N), failed);
         fw_json_push(list, o, failed);
     }
     return list;
@@ -52,16 +71,21 @@ fw_status fw_report_simulate_json(const fw_mechanism *mechanism, const fw_motion
     fw_json_put(root, "method", fw_json_text(motion->method), &failed);
     fw_json_put(root, "integrator", fw_json_text(motion->integrator), &failed);
     fw_json_put(root, "reason", fw_json_text(motion->reason), &failed);
+    fw_json_put(root, "stabilise", fw_json_text(motion->stabilise), &failed);
+    if (motion->method_report)
+        fw_json_put(root, "method_report", fw_json_text(motion->method_report), &failed);
     fw_json_put(root, "stats", stats(motion, &failed), &failed);
     json_t *effects = json_array();
     fw_json_effects(effects, &motion->ledger, NULL, NULL, &failed);
     fw_json_put(root, "effects", effects, &failed);
     fw_json_put(root, "peaks", peaks(mechanism, motion, &failed), &failed);
+    fw_json_put(root, "reactions", reactions(mechanism, motion, &failed), &failed);
     if (motion->nsample > 0) {
         json_t *final = json_object();
         fw_json_put(final, "t_s", fw_json_real(motion->t_s[motion->nsample - 1]), &failed);
         fw_json_put(final, "q", by_body(mechanism, motion, motion->q, &failed), &failed);
         fw_json_put(final, "v", by_body(mechanism, motion, motion->v, &failed), &failed);
+        fw_json_put(final, "a", by_body(mechanism, motion, motion->accel, &failed), &failed);
         fw_json_put(root, "final", final, &failed);
     } else
         fw_json_put(root, "final", json_null(), &failed);

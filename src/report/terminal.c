@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/terminal.h"
 #include <math.h>
+#include <string.h>
 
 static double degrees(double rad) {
     return rad * 180.0 / acos(-1.0);
@@ -100,9 +101,15 @@ static void statistics(fw_text *out, const fw_motion_stats *s) {
     fw_text_number(out, s->rtol, 3);
     fw_text_add(out, ", largest constraint norm ");
     fw_text_number(out, s->max_constraint_norm, 2);
-    fw_text_add(out, ", energy balance ");
+    fw_text_add(out, " (velocity ");
+    fw_text_number(out, s->max_velocity_norm, 2);
+    fw_text_add(out, "), energy balance ");
     fw_text_number(out, s->energy_error, 2);
-    fw_text_add(out, "\n\n");
+    fw_text_add(out, "\n");
+    if (s->events > 0) fw_text_printf(out, "%ld events of stops and cables\n", s->events);
+    if (s->jacobians > 0)
+        fw_text_printf(out, "%ld Jacobians, %ld factorisations\n", s->jacobians, s->factorisations);
+    fw_text_add(out, "\n");
 }
 
 fw_status fw_report_simulate_text(const fw_scene *scene, const fw_mechanism *m,
@@ -111,13 +118,23 @@ fw_status fw_report_simulate_text(const fw_scene *scene, const fw_mechanism *m,
     fw_text_real(out, "%g ms", scene->duration_s * 1e3);
     fw_text_printf(out, ", method %s, integrator %s (%s)\n", motion->method, motion->integrator,
                    motion->reason);
+    if (strcmp(motion->stabilise, "projection") != 0)
+        fw_text_printf(out, "stabilisation: %s\n", motion->stabilise);
+    if (motion->method_report) fw_text_printf(out, "%s\n", motion->method_report);
     statistics(out, &motion->stats);
-    fw_text_add(out, "  joint    peak angle          at        +-\n");
+    fw_text_add(out, "  joint    peak angle          at        +-");
+    fw_text_add(out, motion->force_peak ? "    peak force          at       +-\n" : "\n");
     for (int i = 0; i < motion->npin; i++) {
         fw_text_printf(out, "  %-6s ", m->pin[i].id);
         fw_text_real(out, "%9.4f deg  ", degrees(motion->peak[i].angle_rad));
         fw_text_real(out, "%9.5f ms  ", motion->peak[i].t_s * 1e3);
-        fw_text_real(out, "%.1e deg\n", degrees(motion->peak[i].error_rad));
+        fw_text_real(out, "%.1e deg", degrees(motion->peak[i].error_rad));
+        if (motion->force_peak) {
+            fw_text_real(out, "  %9.4g mN", motion->force_peak[i].force_N * 1e3);
+            fw_text_real(out, "  %9.5f ms", motion->force_peak[i].t_s * 1e3);
+            fw_text_real(out, "  %.1e mN", motion->force_peak[i].error_N * 1e3);
+        }
+        fw_text_add(out, "\n");
     }
     fw_text_add(out, "\n  effect             active  why\n");
     for (int i = 0; i < motion->ledger.count; i++) {

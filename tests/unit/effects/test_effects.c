@@ -51,7 +51,7 @@ static void test_table(void **state) {
     (void)state;
     size_t count;
     const fw_effect_row *const *row = fw_effect_rows(&count);
-    assert_int_equal(count, 6);
+    assert_int_equal(count, 7);
     for (size_t i = 0; i < count; i++) {
         assert_non_null(row[i]->id);
         assert_non_null(row[i]->summary);
@@ -71,7 +71,9 @@ static void test_absent_effects_cost_nothing(void **state) {
     lever_new(&s, 0, 0);
     assert_int_equal(compile(arena, &s, FW_EFFECTS_ALL, NULL, 1e-3, &diags, &ledger, &terms),
                      FW_OK);
-    assert_int_equal(terms.ntorsion + terms.nload + terms.nspring, 0);
+    assert_int_equal(terms.ntorsion + terms.nload + terms.nspring + terms.ntimed + terms.nstop +
+                         terms.nslide,
+                     0);
     for (int i = 0; i < ledger.count; i++) {
         assert_false(ledger.item[i].called_for);
         assert_false(ledger.item[i].active);

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "effects/effect.h"
+#include <math.h>
+
+static bool has_stop(const fw_pin *p) {
+    return p->stop_stiffness_Nm_per_rad > 0 && (!isnan(p->stop_min_rad) || !isnan(p->stop_max_rad));
+}
+
+static bool called_for(const fw_effect_case *c) {
+    for (int i = 0; i < c->mechanism->npin; i++)
+        if (has_stop(&c->mechanism->pin[i])) return true;
+    return false;
+}
+
+/* whether a stop is reached is known only after the motion, and what it then changes is everything
+   behind */
+static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
+    (void)c;
+    *value = (double)INFINITY;
+    *reason = "joints have stops: where one is reached it is the motion itself";
+    return FW_OK;
+}
+
+static void add_side(const fw_pin *p, int pin, double side, double at_rad, fw_terms *terms) {
+    if (isnan(at_rad)) return;
+    terms->stop[terms->nstop++] = (fw_stop){.pin = pin,
+                                            .body_a = p->body_a,
+                                            .body_b = p->body_b,
+                                            .side = side,
+                                            .at_rad = at_rad,
+                                            .free_angle_rad = p->free_angle_rad,
+                                            .stiffness_Nm_per_rad = p->stop_stiffness_Nm_per_rad,
+                                            .damping_Nms_per_rad = p->stop_damping_Nms_per_rad};
+}
+
+/* torque -side k side (angle - at) on b while the stop is pressed, the opposite on a */
+static void add(const fw_effect_case *c, fw_terms *terms) {
+    for (int i = 0; i < c->mechanism->npin; i++) {
+        const fw_pin *p = &c->mechanism->pin[i];
+        if (!has_stop(p)) continue;
+        add_side(p, i, -1, p->stop_min_rad, terms);
+        add_side(p, i, 1, p->stop_max_rad, terms);
+    }
+}
+
+const fw_effect_row fw_effect_joint_stop = {
+    "joint-stop", "springs and dampers at the ends of a joint's range", called_for, bound, add};

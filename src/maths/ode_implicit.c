@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "maths/ode_implicit.h"
+#include "maths/lu.h"
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* J_ij = (f_i(y + d e_j) - f_i(y))/d, d = sqrt(eps) max(|y_j|, atol_j/rtol, sqrt(eps)): the size
+   below which y_j does not matter bounds the increment from below. Error about sqrt(eps) |J| for
+   components of their expected size; controlled evaluations. Source: Hairer and Wanner II, IV.8.
+   Test: test_ode_stiff.c */
+bool fw_ode_jacobian(fw_stepper *s, double t, const double *y, const double *f, double *j,
+                     double *work) {
+    int n = s->ode.n, columns = s->ode.controlled;
+    double *at = work, *g = work + s->padded;
+    s->jacobians++;
+    if (s->ode.jacobian) {
+        s->ode.jacobian(s->ode.context, t, y, j);
+        return fw_ode_finite(j, n * columns);
+    }
+    const double least = sqrt(DBL_EPSILON);
+    memcpy(at, y, (size_t)n * sizeof *y);
+    for (int c = 0; c < columns; c++) {
+        double size = fmax(fabs(y[c]), fmax(s->tolerance[c] / s->rtol, least));
+        at[c] = y[c] + (f[c] < 0 ? -least : least) * size; /* the way the state is going */
+        double d = at[c] - y[c];
+        fw_ode_evaluate(s, t, at, g);
+        at[c] = y[c];
+        for (int i = 0; i < n; i++)
+            j[(size_t)i * (size_t)columns + (size_t)c] = (g[i] - f[i]) / d;
+    }
+    return fw_ode_finite(j, n * columns);
+}
+
+fw_status fw_ode_shifted_new(fw_arena *arena, const fw_ode *ode, bool complex, fw_ode_shifted *m) {
+    m->half = ode->positions > 0 && 2 * ode->positions == ode->controlled;
+    m->size = m->half ? ode->positions : ode->controlled;
+    size_t size = (size_t)m->size;
+    FW_NEED(m->re = fw_arena_array(arena, double, size *size));
+    if (complex) FW_NEED(m->im = fw_arena_array(arena, double, size *size));
+    FW_NEED(m->right[0] = fw_arena_array(arena, double, size));
+    FW_NEED(m->right[1] = fw_arena_array(arena, double, size));
+    FW_NEED(m->pivot = fw_arena_array(arena, int, size));
+    return FW_OK;
+}
+
+/* sigma I - J, or with J = [0 I; K_u K_v] its Schur complement sigma^2 I - sigma K_v - K_u */
+bool fw_ode_shifted_factor(fw_stepper *s, const double *j, double a, double b, fw_ode_shifted *m) {
+    size_t size = (size_t)m->size, columns = (size_t)s->ode.controlled;
+    m->a = a;
+    m->b = b;
+    for (size_t r = 0; r < size; r++)
+        for (size_t c = 0; c < size; c++) {
+            size_t to = r * size + c;
+            const double *row = j + (m->half ? size + r : r) * columns;
+            bool diagonal = r == c;
+            if (m->half) {
+                m->re[to] = (diagonal ? a * a - b * b : 0) - a * row[size + c] - row[c];
+                if (m->im) m->im[to] = (diagonal ? 2 * a * b : 0) - b * row[size + c];
+            } else {
+                m->re[to] = (diagonal ? a : 0) - row[c];
+                if (m->im) m->im[to] = diagonal ? b : 0;
+            }
+        }
+    s->factorisations++;
+    return m->im ? fw_lu_factor_complex(m->size, m->re, m->im, m->pivot)
+                 : fw_lu_factor(m->size, m->re, m->pivot);
+}
+
+static void factored(const fw_ode_shifted *m, double *x, double *y) {
+    if (m->im)
+        fw_lu_solve_complex(m->size, m->re, m->im, m->pivot, x, y);
+    else
+        fw_lu_solve(m->size, m->re, m->pivot, x);
+}
+
+static double product(size_t n, const double *row, const double *x) {
+    double sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += row[i] * x[i];
+    return sum;
+}
+
+/* du from (sigma^2 - sigma K_v - K_u) du = r_v + (sigma - K_v) r_u, then dv = sigma du - r_u */
+static void solve_half(const fw_stepper *s, const double *j, const fw_ode_shifted *m, double *x,
+                       double *y) {
+    size_t n = (size_t)m->size, columns = (size_t)s->ode.controlled;
+    double a = m->a, b = m->b, *p = m->right[0], *q = m->right[1];
+    for (size_t r = 0; r < n; r++) {
+        const double *kv = j + (n + r) * columns + n;
+        p[r] = x[n + r] + a * x[r] - product(n, kv, x);
+        if (!y) continue;
+        p[r] -= b * y[r];
+        q[r] = y[n + r] + a * y[r] + b * x[r] - product(n, kv, y);
+    }
+    factored(m, p, q);
+    for (size_t r = 0; r < n; r++) {
+        x[n + r] = a * p[r] - (y ? b * q[r] : 0) - x[r];
+        x[r] = p[r];
+        if (!y) continue;
+        y[n + r] = a * q[r] + b * p[r] - y[r];
+        y[r] = q[r];
+    }
+}
+
+void fw_ode_shifted_solve(const fw_stepper *s, const double *j, const fw_ode_shifted *m, double *x,
+                          double *y) {
+    if (m->half)
+        solve_half(s, j, m, x, y);
+    else
+        factored(m, x, y);
+}
