@@ -26,23 +26,26 @@ typedef struct state { /* at one instant; arrays are the model's, scaled */
 
 /* ---- linear algebra on G = U diag(sigma) V^T ---- */
 
-/* least x with G x = b; *off: what is left of b, relative to its size */
-static void particular(const state *s, const double *b, double *x, double *off) {
+/* least x with G x = b; b becomes what is left of it, *off its size relative to b */
+static void particular(const state *s, double *b, double *x, double *off) {
     const fw_singular *g = &s->space;
     double size = 0, left = 0;
     memset(x, 0, (size_t)g->columns * sizeof *x);
-    for (int i = 0; i < g->rows; i++) {
+    for (int k = 0; k < g->rows; k++)
+        size += b[k] * b[k];
+    for (int i = 0; i < s->rank; i++) {
+        const double *u = g->u + (size_t)i * (size_t)g->rows;
+        const double *v = g->v + (size_t)i * (size_t)g->columns;
         double share = 0;
         for (int k = 0; k < g->rows; k++)
-            share += g->u[k * g->rows + i] * b[k];
-        size += share * share;
-        if (i >= s->rank) {
-            left += share * share;
-            continue;
-        }
+            share += u[k] * b[k];
+        for (int k = 0; k < g->rows; k++)
+            b[k] -= share * u[k];
         for (int k = 0; k < g->columns; k++)
-            x[k] += share / g->sigma[i] * g->v[i * g->columns + k];
+            x[k] += share / g->sigma[i] * v[k];
     }
+    for (int k = 0; k < g->rows; k++)
+        left += b[k] * b[k];
     *off = size > 0 ? sqrt(left / size) : 0;
 }
 
@@ -54,7 +57,7 @@ static void add_free(const state *s, const fw_coordinate_choice *c, const fw_sin
     for (int i = 0; i < f; i++) {
         double share = 0;
         for (int k = 0; k < f; k++)
-            share += rows->u[k * f + i] * given[k];
+            share += rows->u[i * f + k] * given[k];
         share /= rows->sigma[i];
         for (int k = 0; k < f; k++) {
             double z = share * rows->v[i * f + k];
@@ -80,7 +83,7 @@ static void driving(const state *s, const fw_coordinate_choice *c, const fw_sing
             share += rows->v[i * f + k] * along;
         }
         for (int k = 0; k < f; k++)
-            tau[k] += share / rows->sigma[i] * rows->u[k * f + i];
+            tau[k] += share / rows->sigma[i] * rows->u[i * f + k];
     }
 }
 
@@ -93,7 +96,7 @@ static void multipliers(const state *s, const double *h) {
         for (int k = 0; k < g->columns; k++)
             share += g->v[i * g->columns + k] * h[k];
         for (int k = 0; k < g->rows; k++)
-            s->packed[k] += share / g->sigma[i] * g->u[k * g->rows + i];
+            s->packed[k] += share / g->sigma[i] * g->u[i * g->rows + k];
     }
     fw_model_unpack(s->m, s->packed, s->m->lambda);
 }
