@@ -87,6 +87,9 @@ typedef struct fw_design_options {
                                 default 5e-9 */
     size_t memory_cap;       /* most bytes that one design holds; default 256 MiB */
     const char *stabilise;   /* "projection" (default), "baumgarte" or "none" */
+    /* for fw_design_assemble: independent coordinates "AB.phi,BC.phi" (default: chosen by
+       pivoting), their rates "10 rad/s,0 rad/s" and accelerations; default 0 */
+    const char *independent, *rates, *accelerations;
 } fw_design_options;
 
 /* Fills `size` bytes (as the caller's header defines the struct) with the defaults. NULL options:
@@ -151,6 +154,14 @@ FW_API int fw_design_fabricate(fw_design *design);
    a six-bar: about 10 ms. */
 FW_API int fw_design_simulate(fw_design *design);
 
+/* Solves the position problem from the poses that the description states, however bad a guess they
+   are; with rates, velocities, accelerations and joint forces under the loads of options.scene too
+   (default: the first scene; none is needed). After reading. FW_STATUS_SOLVER when the joints cannot
+   be closed: the diagnostics name the one that stays open and by how much, and
+   FW_DOCUMENT_ASSEMBLE_SVG shows the least mismatch. FW_STATUS_USAGE for independent coordinates or
+   rates that do not fit. Other errors as fw_design_simulate. Cost for a six-bar: about 5 ms. */
+FW_API int fw_design_assemble(fw_design *design);
+
 enum {                        /* what fw_design_write writes, added up, with a manifest.json */
        FW_DESIGN_VERDICT = 1, /* verdict.json */
        FW_DESIGN_MASKS = 2,   /* masks/FLOW.gds, .svg, .lyp, .json */
@@ -182,7 +193,10 @@ enum {                                   /* what it is; what must have been call
        FW_DOCUMENT_RECIPES_JSON = 7,     /* of one flow, or flexwright.recipes/1; fabricate */
        FW_DOCUMENT_DEVICE_SVG = 8,       /* the drawing, hinges coloured by utilisation; judge */
        FW_DOCUMENT_REPORT_HTML = 9,      /* everything on one page; judge */
-       FW_DOCUMENT_DIAGNOSTICS_TEXT = 10 /* one line each with a caret below its place; nothing */
+       FW_DOCUMENT_DIAGNOSTICS_TEXT = 10, /* one line each with a caret below its place; nothing */
+       FW_DOCUMENT_ASSEMBLE_JSON = 16,    /* schema flexwright.assemble/1; assemble */
+       FW_DOCUMENT_ASSEMBLE_TEXT = 17,    /* for a terminal; assemble */
+       FW_DOCUMENT_ASSEMBLE_SVG = 18      /* before and after; assemble, also when it failed */
 };
 
 /* One document as UTF-8 text, NUL-terminated; `length` (may be NULL) without the NUL. The text

@@ -85,6 +85,14 @@ static fw_status pivot(fw_arena *arena, const fw_singular *space, int rank,
         }
         memset(row, 0, (size_t)f * sizeof *row);
     }
+    for (int i = 1; i < f; i++) { /* in the order of the file */
+        fw_coordinate one = c->item[i];
+        int k = i;
+        for (; k > 0 && 3 * c->item[k - 1].body + c->item[k - 1].axis > 3 * one.body + one.axis;
+             k--)
+            c->item[k] = c->item[k - 1];
+        c->item[k] = one;
+    }
     return measure(arena, space, rank, c);
 }
 
