@@ -60,6 +60,27 @@ static fw_status try_restarts(fw_arena *arena, const fw_mechanism *mechanism, co
     return FW_OK;
 }
 
+static const double usable = 1e-9; /* scaled gap: coordinates with fewer digits are of no use */
+
+/* a body a million sizes away, or turned ten thousand times, has no digits left for its joints */
+static fw_status too_far(const fw_mechanism *mechanism, const double *guess, fw_diags *diags) {
+    int far = 0;
+    double most = -1;
+    char x[32], y[32], phi[32];
+    for (int b = 0; b < mechanism->nbody; b++) {
+        const double *q = guess + 3 * b;
+        double size = fmax(hypot(q[0], q[1]), fabs(q[2]));
+        if (size > most) most = size, far = b;
+    }
+    const char *id = mechanism->body[far].id;
+    return fw_diag_error(diags, 105, (fw_place){0},
+                         "the poses to assemble are too far away for double precision: body %s "
+                         "stands at x = %s m, y = %s m, phi = %s rad; check units",
+                         id ? id : "(unnamed)", fw_number_text(x, sizeof x, guess[3 * far], 4),
+                         fw_number_text(y, sizeof y, guess[3 * far + 1], 4),
+                         fw_number_text(phi, sizeof phi, guess[3 * far + 2], 4));
+}
+
 /* the result in SI, polished by a model that stands there: its round-off is that of the mechanism,
    not of a guess far away */
 static fw_status polish(fw_arena *arena, const fw_mechanism *mechanism, const double *guess,
@@ -72,6 +93,8 @@ static fw_status polish(fw_arena *arena, const fw_mechanism *mechanism, const do
     FW_TRY(fw_model_new(arena, mechanism, NULL, q, 1, NULL, diags, &model));
     FW_TRY(fw_closure_new(arena, model, &c));
     fw_closure_descend(&c, 30); /* it was closed: what is left is round-off */
+    if (!(fw_model_residual(model, 0, c.u, c.psi) <= usable))
+        return too_far(mechanism, guess, diags);
     for (int i = 0; i < model->nq; i++)
         q[i] += (i % 3 == 2 ? 1 : length) * c.u[i];
     return FW_OK;
@@ -96,7 +119,11 @@ static fw_status close_up(fw_arena *arena, const fw_mechanism *mechanism, const 
     bool good = true;
     FW_TRY(fw_model_new(arena, mechanism, NULL, guess, 1, NULL, diags, &model));
     FW_TRY(fw_closure_new(arena, model, &c));
-    if (fw_closure_descend(&c, 0)) return FW_OK; /* the guess is closed: nothing moves */
+    if (!(fw_model_residual(model, 0, c.u, c.psi) < 1e150)) /* its square must be a number */
+        return too_far(mechanism, guess, diags);
+    if (fw_closure_descend(&c, 0)) /* the guess is closed: nothing moves */
+        return fw_model_residual(model, 0, c.u, c.psi) <= usable ? FW_OK
+                                                                 : too_far(mechanism, guess, diags);
     part_rods(&c);
     if (!fw_closure_descend(&c, 500)) {
         FW_TRY(try_restarts(arena, mechanism, guess, diags, &c, &search, &r, &good));

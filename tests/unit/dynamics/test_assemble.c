@@ -288,6 +288,30 @@ static void test_turns(void **state) {
     fw_arena_free(arena);
 }
 
+/* poses beyond what double precision can hold are an error, never a gap without a word */
+static void test_far_away(void **state) {
+    (void)state;
+    static const double far[] = {1e3, 1e5, 1e12, 1e100, 1e200, 1e308};
+    for (size_t k = 0; k < sizeof far / sizeof far[0]; k++)
+        for (int axis = 0; axis < 3; axis++) {
+            fw_arena *arena = fw_arena_new(0);
+            fw_diags diags = fw_diags_new(arena);
+            rig r = axis == 1 ? rig_squeezer(arena) : rig_six_bar(arena, false);
+            double q[21], moved;
+            pose(&r, q);
+            q[6 + axis] += far[k];
+            fw_status status = fw_assemble(arena, &r.m, q, &moved, &diags);
+            if (status == FW_OK) {
+                assert_true(gap(&r, q) < 1e-12);
+            } else {
+                assert_true(k >= 2);
+                assert_int_equal(status, FW_INPUT);
+                assert_int_equal(diags.item[0].number, 105);
+            }
+            fw_arena_free(arena);
+        }
+}
+
 /* ---- branches, other assemblies, freedom ---- */
 
 static rig rig_four_bar(fw_arena *arena) {
@@ -594,21 +618,14 @@ static void test_out_of_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_already_closed),
-        cmocka_unit_test(test_from_a_bad_guess),
-        cmocka_unit_test(test_mass_weighted),
-        cmocka_unit_test(test_impossible),
-        cmocka_unit_test(test_hard_guesses),
-        cmocka_unit_test(test_mass_ratio),
-        cmocka_unit_test(test_nearest),
-        cmocka_unit_test(test_turns),
-        cmocka_unit_test(test_four_bar_branches),
-        cmocka_unit_test(test_other_side),
-        cmocka_unit_test(test_rank),
-        cmocka_unit_test(test_ties),
-        cmocka_unit_test(test_impossible_driver),
-        cmocka_unit_test(test_always_refused),
-        cmocka_unit_test(test_assembled),
+        cmocka_unit_test(test_already_closed), cmocka_unit_test(test_from_a_bad_guess),
+        cmocka_unit_test(test_mass_weighted),  cmocka_unit_test(test_impossible),
+        cmocka_unit_test(test_hard_guesses),   cmocka_unit_test(test_mass_ratio),
+        cmocka_unit_test(test_nearest),        cmocka_unit_test(test_turns),
+        cmocka_unit_test(test_far_away),       cmocka_unit_test(test_four_bar_branches),
+        cmocka_unit_test(test_other_side),     cmocka_unit_test(test_rank),
+        cmocka_unit_test(test_ties),           cmocka_unit_test(test_impossible_driver),
+        cmocka_unit_test(test_always_refused), cmocka_unit_test(test_assembled),
         cmocka_unit_test(test_out_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
