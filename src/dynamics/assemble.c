@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The position problem from any guess: descent, restarts, the pose nearest to the guess, a polish
    to round-off. */
+#include "base/cancel.h"
 #include "dynamics/closure.h"
 #include "dynamics/solved.h"
 #include <float.h>
@@ -129,6 +130,7 @@ static fw_status close_up(fw_arena *arena, const fw_mechanism *mechanism, const 
         FW_TRY(try_restarts(arena, mechanism, guess, diags, &c, &search, &r, &good));
         out->restarts = r.restarts;
         out->iterations = (int)c.iterations;
+        if (fw_cancel_requested()) return FW_CANCELLED;
         c.left = 1000;
         if (!good || !fw_closure_descend(&c, 100))
             return give_up(arena, mechanism, guess, diags, &search, &r, out);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Descent onto Psi(q) = 0, and along it to the pose nearest to the guess. */
 #include "dynamics/closure.h"
+#include "base/cancel.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -143,6 +144,7 @@ bool fw_closure_descend(fw_closure *c, int most) {
         double before = value;
         double taken = newton_step(c, mu[level]) ? line_search(c, &value) : 0;
         c->iterations++, c->left--;
+        if (fw_cancel_requested()) c->left = 0;
         if (taken == 0 && level + 1 == levels) break;
         if (taken < 0.25 && level + 1 < levels)
             level++; /* short steps zigzag across a valley: damp */

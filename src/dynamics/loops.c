@@ -131,6 +131,13 @@ static void measure(const fw_closure *c, ring *r) {
     r->missing = 2 * r->item[r->longest].length - sum;
 }
 
+/* the block that holds a body on its parent; a second one between them closes a loop */
+static bool is_branch(const fw_tree *t, const fw_model *m, int block) {
+    const fw_block *k = &m->block[block];
+    int child = t->parent[k->b] == k->a ? k->b : k->a;
+    return t->link[block] && link_of(t, m, child) == block;
+}
+
 /* the loop that misses most by the polygon inequality; count 0: none */
 static fw_status worst_ring(fw_arena *arena, const fw_closure *c, const fw_tree *t, ring *worst) {
     const fw_model *m = c->model;
@@ -147,7 +154,7 @@ static fw_status worst_ring(fw_arena *arena, const fw_closure *c, const fw_tree 
         depth[b] = t->parent[b] < 0 ? 0 : depth[t->parent[b]] + 1;
     }
     for (int i = 0; i < m->nblock; i++) {
-        if (t->link[i] || !walk(t, m, i, depth, &r)) continue;
+        if (is_branch(t, m, i) || !walk(t, m, i, depth, &r)) continue;
         measure(c, &r);
         if (r.missing <= 1e-12 * m->size || r.missing <= worst->missing) continue;
         memcpy(worst->item, r.item, (size_t)r.count * sizeof *r.item);
