@@ -111,7 +111,7 @@ fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *m, fw_diags
         }
         if (held)
             return fw_diag_error(diags, 200, asked->place,
-                                 "joint %s holds the six-bar, so that its platform cannot take "
+                                 "%s holds or drives the six-bar, so that its platform cannot take "
                                  "every pose of a required workspace: remove the <workspace> and "
                                  "state the motion as a scene, or remove the joint",
                                  held);
