@@ -120,6 +120,18 @@ static const char *take_tolerance(fw_cli_options *o, const char *v) {
     return NULL;
 }
 
+static const char *take_at(fw_cli_options *o, const char *v) {
+    o->design.at = v;
+    return strcmp(v, "rest") == 0 || strcmp(v, "equilibrium") == 0 ? NULL
+                                                                   : "needs rest or equilibrium";
+}
+
+static const char *take_path(fw_cli_options *o, const char *v) {
+    (void)v;
+    o->design.path = 1;
+    return NULL;
+}
+
 static const char *take_scene(fw_cli_options *o, const char *v) {
     o->design.scene = v;
     return *v ? NULL : "needs the name of a scene";
@@ -196,7 +208,14 @@ static const option_row table[] = {
      FW_OPT_FABRICATE, take_force},
     {"mask-tolerance", 0, "NM", "largest distance between an arc and its polygon, in nm; default 5",
      FW_OPT_FABRICATE, take_tolerance},
-    {"scene", 0, "NAME", "the scene to simulate; default the first", FW_OPT_SIMULATE, take_scene},
+    {"scene", 0, "NAME", "the scene; default the first",
+     FW_OPT_SIMULATE | FW_OPT_MODES | FW_OPT_STATICS, take_scene},
+    {"at", 0, "POSE",
+     "about which pose: rest (default: the assembled pose without the scene's loads) or "
+     "equilibrium",
+     FW_OPT_MODES, take_at},
+    {"path", 0, NULL, "follow the load path from rest to the full load, through limit points",
+     FW_OPT_STATICS, take_path},
     {"method", 0, "NAME", "how the constraint forces are found; default chain", FW_OPT_SIMULATE,
      take_method},
     {"integrator", 0, "NAME", "default auto", FW_OPT_SIMULATE, take_integrator},
@@ -208,6 +227,10 @@ static const option_row table[] = {
      take_samples},
     {"csv", 0, "FILE", "position and velocity of every body, 17 digits; - is standard output",
      FW_OPT_SIMULATE, take_csv},
+    {"csv", 0, "FILE",
+     "load factor, stability, poses, angles and joint forces, 17 digits, of the path "
+     "or the equilibrium; - is standard output",
+     FW_OPT_STATICS, take_csv},
     {"animate", 0, "FILE", "an SVG that plays by itself", FW_OPT_SIMULATE, take_animate},
     {"quiet", 'q', NULL, "no messages but errors", FW_OPT_COMMON, take_quiet},
     {"verbose", 'v', NULL, "a line per stage, and every note", FW_OPT_COMMON, take_verbose},

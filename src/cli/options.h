@@ -32,7 +32,9 @@ enum { /* option groups */
        FW_OPT_PLAN = 2,
        FW_OPT_SIMULATE = 4,
        FW_OPT_OUTPUT = 8,
-       FW_OPT_FABRICATE = 16
+       FW_OPT_FABRICATE = 16,
+       FW_OPT_MODES = 32,
+       FW_OPT_STATICS = 64
 };
 
 /* fills options from argv[2..]; false: wrong usage, said on stderr */

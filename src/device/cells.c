@@ -112,6 +112,20 @@ static bool may_be_nameless(const fw_reader *r, const fw_attribute *a,
     return !fw_expression_reserved(word);
 }
 
+fw_status fw_expression_report(fw_reader *r, const fw_attribute *a, const char *what, size_t part,
+                               const fw_expression_error *error) {
+    fw_expression_error whole = *error;
+    whole.offset += part;
+    if (may_be_nameless(r, a, &whole)) return FW_OK;
+    if (a->place.line == 0)
+        fw_diag_error(r->diags, error->number, a->place, "%s=\"%s\": %s", what, a->value,
+                      error->message);
+    else
+        fw_diag_error(r->diags, error->number, fw_xml_inside(a, whole.offset), "%s: %s", what,
+                      error->message);
+    return r->diags->failed ? FW_NOMEM : FW_OK;
+}
+
 fw_status fw_attribute_evaluate(fw_reader *r, const fw_attribute *a, const char *what,
                                 const fw_dimension *wanted, fw_dimension *found, double *value,
                                 bool *ok) {
@@ -123,14 +137,7 @@ fw_status fw_attribute_evaluate(fw_reader *r, const fw_attribute *a, const char 
     fw_status status = read_expression(r, a, wanted, found, value, &error);
     if (status == FW_NOMEM) return status;
     *ok = status == FW_OK;
-    if (*ok || may_be_nameless(r, a, &error)) return FW_OK;
-    if (a->place.line == 0)
-        fw_diag_error(r->diags, error.number, a->place, "%s=\"%s\": %s", what, a->value,
-                      error.message);
-    else
-        fw_diag_error(r->diags, error.number, fw_xml_inside(a, error.offset), "%s: %s", what,
-                      error.message);
-    return r->diags->failed ? FW_NOMEM : FW_OK;
+    return *ok ? FW_OK : fw_expression_report(r, a, what, 0, &error);
 }
 
 /* "above 0 um and at most 300000 um" */
@@ -226,8 +233,10 @@ static fw_status read_cell(fw_reader *r, const fw_record *record, int i) {
         break;
     case FW_KIND_TEXT:
     case FW_KIND_REF:
+    case FW_KIND_TIMED:
+    case FW_KIND_TABLE:
         cell->ok = true;
-        break; /* references wait until all ids are known */
+        break; /* references wait until all ids are known, laws until their use is */
     case FW_KIND_ANY:
         break; /* parameter.c */
     }

@@ -58,7 +58,11 @@ static fw_joint joint_of(fw_reader *r, const parts *p, int i) {
                   .ay_m = (double)NAN,
                   .bx_m = (double)NAN,
                   .by_m = (double)NAN,
-                  .flexure = FW_NONE};
+                  .flexure = FW_NONE,
+                  .stop_min_rad = (double)NAN,
+                  .stop_max_rad = (double)NAN,
+                  .stop_stiffness_Nm_per_rad = (double)NAN,
+                  .stop_damping_Nms_per_rad = (double)NAN};
     const fw_record *record = p->joint[i];
     if (!record) return j;
     j.x_m = fw_number_of(record, "x");

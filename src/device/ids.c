@@ -14,23 +14,65 @@ static size_t count_of(const fw_device *d, fw_space space) {
         return (size_t)d->nflexure;
     case FW_SPACE_BODY:
         return (size_t)d->nbody;
+    case FW_SPACE_JOINT:
+        return (size_t)d->njoint + (size_t)d->ntie;
     default:
         return 0;
     }
 }
 
-static const char *id_of(const fw_device *d, fw_space space, size_t i) {
-    const char *id = space == FW_SPACE_FLOW      ? d->flow[i].ref
-                     : space == FW_SPACE_FLEXURE ? d->flexure[i].id
-                                                 : d->body[i].id;
-    return id ? id : "";
+typedef struct named {
+    const char *id;
+    fw_place place;
+} named;
+
+static named name_of(const fw_device *d, fw_space space, size_t i) {
+    size_t joints = (size_t)d->njoint;
+    named n = space == FW_SPACE_FLOW      ? (named){d->flow[i].ref, d->flow[i].place}
+              : space == FW_SPACE_FLEXURE ? (named){d->flexure[i].id, d->flexure[i].place}
+              : space == FW_SPACE_BODY    ? (named){d->body[i].id, d->body[i].place}
+              : i < joints                ? (named){d->joint[i].id, d->joint[i].place}
+                           : (named){d->tie[i - joints].id, d->tie[i - joints].place};
+    if (!n.id) n.id = "";
+    return n;
 }
 
-static fw_place place_of(const fw_device *d, fw_space space, size_t i) {
-    return space == FW_SPACE_FLOW      ? d->flow[i].place
-           : space == FW_SPACE_FLEXURE ? d->flexure[i].place
-                                       : d->body[i].place;
+/* ---- the index: open addressing, at most half full; the first of equal ids stays ---- */
+
+static uint64_t hash_of(const char *id) { /* FNV-1a */
+    uint64_t hash = 14695981039346656037u;
+    for (; *id; id++)
+        hash = (hash ^ (unsigned char)*id) * 1099511628211u;
+    return hash ^ (hash >> 32);
 }
+
+/* slot of the id, or the free one where it belongs */
+static int *slot_of(const fw_device *d, fw_space space, const fw_id_index *x, const char *id) {
+    size_t mask = ((size_t)1 << x->bits) - 1, at = (size_t)hash_of(id) & mask;
+    while (x->slot[at] && strcmp(name_of(d, space, (size_t)x->slot[at] - 1).id, id) != 0)
+        at = (at + 1) & mask;
+    return &x->slot[at];
+}
+
+/* what was built since the last look-up comes in; false when memory is short */
+static bool enter(fw_reader *r, fw_space space) {
+    const fw_device *d = r->device;
+    fw_id_index *x = &r->index[space];
+    size_t n = count_of(d, space);
+    if (!x->slot || n > ((size_t)1 << x->bits) / 2) {
+        for (x->bits = 5; n > ((size_t)1 << x->bits) / 2;)
+            x->bits++;
+        x->slot = fw_arena_array(r->arena, int, (size_t)1 << x->bits);
+        x->entered = 0;
+    }
+    for (; x->slot && (size_t)x->entered < n; x->entered++) {
+        int *slot = slot_of(d, space, x, name_of(d, space, (size_t)x->entered).id);
+        if (*slot == 0) *slot = x->entered + 1;
+    }
+    return x->slot != NULL;
+}
+
+enum { SUGGESTIONS_MOST = 2000 }; /* ids that a misspelt one is compared with */
 
 /* either end of the reference may be the misspelt one, so the message names both places */
 static void say_dangling(fw_reader *r, const fw_record *record, const fw_attribute_row *row,
@@ -42,13 +84,14 @@ static void say_dangling(fw_reader *r, const fw_record *record, const fw_attribu
     size_t used = 0;
     int least = 3;
     fw_place there = {0};
-    for (size_t i = 0; i < n && !fw_full(r); i++) {
-        const char *id = id_of(d, row->space, i);
+    for (size_t i = 0; i < n && i < SUGGESTIONS_MOST && !fw_full(r); i++) {
+        const named other = name_of(d, row->space, i);
+        const char *id = other.id;
         int distance = fw_edit_distance(a->value, id, 2);
         if (distance < least && (size_t)distance < strlen(id)) {
             least = distance;
             better = id;
-            there = place_of(d, row->space, i);
+            there = other.place;
         }
         if (used + strlen(id) + 3 < sizeof list)
             used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", i ? " " : "", id);
@@ -79,9 +122,12 @@ int fw_reference(fw_reader *r, const fw_record *record, const char *name) {
                       fw_label(record, label));
         return FW_NOWHERE;
     }
-    size_t n = count_of(r->device, row->space);
-    for (size_t i = 0; i < n; i++)
-        if (strcmp(id_of(r->device, row->space, i), id) == 0) return (int)i;
+    if (!enter(r, row->space)) {
+        r->diags->failed = 1; /* memory is short: every step ends with asking for this */
+        return FW_NOWHERE;
+    }
+    int found = *slot_of(r->device, row->space, &r->index[row->space], id);
+    if (found) return found - 1;
     if (!r->broken[row->space]) say_dangling(r, record, row, cell->given);
     return FW_NOWHERE;
 }

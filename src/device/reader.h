@@ -28,6 +28,11 @@ typedef struct fw_override { /* --set of a parameter: its declared value still g
     const fw_attribute *attribute;
 } fw_override;
 
+typedef struct fw_id_index { /* ids of one space by hash; grows with the description */
+    int *slot;               /* (1 << bits) 1 + index, 0: free */
+    int bits, entered;
+} fw_id_index;
+
 typedef struct fw_reader {
     fw_arena *arena;
     fw_diags *diags;
@@ -43,6 +48,7 @@ typedef struct fw_reader {
     size_t nlost;
     bool broken[FW_SPACE_COUNT]; /* an id of this space could not be read: do not miss it again */
     bool unknown_element;        /* something is there that could not be read */
+    fw_id_index index[FW_SPACE_COUNT];
     fw_device *device;
 } fw_reader;
 
@@ -59,6 +65,7 @@ fw_status fw_build_parts(fw_reader *r);
 fw_status fw_build_flexures(fw_reader *r);
 fw_status fw_expand_six_bar(fw_reader *r); /* bodies 0..4 and joints 0..5 */
 fw_status fw_build_mechanism(fw_reader *r);
+fw_status fw_build_joints(fw_reader *r);
 fw_status fw_build_scenes(fw_reader *r);
 
 /* values of a record; names must be in the table */
@@ -84,10 +91,26 @@ bool fw_id_valid(const char *id, bool hyphen);
 fw_status fw_attribute_evaluate(fw_reader *r, const fw_attribute *a, const char *what,
                                 const fw_dimension *wanted, fw_dimension *found, double *value,
                                 bool *ok);
+/* what evaluating `part` bytes of an attribute found wrong, at its own column */
+fw_status fw_expression_report(fw_reader *r, const fw_attribute *a, const char *what, size_t part,
+                               const fw_expression_error *error);
+/* time_law.c: the law of a load, NULL for one that is constant from the start or was reported */
+fw_status fw_time_law(fw_reader *r, const fw_record *record, const fw_law **law);
+/* an attribute as an expression in time; *program NULL when it is absent or was reported */
+fw_status fw_time_program(fw_reader *r, const fw_record *record, const char *name,
+                          fw_dimension wanted, const fw_program **program);
+/* error where the law is not finite at one of some instants of [0, duration_s] */
+void fw_finite_check(fw_reader *r, const fw_record *record, const char *name, const fw_law *law,
+                     double duration_s);
+
 enum { FW_NOWHERE = -2 };
-/* index of what the attribute refers to, FW_GROUND (== FW_NONE) for "ground" or when it is absent,
-   FW_NOWHERE when there is none: that has been reported */
+/* index of what the attribute refers to (joints first, then ties njoint + i), FW_GROUND (==
+   FW_NONE) for "ground" or when it is absent, FW_NOWHERE when there is none: that has been reported
+ */
 int fw_reference(fw_reader *r, const fw_record *record, const char *name);
+bool fw_body_drawn(const fw_body *body); /* it has a width or a plate */
+/* what is drawn must lie on a wafer */
+void fw_wafer_check(fw_reader *r, const fw_record *record, const char *name, double value_m);
 /* mass and inertia both or neither, and one of them or a shape */
 void fw_mass_check(fw_reader *r, const fw_record *record, bool shape, const char *shape_advice);
 

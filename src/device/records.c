@@ -83,30 +83,32 @@ static void read_attributes(fw_reader *r, fw_record *record) {
     }
 }
 
+typedef struct walk {
+    fw_reader *r;
+    int seen[64];               /* per row of the table */
+    const fw_element *once[64]; /* the last one of a row that may stand once in its parent */
+    int capacity;
+} walk;
+
 /* how often an element may stand: once in its parent, or `most` in the file */
-static bool too_often(fw_reader *r, const fw_element *e, const fw_element_row *row, int *seen) {
+static bool too_often(walk *w, const fw_element *e, const fw_element_row *row, size_t k) {
+    fw_reader *r = w->r;
     if (row->once) {
-        for (const fw_element *f = e->parent ? e->parent->first_child : e; f != e; f = f->next)
-            if (strcmp(f->name, e->name) == 0) {
-                fw_diag_error(
-                    r->diags, 51, e->place,
-                    "<%s> is given twice (first at line %d); one is allowed, so remove one",
-                    e->name, f->place.line);
-                return true;
-            }
+        const fw_element *first = w->once[k];
+        if (first && first->parent == e->parent) {
+            fw_diag_error(r->diags, 51, e->place,
+                          "<%s> is given twice (first at line %d); one is allowed, so remove one",
+                          e->name, first->place.line);
+            return true;
+        }
+        w->once[k] = e;
     }
-    if (row->most == 0 || ++*seen <= row->most) return false;
-    if (*seen == row->most + 1)
+    if (row->most == 0 || ++w->seen[k] <= row->most) return false;
+    if (w->seen[k] == row->most + 1)
         fw_diag_error(r->diags, 66, e->place, "more than %d <%s> elements; that is the limit",
                       row->most, row->name);
     return true;
 }
-
-typedef struct walk {
-    fw_reader *r;
-    int seen[64]; /* per row of the table */
-    int capacity;
-} walk;
 
 static fw_status read_element(walk *w, fw_element *e, int parent);
 
@@ -157,7 +159,7 @@ static fw_status read_element(walk *w, fw_element *e, int parent) {
         r->unknown_element = true;
         return FW_OK;
     }
-    if (too_often(r, e, row, &w->seen[row - table])) return FW_OK;
+    if (too_often(w, e, row, (size_t)(row - table))) return FW_OK;
     if (e->text[0])
         fw_diag_error(r->diags, 49, e->text_place,
                       "text is not expected inside <%s>; values stand in attributes, remarks in "

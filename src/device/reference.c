@@ -21,6 +21,13 @@ static void add_value(fw_text *out, const fw_attribute_row *a) {
     case FW_KIND_ANY:
         fw_text_add(out, "expression");
         break;
+    case FW_KIND_TIMED:
+        fw_text_printf(out, "expression in time, %s",
+                       strcmp(a->unit, "1") == 0 ? "pure number" : a->unit);
+        break;
+    case FW_KIND_TABLE:
+        fw_text_add(out, "points `TIME: NUMBER; ...`");
+        break;
     case FW_KIND_REF:
         fw_text_printf(out, "id of a %s%s", fw_space_text(a->space),
                        a->ground ? " or `ground`" : "");
@@ -90,23 +97,38 @@ static void add_units(fw_text *out) {
 fw_status fw_device_reference_markdown(fw_text *out) {
     int count;
     const fw_element_row *table = fw_device_table(&count);
-    fw_text_add(out,
-                "<!-- generated from src/device/table.c; do not edit -->\n"
-                "# Device files\n\n"
-                "A device file is XML in UTF-8, at most 8 MiB, without DOCTYPE, entities of its "
-                "own or processing instructions. The schema for editors is "
-                "[device.rng](device.rng).\n\n"
-                "## Values\n\n"
-                "A physical value is a number with its unit or an expression: `10 um`, `2*t + 5 "
-                "um`, `1.711e-6 N m/rad`. A unit binds tighter than `*` and `/`; names are "
-                "parameters; `sqrt exp ln sin cos tan asin acos atan atan2 min max abs` and `pi` "
-                "are known. Both sides of `+` and `-` need the same kind of unit, and the result "
-                "the kind of the attribute. The angle is a kind of its own; only a product or "
-                "quotient may lack or carry an extra `rad` (length / angle is a radius).\n\n"
-                "`--set NAME=VALUE` changes a parameter, `--set ELEMENT[ID]/@ATTRIBUTE=VALUE` an "
-                "attribute (`flexure[A]/@length=312 um`); `[ID]` may be left out where there is "
-                "one such element.\n\n"
-                "## Elements\n");
+    fw_text_add(
+        out, "<!-- generated from src/device/table.c; do not edit -->\n"
+             "# Device files\n\n"
+             "A device file is XML in UTF-8, at most 8 MiB, without DOCTYPE, entities of its "
+             "own or processing instructions. The schema for editors is "
+             "[device.rng](device.rng).\n\n"
+             "## Values\n\n"
+             "A physical value is a number with its unit or an expression: `10 um`, `2*t + 5 "
+             "um`, `1.711e-6 N m/rad`. A unit binds tighter than `*` and `/`; names are "
+             "parameters; `sqrt exp ln sin cos tan asin acos atan atan2 min max abs` and `pi` "
+             "are known. Both sides of `+` and `-` need the same kind of unit, and the result "
+             "the kind of the attribute. The angle is a kind of its own; only a product or "
+             "quotient may lack or carry an extra `rad` (length / angle is a radius).\n\n"
+             "`--set NAME=VALUE` changes a parameter, `--set ELEMENT[ID]/@ATTRIBUTE=VALUE` an "
+             "attribute (`flexure[A]/@length=312 um`); `[ID]` may be left out where there is "
+             "one such element.\n\n"
+             "## Time\n\n"
+             "Loads are constant from the start, or go with time by their `law`, a factor that "
+             "multiplies them:\n\n"
+             "| law | attributes | factor |\n|---|---|---|\n"
+             "| `step` | `start`, `end` | 0, from `start` on 1, from `end` on 0 |\n"
+             "| `ramp` | `start`, **`rise`** | 0, rising from `start` on in the time `rise` to 1 "
+             "|\n"
+             "| `sine` | `start`, `end`, **`frequency`**, `phase` | sin(2 pi `frequency` (t - "
+             "`start`) + `phase`) between `start` and `end`, else 0 |\n"
+             "| `table` | **`table`** | `0 ms: 0; 1 ms: 0.5; 2 ms: 1`, linear between the points, "
+             "constant outside |\n"
+             "| `expression` | **`factor`** | an expression in time, a pure number |\n\n"
+             "In an expression in time `t` or `time` is the time in s, to be used with its unit: "
+             "`sin(2*pi*t/(10 ms))`, `3 rad/s * t`, `min(1, t/(5 ms))`. Where a parameter is "
+             "called `t`, `time` must be written.\n\n"
+             "## Elements\n");
     for (int i = 0; i < count; i++)
         add_element(out, &table[i]);
     add_units(out);

@@ -38,13 +38,19 @@ static size_t collect(fw_element *e, const char *element, const char *key, fw_el
     return n;
 }
 
-enum { MOST = 4096 };
+static size_t count_named(const fw_element *e, const char *element) {
+    size_t n = 0;
+    for (; e; e = e->next)
+        n += (strcmp(e->name, element) == 0) + count_named(e->first_child, element);
+    return n;
+}
 
 static fw_status set_parameter(fw_reader *r, const edit *set) {
-    fw_element **found = fw_arena_array(r->arena, fw_element *, MOST);
-    const char **names = fw_arena_array(r->arena, const char *, MOST);
+    size_t most = count_named(r->root->first_child, "parameter");
+    fw_element **found = fw_arena_array(r->arena, fw_element *, most);
+    const char **names = fw_arena_array(r->arena, const char *, most);
     FW_NEED(found && names);
-    size_t n = collect(r->root->first_child, "parameter", "name", found, names, MOST, 0);
+    size_t n = collect(r->root->first_child, "parameter", "name", found, names, most, 0);
     for (size_t i = 0; i < n; i++) {
         if (strcmp(names[i], set->path) != 0) continue;
         fw_attribute *a = fw_arena_one(r->arena, fw_attribute);
@@ -125,10 +131,11 @@ static fw_status set_attribute(fw_reader *r, const edit *set) {
         unknown_path(r, set, "no such element in this version", element, names, n);
         return FW_OK;
     }
-    fw_element **found = fw_arena_array(r->arena, fw_element *, MOST);
-    const char **names = fw_arena_array(r->arena, const char *, MOST);
+    size_t most = count_named(r->root, element);
+    fw_element **found = fw_arena_array(r->arena, fw_element *, most);
+    const char **names = fw_arena_array(r->arena, const char *, most);
     FW_NEED(found && names);
-    size_t n = collect(r->root, element, row->key, found, names, MOST, 0);
+    size_t n = collect(r->root, element, row->key, found, names, most, 0);
     for (size_t i = 0; i < n; i++)
         if (id ? row->key && strcmp(names[i], id) == 0 : n == 1)
             return replace(r, set, found[i], row, attribute);

@@ -10,6 +10,7 @@
 #define D_MASS      .kind = FW_KIND_NUMBER, .dimension = {.kg = 1}, .unit = "mg"
 #define D_INERTIA   .kind = FW_KIND_NUMBER, .dimension = {.m = 2, .kg = 1}, .unit = "mg mm^2"
 #define D_TIME      .kind = FW_KIND_NUMBER, .dimension = {.s = 1}, .unit = "ms"
+#define D_RATE      .kind = FW_KIND_NUMBER, .dimension = {.s = -1}, .unit = "Hz"
 #define D_PURE      .kind = FW_KIND_NUMBER, .unit = "1"
 #define D_PRESSURE  .kind = FW_KIND_NUMBER, .dimension = {-1, 1, -2, 0, 0, 0, 0}, .unit = "GPa"
 #define D_DENSITY   .kind = FW_KIND_NUMBER, .dimension = {.m = -3, .kg = 1}, .unit = "kg/m3"
@@ -38,6 +39,25 @@
         RANGE(1e-7, 0.3, "the data of materials do not hold for strips below 0.1 um, and " WAFER)
 #define GAP  D_LENGTH, .unit = "um", RANGE(0, 0.3, WAFER)
 #define TURN D_ANGLE, .unit = "deg", RANGE(-2 * PI, 2 * PI, "one full turn")
+/* <mechanism> and <scene> serve any size; what is drawn keeps to the wafer (build_mechanism.c) */
+#define FAR    "beyond 1e7 m a number resolves no better than a nanometre"
+#define PLACE  D_LENGTH, .unit = "mm", RANGE(-1e7, 1e7, FAR)
+#define LENGTH D_LENGTH, .unit = "mm", RANGE(0, 1e7, FAR)
+#define TURNS                                                                                      \
+    D_ANGLE, .unit = "deg",                                                                        \
+             RANGE(-2e4 * PI, 2e4 * PI, "10000 turns, behind which an angle loses four digits")
+#define ANY_MASS                                                                                   \
+    D_MASS, RANGE(1e-30, 1e15,                                                                     \
+                  "without mass the equations of motion are singular; an electron weighs 1e-30 "   \
+                  "kg, a mountain 1e15 kg")
+#define ANY_INERTIA                                                                                \
+    D_INERTIA, RANGE(1e-60, 1e30,                                                                  \
+                     "without inertia the equations of motion are singular; beyond lie the "       \
+                     "smallest and greatest mass at the smallest and greatest size")
+#define ELASTIC                                                                                    \
+    RANGE(0, 1e20, "a negative one would feed energy in; 1e20 in SI units is beyond any structure")
+#define WITHIN_TIME                                                                                \
+    RANGE(0, 1e9, "a scene begins at 0, and none takes longer than 1e9 s, thirty years")
 #define NOT_NEGATIVE                                                                               \
     RANGE(0, 1e6,                                                                                  \
           "a negative one would feed energy in, and 1e6 in SI units is beyond anything small")
@@ -62,8 +82,7 @@ static const char *const hinge_names[] = {"A", "B", "C", "D", "E", "F", NULL};
 static const char *const link_names[] = {"AB", "BC", "DE", "EF", NULL};
 static const char *const platform_names[] = {"CD", NULL};
 static const char *const yes_no[] = {"yes", "no", NULL};
-static const char *const laws[] = {"step", NULL};
-static const char *const later_laws[] = {"ramp", "sine", "table", "expression", NULL};
+static const char *const laws[] = {"step", "ramp", "sine", "table", "expression", NULL};
 
 static const fw_attribute_row device_rows[] = {
     {"name", ID, REQUIRED, .sentence = "Name of the device; it names outputs and the GDSII cell."},
@@ -165,71 +184,126 @@ static const fw_attribute_row platform_rows[] = {
 };
 static const fw_attribute_row body_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id for joints, springs and scenes; not \"ground\"."},
-    {"mass", D_MASS, SOME_MASS, .fallback = "from the drawn shape",
+    {"mass", ANY_MASS, .fallback = "from the drawn shape",
      .sentence = "Mass; together with inertia."},
-    {"inertia", D_INERTIA, SOME_INERTIA, .fallback = "from the drawn shape",
+    {"inertia", ANY_INERTIA, .fallback = "from the drawn shape",
      .sentence = "Moment of inertia about the centre of mass; together with mass."},
-    {"x", POSITION, REQUIRED, .sentence = "Centre of mass; local coordinates start here."},
-    {"y", POSITION, REQUIRED, .sentence = "Centre of mass; local coordinates start here."},
-    {"phi", TURN, .fallback = "0 deg", .sentence = "Angle of the body's own axes."},
+    {"x", PLACE, REQUIRED, .sentence = "Centre of mass; local coordinates start here."},
+    {"y", PLACE, REQUIRED, .sentence = "Centre of mass; local coordinates start here."},
+    {"phi", TURNS, .fallback = "0 deg", .sentence = "Angle of the body's own axes."},
     {"width", SIZE, .fallback = "not drawn", .sentence = "Of the bars that join its hinges."},
     {"plate-width", SIZE, .fallback = "no plate", .sentence = "Of a rectangle; with plate-height."},
     {"plate-height", SIZE, .fallback = "no plate", .sentence = "Of a rectangle; with plate-width."},
-    {"plate-x", POSITION, .fallback = "x", .sentence = "Centre of the rectangle, as drawn."},
-    {"plate-y", POSITION, .fallback = "y", .sentence = "Centre of the rectangle, as drawn."},
+    {"plate-x", PLACE, .fallback = "x", .sentence = "Centre of the rectangle, as drawn."},
+    {"plate-y", PLACE, .fallback = "y", .sentence = "Centre of the rectangle, as drawn."},
     {"plate-angle", TURN, .fallback = "0 deg", .sentence = "Of the rectangle against the x axis."},
 };
 #define ENDS                                                                                       \
     {"a", REF(FW_SPACE_BODY), .ground = true, REQUIRED, .sentence = "First body, or ground."},     \
-        {"a-x", POSITION, .fallback = "0 mm",                                                      \
+        {"a-x", PLACE, .fallback = "0 mm",                                                         \
          .sentence = "Point in the frame of a, from its centre."},                                 \
-        {"a-y", POSITION, .fallback = "0 mm",                                                      \
+        {"a-y", PLACE, .fallback = "0 mm",                                                         \
          .sentence = "Point in the frame of a, from its centre."},                                 \
         {"b", REF(FW_SPACE_BODY), .ground = true, REQUIRED,                                        \
          .sentence = "Second body, or ground."},                                                   \
-        {"b-x", POSITION, .fallback = "0 mm",                                                      \
+        {"b-x", PLACE, .fallback = "0 mm",                                                         \
          .sentence = "Point in the frame of b, from its centre."},                                 \
     {                                                                                              \
-        "b-y", POSITION, .fallback = "0 mm",                                                       \
-                         .sentence = "Point in the frame of b, from its centre."                   \
+        "b-y", PLACE, .fallback = "0 mm", .sentence = "Point in the frame of b, from its centre."  \
     }
 static const fw_attribute_row revolute_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id of the joint."},
     ENDS,
-    {"stiffness", D_TURNING_K, NOT_NEGATIVE, .fallback = "from the flexure, else 0",
+    {"stiffness", D_TURNING_K, ELASTIC, .fallback = "from the flexure, else 0",
      .sentence = "Torque per angle."},
-    {"damping", D_TURNING_C, NOT_NEGATIVE, .fallback = "from the flexure's material, else 0",
+    {"damping", D_TURNING_C, ELASTIC, .fallback = "from the flexure's material, else 0",
      .sentence = "Torque per angular velocity."},
-    {"free-angle", TURN, .fallback = "0 deg", .sentence = "Angle at which the spring is at rest."},
+    {"free-angle", TURNS, .fallback = "0 deg", .sentence = "Angle at which the spring is at rest."},
     {"hinge", REF(FW_SPACE_FLEXURE), .fallback = "an ideal pivot", .sentence = "Its flexure."},
     {"axis", TURN, .fallback = "chosen by the layout",
      .sentence = "Direction of the flexure's bulge, from the x axis."},
+    {"stop-min", TURNS, .fallback = "no stop",
+     .sentence = "Below this angle the stop pushes back; with stop-stiffness."},
+    {"stop-max", TURNS, .fallback = "no stop",
+     .sentence = "Above this angle the stop pushes back; with stop-stiffness."},
+    {"stop-stiffness", D_TURNING_K, ELASTIC, .fallback = "no stop",
+     .sentence = "Torque per angle beyond a stop."},
+    {"stop-damping", D_TURNING_C, ELASTIC, .fallback = "0 N m s/rad",
+     .sentence = "Torque per angular velocity while a stop is pressed."},
+};
+static const fw_attribute_row prismatic_rows[] = {
+    {"id", ID, REQUIRED, .sentence = "Id of the joint."},
+    ENDS,
+    {"axis", TURNS, REQUIRED,
+     .sentence = "Direction in the frame of a along which point b slides through point a."},
+    {"angle", TURNS, .fallback = "as drawn", .sentence = "phi_b - phi_a, which stays."},
+    {"stiffness", D_LINEAR_K, ELASTIC, .fallback = "0 N/m", .sentence = "Force per travel."},
+    {"damping", D_LINEAR_C, ELASTIC, .fallback = "0 N s/m", .sentence = "Force per speed."},
+    {"free-length", PLACE, .fallback = "0 mm",
+     .sentence = "Way of b along the axis at which travel is 0 and the spring at rest."},
+};
+static const fw_attribute_row distance_rows[] = {
+    {"id", ID, REQUIRED, .sentence = "Id of the joint."},
+    ENDS,
+    {"length", D_LENGTH, .unit = "mm",
+     ABOVE(0, 1e7, "a rod without length has no direction and would be a revolute; " FAR),
+     .fallback = "as drawn", .sentence = "Of the rod; a driver of this joint takes its place."},
+};
+static const fw_attribute_row weld_rows[] = {
+    {"id", ID, REQUIRED, .sentence = "Id of the joint."},
+    ENDS,
+    {"angle", TURNS, .fallback = "as drawn", .sentence = "phi_b - phi_a, which stays."},
+};
+static const fw_attribute_row driver_rows[] = {
+    {"id", ID, .fallback = "the joint's", .sentence = "Id of the driver."},
+    {"joint", REF(FW_SPACE_JOINT), REQUIRED,
+     .sentence = "A revolute, prismatic or distance joint, or a hinge of <six-bar>."},
+    {"value", .kind = FW_KIND_TIMED, .unit = "rad or m", REQUIRED,
+     .sentence = "Its angle, travel or length as an expression in time t."},
 };
 static const fw_attribute_row spring_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id of the spring."},
     ENDS,
-    {"stiffness", D_LINEAR_K, NOT_NEGATIVE, REQUIRED, .sentence = "Force per elongation."},
-    {"damping", D_LINEAR_C, NOT_NEGATIVE, .fallback = "0 N s/m", .sentence = "Force per speed."},
-    {"length", GAP, .fallback = "0 um", .sentence = "Length at rest."},
+    {"stiffness", D_LINEAR_K, ELASTIC, REQUIRED, .sentence = "Force per elongation."},
+    {"damping", D_LINEAR_C, ELASTIC, .fallback = "0 N s/m", .sentence = "Force per speed."},
+    {"length", LENGTH, .fallback = "0 mm", .sentence = "Length at rest."},
+    {"cable", .kind = FW_KIND_WORD, .words = yes_no, .fallback = "no",
+     .sentence = "yes: it only pulls, and is slack while shorter than its length."},
 };
 static const fw_attribute_row scene_rows[] = {
     {"name", ID, REQUIRED, .sentence = "Name of the scene."},
     {"duration", D_TIME, REQUIRED,
-     RANGE(1e-9, 1000,
-           "nothing of this size moves within 1 ns, and no motion here takes longer than 1000 s"),
+     RANGE(1e-12, 1e9,
+           "nothing that this model holds for moves within 1 ps, and no motion takes longer than "
+           "1e9 s, thirty years"),
      .sentence = "How long the motion is followed."},
     {"flow", REF(FW_SPACE_FLOW), .fallback = "all flows", .sentence = "Only in this flow."},
 };
+/* how a load goes with time; which attribute belongs to which law: time_law.c */
 #define LAW                                                                                        \
+    {"law", .kind = FW_KIND_WORD, .words = laws, .fallback = "step",                               \
+     .sentence = "How the load goes with time; see below."},                                       \
+        {"start", D_TIME, WITHIN_TIME, .fallback = "0 ms",                                         \
+         .sentence = "step, ramp, sine: nothing before."},                                         \
+        {"end", D_TIME, WITHIN_TIME, .fallback = "never",                                          \
+         .sentence = "step, sine: nothing from then on."},                                         \
+        {"rise", D_TIME,                                                                           \
+         ABOVE(0, 1e9, "a ramp that takes no time is a step; no scene takes longer than 1e9 s"),   \
+         .sentence = "ramp: how long it takes from nothing to all."},                              \
+        {"frequency", D_RATE, ABOVE(0, 1e15, "without frequency nothing swings; beyond is light"), \
+         .sentence = "sine: of sin(2 pi frequency (t - start) + phase)."},                         \
+        {"phase", TURNS, .fallback = "0 deg", .sentence = "sine: at the start."},                  \
+        {"table", .kind = FW_KIND_TABLE, .unit = "ms",                                             \
+         .sentence = "table: factors at rising times, linear between, constant outside."},         \
     {                                                                                              \
-        "law", .kind = FW_KIND_WORD, .words = laws, .later = later_laws, .fallback = "step",       \
-               .sentence = "How the load goes with time: step is constant from the start."         \
+        "factor", .kind = FW_KIND_TIMED, .unit = "1",                                              \
+                  .sentence = "expression: factor as an expression in time t."                     \
     }
 static const fw_attribute_row force_rows[] = {
     {"on", REF(FW_SPACE_BODY), REQUIRED, .sentence = "Body that it pulls."},
-    {"x", POSITION, .fallback = "0 mm",
+    {"x", PLACE, .fallback = "0 mm",
      .sentence = "Point in the body's frame, from its centre of mass."},
-    {"y", POSITION, .fallback = "0 mm",
+    {"y", PLACE, .fallback = "0 mm",
      .sentence = "Point in the body's frame, from its centre of mass."},
     {"fx", D_FORCE, .fallback = "0 uN", .sentence = "Along the world's x axis."},
     {"fy", D_FORCE, .fallback = "0 uN", .sentence = "Along the world's y axis."},
@@ -294,16 +368,21 @@ static const fw_element_row table[] = {
      .sentence = "The platform CD that carries the tool."},
     {"mechanism", "device", .once = true,
      .sentence = "Any planar mechanism; with <six-bar> it adds to that and may use its ids."},
-    {"body", "mechanism", "id", FW_SPACE_BODY, .most = 2000, ROWS(body_rows),
+    {"body", "mechanism", "id", FW_SPACE_BODY, .most = 50000, ROWS(body_rows),
      .sentence = "A rigid body; it needs mass and inertia, or a shape."},
-    {"revolute", "mechanism", "id", FW_SPACE_JOINT, .most = 4000, ROWS(revolute_rows),
+    {"revolute", "mechanism", "id", FW_SPACE_JOINT, .most = 100000, ROWS(revolute_rows),
      .sentence = "A turning joint with spring and damper; angle = phi_b - phi_a - free-angle."},
-    {"spring", "mechanism", "id", FW_SPACE_SPRING, .most = 4000, ROWS(spring_rows),
+    {"spring", "mechanism", "id", FW_SPACE_SPRING, .most = 100000, ROWS(spring_rows),
      .sentence = "A spring and damper from point to point."},
-    LATER("prismatic", "mechanism", "A sliding joint."),
-    LATER("distance", "mechanism", "A massless rod between two points."),
-    LATER("weld", "mechanism", "A rigid connection."),
-    LATER("driver", "mechanism", "A joint angle given as an expression in time."),
+    {"prismatic", "mechanism", "id", FW_SPACE_JOINT, .most = 100000, ROWS(prismatic_rows),
+     .sentence = "A sliding joint with spring and damper; travel = way of point b along the axis - "
+                 "free-length."},
+    {"distance", "mechanism", "id", FW_SPACE_JOINT, .most = 100000, ROWS(distance_rows),
+     .sentence = "A massless rod between two points."},
+    {"weld", "mechanism", "id", FW_SPACE_JOINT, .most = 100000, ROWS(weld_rows),
+     .sentence = "A rigid connection: the points coincide, the angle stays."},
+    {"driver", "mechanism", "id", FW_SPACE_DRIVER, .most = 100000, ROWS(driver_rows),
+     .sentence = "Moves a joint: its angle, travel or length follows an expression in time."},
     {"scene", "device", "name", FW_SPACE_SCENE, .most = 200, ROWS(scene_rows),
      .sentence = "Loads to simulate; the verdict holds for all scenes."},
     {"force", "scene", ROWS(force_rows), .sentence = "A force in world axes on a point of a body."},
@@ -334,11 +413,12 @@ const fw_element_row *fw_element_row_find(const char *name) {
 }
 
 const char *fw_space_text(fw_space space) {
-    static const char *const text[FW_SPACE_COUNT] = {"name", "parameter", "flow",   "flexure",
-                                                     "body", "joint",     "spring", "scene"};
+    static const char *const text[FW_SPACE_COUNT] = {
+        "name", "parameter", "flow", "flexure", "body", "joint", "spring", "driver", "scene"};
     return text[space];
 }
 
 bool fw_kind_is_expression(fw_kind kind) {
-    return kind == FW_KIND_NUMBER || kind == FW_KIND_ANY;
+    return kind == FW_KIND_NUMBER || kind == FW_KIND_ANY || kind == FW_KIND_TIMED ||
+           kind == FW_KIND_TABLE;
 }

@@ -12,6 +12,8 @@ typedef enum fw_kind {
     FW_KIND_WORD,   /* one of `words` */
     FW_KIND_NUMBER, /* expression of `dimension` */
     FW_KIND_ANY,    /* expression of any dimension */
+    FW_KIND_TIMED,  /* expression in time of `dimension`; read when what it drives is known */
+    FW_KIND_TABLE,  /* "TIME: NUMBER; TIME: NUMBER ..." */
     FW_KIND_REF     /* id in `space` */
 } fw_kind;
 
@@ -23,6 +25,7 @@ typedef enum fw_space { /* ids are unique within one of these */
                         FW_SPACE_BODY,
                         FW_SPACE_JOINT,
                         FW_SPACE_SPRING,
+                        FW_SPACE_DRIVER,
                         FW_SPACE_SCENE,
                         FW_SPACE_COUNT
 } fw_space;

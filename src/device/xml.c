@@ -9,8 +9,8 @@
 
 typedef struct node { /* an element while it is being read */
     fw_element element;
-    fw_text text;
     size_t tag; /* byte offset of the '<' */
+    int depth;  /* 0 for the root */
 } node;
 
 typedef struct reader {
@@ -24,7 +24,9 @@ typedef struct reader {
     size_t counted, line_start; /* lines are counted up to here; where the present one starts */
     int line;
     node *root, *current;
-    int refused, no_memory; /* own flags: wellFormed is not to be trusted */
+    fw_text text[FW_XML_DEPTH_MOST + 1]; /* character data so far of the open elements */
+    const char *word[64];                /* names of elements and namespaces, one copy of each */
+    int refused, no_memory;              /* own flags: wellFormed is not to be trusted */
 } reader;
 
 static void stop(reader *r) {
@@ -71,10 +73,23 @@ static int same_bytes(const char *raw, const char *value, size_t n) {
     return 1;
 }
 
+/* one copy of a name, as long as no other takes its slot; NULL: out of memory */
+static const char *word(reader *r, const xmlChar *name) {
+    const char *text = (const char *)name;
+    unsigned slot = 0;
+    for (const char *c = text; *c; c++)
+        slot = 31 * slot + (unsigned char)*c;
+    slot %= sizeof r->word / sizeof r->word[0];
+    if (!r->word[slot] || strcmp(r->word[slot], text) != 0)
+        r->word[slot] = fw_arena_strdup(r->arena, text);
+    return r->word[slot];
+}
+
 /* names and values of one element in one block; the five pointers of libxml2 per attribute are
    local name, prefix, namespace, value and its end */
 static int copy_attributes(reader *r, fw_element *e, int count, const xmlChar **given) {
     size_t bytes = 0;
+    if (count == 0) return 1;
     for (int i = 0; i < count; i++) {
         const xmlChar *const *g = given + (ptrdiff_t)5 * i;
         bytes += strlen((const char *)g[0]) + (g[1] ? strlen((const char *)g[1]) + 1 : 0) + 1;
@@ -140,13 +155,19 @@ static void start_element(void *context, const xmlChar *name, const xmlChar *pre
         return;
     }
     n->tag = fw_next_tag(r->xml, r->tag_end);
-    n->text = fw_text_new(r->arena);
+    n->depth = r->current ? r->current->depth + 1 : 0;
+    if (n->depth > FW_XML_DEPTH_MOST) { /* the guard has refused it before */
+        stop(r);
+        return;
+    }
+    r->text[n->depth].arena = r->arena;
+    r->text[n->depth].length = 0;
     fw_element *e = &n->element;
     e->place = next_place(r, n->tag);
     e->text_place = e->place;
     e->text = "";
-    e->name = fw_arena_strdup(r->arena, (const char *)name);
-    e->space = space ? fw_arena_strdup(r->arena, (const char *)space) : "";
+    e->name = word(r, name);
+    e->space = space ? word(r, space) : "";
     if (!e->name || !e->space || !read_attributes(r, n, nattributes, attributes)) {
         out_of_memory(r);
         return;
@@ -168,13 +189,14 @@ static void end_element(void *context, const xmlChar *name, const xmlChar *prefi
     (void)name, (void)prefix, (void)space;
     if (r->refused || !r->current) return;
     node *n = r->current;
-    if (n->text.failed) {
+    fw_text *t = &r->text[n->depth];
+    while (t->length > 0 && strchr(" \t\r\n", t->data[t->length - 1]))
+        t->length--;
+    if (t->length > 0) n->element.text = fw_arena_strndup(r->arena, t->data, t->length);
+    if (t->failed || !n->element.text) {
         out_of_memory(r);
         return;
     }
-    while (n->text.length > 0 && strchr(" \t\r\n", n->text.data[n->text.length - 1]))
-        n->text.data[--n->text.length] = '\0';
-    if (n->text.length > 0) n->element.text = n->text.data;
     r->current = (node *)n->element.parent; /* element is the first member */
 }
 
@@ -183,7 +205,7 @@ static void characters(void *context, const xmlChar *text, int length) {
     if (r->refused || !r->current || length <= 0) return;
     const char *s = (const char *)text;
     size_t n = (size_t)length, skip = 0;
-    if (r->current->text.length == 0) {
+    if (r->text[r->current->depth].length == 0) {
         while (skip < n && strchr(" \t\r\n", s[skip]) && s[skip])
             skip++;
         if (skip == n) return;
@@ -194,7 +216,7 @@ static void characters(void *context, const xmlChar *text, int length) {
         /* texts and tags come in file order; anything else keeps the element's place */
         if (offset >= r->line_start) r->current->element.text_place = next_place(r, offset);
     }
-    fw_text_bytes(&r->current->text, s + skip, n - skip);
+    fw_text_bytes(&r->text[r->current->depth], s + skip, n - skip);
 }
 
 /* the guard has refused these before; should it ever miss one, this stops the reading */

@@ -2,8 +2,8 @@
 /* XML with the place of every element and attribute, read from memory by libxml2's SAX2 interface.
 
    Refused at once, with a place: DOCTYPE and entities, processing instructions, text that is not
-   UTF-8, NUL bytes, more than 8 MiB, 32 levels, 20 000 elements, 64 attributes per element
-   and 200 000 in all, 4 096 bytes per value. No other file is ever opened. */
+   UTF-8, NUL bytes, more than 8 MiB, 32 levels, 200 000 elements, 64 attributes per
+   element and 1 000 000 in all, 4 096 bytes per value. No other file is ever opened. */
 #ifndef FW_DEVICE_XML_H
 #define FW_DEVICE_XML_H
 #include "base/diag.h"

@@ -1,150 +1,142 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "dynamics/model.h"
+/* The position problem from any guess: descent, restarts, the pose nearest to the guess, a polish
+   to round-off. */
+#include "dynamics/closure.h"
+#include "dynamics/solved.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-typedef struct search {
+/* a body that weighs as much as every other and has its arm as radius of gyration: what restarts
+   move with, so that mass ratios do not steer the search */
+static fw_status even_masses(fw_arena *arena, const fw_mechanism *from, double length_m,
+                             fw_mechanism *to) {
+    *to = *from;
+    FW_NEED(to->body = fw_arena_array(arena, fw_mass, (size_t)from->nbody));
+    double mass = 0;
+    for (int b = 0; b < from->nbody; b++)
+        mass += from->body[b].mass_kg / from->nbody;
+    for (int b = 0; b < from->nbody; b++) {
+        to->body[b] = from->body[b];
+        to->body[b].mass_kg = mass;
+        to->body[b].inertia_kg_m2 = mass * length_m * length_m / 12;
+    }
+    return FW_OK;
+}
+
+/* points that a rod joins must not coincide, or it has no direction to start with */
+static void part_rods(fw_closure *c) {
+    const fw_model *m = c->model;
+    for (int i = 0; i < m->nblock; i++) {
+        const fw_block *b = &m->block[i];
+        const double *r = m->arm + 4 * i, *offset = m->offset + 2 * i;
+        if (b->rows != FW_ROWS_ROD ||
+            hypot(r[2] - r[0] - offset[0], r[3] - r[1] - offset[1]) > 1e-9)
+            continue;
+        int body = b->b < m->nbody ? b->b : b->a;
+        double angle = 2 * acos(-1.0) * fw_spread(7, (unsigned)i);
+        c->u[3 * body] += 1e-4 * cos(angle);
+        c->u[3 * body + 1] += 1e-4 * sin(angle);
+    }
+}
+
+/* from other starts; on success c->u is closed, otherwise r->best has the least mismatch. Lengths
+   of both models differ by a factor only. */
+static fw_status try_restarts(fw_arena *arena, const fw_mechanism *mechanism, const double *q,
+                              fw_diags *diags, fw_closure *c, fw_restart *r, bool *good) {
+    fw_mechanism even;
     fw_model *model;
-    double *u, *trial, *step, *psi, *lambda;
-    double promise; /* first-order decrease of |Psi|^2 along the step */
-} search;
-
-/* squared norm of Psi at u; psi and the arms are set */
-static double mismatch(search *s, const double *u) {
-    fw_model_residual(s->model, 0, u, s->psi);
-    double sum = 0;
-    for (int i = 0; i < 2 * s->model->nblock; i++)
-        sum += s->psi[i] * s->psi[i];
-    return sum;
+    fw_closure search;
+    double length = c->model->scale.length_m;
+    FW_TRY(even_masses(arena, mechanism, length, &even));
+    FW_TRY(fw_model_new(arena, &even, NULL, q, 1, NULL, diags, &model));
+    FW_TRY(fw_closure_new(arena, model, &search));
+    search.left = 1000 + (long)(3e7 / model->nblock);
+    *good = fw_restart_close(r, &search);
+    c->iterations += search.iterations;
+    for (int i = 0; i < model->nq; i++) {
+        double factor = i % 3 == 2 ? 1 : model->scale.length_m / length;
+        c->u[i] = search.u[i] * factor;
+        r->best[i] *= factor;
+    }
+    return FW_OK;
 }
 
-/* step = -M^-1 G^T (S + eps s I)^-1 Psi with s the largest diagonal entry of S: a descent direction
-   of |Psi|^2 for every eps, since S (S + eps s I)^-1 is positive. No body turns by more than half a
-   radian. */
-static bool newton_step(search *s, double epsilon) {
-    fw_model *m = s->model;
-    double *d = m->chain.diagonal, largest = 0;
-    fw_model_residual(m, 0, s->u, s->psi);
-    fw_chain_assemble(m);
-    for (int i = 0; i < m->nblock; i++)
-        largest = fmax(largest, fmax(d[3 * i], d[3 * i + 2]));
-    for (int i = 0; i < m->nblock; i++) {
-        d[3 * i] += epsilon * largest;
-        d[3 * i + 2] += epsilon * largest;
-    }
-    if (!fw_chain_factor(&m->chain, 0)) return false;
-    memcpy(s->lambda, s->psi, 2 * (size_t)m->nblock * sizeof(double));
-    fw_chain_solve(&m->chain, s->lambda);
-    memset(s->step, 0, (size_t)m->nq * sizeof(double));
-    fw_model_apply(m, s->lambda, s->step);
-    double most = 0;
-    for (int i = 0; i < m->nq; i++)
-        most = fmax(most, fabs(s->step[i]) / (i % 3 == 2 ? 0.5 : 1));
-    if (!(most < (double)INFINITY)) return false;
-    for (int i = 0; i < m->nq && most > 1; i++)
-        s->step[i] /= most;
-    fw_model_jacobian(m, s->step, s->lambda);
-    s->promise = 0;
-    for (int i = 0; i < 2 * m->nblock; i++)
-        s->promise -= 2 * s->psi[i] * s->lambda[i];
-    return s->promise > 0;
+/* the result in SI, polished by a model that stands there: its round-off is that of the mechanism,
+   not of a guess far away */
+static fw_status polish(fw_arena *arena, const fw_mechanism *mechanism, const double *guess,
+                        fw_diags *diags, const fw_closure *from, double *q, bool *good) {
+    fw_model *model;
+    fw_closure c;
+    double length = from->model->scale.length_m;
+    for (int i = 0; i < from->model->nq; i++)
+        q[i] = guess[i] + (i % 3 == 2 ? 1 : length) * from->u[i];
+    FW_TRY(fw_model_new(arena, mechanism, NULL, q, 1, NULL, diags, &model));
+    FW_TRY(fw_closure_new(arena, model, &c));
+    *good = fw_closure_descend(&c, 30);
+    for (int i = 0; i < model->nq; i++)
+        q[i] += (i % 3 == 2 ? 1 : length) * c.u[i];
+    return FW_OK;
 }
 
-/* halves the step until |Psi|^2 falls by a share of what its slope promises (Armijo); the share of
-   the step that was taken, 0 when none descends */
-static double line_search(search *s, double *value) {
-    int n = s->model->nq;
-    double fraction = 1;
-    for (int halving = 0; halving < 12; halving++, fraction /= 2) {
-        for (int i = 0; i < n; i++)
-            s->trial[i] = s->u[i] + fraction * s->step[i];
-        double next = mismatch(s, s->trial);
-        if (next <= *value - 1e-4 * fraction * s->promise) {
-            memcpy(s->u, s->trial, (size_t)n * sizeof(double));
-            *value = next;
-            return fraction;
-        }
+static fw_status close_up(fw_arena *arena, const fw_mechanism *mechanism, const double *guess,
+                          fw_diags *diags, fw_solved *out) {
+    fw_model *model;
+    fw_closure c;
+    fw_restart r;
+    bool good = true;
+    FW_TRY(fw_model_new(arena, mechanism, NULL, guess, 1, NULL, diags, &model));
+    FW_TRY(fw_closure_new(arena, model, &c));
+    if (fw_closure_descend(&c, 0)) return FW_OK; /* the guess is closed: nothing moves */
+    part_rods(&c);
+    FW_TRY(fw_restart_new(arena, model, &r));
+    if (!fw_closure_descend(&c, 500)) {
+        r.value = fw_closure_mismatch(&c, c.u);
+        memcpy(r.best, c.u, (size_t)model->nq * sizeof(double));
+        FW_TRY(try_restarts(arena, mechanism, guess, diags, &c, &r, &good));
     }
-    return 0;
+    out->restarts = r.restarts;
+    if (good) {
+        int *group;
+        FW_NEED(group = fw_arena_array(arena, int, (size_t)model->nbody + 1));
+        c.left = 5000;
+        good = r.restarts == 0 || fw_closure_descend(&c, 50);
+        fw_closure_unwind(&c, group);
+        fw_closure_nearest(&c);
+        out->iterations = (int)c.iterations;
+        bool polished;
+        FW_TRY(polish(arena, mechanism, guess, diags, &c, out->q, &polished));
+        if (good && polished) return FW_OK;
+    }
+    out->iterations = (int)c.iterations;
+    fw_status status = fw_closure_explain(arena, mechanism, &c, &r, diags);
+    for (int i = 0; i < model->nq; i++)
+        out->q[i] = guess[i] + (i % 3 == 2 ? 1 : model->scale.length_m) * c.u[i];
+    return status;
 }
 
-/* damped Newton in the mass metric with a proximal term that grows where the plain step does not
-   descend (near positions that cannot be assembled). Ends below 4 eps of the size, or when no step
-   descends. Source: Levenberg 1944, Marquardt 1963; the mass metric as in multibody projection.
-   Test: test_assemble.c. */
-static bool solve(search *s) {
-    static const double epsilon[] = {1e-8, 1e-5, 1e-3, 1e-2, 1e-1, 1, 10, 100};
-    const int levels = sizeof epsilon / sizeof epsilon[0];
-    double goal = 4 * DBL_EPSILON * s->model->size, value = mismatch(s, s->u);
-    int level = 0, idle = 0;
-    for (int i = 0; i < 500 && idle < 20; i++) {
-        double worst = fw_model_residual(s->model, 0, s->u, s->psi);
-        if (worst <= goal) return true;
-        double before = value;
-        double taken = newton_step(s, epsilon[level]) ? line_search(s, &value) : 0;
-        if (taken == 0 && level + 1 == levels) break;
-        if (taken < 0.25 && level + 1 < levels)
-            level++; /* short steps zigzag across a valley: damp */
-        else if (taken == 1 && level > 0 && value < before - 0.5 * s->promise)
-            level--;
-        /* no progress: round-off, or the closest that an impossible mechanism comes */
-        idle = value < (1 - 1e-7) * before ? 0 : idle + 1;
-    }
-    return fw_model_residual(s->model, 0, s->u, s->psi) <= 1e-13 * s->model->size;
-}
-
-static fw_status cannot_close(const search *s, const fw_mechanism *mechanism, fw_diags *diags) {
-    const fw_model *m = s->model;
-    int worst = 0;
-    double most = -1;
-    for (int i = 0; i < m->nblock; i++) {
-        double gap = hypot(s->psi[2 * i], s->psi[2 * i + 1]);
-        if (gap > most || isnan(gap)) most = gap, worst = i;
-    }
-    const fw_block *b = &m->block[worst];
-    const fw_driver *driver = b->driver != FW_NONE ? &mechanism->driver[b->driver] : NULL;
-    const char *id = b->pin != FW_NONE   ? mechanism->pin[b->pin].id
-                     : b->tie != FW_NONE ? mechanism->tie[b->tie].id
-                                         : driver->id;
-    fw_place place = {0};
-    if (b->tie != FW_NONE) place = mechanism->tie[b->tie].place;
-    if (driver) place = driver->place;
-    if (b->pin != FW_NONE && mechanism->device && b->pin < mechanism->device->njoint)
-        place = mechanism->device->joint[b->pin].place;
-    char gap[32];
-    fw_status status = fw_diag_error(
-        diags, 100, place,
-        "the mechanism cannot be assembled: joint %s stays open by %s um at best; check "
-        "the joint points and the lengths around this loop",
-        id ? id : "(unnamed)", fw_number_text(gap, sizeof gap, most * m->scale.length_m * 1e6, 4));
-    return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
+fw_status fw_assembly_close(fw_arena *arena, const fw_mechanism *mechanism, const double *guess,
+                            fw_diags *diags, fw_solved *out) {
+    size_t n = 3 * (size_t)mechanism->nbody;
+    *out = (fw_solved){0};
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(guess[i]))
+            return fw_diag_error(diags, 105, (fw_place){0},
+                                 "the position to assemble is not finite");
+    FW_NEED(out->q = fw_arena_array(arena, double, n));
+    memcpy(out->q, guess, n * sizeof(double));
+    if (mechanism->nbody == 0 || mechanism->npin + mechanism->ntie == 0) return FW_OK;
+    return close_up(arena, mechanism, guess, diags, out);
 }
 
 fw_status fw_assemble(fw_arena *arena, const fw_mechanism *mechanism, double *q, double *moved_m,
                       fw_diags *diags) {
-    search s = {0};
-    size_t n = 3 * (size_t)mechanism->nbody;
+    fw_solved solved;
     *moved_m = 0;
-    for (size_t i = 0; i < n; i++)
-        if (!isfinite(q[i]))
-            return fw_diag_error(diags, 105, (fw_place){0},
-                                 "the position to assemble is not finite");
-    if (mechanism->nbody == 0 || mechanism->npin + mechanism->ntie == 0) return FW_OK;
-    FW_TRY(fw_model_new(arena, mechanism, NULL, q, 1, NULL, diags, &s.model));
-    size_t rows = 2 * (size_t)s.model->nblock;
-    FW_NEED(s.u = fw_arena_array(arena, double, n));
-    FW_NEED(s.trial = fw_arena_array(arena, double, n));
-    FW_NEED(s.step = fw_arena_array(arena, double, n));
-    FW_NEED(s.psi = fw_arena_array(arena, double, rows));
-    FW_NEED(s.lambda = fw_arena_array(arena, double, rows));
-    if (!solve(&s)) return cannot_close(&s, mechanism, diags);
-    for (size_t b = 0; b < n; b += 3) {
-        double dx = s.model->scale.length_m * s.u[b], dy = s.model->scale.length_m * s.u[b + 1];
-        q[b] += dx;
-        q[b + 1] += dy;
-        q[b + 2] += s.u[b + 2];
-        *moved_m = fmax(*moved_m, hypot(dx, dy));
-    }
+    FW_TRY(fw_assembly_close(arena, mechanism, q, diags, &solved));
+    for (int b = 0; b < mechanism->nbody; b++)
+        *moved_m =
+            fmax(*moved_m, hypot(solved.q[3 * b] - q[3 * b], solved.q[3 * b + 1] - q[3 * b + 1]));
+    memcpy(q, solved.q, 3 * (size_t)mechanism->nbody * sizeof(double));
     return FW_OK;
 }

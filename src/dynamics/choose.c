@@ -60,8 +60,8 @@ static fw_status fastest(fw_run *r, double *rate) {
     return FW_OK;
 }
 
-/* rad per scaled unit of time of the motion that the loads excite: u^T K u = F.u over u^T M u for the
-   static response u; 0 when there is none */
+/* rad per scaled unit of time of the motion that the loads excite: u^T K u = F.u over u^T M u for
+   the static response u; 0 when there is none */
 static fw_status excited(fw_run *r, const fw_terms *terms, double *rate) {
     const fw_mechanism *m = r->mechanism;
     size_t n = 3 * (size_t)m->nbody;

@@ -71,7 +71,7 @@ static void store(fw_run *r, double t_s, double t, const double *y) {
     size_t row = (size_t)r->row, base = row * (size_t)m->nq;
     out->t_s[row] = t_s;
     pose_in_SI(r, y, out->q + base, out->angle_rad + row * (size_t)out->npin);
-    fw_model_rhs(m, t, y, r->rate);
+    fw_model_react(m, t, y, r->rate);
     for (int i = 0; i < m->nq; i++) {
         double unit = (i % 3 == 2 ? 1 : s.length_m) / s.time_s;
         out->v[base + (size_t)i] = unit * y[m->nq + i];
@@ -126,7 +126,7 @@ void fw_run_show(fw_run *r, fw_stepper *s, double theta_end) {
         double theta = theta_end * i / FW_INSTANTS;
         fw_stepper_dense(s, theta, r->state);
         pose_in_SI(r, r->state, r->seen_q, r->seen_angle);
-        fw_model_rhs(r->model, s->t_old + theta * s->h, r->state, r->rate);
+        fw_model_react(r->model, s->t_old + theta * s->h, r->state, r->rate);
         pin_forces(r->model, r->seen_force);
         const fw_instant now = {(s->t_old + theta * s->h) * r->model->scale.time_s, r->seen_q,
                                 r->seen_angle, r->seen_force};
@@ -139,7 +139,7 @@ void fw_run_show(fw_run *r, fw_stepper *s, double theta_end) {
 static void forces_at(fw_run *r, fw_stepper *s, double theta) {
     const fw_model *m = r->model;
     fw_stepper_dense(s, theta, r->state);
-    fw_model_rhs(r->model, s->t_old + theta * s->h, r->state, r->rate);
+    fw_model_react(r->model, s->t_old + theta * s->h, r->state, r->rate);
     for (int i = 0; i < m->npin; i++) {
         const double *l = m->lambda + 2 * m->pin_block[i];
         r->force_now[i] = newton(m) * sqrt(l[0] * l[0] + l[1] * l[1]);

@@ -4,11 +4,15 @@
 #include "layout/text.h"
 #include <math.h>
 
+enum { BODIES_MOST = 2000, JOINTS_MOST = 4000 };
+
 /* NULL when every body has a shape and every joint a flexure; else what is missing */
 static const char *missing(fw_arena *arena, const fw_device *device, bool *failed) {
     const char *why = NULL;
     *failed = false;
     if (device->nbody == 0 || device->njoint == 0) return "there is no mechanism";
+    if (device->nbody > BODIES_MOST || device->njoint > JOINTS_MOST)
+        return "more than 2000 bodies or 4000 hinges are computed, but not drawn";
     for (int i = 0; i < device->nbody && !why; i++) {
         const fw_body *b = &device->body[i];
         int n = fw_body_joints(device, i, NULL, 0);
@@ -106,6 +110,22 @@ static fw_status draw(fw_drawing *d) {
                               &d->capacity);
 }
 
+/* what the mechanism computes and the drawing cannot show: once per file */
+static void say_ties(const fw_device *device, fw_diags *diags) {
+    static const char *const kind[] = {
+        [FW_TIE_PRISMATIC] = "prismatic", [FW_TIE_DISTANCE] = "distance", [FW_TIE_WELD] = "weld"};
+    if (device->ntie == 0) return;
+    const fw_tie *t = &device->tie[0];
+    for (size_t i = 0; i < diags->count; i++)
+        if (diags->item[i].number == 130) return;
+    fw_diag_warning(diags, 130, t->place,
+                    "%s joint %s is not drawn%s: flexures are the only joints that can be "
+                    "fabricated, so the masks leave its bodies apart; the motion is computed with "
+                    "it",
+                    kind[t->kind], t->id ? t->id : "(unnamed)",
+                    device->ntie > 1 ? ", and so are the other joints that do not turn" : "");
+}
+
 fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *diags,
                           const fw_layout **layout) {
     fw_layout *l;
@@ -117,6 +137,7 @@ fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *di
     if (failed) return FW_NOMEM;
     if (!l->why_not) {
         fw_drawing d = {.arena = arena, .device = device, .diags = diags, .layout = l};
+        say_ties(device, diags);
         FW_TRY(draw(&d));
         l->drawn = true;
     }

@@ -4,12 +4,13 @@
 #include "base/cancel.h"
 #include "plan/stages.h"
 #include "report/json.h"
+#include "report/rest.h"
 #include <locale.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { READ = 1, JUDGED = 2, FABRICATED = 4, SIMULATED = 8 }; /* stages that were done */
-enum { NDOCUMENT = FW_DOCUMENT_DIAGNOSTICS_TEXT + 1 };
+enum { READ = 1, JUDGED = 2, FABRICATED = 4, SIMULATED = 8, MODES = 16, STATICS = 32 }; /* done */
+enum { NDOCUMENT = FW_DOCUMENT_LOAD_PATH_SVG + 1 };
 
 struct fw_design {
     fw_plan *plan; /* its arena holds this struct too */
@@ -20,7 +21,9 @@ struct fw_design {
     int set_capacity;
     const char *wrong_option; /* a sentence, or NULL */
     const fw_motion *motion;
-    const fw_mechanism *mechanism;
+    const fw_modes *modes;
+    const fw_statics *statics;
+    const fw_mechanism *mechanism; /* of `scene`, the same for all three */
     const fw_scene *scene;
     fw_terminal_style style;
     fw_text document[NDOCUMENT]; /* data NULL: not composed, or out of date */
@@ -93,6 +96,8 @@ static const char *wrong_option(const fw_design_options *o) {
     if (!known(o->method, fw_method_at)) return "method is not known in this version";
     if (!known(o->integrator, fw_integrator_at)) return "integrator is not known in this version";
     if (!known(o->stabilise, fw_stabilisation_at)) return "there is no such stabilisation";
+    if (o->at && strcmp(o->at, "rest") != 0 && strcmp(o->at, "equilibrium") != 0)
+        return "at must be \"rest\" or \"equilibrium\"";
     return NULL;
 }
 
@@ -127,8 +132,8 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     if (d->wrong_option) return FW_OK;
     if (given) memcpy(&o, given, given->size < sizeof o ? given->size : sizeof o);
     fw_arena *arena = d->plan->arena;
-    const char **text[] = {&o.data_directory, &o.flow,       &o.scene,    &o.effects,
-                           &o.method,         &o.integrator, &o.stabilise};
+    const char **text[] = {&o.data_directory, &o.flow,       &o.scene,     &o.effects,
+                           &o.method,         &o.integrator, &o.stabilise, &o.at};
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
         FW_TRY(keep(arena, text[i]));
     d->wrong_option = wrong_option(&o);
@@ -139,6 +144,8 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     p->scene = o.scene;
     p->mask_tolerance_m = o.mask_tolerance_m;
     p->force = o.force != 0;
+    p->path = o.path != 0;
+    p->at_equilibrium = o.at && strcmp(o.at, "equilibrium") == 0;
     m->effects = effects_of(o.effects);
     m->method = o.method;
     m->integrator = o.integrator;
@@ -306,9 +313,45 @@ int fw_design_fabricate(fw_design *design) {
                  fabricate_work);
 }
 
+/* kept only of stages that succeeded, so that an earlier one's documents stay whole */
+static fw_status subject(fw_design *d, const fw_mechanism *mechanism, const fw_scene *scene) {
+    d->mechanism = mechanism;
+    d->scene = scene;
+    return FW_OK;
+}
+
+static fw_status modes_work(fw_design *d, void *argument) {
+    (void)argument;
+    const fw_mechanism *mechanism;
+    const fw_scene *scene;
+    FW_TRY(fw_plan_modes(d->plan, &d->modes, &mechanism, &scene));
+    return subject(d, mechanism, scene);
+}
+
+int fw_design_modes(fw_design *design) {
+    return stage(design, READ, "read a description before its modes are computed", MODES,
+                 modes_work);
+}
+
+static fw_status statics_work(fw_design *d, void *argument) {
+    (void)argument;
+    const fw_mechanism *mechanism;
+    const fw_scene *scene;
+    FW_TRY(fw_plan_statics(d->plan, &d->statics, &mechanism, &scene));
+    return subject(d, mechanism, scene);
+}
+
+int fw_design_statics(fw_design *design) {
+    return stage(design, READ, "read a description before its equilibrium is computed", STATICS,
+                 statics_work);
+}
+
 static fw_status simulate_work(fw_design *d, void *argument) {
     (void)argument;
-    return fw_plan_simulate(d->plan, &d->motion, &d->mechanism, &d->scene);
+    const fw_mechanism *mechanism;
+    const fw_scene *scene;
+    FW_TRY(fw_plan_simulate(d->plan, &d->motion, &mechanism, &scene));
+    return subject(d, mechanism, scene);
 }
 
 int fw_design_simulate(fw_design *design) {
@@ -369,6 +412,43 @@ static fw_status animation_svg(fw_design *d, fw_text *out) {
                                    d->motion, d->scene, out);
 }
 
+static fw_status modes_json(fw_design *d, fw_text *out) {
+    return fw_report_modes_json(d->mechanism, d->scene, d->modes, out);
+}
+
+static fw_status modes_text(fw_design *d, fw_text *out) {
+    return fw_report_modes_text(d->scene, d->modes, out);
+}
+
+static fw_status modes_svg(fw_design *d, fw_text *out) {
+    const fw_plan *p = d->plan;
+    return fw_report_modes_svg(p->arena, p->device, p->layout, d->mechanism, d->scene, d->modes,
+                               out);
+}
+
+static fw_status statics_json(fw_design *d, fw_text *out) {
+    return fw_report_statics_json(d->mechanism, d->scene, d->statics, out);
+}
+
+static fw_status statics_text(fw_design *d, fw_text *out) {
+    return fw_report_statics_text(d->mechanism, d->scene, d->statics, out);
+}
+
+static fw_status statics_svg(fw_design *d, fw_text *out) {
+    const fw_plan *p = d->plan;
+    return fw_report_statics_svg(p->arena, p->device, p->layout, d->mechanism, d->scene, d->statics,
+                                 out);
+}
+
+static fw_status load_path_csv(fw_design *d, fw_text *out) {
+    return fw_report_load_path_csv(d->mechanism, d->statics, out);
+}
+
+static fw_status load_path_svg(fw_design *d, fw_text *out) {
+    const fw_plan *p = d->plan;
+    return fw_report_load_path_svg(p->arena, p->device, d->mechanism, d->scene, d->statics, out);
+}
+
 static fw_status masks_json(fw_design *d, fw_text *out) {
     return fw_plan_masks_json(d->plan, out);
 }
@@ -416,6 +496,14 @@ static const struct {
     [FW_DOCUMENT_DEVICE_SVG] = {JUDGED, device_svg},
     [FW_DOCUMENT_REPORT_HTML] = {JUDGED, report_html},
     [FW_DOCUMENT_DIAGNOSTICS_TEXT] = {0, diagnostics_text},
+    [FW_DOCUMENT_MODES_JSON] = {MODES, modes_json},
+    [FW_DOCUMENT_MODES_TEXT] = {MODES, modes_text},
+    [FW_DOCUMENT_MODES_SVG] = {MODES, modes_svg},
+    [FW_DOCUMENT_STATICS_JSON] = {STATICS, statics_json},
+    [FW_DOCUMENT_STATICS_TEXT] = {STATICS, statics_text},
+    [FW_DOCUMENT_STATICS_SVG] = {STATICS, statics_svg},
+    [FW_DOCUMENT_LOAD_PATH_CSV] = {STATICS, load_path_csv},
+    [FW_DOCUMENT_LOAD_PATH_SVG] = {STATICS, load_path_svg},
 };
 
 static fw_status document_work(fw_design *d, void *argument) {

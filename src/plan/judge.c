@@ -4,6 +4,7 @@
 
 fw_status fw_plan_judge(fw_plan *plan) {
     fw_verdict *verdict = &plan->verdict;
+    FW_TRY(fw_plan_need_material(plan));
     *verdict = (fw_verdict){.nvariant = plan->nflow};
     FW_NEED(verdict->variant =
                 fw_arena_array(plan->arena, fw_variant_verdict, (size_t)plan->nflow));
@@ -54,9 +55,8 @@ static const fw_variant *variant_of(const fw_plan *plan, const fw_scene *scene) 
     return &plan->flow[0].variant;
 }
 
-fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mechanism **mechanism,
-                           const fw_scene **scene) {
-    *scene = find_scene(plan);
+fw_status fw_plan_scene(fw_plan *plan, const fw_mechanism **mechanism, const fw_scene **scene) {
+    if (!*scene) *scene = find_scene(plan);
     if (!*scene) return FW_INPUT;
     bool from_shapes = fw_device_needs_shapes(plan->device); /* only then is the drawing needed */
     fw_diags drawing = fw_diags_new(plan->arena);
@@ -65,8 +65,14 @@ fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mec
     if (status != FW_OK && (from_shapes || (status != FW_GEOMETRY && status != FW_INPUT)))
         return status;
     if (status != FW_OK) plan->layout = NULL;
-    FW_TRY(fw_mechanism_build(plan->arena, plan->device, plan->layout, variant_of(plan, *scene),
-                              &plan->diags, mechanism));
+    return fw_mechanism_build(plan->arena, plan->device, plan->layout, variant_of(plan, *scene),
+                              &plan->diags, mechanism);
+}
+
+fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mechanism **mechanism,
+                           const fw_scene **scene) {
+    *scene = NULL;
+    FW_TRY(fw_plan_scene(plan, mechanism, scene));
     fw_motion_options options = plan->options.verdict.motion;
     options.reactions = true;
     return fw_simulate(plan->arena, *mechanism, *scene, &options, &plan->diags, motion);

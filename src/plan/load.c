@@ -54,13 +54,17 @@ static fw_status read_data(fw_plan *plan, const char *name, fw_place asked, char
     return remember_input(plan, name, *data, *n);
 }
 
+fw_status fw_plan_need_material(fw_plan *plan) {
+    if (plan->device->material_ref) return FW_OK;
+    return fw_diag_error(&plan->diags, 225, (fw_place){plan->device->file, 1, 1},
+                         "no <material>: add <material ref=\"...\"/>; %s",
+                         fw_plan_material_names(plan));
+}
+
 /* the variant of the description itself: what explicit masses and stiffnesses refer to */
 static fw_status own_material(fw_plan *plan, fw_material *material) {
     const fw_device *d = plan->device;
-    if (!d->material_ref)
-        return fw_diag_error(&plan->diags, 225, (fw_place){d->file, 1, 1},
-                             "no <material>: add <material ref=\"...\"/>; %s",
-                             fw_plan_material_names(plan));
+    FW_TRY(fw_plan_need_material(plan));
     const fw_material *found = fw_material_find(&plan->materials, d->material_ref);
     *material = fw_material_with(found, &d->material);
     return FW_OK;
@@ -122,6 +126,25 @@ static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_material
     return FW_OK;
 }
 
+/* a mechanism that states all its masses and has no flexure moves without a material; a verdict
+   asks for one (fw_plan_need_material) */
+static fw_variant mechanism_alone(void) {
+    const fw_quantity unknown = {.unknown = true};
+    const fw_material none = {.id = "none",
+                              .name = "no material",
+                              .youngs = unknown,
+                              .poisson = unknown,
+                              .density = unknown,
+                              .strength = unknown,
+                              .criterion = "",
+                              .loss = unknown};
+    return (fw_variant){.material = none,
+                        .thickness_m = 1, /* nothing is made of it */
+                        .explicit_mass_scale = 1,
+                        .explicit_stiffness_scale = 1,
+                        .explicit_damping_scale = 1};
+}
+
 static fw_status load_flow(fw_plan *plan, fw_plan_flow *pf) {
     const char *name = fw_arena_printf(plan->arena, "processes/%s.xml", pf->use->ref);
     FW_NEED(name);
@@ -154,6 +177,11 @@ static fw_status load_flows(fw_plan *plan) {
     int most = d->nflow > 0 ? d->nflow : 1;
     FW_NEED(plan->flow = fw_arena_array(plan->arena, fw_plan_flow, (size_t)most));
     fw_material own;
+    if (d->nflow == 0 && !d->material_ref) {
+        plan->nflow = 1;
+        plan->flow[0].variant = mechanism_alone();
+        return FW_OK;
+    }
     FW_TRY(own_material(plan, &own));
     if (d->nflow == 0) {
         plan->nflow = 1;

@@ -6,6 +6,7 @@
    fw_plan_write. Every stage returns FW_OK or what went wrong; diagnostics are in fw_plan_diags. */
 #ifndef FW_PLAN_PLAN_H
 #define FW_PLAN_PLAN_H
+#include "dynamics/modes.h"
 #include "report/terminal.h"
 
 typedef struct fw_plan_options {
@@ -16,8 +17,10 @@ typedef struct fw_plan_options {
     double mask_tolerance_m;    /* 0: 5 nm */
     const fw_set *set;          /* (nset) */
     int nset;
-    bool force;        /* masks and recipes of a rejected design too */
-    size_t memory_cap; /* 0: 256 MiB */
+    bool force;          /* masks and recipes of a rejected design too */
+    size_t memory_cap;   /* 0: 256 MiB */
+    bool at_equilibrium; /* modes: not about rest */
+    bool path;           /* statics: follow the load path */
 } fw_plan_options;
 fw_plan_options fw_plan_options_default(void);
 
@@ -83,6 +86,11 @@ fw_status fw_plan_write(fw_plan *plan, const char *directory, unsigned what);
 /* one scene of one variant, for simulate; *mechanism too */
 fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mechanism **mechanism,
                            const fw_scene **scene);
+/* modes and equilibrium likewise */
+fw_status fw_plan_modes(fw_plan *plan, const fw_modes **modes, const fw_mechanism **mechanism,
+                        const fw_scene **scene);
+fw_status fw_plan_statics(fw_plan *plan, const fw_statics **statics, const fw_mechanism **mechanism,
+                          const fw_scene **scene);
 /* ---- documents: the first three after fw_plan_judge, the others after fw_plan_fabricate ---- */
 fw_status fw_plan_verdict_json(fw_plan *plan, fw_text *out);
 fw_status fw_plan_verdict_text(fw_plan *plan, fw_terminal_style style, fw_text *out);

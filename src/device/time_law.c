@@ -1,0 +1,210 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How loads and drivers go with time: step, ramp, sine, table, expression. */
+#include "device/reader.h"
+#include <math.h>
+#include <string.h>
+
+static const fw_dimension seconds = {.s = 1}, pure = {0};
+
+/* which attributes a law has; `needed` must be there */
+typedef struct law_row {
+    const char *name, *needed, *own[4];
+    fw_law_kind kind;
+} law_row;
+static const law_row laws[] = {
+    {"step", NULL, {"start", "end"}, FW_LAW_STEP},
+    {"ramp", "rise", {"start", "rise"}, FW_LAW_RAMP},
+    {"sine", "frequency", {"start", "end", "frequency", "phase"}, FW_LAW_SINE},
+    {"table", "table", {"table"}, FW_LAW_TABLE},
+    {"expression", "factor", {"factor"}, FW_LAW_EXPRESSION},
+};
+static const char *const all[] = {"start", "end", "rise", "frequency", "phase", "table", "factor"};
+
+static bool owns(const law_row *law, const char *attribute) {
+    for (int i = 0; i < 4 && law->own[i]; i++)
+        if (strcmp(law->own[i], attribute) == 0) return true;
+    return false;
+}
+
+/* every attribute of the law's own; false after a mistake */
+static bool check_attributes(fw_reader *r, const fw_record *record, const law_row *law) {
+    size_t before = r->diags->errors;
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        if (!fw_cell_of(record, all[i])->given || owns(law, all[i])) continue;
+        const law_row *other = laws;
+        while (!owns(other, all[i]))
+            other++;
+        fw_diag_error(r->diags, 67, fw_place_of(record, all[i]),
+                      "<%s>: %s does not belong to law=\"%s\"; remove it, or write law=\"%s\"%s",
+                      record->row->name, all[i], law->name, other->name,
+                      strcmp(all[i], "end") == 0 ? " or \"sine\"" : "");
+    }
+    if (law->needed && !fw_given(record, law->needed))
+        fw_diag_error(r->diags, 67, fw_place_of(record, "law"), "<%s>: law=\"%s\" needs %s=\"...\"",
+                      record->row->name, law->name, law->needed);
+    return r->diags->errors == before;
+}
+
+/* ---- tables ---- */
+
+typedef struct table {
+    double *t_s, *value;
+    int n;
+} table;
+
+/* the expression in bytes from..end of the attribute */
+static fw_status read_part(fw_reader *r, const fw_attribute *a, size_t from, size_t end,
+                           fw_dimension wanted, double *value, bool *ok) {
+    fw_expression_error error;
+    fw_status status = fw_expression_evaluate(r->arena, a->value + from, end - from, &r->names,
+                                              wanted, value, &error);
+    if (status == FW_NOMEM) return status;
+    if (status != FW_OK) *ok = false;
+    return status == FW_OK ? FW_OK : fw_expression_report(r, a, "table", from, &error);
+}
+
+static size_t skip_blanks(const char *text, size_t at) {
+    return at + strspn(text + at, " \t\r\n");
+}
+
+/* one "TIME: NUMBER" */
+static fw_status read_point(fw_reader *r, const fw_attribute *a, size_t from, size_t end, table *t,
+                            bool *ok) {
+    const char *colon = memchr(a->value + from, ':', end - from);
+    size_t start = skip_blanks(a->value, from);
+    if (!colon) {
+        *ok = false;
+        fw_diag_error(r->diags, 68, fw_xml_inside(a, start),
+                      "table: a point is 'TIME: NUMBER', points are separated by ';', for example "
+                      "\"0 ms: 0; 1 ms: 0.5; 2 ms: 1\"; the ':' is missing here");
+        return FW_OK;
+    }
+    size_t middle = (size_t)(colon - a->value);
+    double time_s = (double)NAN, value = (double)NAN;
+    FW_TRY(read_part(r, a, from, middle, seconds, &time_s, ok));
+    FW_TRY(read_part(r, a, middle + 1, end, pure, &value, ok));
+    if (!*ok) return FW_OK;
+    char now[FW_LABEL], last[FW_LABEL];
+    if (t->n > 0 && !(time_s > t->t_s[t->n - 1])) {
+        *ok = false;
+        fw_diag_error(r->diags, 68, fw_xml_inside(a, start),
+                      "table: the times must rise, but %s comes behind %s; sort the points, and "
+                      "for a jump give two times that differ a little",
+                      fw_in_unit(now, time_s, "ms"), fw_in_unit(last, t->t_s[t->n - 1], "ms"));
+        return FW_OK;
+    }
+    t->t_s[t->n] = time_s;
+    t->value[t->n++] = value;
+    return FW_OK;
+}
+
+static fw_status read_table(fw_reader *r, const fw_record *record, fw_law *law, bool *ok) {
+    const fw_attribute *a = fw_cell_of(record, "table")->given;
+    size_t n = strlen(a->value), most = 1;
+    *ok = !fw_full(r) && !fw_expression_uses(a->value, n, r->lost, r->nlost);
+    for (size_t i = 0; i < n; i++)
+        most += a->value[i] == ';';
+    table t = {.n = 0};
+    FW_NEED(t.t_s = fw_arena_array(r->arena, double, most));
+    FW_NEED(t.value = fw_arena_array(r->arena, double, most));
+    for (size_t from = 0; *ok && skip_blanks(a->value, from) < n;) {
+        const char *mark = memchr(a->value + from, ';', n - from);
+        size_t end = mark ? (size_t)(mark - a->value) : n;
+        FW_TRY(read_point(r, a, from, end, &t, ok));
+        from = mark ? end + 1 : n;
+    }
+    if (*ok && t.n < 2) {
+        *ok = false;
+        fw_diag_error(r->diags, 68, a->place,
+                      "table: %d point%s given, at least two are needed, for example \"0 ms: 0; 1 "
+                      "ms: 0.5; 2 ms: 1\"",
+                      t.n, t.n == 1 ? " is" : "s are");
+    }
+    law->table_t_s = t.t_s;
+    law->table_value = t.value;
+    law->ntable = t.n;
+    return FW_OK;
+}
+
+/* ---- expressions ---- */
+
+fw_status fw_time_program(fw_reader *r, const fw_record *record, const char *name,
+                          fw_dimension wanted, const fw_program **program) {
+    const fw_attribute *a = fw_cell_of(record, name)->given;
+    fw_expression_error error;
+    fw_program *p;
+    *program = NULL;
+    if (!a || fw_full(r) || fw_expression_uses(a->value, strlen(a->value), r->lost, r->nlost))
+        return FW_OK;
+    fw_status status =
+        fw_program_compile(r->arena, a->value, strlen(a->value), &r->names, wanted, &p, &error);
+    if (status == FW_NOMEM) return status;
+    if (status != FW_OK) return fw_expression_report(r, a, name, 0, &error);
+    *program = p;
+    return FW_OK;
+}
+
+/* a pole between the instants is met by the integration itself */
+void fw_finite_check(fw_reader *r, const fw_record *record, const char *name, const fw_law *law,
+                     double duration_s) {
+    enum { INSTANTS = 64 };
+    for (int i = 0; i <= INSTANTS && isfinite(duration_s); i++) {
+        double t_s = duration_s * i / INSTANTS, value[3];
+        fw_law_value(law, t_s, t_s, value);
+        if (isfinite(value[0])) continue;
+        char at[FW_LABEL];
+        fw_diag_error(r->diags, 69, fw_place_of(record, name),
+                      "%s has no finite value at %s; check divisors, roots, logarithms and "
+                      "exponents",
+                      name, fw_in_unit(at, t_s, "ms"));
+        return;
+    }
+}
+
+/* ---- laws ---- */
+
+static fw_status read_law(fw_reader *r, const fw_record *record, const law_row *row, fw_law *law,
+                          bool *ok) {
+    *law = (fw_law){.kind = row->kind,
+                    .start_s = fw_number_or(record, "start", 0.0),
+                    .end_s = fw_number_or(record, "end", (double)INFINITY),
+                    .rise_s = fw_number_of(record, "rise"),
+                    .frequency_Hz = fw_number_of(record, "frequency"),
+                    .phase_rad = fw_number_or(record, "phase", 0.0)};
+    for (int i = 0; i < 4 && row->own[i]; i++)
+        if (fw_failed(record, row->own[i])) *ok = false;
+    char start[FW_LABEL], end[FW_LABEL];
+    if (*ok && !(law->start_s < law->end_s)) {
+        *ok = false;
+        fw_diag_error(r->diags, 63, fw_place_of(record, "end"),
+                      "<%s>: end %s is not behind start %s; exchange them", record->row->name,
+                      fw_in_unit(end, law->end_s, "ms"), fw_in_unit(start, law->start_s, "ms"));
+    }
+    if (*ok && row->kind == FW_LAW_TABLE) FW_TRY(read_table(r, record, law, ok));
+    if (*ok && row->kind == FW_LAW_EXPRESSION) {
+        FW_TRY(fw_time_program(r, record, "factor", pure, &law->program));
+        *ok = law->program != NULL;
+        if (*ok)
+            fw_finite_check(r, record, "factor", law,
+                            fw_number_of(&r->record[record->parent], "duration"));
+    }
+    return r->diags->failed ? FW_NOMEM : FW_OK;
+}
+
+fw_status fw_time_law(fw_reader *r, const fw_record *record, const fw_law **law) {
+    const char *name = fw_text_of(record, "law");
+    bool ok = true;
+    *law = NULL;
+    if (!name && fw_given(record, "law")) return FW_OK; /* misspelt: reported */
+    const law_row *row = laws;
+    while (name && strcmp(row->name, name) != 0)
+        row++;
+    if (!check_attributes(r, record, row)) return r->diags->failed ? FW_NOMEM : FW_OK;
+    if (row->kind == FW_LAW_STEP && !fw_given(record, "start") && !fw_given(record, "end"))
+        return FW_OK;
+    fw_law *own = fw_arena_one(r->arena, fw_law);
+    FW_NEED(own);
+    FW_TRY(read_law(r, record, row, own, &ok));
+    if (ok && !fw_law_is_constant(own)) *law = own;
+    return FW_OK;
+}
