@@ -252,7 +252,7 @@ static void accelerate(fw_model *m, const double *gamma, double *a, double *lamb
         for (size_t j = 0; j < nq; j++)
             p->rates[k] += n[j] * p->mass[j] * (a[j] - p->part[j]);
     }
-    if (rates > 0) fw_cholesky_solve(rates, p->reduced, p->rates);
+    if (rates > 0 && !fw_cholesky_solve(rates, p->reduced, p->rates)) p->rates[0] = (double)NAN;
     sweep(m, p, p->right, p->rates, p->part);
     memset(p->force, 0, (nq + 3) * sizeof *p->force);
     for (size_t j = 0; j < nq; j++) {
