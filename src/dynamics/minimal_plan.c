@@ -175,7 +175,7 @@ static bool find_rest(search *s) { /* depth: one level per independent angle */
 
 static fw_status refuse(fw_diags *diags, fw_place place, const char *what, const char *id) {
     fw_status status = fw_diag_error(
-        diags, 115, place,
+        diags, 109, place,
         "method minimal needs pins whose loops close two bodies at a time: %s %s does "
         "not fit; use --method chain",
         what, id);

@@ -10,7 +10,8 @@
 #include <string.h>
 
 enum { READ = 1, JUDGED = 2, FABRICATED = 4, SIMULATED = 8, MODES = 16, STATICS = 32 }; /* done */
-enum { NDOCUMENT = FW_DOCUMENT_LOAD_PATH_SVG + 1 };
+enum { ASSEMBLED = 64, ASSEMBLY_TRIED = 128 };
+enum { NDOCUMENT = FW_DOCUMENT_ASSEMBLE_SVG + 1 };
 
 struct fw_design {
     fw_plan *plan; /* its arena holds this struct too */
@@ -25,6 +26,7 @@ struct fw_design {
     const fw_statics *statics;
     const fw_mechanism *mechanism; /* of `scene`, the same for all three */
     const fw_scene *scene;
+    fw_plan_assembly assembly;
     fw_terminal_style style;
     fw_text document[NDOCUMENT]; /* data NULL: not composed, or out of date */
     fw_diagnostic *diagnostic;   /* (FW_DIAG_MOST) */
@@ -132,8 +134,9 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     if (d->wrong_option) return FW_OK;
     if (given) memcpy(&o, given, given->size < sizeof o ? given->size : sizeof o);
     fw_arena *arena = d->plan->arena;
-    const char **text[] = {&o.data_directory, &o.flow,       &o.scene,     &o.effects,
-                           &o.method,         &o.integrator, &o.stabilise, &o.at};
+    const char **text[] = {&o.data_directory, &o.flow,       &o.scene,        &o.effects,
+                           &o.method,         &o.integrator, &o.stabilise,    &o.at,
+                           &o.independent,    &o.rates,      &o.accelerations};
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
         FW_TRY(keep(arena, text[i]));
     d->wrong_option = wrong_option(&o);
@@ -146,6 +149,9 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     p->force = o.force != 0;
     p->path = o.path != 0;
     p->at_equilibrium = o.at && strcmp(o.at, "equilibrium") == 0;
+    p->independent = o.independent;
+    p->rates = o.rates;
+    p->accelerations = o.accelerations;
     m->effects = effects_of(o.effects);
     m->method = o.method;
     m->integrator = o.integrator;
@@ -358,6 +364,20 @@ int fw_design_simulate(fw_design *design) {
     return stage(design, READ, "read a description before simulating it", SIMULATED, simulate_work);
 }
 
+/* ---- assemble ---- */
+
+static fw_status assemble_work(fw_design *d, void *argument) {
+    (void)argument;
+    return fw_plan_assemble(d->plan, &d->assembly);
+}
+
+int fw_design_assemble(fw_design *design) {
+    int status =
+        stage(design, READ, "read a description before assembling it", ASSEMBLED, assemble_work);
+    if (design && design->assembly.assembly) design->done |= ASSEMBLY_TRIED;
+    return status;
+}
+
 typedef struct target {
     const char *directory;
     unsigned what;
@@ -449,6 +469,27 @@ static fw_status load_path_svg(fw_design *d, fw_text *out) {
     return fw_report_load_path_svg(p->arena, p->device, d->mechanism, d->scene, d->statics, out);
 }
 
+static fw_report_assembly assembly_input(const fw_design *d) {
+    const fw_plan_assembly *a = &d->assembly;
+    return (fw_report_assembly){d->plan->device, d->plan->layout, a->mechanism, a->scene,
+                                a->assembly,     a->kinematics,   a->motion,    a->closed};
+}
+
+static fw_status assemble_json(fw_design *d, fw_text *out) {
+    fw_report_assembly in = assembly_input(d);
+    return fw_report_assemble_json(&in, out);
+}
+
+static fw_status assemble_text(fw_design *d, fw_text *out) {
+    fw_report_assembly in = assembly_input(d);
+    return fw_report_assemble_text(&in, out);
+}
+
+static fw_status assemble_svg(fw_design *d, fw_text *out) {
+    fw_report_assembly in = assembly_input(d);
+    return fw_report_assemble_svg(d->plan->arena, &in, out);
+}
+
 static fw_status masks_json(fw_design *d, fw_text *out) {
     return fw_plan_masks_json(d->plan, out);
 }
@@ -504,6 +545,9 @@ static const struct {
     [FW_DOCUMENT_STATICS_SVG] = {STATICS, statics_svg},
     [FW_DOCUMENT_LOAD_PATH_CSV] = {STATICS, load_path_csv},
     [FW_DOCUMENT_LOAD_PATH_SVG] = {STATICS, load_path_svg},
+    [FW_DOCUMENT_ASSEMBLE_JSON] = {ASSEMBLED, assemble_json},
+    [FW_DOCUMENT_ASSEMBLE_TEXT] = {ASSEMBLED, assemble_text},
+    [FW_DOCUMENT_ASSEMBLE_SVG] = {ASSEMBLY_TRIED, assemble_svg},
 };
 
 static fw_status document_work(fw_design *d, void *argument) {
@@ -521,7 +565,8 @@ int fw_design_document(fw_design *design, int document, const char **text, size_
     if (length) *length = 0;
     if (!design) return FW_STATUS_USAGE;
     if (!text) return (int)usage(design, "document needs a place for the text");
-    if (document < 0 || document >= NDOCUMENT) return (int)usage(design, "no such document");
+    if (document < 0 || document >= NDOCUMENT || !document_table[document].compose)
+        return (int)usage(design, "no such document");
     unsigned needs = document_table[document].needs;
     if ((design->done & needs) != needs)
         return (int)usage(design, "the stage that makes this document was not called");
