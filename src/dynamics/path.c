@@ -118,17 +118,11 @@ static void copy_state(const follower *f, const state *from, state *to) {
     to->s = from->s, to->rate = from->rate, to->negative = from->negative, to->dof = from->dof;
 }
 
-/* fills `to` from the evaluated state; its tangent continues that of `along` */
+/* fills `to` from the evaluated state; its tangent continues that of `along`. false: no tangent */
 static bool take_state(follower *f, const state *along, state *to) {
     fw_rest *w = f->w;
     const fw_model *m = w->model;
-    double ds;
-    if (!bordered(w, along, 1, false, w->step, &ds)) return false;
-    double length = sqrt(product(m, w->step, w->step) + ds * ds);
-    for (int i = 0; i < m->nq; i++)
-        to->u[i] = w->y[i], to->tangent[i] = w->step[i] / length;
     to->s = w->factor;
-    to->rate = ds / length;
     to->negative = 0;
     to->dof = w->reduced.dof;
     for (int k = 0; k < to->dof; k++) {
@@ -137,6 +131,13 @@ static bool take_state(follower *f, const state *along, state *to) {
     }
     for (int i = 0; i < f->switches; i++)
         to->hold[i] = fw_model_switch_value(w->model, i, w->y);
+    memcpy(to->u, w->y, (size_t)m->nq * sizeof(double));
+    double ds;
+    if (!bordered(w, along, 1, false, w->step, &ds)) return false;
+    double length = sqrt(product(m, w->step, w->step) + ds * ds);
+    for (int i = 0; i < m->nq; i++)
+        to->tangent[i] = w->step[i] / length;
+    to->rate = ds / length;
     return isfinite(length);
 }
 
@@ -411,10 +412,10 @@ fw_status fw_rest_follow(fw_rest *w, int most_points, fw_path **out) {
     FW_TRY(state_new(w->arena, w->model, f.switches, &f.at));
     FW_TRY(state_new(w->arena, w->model, f.switches, &f.next));
     FW_TRY(state_new(w->arena, w->model, f.switches, &f.probe));
-    f.probe.rate = 1; /* the first tangent: more load */
-    if (!take_state(&f, &f.probe, &f.at)) return FW_SOLVER;
+    f.probe.rate = 1;                                /* the first tangent: more load */
+    bool leads_on = take_state(&f, &f.probe, &f.at); /* not where nothing holds against the load */
     FW_TRY(record(&f, &f.at, FW_PATH_POINT, FW_NONE));
-    fw_status status = walk(&f);
+    fw_status status = leads_on ? walk(&f) : FW_OK;
     if (status == FW_SOLVER) status = FW_OK; /* what was found stands; complete says no */
     FW_TRY(status);
     if (path->complete) FW_TRY(snaps(&f));
