@@ -292,11 +292,13 @@ static fw_status state_at(follower *f, double length, double step) {
     return status;
 }
 
-/* records the events of the step; *ended when one of them is s = 1 */
-static fw_status record_events(follower *f, double length, bool *ended) {
+/* records the events of the step; *ended when one of them is s = 1; *searched: the model is
+   elsewhere now */
+static fw_status record_events(follower *f, double length, bool *ended, bool *searched) {
     enum { MOST = 16 };
     event found[MOST];
     int count = find_events(f, length, found, MOST);
+    *searched = count > 0;
     FW_TRY(f->status);
     for (int i = 0; i < count; i++) {
         fw_status status = state_at(f, found[i].length, length);
@@ -348,9 +350,10 @@ static fw_status walk(follower *f) {
             if (length < fw_shortest) return FW_OK;
             continue;
         }
-        FW_TRY(record_events(f, length, &ended));
+        bool searched;
+        FW_TRY(record_events(f, length, &ended, &searched));
         if (ended) break;
-        FW_TRY(correct(f, &f->at, length, &f->next)); /* the search left the model elsewhere */
+        if (searched) FW_TRY(correct(f, &f->at, length, &f->next));
         FW_TRY(record(f, &f->next, FW_PATH_POINT, FW_NONE));
         copy_state(f, &f->next, &f->at);
         length = fmin(fw_longest, 1.5 * length);
