@@ -235,11 +235,12 @@ static fw_status blame_driver(const fw_mechanism *mechanism, const fw_closure *c
     bool angle = b->rows == FW_ROWS_TURN;
     char *(*text)(char *, size_t, double) = angle ? angle_text : length_text;
     off *= angle ? 1 : m->scale.length_m;
-    return fw_diag_error(diags, 116, d->place,
-                         "driver %s cannot have the value that it asks for at the start: it asks "
-                         "for %s, the joints allow %s at most near the guess (%s off)",
-                         name_of(d->id), text(asked, sizeof asked, law[0]),
-                         text(best, sizeof best, law[0] + off), text(less, sizeof less, fabs(off)));
+    return fw_diag_error(
+        diags, 116, d->place,
+        "driver %s cannot have the value that it asks for at the start: it asks "
+        "for %s, and the nearest that the joints allow from this guess is %s (%s off)",
+        name_of(d->id), text(asked, sizeof asked, law[0]), text(best, sizeof best, law[0] + off),
+        text(less, sizeof less, fabs(off)));
 }
 
 /* ---- joints ---- */

@@ -2,7 +2,8 @@
 /* Dense factorisations of LAPACK for loops that must not allocate: workspace comes once from an
    arena, matrices are column-major with the leading dimension equal to the number of rows unless
    said otherwise, and every function answers whether LAPACK succeeded. Inputs must be finite: some
-   of these loop for ever on a NaN. */
+   of these loop for ever on a NaN. Asking for workspace sets OpenBLAS to one thread, for the whole
+   process. */
 #ifndef FW_MATHS_LAPACK_H
 #define FW_MATHS_LAPACK_H
 #include "base/arena.h"

@@ -16,7 +16,7 @@ static void column(fw_text *out, double value) {
     fw_text_real(out, "%14.8f", fabs(value) < 5e-9 ? 0.0 : value);
 }
 
-static void rank_line(fw_text *out, int dof, const fw_rank *r) {
+static void rank_line(fw_text *out, int dof, const fw_row_rank *r) {
     fw_text_printf(out, "%d degree%s of freedom; ", dof, dof == 1 ? "" : "s");
     if (r->rows == 0) {
         fw_text_add(out, "no joints\n");

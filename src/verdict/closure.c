@@ -20,7 +20,8 @@ fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *
             fw_diag_error(diags, 206, device->joint[i].place,
                           "joint %s does not close in the drawn position: its two bodies put it "
                           "%s um apart (10 nm is allowed); correct the body positions or its "
-                          "coordinates, since masks are drawn there",
+                          "coordinates, since masks are drawn there; `flexwright assemble` prints poses "
+                          "that close",
                           m->pin[i].id, fw_number_text(um, sizeof um, gap * 1e6, 4));
     }
     return status;
