@@ -218,7 +218,8 @@ enum {                                    /* what it is; what must have been cal
        FW_DOCUMENT_LOAD_PATH_SVG = 18, /* load against displacement; statics with options.path */
        FW_DOCUMENT_ASSEMBLE_JSON = 19, /* schema flexwright.assemble/1; assemble */
        FW_DOCUMENT_ASSEMBLE_TEXT = 20, /* for a terminal; assemble */
-       FW_DOCUMENT_ASSEMBLE_SVG = 21   /* before and after; assemble, also when it failed */
+       FW_DOCUMENT_ASSEMBLE_SVG = 21,  /* before and after; assemble, also when it failed */
+       FW_DOCUMENT_FORCES_CSV = 22     /* accelerations and joint forces, 17 digits; simulate */
 };
 
 /* One document as UTF-8 text, NUL-terminated; `length` (may be NULL) without the NUL. The text

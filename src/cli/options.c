@@ -180,6 +180,11 @@ static const char *take_samples(fw_cli_options *o, const char *v) {
     return NULL;
 }
 
+static const char *take_forces(fw_cli_options *o, const char *v) {
+    o->forces = v;
+    return *v ? NULL : "needs a file name";
+}
+
 static const char *take_csv(fw_cli_options *o, const char *v) {
     o->csv = v;
     return *v ? NULL : "needs the name of a file";
@@ -247,6 +252,8 @@ static const option_row table[] = {
      FW_OPT_SIMULATE, take_rtol},
     {"samples", 0, "N", "rows of the CSV, evenly over the scene; default 1001", FW_OPT_SIMULATE,
      take_samples},
+    {"forces", 0, "FILE", "accelerations of bodies, forces of joints and drivers, 17 digits",
+     FW_OPT_SIMULATE, take_forces},
     {"csv", 0, "FILE", "position and velocity of every body, 17 digits; - is standard output",
      FW_OPT_SIMULATE, take_csv},
     {"csv", 0, "FILE",

@@ -15,7 +15,7 @@ typedef struct fw_cli_options {
     int nset;
     const char *device; /* "-" = standard input; for explain: the code */
     const char *output; /* -o */
-    const char *csv, *animate;
+    const char *csv, *forces, *animate;
     const char *svg; /* of assemble */
     bool json, quiet, verbose, no_progress, help, version;
     int colour; /* -1 auto, 0 never, 1 always */

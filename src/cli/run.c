@@ -26,7 +26,7 @@ static const fw_command table[] = {
      "flexwright simulate device.xml --scene step-load --csv motion.csv",
      "Solves the equations of motion of one scene and prints the peak of every hinge angle. With\n"
      "--csv every body's position and velocity, evenly sampled; with --animate a moving picture;\n"
-     "-o DIR writes both as motion.csv and motion.svg.",
+     "-o DIR writes motion.csv, forces.csv and motion.svg.",
      FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_SIMULATE, fw_command_simulate},
     {"assemble", "DEVICE.xml", "close all joints from the poses of the description; kinematics",
      "flexwright assemble device.xml --svg assembled.svg",

@@ -1,10 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/session.h"
 
+static bool on_stdout(const char *file) {
+    return file && strcmp(file, "-") == 0;
+}
+
 static int run(fw_design *design, const fw_cli_options *options) {
     int status = fw_design_simulate(design);
     if (status == FW_STATUS_OK && options->csv)
         status = fw_design_save(design, FW_DOCUMENT_MOTION_CSV, options->csv);
+    if (status == FW_STATUS_OK && options->forces)
+        status = fw_design_save(design, FW_DOCUMENT_FORCES_CSV, options->forces);
     if (status == FW_STATUS_OK && options->animate)
         status = fw_design_save(design, FW_DOCUMENT_ANIMATION_SVG, options->animate);
     static const fw_session_file file[] = {{FW_DOCUMENT_MOTION_CSV, "motion.csv"},

@@ -26,6 +26,10 @@ static fw_status motion_csv(fw_design *d, fw_text *out) {
     return fw_report_motion_csv(d->mechanism, d->motion, out);
 }
 
+static fw_status forces_csv(fw_design *d, fw_text *out) {
+    return fw_report_forces_csv(d->mechanism, d->motion, out);
+}
+
 static fw_status animation_svg(fw_design *d, fw_text *out) {
     return fw_report_animation_svg(d->plan->arena, d->plan->device, d->plan->layout, d->mechanism,
                                    d->motion, d->scene, out);
@@ -130,6 +134,7 @@ static const struct {
     [FW_DOCUMENT_SIMULATE_JSON] = {SIMULATED, simulate_json},
     [FW_DOCUMENT_SIMULATE_TEXT] = {SIMULATED, simulate_text},
     [FW_DOCUMENT_MOTION_CSV] = {SIMULATED, motion_csv},
+    [FW_DOCUMENT_FORCES_CSV] = {SIMULATED, forces_csv},
     [FW_DOCUMENT_ANIMATION_SVG] = {SIMULATED, animation_svg},
     [FW_DOCUMENT_MASKS_JSON] = {FABRICATED, masks_json},
     [FW_DOCUMENT_RECIPES_JSON] = {FABRICATED, recipes_json},

@@ -7,7 +7,7 @@
 
 enum { READ = 1, JUDGED = 2, FABRICATED = 4, SIMULATED = 8, MODES = 16, STATICS = 32 }; /* done */
 enum { ASSEMBLED = 64, ASSEMBLY_TRIED = 128 };
-enum { NDOCUMENT = FW_DOCUMENT_ASSEMBLE_SVG + 1 };
+enum { NDOCUMENT = FW_DOCUMENT_FORCES_CSV + 1 };
 
 struct fw_design {
     fw_plan *plan; /* its arena holds this struct too */
