@@ -7,6 +7,7 @@
 #ifndef FW_PLAN_PLAN_H
 #define FW_PLAN_PLAN_H
 #include "dynamics/kinematics.h"
+#include "dynamics/modes.h"
 #include "report/assembly.h"
 #include "report/terminal.h"
 
@@ -18,7 +19,9 @@ typedef struct fw_plan_options {
     double mask_tolerance_m;    /* 0: 5 nm */
     const fw_set *set;          /* (nset) */
     int nset;
-    bool force;        /* masks and recipes of a rejected design too */
+    bool force;          /* masks and recipes of a rejected design too */
+    bool at_equilibrium; /* modes: not about rest */
+    bool path;           /* statics: follow the load path */
     /* for assemble: "AB.phi,BC.phi", "10 rad/s,0 rad/s", "0 rad/s^2,..."; NULL: chosen, 0, 0 */
     const char *independent, *rates, *accelerations;
     size_t memory_cap; /* 0: 256 MiB */
@@ -87,6 +90,11 @@ fw_status fw_plan_write(fw_plan *plan, const char *directory, unsigned what);
 /* one scene of one variant, for simulate; *mechanism too */
 fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mechanism **mechanism,
                            const fw_scene **scene);
+/* modes and equilibrium likewise */
+fw_status fw_plan_modes(fw_plan *plan, const fw_modes **modes, const fw_mechanism **mechanism,
+                        const fw_scene **scene);
+fw_status fw_plan_statics(fw_plan *plan, const fw_statics **statics, const fw_mechanism **mechanism,
+                          const fw_scene **scene);
 
 typedef struct fw_plan_assembly {
     const fw_scene *scene;         /* its loads; NULL: the device has none */
