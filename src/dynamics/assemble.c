@@ -53,7 +53,7 @@ static fw_status try_restarts(fw_arena *arena, const fw_mechanism *mechanism, co
     FW_TRY(fw_model_new(arena, &even, NULL, q, 1, NULL, diags, &model));
     FW_TRY(fw_closure_new(arena, model, search));
     FW_TRY(fw_restart_new(arena, model, r));
-    search->left = 1000 + (long)(3e7 / model->nblock);
+    search->left = 1000 + (long)(2e8 / model->nblock);
     *good = fw_restart_close(r, search);
     c->iterations += search->iterations;
     for (int i = 0; i < model->nq; i++)

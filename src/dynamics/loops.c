@@ -258,7 +258,7 @@ static fw_status blame_driver(const fw_mechanism *mechanism, const fw_closure *c
 /* ---- joints ---- */
 
 static fw_status blame_joint(fw_arena *arena, const fw_mechanism *mechanism, const fw_closure *c,
-                             const fw_tree *t, fw_diags *diags) {
+                             const fw_tree *t, bool cut, fw_diags *diags) {
     const fw_model *m = c->model;
     int worst = 0;
     double most = -1;
@@ -277,8 +277,10 @@ static fw_status blame_joint(fw_arena *arena, const fw_mechanism *mechanism, con
     bool both = b->rows == FW_ROWS_SLIDE && gap_m > 0 && gap_rad > 0;
     bool angle = b->rows == FW_ROWS_TURN || (b->rows == FW_ROWS_SLIDE && !both && gap_rad > 0);
     return fw_diag_error(diags, 100, place_of(mechanism, b),
-                         "the mechanism cannot be assembled: joint %s stays open by %s%s%s at "
-                         "best; %s",
+                         "%s: joint %s stays open by %s%s%s at best; %s",
+                         cut ? "no assembly was found within the bound on the search, from this "
+                               "guess"
+                             : "the mechanism cannot be assembled",
                          fw_block_name(mechanism, b), angle ? radian : metres, both ? " and " : "",
                          both ? radian : "", advice);
 }
@@ -287,6 +289,7 @@ fw_status fw_closure_explain(fw_arena *arena, const fw_mechanism *mechanism, fw_
                              fw_restart *r, fw_diags *diags) {
     fw_status status;
     size_t bytes = (size_t)c->model->nq * sizeof(double);
+    bool cut = r->cut; /* of the whole mechanism, not of the search without drivers */
     memcpy(c->u, r->best, bytes);
     c->left = 2000; /* down to the very least mismatch */
     fw_closure_descend(c, 500);
@@ -302,6 +305,6 @@ fw_status fw_closure_explain(fw_arena *arena, const fw_mechanism *mechanism, fw_
         memcpy(c->u, least, bytes);
     }
     fw_closure_mismatch(c, c->u);
-    status = blame_joint(arena, mechanism, c, &r->tree, diags);
+    status = blame_joint(arena, mechanism, c, &r->tree, cut, diags);
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }

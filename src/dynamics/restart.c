@@ -121,6 +121,7 @@ bool fw_restart_close(fw_restart *r, fw_closure *c) {
         keep_best(r, c);
         if (good) return true;
     }
+    r->cut = c->left <= 0;
     memcpy(c->u, r->best, (size_t)m->nq * sizeof(double));
     return false;
 }
