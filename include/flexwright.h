@@ -85,7 +85,7 @@ typedef struct fw_design_options {
     int32_t force;           /* not 0: masks and recipes of a rejected design too, each marked */
     double mask_tolerance_m; /* largest distance of an arc from its polygon, 1.42e-9..1e-6 m;
                                 default 5e-9 */
-    size_t memory_cap;       /* most bytes that one design holds; default 256 MiB */
+    size_t memory_cap;       /* most bytes that one design holds; default 512 MiB */
     const char *stabilise;   /* "projection" (default), "baumgarte" or "none" */
     const char *at;          /* for fw_design_modes: about "rest" (default) or "equilibrium" */
     int32_t path;            /* not 0: fw_design_statics follows the load path */

@@ -54,7 +54,7 @@ static double product(const fw_model *m, const double *x, const double *y) {
    branch just where another one crosses it. Once its force is above round-off it takes part. */
 static bool idle(const fw_rest *w, int k) {
     const double small = 1e-8 / (64 * DBL_EPSILON); /* in units of the noise */
-    return fabs(w->reduced.value[k]) <= fmax(w->reduced.tolerance, 1e-3) &&
+    return fabs(w->reduced.value[k]) <= fmax(w->reduced.zero[k], 1e-3) &&
            fabs(w->push[k]) <= small * w->noise[k] && fabs(w->gradient[k]) <= w->noise[k];
 }
 
@@ -127,7 +127,7 @@ static bool take_state(follower *f, const state *along, state *to) {
     to->dof = w->reduced.dof;
     for (int k = 0; k < to->dof; k++) {
         to->value[k] = w->reduced.value[k];
-        to->negative += to->value[k] < -w->reduced.tolerance;
+        to->negative += to->value[k] < -w->reduced.zero[k];
     }
     for (int i = 0; i < f->switches; i++)
         to->hold[i] = fw_model_switch_value(w->model, i, w->y);

@@ -24,7 +24,7 @@ typedef struct fw_plan_options {
     bool path;           /* statics: follow the load path */
     /* for assemble: "AB.phi,BC.phi", "10 rad/s,0 rad/s", "0 rad/s^2,..."; NULL: chosen, 0, 0 */
     const char *independent, *rates, *accelerations;
-    size_t memory_cap; /* 0: 256 MiB */
+    size_t memory_cap; /* 0: 512 MiB */
 } fw_plan_options;
 fw_plan_options fw_plan_options_default(void);
 
