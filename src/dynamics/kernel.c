@@ -5,8 +5,8 @@
 
 struct fw_kernel {
     fw_core core;
-    fw_path *path; /* NULL: the flat schedule */
-    fw_path *own;  /* what the model allows */
+    void *path; /* NULL: the flat schedule */
+    void *own;  /* what the model allows */
     int pins;
     double *lambda; /* (2 pins) */
 };
@@ -14,6 +14,21 @@ struct fw_kernel {
 bool fw_core_plain(const fw_model *m) {
     return m->plain && m->nblock > 0 && !m->driven && m->worked < 0 && m->nload == 0 &&
            m->ntimed == 0 && m->nspring == 0 && m->nslide == 0 && m->nstop == 0;
+}
+
+/* 1/m_a + 1/m_b, the smaller eigenvalue of the pin's own block; where r^2/J makes the block so much
+   larger that its round-off would reach fw_healthy of that, 1e-8 of its trace (which does not
+   depend on the pose) */
+double fw_pin_floor(const fw_model *m, int pin) {
+    double masses = 0, trace = 0;
+    for (int side = 0; side < 2; side++) {
+        int b = m->body[2 * pin + side];
+        const double *l = m->local + 4 * pin + 2 * side;
+        if (b == m->nbody) continue;
+        masses += m->minv[b];
+        trace += 2 * m->minv[b] + m->jinv[b] * (l[0] * l[0] + l[1] * l[1]);
+    }
+    return fmax(masses, 1e-8 * trace);
 }
 
 /* ---- plan ---- */
@@ -105,6 +120,7 @@ static void fill_pin(const fw_model *m, int i, double *to, int w) {
     for (int c = 0; c < 4; c++)
         to[w * (FW_LOCAL + c)] = m->local[4 * i + c];
     to[w * FW_MASSES] = m->minv[m->body[2 * i]] + m->minv[m->body[2 * i + 1]];
+    to[w * FW_FLOOR] = fw_pin_floor(m, i);
     to[w * FW_OFFSET] = m->offset[2 * i];
     to[w * (FW_OFFSET + 1)] = m->offset[2 * i + 1];
 }
@@ -137,6 +153,22 @@ void fw_core_fill(fw_core *k, const fw_model *m, int lane) {
     k->rate[lane] = 1;
 }
 
+/* rows that depend on each other in two poses picked without regard to the joints do so in all */
+fw_status fw_core_examine(fw_arena *arena, fw_core *k) {
+    const int n = k->plan.nq, w = k->ops->width;
+    fw_mark mark = fw_arena_mark(arena);
+    double *u;
+    FW_NEED(u = fw_arena_array(arena, double, (size_t)(n * w)));
+    k->redundant = true;
+    for (int pose = 0; pose < 2 && k->redundant; pose++) {
+        for (int i = 0; i < n * w; i++)
+            u[i] = 0.3 * sin(7.1 * (i / w) + 1 + pose);
+        k->redundant = k->ops->singular(k, u);
+    }
+    fw_arena_rewind(arena, mark);
+    return FW_OK;
+}
+
 /* ---- one design ---- */
 
 fw_status fw_kernel_new(fw_arena *arena, const fw_model *m, fw_kernel **kernel) {
@@ -148,7 +180,11 @@ fw_status fw_kernel_new(fw_arena *arena, const fw_model *m, fw_kernel **kernel) 
     FW_TRY(fw_kernel_plan_new(arena, m, &plan));
     FW_TRY(fw_core_new(arena, &plan, &fw_core_single, &k->core));
     fw_core_fill(&k->core, m, 0);
-    FW_TRY(fw_path_new(arena, m, &k->own));
+    FW_TRY(fw_core_examine(arena, &k->core));
+    fw_trail trail;
+    bool found;
+    FW_TRY(fw_trail_find(arena, m, &trail, &found));
+    if (found) FW_TRY(fw_path_single.create(arena, &m, &trail, &k->own));
     k->path = k->own;
     k->pins = m->nblock;
     FW_NEED(k->lambda = fw_arena_array(arena, double, 2 * (size_t)m->nblock));
@@ -158,18 +194,18 @@ fw_status fw_kernel_new(fw_arena *arena, const fw_model *m, fw_kernel **kernel) 
 
 void fw_kernel_rhs(fw_kernel *k, const double *y, double *f) {
     if (k->path)
-        fw_path_rhs(k->path, y, f);
+        fw_path_single.rhs(k->path, y, f);
     else
         k->core.ops->rhs(&k->core, y, f);
 }
 
 bool fw_kernel_project(fw_kernel *k, double *y, double *f) {
-    return k->path ? fw_path_project(k->path, y, f) : k->core.ops->project(&k->core, y, f);
+    return k->path ? fw_path_single.project(k->path, y, f) : k->core.ops->project(&k->core, y, f);
 }
 
 const double *fw_kernel_lambda(fw_kernel *k) {
     if (k->path)
-        fw_path_lambda(k->path, k->lambda);
+        fw_path_single.lambda(k->path, 0, k->lambda);
     else
         for (int i = 0; i < k->pins; i++)
             for (int c = 0; c < 2; c++)
@@ -178,7 +214,7 @@ const double *fw_kernel_lambda(fw_kernel *k) {
 }
 
 fw_kernel_norms fw_kernel_norms_of(const fw_kernel *k) {
-    return k->path ? fw_path_norms(k->path) : k->core.norms;
+    return k->path ? fw_path_single.norms(k->path) : k->core.norms;
 }
 
 bool fw_kernel_is_path(const fw_kernel *k) {
@@ -191,5 +227,5 @@ void fw_kernel_prefer(fw_kernel *k, bool path) {
 
 void fw_kernel_set_healthy(fw_kernel *k, double relative) {
     k->core.healthy = relative;
-    if (k->own) fw_path_set_healthy(k->own, relative);
+    if (k->own) fw_path_single.set_healthy(k->own, relative);
 }

@@ -132,7 +132,9 @@ static inline __attribute__((always_inline)) bits eliminate(fw_core *k, double e
         real xx = w[FW_DIAGONAL] + shift, xy = w[FW_DIAGONAL + 1];
         real yy = w[FW_DIAGONAL + 2] + shift;
         real determinant = xx * yy - xy * xy;
-        real least = limit * mass; /* det/trace is below the smaller eigenvalue */
+        real least =
+            limit *
+            CONST(pin)[FW_PIN * i + FW_FLOOR]; /* det/trace is below the smaller eigenvalue */
         sick |= bits_of(determinant - least * (xx + yy)) | bits_of(xx - least);
         real inverse = 1.0 / determinant;
         w[FW_PIVOT] = yy * inverse;
@@ -345,9 +347,12 @@ static void core_rhs(fw_core *k, const double *at, double *slope) {
         set_diagonal(k, i, w);
         set_right(k, i, w);
     }
-    set_blocks(k);
-    bits sick = eliminate(k, 0, k->healthy, true), broken = {0};
-    substitute_backward(k);
+    bits sick = ~(bits){0}, broken = {0};
+    if (!k->redundant) {
+        set_blocks(k);
+        sick = eliminate(k, 0, k->healthy, true);
+        substitute_backward(k);
+    }
     if (bits_any(sick)) broken = solve_with_care(k, sick, false);
     finish(k, broken, power, y, (real *)slope);
 }
@@ -377,8 +382,11 @@ static double residual(fw_core *k, const real *u, double *relative) {
 
 /* the factor of this pose, the shifted one where a pivot is small; lanes without one in *broken */
 static bits factor(fw_core *k, bits *broken) {
-    set_matrix(k);
-    bits sick = eliminate(k, 0, k->healthy, false);
+    bits sick = ~(bits){0};
+    if (!k->redundant) {
+        set_matrix(k);
+        sick = eliminate(k, 0, k->healthy, false);
+    }
     *broken = (bits){0};
     if (bits_any(sick)) {
         set_matrix(k);
@@ -462,4 +470,26 @@ static bool core_project(fw_core *k, double *at, double *slope) {
     return true;
 }
 
-const fw_core_ops FW_CORE = {FW_CORE_NAME, FW_W, core_rhs, core_project};
+/* leaves no upper halves behind: baseline code that runs next would wait for them */
+#if defined(__AVX__)
+#define END_OF_VECTORS() __builtin_ia32_vzeroupper()
+#else
+#define END_OF_VECTORS() ((void)0)
+#endif
+
+static void rhs(fw_core *k, const double *y, double *f) {
+    core_rhs(k, y, f);
+    END_OF_VECTORS();
+}
+static bool project(fw_core *k, double *y, double *f) {
+    bool good = core_project(k, y, f);
+    END_OF_VECTORS();
+    return good;
+}
+static bool core_singular(fw_core *k, const double *u) {
+    set_pose(k, (const real *)u);
+    set_matrix(k);
+    return bits_any(eliminate(k, 0, k->healthy, false));
+}
+
+const fw_core_ops FW_CORE = {FW_CORE_NAME, FW_W, rhs, core_singular, project};

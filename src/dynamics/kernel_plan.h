@@ -30,6 +30,7 @@ enum { /* records of constants */
        FW_LOCAL = 0,
        FW_MASSES = 4,
        FW_OFFSET,
+       FW_FLOOR = 7,
        FW_PIN = 8,
        FW_BLOCK = 2,  /* sign/m, sign/J */
        FW_TORSION = 4 /* k, c, k angle0 */
@@ -57,6 +58,7 @@ typedef struct fw_core_ops { /* one row per instruction set */
     const char *name;
     int width;
     void (*rhs)(fw_core *k, const double *y, double *f);
+    bool (*singular)(fw_core *k, const double *u); /* is a pivot sick at this pose? */
     bool (*project)(fw_core *k, double *y, double *f);
 } fw_core_ops;
 
@@ -69,14 +71,19 @@ struct fw_core {
     double *state, *row, *coupling, *keep;        /* work */
     double *angle, *sine, *cosine;                /* (bodies) width 1 only */
     double healthy;
+    bool redundant; /* some pivot vanishes in every pose: no use to try the plain solution */
     fw_kernel_norms norms;
 };
 
 bool fw_core_plain(const fw_model *model);
+/* what the pivot of a pin is measured against */
+double fw_pin_floor(const fw_model *model, int pin);
 fw_status fw_kernel_plan_new(fw_arena *arena, const fw_model *model, fw_kernel_plan *plan);
 /* memory for `ops->width` designs of this plan */
 fw_status fw_core_new(fw_arena *arena, const fw_kernel_plan *plan, const fw_core_ops *ops,
                       fw_core *core);
+/* after all lanes are filled: sets `redundant` */
+fw_status fw_core_examine(fw_arena *arena, fw_core *core);
 /* the numbers of a model of the same topology into one lane */
 void fw_core_fill(fw_core *core, const fw_model *model, int lane);
 
@@ -86,14 +93,29 @@ extern const fw_core_ops fw_core_sse2, fw_core_avx2, fw_core_avx512;
 /* sine and cosine of x (n); see kernel_sincos.h */
 void fw_sincos_array(int n, const double *x, double *sine, double *cosine);
 
-/* ---- path.c ---- */
-typedef struct fw_path fw_path;
-/* *path = NULL when the joints do not form one path */
-fw_status fw_path_new(fw_arena *arena, const fw_model *model, fw_path **path);
-void fw_path_rhs(fw_path *p, const double *y, double *f);
-bool fw_path_project(fw_path *p, double *y, double *f);
-void fw_path_lambda(const fw_path *p, double *lambda);
-void fw_path_set_healthy(fw_path *p, double relative);
-fw_kernel_norms fw_path_norms(const fw_path *p);
+/* ---- paths: kernel_trail.c, kernel_path.h ---- */
+typedef struct fw_trail { /* pins in a row; the bodies around them, one more */
+    int *pin, *body;
+    int *torsion; /* the pin of every spring, by its number in the row */
+    int count;
+} fw_trail;
+/* false: the joints do not form one path, or a spring does not sit across one of them */
+fw_status fw_trail_find(fw_arena *arena, const fw_model *model, fw_trail *trail, bool *found);
+
+typedef struct fw_path_ops { /* one row per instruction set */
+    const char *name;
+    int width; /* designs at once */
+    /* of `width` models with this trail */
+    fw_status (*create)(fw_arena *arena, const fw_model *const *models, const fw_trail *trail,
+                        void **path);
+    void (*rhs)(void *path, const double *y, double *f);
+    bool (*project)(void *path, double *y, double *f);
+    void (*lambda)(const void *path, int lane, double *lambda);
+    fw_kernel_norms (*norms)(const void *path);
+    void (*set_healthy)(void *path, double relative);
+    void (*set_rate)(void *path, const double *rate); /* (width) y' is multiplied by it */
+} fw_path_ops;
+extern const fw_path_ops fw_path_single;
+extern const fw_path_ops fw_path_sse2, fw_path_avx2, fw_path_avx512;
 
 #endif

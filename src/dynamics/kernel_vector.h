@@ -2,6 +2,10 @@
 /* FW_W doubles in one register: include once per translation unit with FW_W = 1, 2, 4 or 8. */
 #ifndef FW_DYNAMICS_KERNEL_VECTOR_H
 #define FW_DYNAMICS_KERNEL_VECTOR_H
+#ifndef FW_BRIEF
+#define FW_BRIEF 0
+#endif
+
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
