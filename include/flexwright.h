@@ -85,10 +85,13 @@ typedef struct fw_design_options {
     int32_t force;           /* not 0: masks and recipes of a rejected design too, each marked */
     double mask_tolerance_m; /* largest distance of an arc from its polygon, 1.42e-9..1e-6 m;
                                 default 5e-9 */
-    size_t memory_cap;       /* most bytes that one design holds; default 256 MiB */
+    size_t memory_cap;       /* most bytes that one design holds; default 512 MiB */
     const char *stabilise;   /* "projection" (default), "baumgarte" or "none" */
     const char *at;          /* for fw_design_modes: about "rest" (default) or "equilibrium" */
     int32_t path;            /* not 0: fw_design_statics follows the load path */
+    /* for fw_design_assemble: independent coordinates "AB.phi,BC.phi" (default: chosen by
+       pivoting), their rates "10 rad/s,0 rad/s" and accelerations; default 0 */
+    const char *independent, *rates, *accelerations;
 } fw_design_options;
 
 /* Fills `size` bytes (as the caller's header defines the struct) with the defaults. NULL options:
@@ -165,6 +168,14 @@ FW_API int fw_design_modes(fw_design *design);
    with the path. */
 FW_API int fw_design_statics(fw_design *design);
 
+/* Solves the position problem from the poses that the description states, however bad a guess they
+   are; with rates, velocities, accelerations and joint forces under the loads of options.scene too
+   (default: the first scene; none is needed). After reading. FW_STATUS_SOLVER when the joints
+   cannot be closed: the diagnostics name the one that stays open and by how much, and
+   FW_DOCUMENT_ASSEMBLE_SVG shows the least mismatch. FW_STATUS_USAGE for independent coordinates or
+   rates that do not fit. Other errors as fw_design_simulate. Cost for a six-bar: about 5 ms. */
+FW_API int fw_design_assemble(fw_design *design);
+
 enum {                        /* what fw_design_write writes, added up, with a manifest.json */
        FW_DESIGN_VERDICT = 1, /* verdict.json */
        FW_DESIGN_MASKS = 2,   /* masks/FLOW.gds, .svg, .lyp, .json */
@@ -204,7 +215,11 @@ enum {                                    /* what it is; what must have been cal
        FW_DOCUMENT_STATICS_TEXT = 15,     /* for a terminal; statics */
        FW_DOCUMENT_STATICS_SVG = 16,   /* the equilibrium over rest; moving with a path; statics */
        FW_DOCUMENT_LOAD_PATH_CSV = 17, /* a row per point, or the equilibrium alone; statics */
-       FW_DOCUMENT_LOAD_PATH_SVG = 18  /* load against displacement; statics with options.path */
+       FW_DOCUMENT_LOAD_PATH_SVG = 18, /* load against displacement; statics with options.path */
+       FW_DOCUMENT_ASSEMBLE_JSON = 19, /* schema flexwright.assemble/1; assemble */
+       FW_DOCUMENT_ASSEMBLE_TEXT = 20, /* for a terminal; assemble */
+       FW_DOCUMENT_ASSEMBLE_SVG = 21,  /* before and after; assemble, also when it failed */
+       FW_DOCUMENT_FORCES_CSV = 22     /* accelerations and joint forces, 17 digits; simulate */
 };
 
 /* One document as UTF-8 text, NUL-terminated; `length` (may be NULL) without the NUL. The text

@@ -66,7 +66,8 @@ int fw_session_save(fw_design *design, const char *directory, const fw_session_f
 }
 
 bool fw_session_csv_on_stdout(const fw_cli_options *options) {
-    return options->csv && strcmp(options->csv, "-") == 0;
+    return (options->csv && strcmp(options->csv, "-") == 0) ||
+           (options->forces && strcmp(options->forces, "-") == 0);
 }
 
 static bool error_was_said(fw_design *design) {

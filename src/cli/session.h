@@ -9,6 +9,7 @@ int fw_command_check(fw_cli_options *options);
 int fw_command_simulate(fw_cli_options *options);
 int fw_command_modes(fw_cli_options *options);
 int fw_command_statics(fw_cli_options *options);
+int fw_command_assemble(fw_cli_options *options);
 int fw_command_mask(fw_cli_options *options);
 int fw_command_recipe(fw_cli_options *options);
 int fw_command_hinge(fw_cli_options *options);

@@ -5,12 +5,15 @@ static int run(fw_design *design, const fw_cli_options *options) {
     int status = fw_design_simulate(design);
     if (status == FW_STATUS_OK && options->csv)
         status = fw_design_save(design, FW_DOCUMENT_MOTION_CSV, options->csv);
+    if (status == FW_STATUS_OK && options->forces)
+        status = fw_design_save(design, FW_DOCUMENT_FORCES_CSV, options->forces);
     if (status == FW_STATUS_OK && options->animate)
         status = fw_design_save(design, FW_DOCUMENT_ANIMATION_SVG, options->animate);
     static const fw_session_file file[] = {{FW_DOCUMENT_MOTION_CSV, "motion.csv"},
+                                           {FW_DOCUMENT_FORCES_CSV, "forces.csv"},
                                            {FW_DOCUMENT_ANIMATION_SVG, "motion.svg"}};
     if (status == FW_STATUS_OK && options->output)
-        status = fw_session_save(design, options->output, file, 2);
+        status = fw_session_save(design, options->output, file, 3);
     if (status != FW_STATUS_OK) return status;
     if (options->json) return fw_session_print(design, options, FW_DOCUMENT_SIMULATE_JSON);
     if (options->quiet || fw_session_csv_on_stdout(options)) return FW_STATUS_OK;

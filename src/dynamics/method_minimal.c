@@ -61,6 +61,7 @@ static fw_status prepare(fw_arena *arena, fw_model *m, const fw_mechanism *mecha
         p->mass[3 * b] = p->mass[3 * b + 1] = 1 / m->minv[b];
         p->mass[3 * b + 2] = 1 / m->jinv[b];
     }
+    fw_lapack_one_thread();
     *work = p;
     return FW_OK;
 }
@@ -251,7 +252,7 @@ static void accelerate(fw_model *m, const double *gamma, double *a, double *lamb
         for (size_t j = 0; j < nq; j++)
             p->rates[k] += n[j] * p->mass[j] * (a[j] - p->part[j]);
     }
-    if (rates > 0) fw_cholesky_solve(rates, p->reduced, p->rates);
+    if (rates > 0 && !fw_cholesky_solve(rates, p->reduced, p->rates)) p->rates[0] = (double)NAN;
     sweep(m, p, p->right, p->rates, p->part);
     memset(p->force, 0, (nq + 3) * sizeof *p->force);
     for (size_t j = 0; j < nq; j++) {

@@ -249,6 +249,8 @@ void fw_model_react(fw_model *m, double t, const double *y, double *f);
 bool fw_model_project(void *model, double t, double *y, double *f);
 bool fw_model_project_position(fw_model *m, double t, double *u);
 bool fw_model_project_velocity(fw_model *m, double t, double *v); /* factor belongs to the pose */
+bool fw_model_impact(fw_model *m, double t,
+                     double *v); /* likewise: least change in the mass metric */
 
 /* energy.c */
 typedef struct fw_energy {

@@ -48,7 +48,7 @@ static fw_status modal_damping(const fw_rest *w, damped *d) {
 
 /* modal stiffness; what is zero within round-off is zero */
 static double modal_stiffness(const fw_reduced *r, int k) {
-    return fabs(r->value[k]) <= r->tolerance ? 0 : r->value[k];
+    return fabs(r->value[k]) <= r->zero[k] ? 0 : r->value[k];
 }
 
 /* value -> nearest root of  a x^2 + b x + c  with a = z.z, b = z.C z, c = z.K z (no conjugates):
@@ -303,7 +303,7 @@ static fw_status at_rest(fw_rest *w, fw_modes *out) {
     const fw_reduced *r = &w->reduced;
     bool held = true;
     for (int k = 0; k < r->dof; k++)
-        held = held && (fabs(r->value[k]) > r->tolerance || fabs(w->gradient[k]) <= w->noise[k]);
+        held = held && (fabs(r->value[k]) > r->zero[k] || fabs(w->gradient[k]) <= w->noise[k]);
     out->out_of_rest = held ? fw_rest_newton(w, w->step) : (double)INFINITY;
     if (held && out->out_of_rest < 1e-9) return FW_OK;
     char text[32];

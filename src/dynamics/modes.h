@@ -49,7 +49,7 @@ typedef struct fw_modes {
     fw_mode *mode;        /* (count) by stiffness: unstable, free, then slow to fast */
     double out_of_rest;   /* what a Newton step to equilibrium would move at most, rad or unit
                              lengths; 0 within round-off at an equilibrium, infinite: there is none */
-    fw_rank rank;
+    fw_row_rank rank;
     fw_effect_ledger ledger;
 } fw_modes;
 

@@ -54,7 +54,7 @@ static double product(const fw_model *m, const double *x, const double *y) {
    branch just where another one crosses it. Once its force is above round-off it takes part. */
 static bool idle(const fw_rest *w, int k) {
     const double small = 1e-8 / (64 * DBL_EPSILON); /* in units of the noise */
-    return fabs(w->reduced.value[k]) <= fmax(w->reduced.tolerance, 1e-3) &&
+    return fabs(w->reduced.value[k]) <= fmax(w->reduced.zero[k], 1e-3) &&
            fabs(w->push[k]) <= small * w->noise[k] && fabs(w->gradient[k]) <= w->noise[k];
 }
 
@@ -118,25 +118,26 @@ static void copy_state(const follower *f, const state *from, state *to) {
     to->s = from->s, to->rate = from->rate, to->negative = from->negative, to->dof = from->dof;
 }
 
-/* fills `to` from the evaluated state; its tangent continues that of `along` */
+/* fills `to` from the evaluated state; its tangent continues that of `along`. false: no tangent */
 static bool take_state(follower *f, const state *along, state *to) {
     fw_rest *w = f->w;
     const fw_model *m = w->model;
-    double ds;
-    if (!bordered(w, along, 1, false, w->step, &ds)) return false;
-    double length = sqrt(product(m, w->step, w->step) + ds * ds);
-    for (int i = 0; i < m->nq; i++)
-        to->u[i] = w->y[i], to->tangent[i] = w->step[i] / length;
     to->s = w->factor;
-    to->rate = ds / length;
     to->negative = 0;
     to->dof = w->reduced.dof;
     for (int k = 0; k < to->dof; k++) {
         to->value[k] = w->reduced.value[k];
-        to->negative += to->value[k] < -w->reduced.tolerance;
+        to->negative += to->value[k] < -w->reduced.zero[k];
     }
     for (int i = 0; i < f->switches; i++)
         to->hold[i] = fw_model_switch_value(w->model, i, w->y);
+    memcpy(to->u, w->y, (size_t)m->nq * sizeof(double));
+    double ds;
+    if (!bordered(w, along, 1, false, w->step, &ds)) return false;
+    double length = sqrt(product(m, w->step, w->step) + ds * ds);
+    for (int i = 0; i < m->nq; i++)
+        to->tangent[i] = w->step[i] / length;
+    to->rate = ds / length;
     return isfinite(length);
 }
 
@@ -291,11 +292,13 @@ static fw_status state_at(follower *f, double length, double step) {
     return status;
 }
 
-/* records the events of the step; *ended when one of them is s = 1 */
-static fw_status record_events(follower *f, double length, bool *ended) {
+/* records the events of the step; *ended when one of them is s = 1; *searched: the model is
+   elsewhere now */
+static fw_status record_events(follower *f, double length, bool *ended, bool *searched) {
     enum { MOST = 16 };
     event found[MOST];
     int count = find_events(f, length, found, MOST);
+    *searched = count > 0;
     FW_TRY(f->status);
     for (int i = 0; i < count; i++) {
         fw_status status = state_at(f, found[i].length, length);
@@ -347,9 +350,10 @@ static fw_status walk(follower *f) {
             if (length < fw_shortest) return FW_OK;
             continue;
         }
-        FW_TRY(record_events(f, length, &ended));
+        bool searched;
+        FW_TRY(record_events(f, length, &ended, &searched));
         if (ended) break;
-        FW_TRY(correct(f, &f->at, length, &f->next)); /* the search left the model elsewhere */
+        if (searched) FW_TRY(correct(f, &f->at, length, &f->next));
         FW_TRY(record(f, &f->next, FW_PATH_POINT, FW_NONE));
         copy_state(f, &f->next, &f->at);
         length = fmin(fw_longest, 1.5 * length);
@@ -411,10 +415,10 @@ fw_status fw_rest_follow(fw_rest *w, int most_points, fw_path **out) {
     FW_TRY(state_new(w->arena, w->model, f.switches, &f.at));
     FW_TRY(state_new(w->arena, w->model, f.switches, &f.next));
     FW_TRY(state_new(w->arena, w->model, f.switches, &f.probe));
-    f.probe.rate = 1; /* the first tangent: more load */
-    if (!take_state(&f, &f.probe, &f.at)) return FW_SOLVER;
+    f.probe.rate = 1;                                /* the first tangent: more load */
+    bool leads_on = take_state(&f, &f.probe, &f.at); /* not where nothing holds against the load */
     FW_TRY(record(&f, &f.at, FW_PATH_POINT, FW_NONE));
-    fw_status status = walk(&f);
+    fw_status status = leads_on ? walk(&f) : FW_OK;
     if (status == FW_SOLVER) status = FW_OK; /* what was found stands; complete says no */
     FW_TRY(status);
     if (path->complete) FW_TRY(snaps(&f));

@@ -2,6 +2,7 @@
 #include "dynamics/kernel.h"
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 static const double fw_position_limit = 1e-12; /* scaled: what every accepted state satisfies */
 
@@ -67,6 +68,19 @@ bool fw_model_project_velocity(fw_model *m, double t, double *v) {
     }
     m->worst_velocity = fmax(m->worst_velocity, norm);
     return norm < (double)INFINITY;
+}
+
+/* an impact without rebound: v += d with M d = -G^T L, G d = -(G v + Psi_t), the least change in
+   the mass metric, whatever the method corrects its steps by. Pose and factor belong together. */
+bool fw_model_impact(fw_model *m, double t, double *v) {
+    fw_model_jacobian(m, v, m->right);
+    fw_model_drift(m, t, m->drift);
+    for (int i = 0; i < 2 * m->nblock; i++)
+        m->right[i] += m->drift[i];
+    memset(m->correction, 0, (size_t)m->nq * sizeof *m->correction);
+    m->method->accelerate(m, m->right, m->correction, m->lambda);
+    move(m, v);
+    return fw_model_project_velocity(m, t, v);
 }
 
 /* without projection the norms are only watched */

@@ -9,6 +9,7 @@ fw_status fw_reduced_new(fw_arena *arena, const fw_model *m, fw_reduced *r) {
     *r = (fw_reduced){.n = m->nq, .rows = m->rows};
     FW_NEED(r->shape = fw_arena_array(arena, double, n *n));
     FW_NEED(r->value = fw_arena_array(arena, double, n));
+    FW_NEED(r->zero = fw_arena_array(arena, double, n));
     FW_NEED(r->root = fw_arena_array(arena, double, n));
     FW_NEED(r->balance = fw_arena_array(arena, double, rows));
     size_t least = n < rows ? n : rows;
@@ -75,27 +76,112 @@ fw_status fw_reduced_null(const fw_model *m, fw_reduced *r) {
     return FW_OK;
 }
 
-/* Eigenvalues of V_0^T M^-1/2 K M^-1/2 V_0, by LAPACK. Error of a value: round-off times the
-   largest one, which is the tolerance given. Cost 2 n^2 dof and 9 dof^3. Test: test_modes.c. */
-fw_status fw_reduced_spectrum(fw_reduced *r, const double *stiffness) {
+/* N^T K N for the rows of r->shape, into r->small (dof x dof), symmetric */
+static void project(fw_reduced *r, const double *stiffness) {
     size_t n = (size_t)r->n, dof = (size_t)r->dof;
-    const double *basis = r->right + (size_t)r->rank * n;
-    for (size_t k = 0; k < dof; k++) /* (K M^-1/2 V_0)^T, one row per motion */
+    for (size_t k = 0; k < dof; k++) {
+        for (size_t i = 0; i < n; i++) { /* K times row k */
+            r->work[i] = 0;
+            for (size_t j = 0; j < n; j++)
+                r->work[i] += stiffness[i * n + j] * r->shape[k * n + j];
+        }
+        for (size_t l = 0; l <= k; l++) {
+            double sum = 0;
+            for (size_t i = 0; i < n; i++)
+                sum += r->shape[l * n + i] * r->work[i];
+            r->small[k * dof + l] = r->small[l * dof + k] = sum;
+        }
+    }
+}
+
+/* turns rows p and q of the modes so that entry (p, q) of the symmetric h vanishes */
+static void rotate(fw_reduced *r, double *h, size_t p, size_t q) {
+    size_t n = (size_t)r->n, dof = (size_t)r->dof;
+    double theta = (h[q * dof + q] - h[p * dof + p]) / (2 * h[p * dof + q]);
+    double t = (theta < 0 ? -1 : 1) / (fabs(theta) + sqrt(theta * theta + 1));
+    double c = 1 / sqrt(t * t + 1), s = t * c, step = t * h[p * dof + q];
+    h[p * dof + p] -= step;
+    h[q * dof + q] += step;
+    h[p * dof + q] = h[q * dof + p] = 0;
+    for (size_t i = 0; i < dof; i++) {
+        if (i == p || i == q) continue;
+        double a = h[i * dof + p], b = h[i * dof + q];
+        h[i * dof + p] = h[p * dof + i] = c * a - s * b;
+        h[i * dof + q] = h[q * dof + i] = s * a + c * b;
+    }
+    for (size_t i = 0; i < n; i++) {
+        double a = r->shape[p * n + i], b = r->shape[q * n + i];
+        r->shape[p * n + i] = c * a - s * b;
+        r->shape[q * n + i] = s * a + c * b;
+    }
+}
+
+/* Small stiffnesses beside large ones (light bodies, stiff springs) come out of the dense
+   eigenproblem with the round-off of the largest. In the modes' own coordinates they do not: there
+   N^T K N is graded, and Jacobi's rotations respect that. */
+static void refine(fw_reduced *r, const double *stiffness) {
+    size_t dof = (size_t)r->dof;
+    double *h = r->small;
+    project(r, stiffness);
+    for (int sweep = 0, turned = 1; sweep < 8 && turned; sweep++) {
+        turned = 0;
+        for (size_t p = 0; p < dof; p++)
+            for (size_t q = p + 1; q < dof; q++) {
+                double size = sqrt(fabs(h[p * dof + p] * h[q * dof + q]));
+                if (!(fabs(h[p * dof + q]) > DBL_EPSILON * size)) continue;
+                rotate(r, h, p, q);
+                turned = 1;
+            }
+    }
+    for (size_t k = 0; k < dof; k++)
+        r->value[k] = h[k * dof + k];
+}
+
+/* modes by stiffness, ascending; few are out of order after the refinement */
+static void sort_modes(fw_reduced *r) {
+    size_t n = (size_t)r->n;
+    for (int i = 1; i < r->dof; i++)
+        for (int k = i; k > 0 && r->value[k] < r->value[k - 1]; k--) {
+            double *a = r->shape + (size_t)k * n, *b = a - n, keep = r->value[k];
+            r->value[k] = r->value[k - 1];
+            r->value[k - 1] = keep;
+            for (size_t j = 0; j < n; j++)
+                keep = a[j], a[j] = b[j], b[j] = keep;
+        }
+}
+
+/* round-off of each value: of its own terms, and squared of what the largest may leave in its shape
+ */
+static void set_zero(fw_reduced *r, const double *stiffness) {
+    size_t n = (size_t)r->n;
+    const double small = 64 * DBL_EPSILON;
+    double most = 0;
+    for (int k = 0; k < r->dof; k++)
+        most = fmax(most, fabs(r->value[k]));
+    for (size_t k = 0; k < (size_t)r->dof; k++) {
+        const double *shape = r->shape + k * n;
+        r->zero[k] = small * small * r->dof * most;
         for (size_t i = 0; i < n; i++) {
             double sum = 0;
             for (size_t j = 0; j < n; j++)
-                sum += stiffness[i * n + j] * r->root[j] * basis[k * n + j];
-            r->shape[k * n + i] = sum * r->root[i];
+                sum += fabs(stiffness[i * n + j] * shape[j]);
+            r->zero[k] += small * fabs(shape[i]) * sum;
         }
+    }
+}
+
+/* Modes of K on the null space: eigenvectors of V_0^T M^-1/2 K M^-1/2 V_0 by LAPACK, then a
+   Rayleigh-Ritz step in the coordinates of the bodies with Jacobi rotations. Error of a value:
+   round- off of its own terms. Cost 4 n^2 dof and 20 dof^3. Source: Demmel and Veselic, SIAM J.
+   Matrix Anal. Appl. 13 (1992), on the accuracy of Jacobi's method. Test: test_modes.c (mass ratio
+   1e8). */
+fw_status fw_reduced_spectrum(fw_reduced *r, const double *stiffness) {
+    size_t n = (size_t)r->n, dof = (size_t)r->dof;
+    const double *basis = r->right + (size_t)r->rank * n;
     for (size_t k = 0; k < dof; k++)
-        for (size_t l = 0; l <= k; l++) {
-            double one = 0, other = 0; /* both halves, so that round-off stays symmetric */
-            for (size_t i = 0; i < n; i++) {
-                one += basis[k * n + i] * r->shape[l * n + i];
-                other += basis[l * n + i] * r->shape[k * n + i];
-            }
-            r->small[k * dof + l] = r->small[l * dof + k] = 0.5 * (one + other);
-        }
+        for (size_t i = 0; i < n; i++)
+            r->shape[k * n + i] = basis[k * n + i] * r->root[i];
+    project(r, stiffness);
     for (size_t k = 0; k < dof * dof; k++)
         if (!isfinite(r->small[k])) return FW_SOLVER;
     if (dof > 0 && !fw_eigen(r->dof, r->small, r->value, &r->eigen)) return FW_SOLVER;
@@ -106,10 +192,9 @@ fw_status fw_reduced_spectrum(fw_reduced *r, const double *stiffness) {
                 sum += r->small[k * dof + l] * basis[l * n + i];
             r->shape[k * n + i] = sum * r->root[i];
         }
-    double most = 1; /* the scale of time makes stiffnesses of order one */
-    for (size_t k = 0; k < dof; k++)
-        most = fmax(most, fabs(r->value[k]));
-    r->tolerance = 64 * (double)r->dof * DBL_EPSILON * most;
+    refine(r, stiffness);
+    sort_modes(r);
+    set_zero(r, stiffness);
     return FW_OK;
 }
 

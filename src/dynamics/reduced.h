@@ -10,12 +10,12 @@ typedef struct fw_reduced {
     int n, rows, rank, dof;        /* n = 3 nbody; dof = n - rank */
     double largest, kept, dropped; /* singular values of balanced G M^-1/2: the largest, the
                                       smallest that counts, the largest that does not (0: none) */
-    double *shape;    /* (dof x n) modes: shape M shape^T = 1, shape K shape^T = value */
-    double *value;    /* (dof) ascending, 1/time^2 */
-    double tolerance; /* of `value`: below it a value is no more than round-off */
-    double *root;     /* (n) M^-1/2 */
-    double *left;     /* (rows x min(rows, n)) column-major, singular vectors */
-    double *right;    /* (n x n) row-major: right singular vectors, those of the null space last */
+    double *shape; /* (dof x n) modes: shape M shape^T = 1, shape K shape^T = value */
+    double *value; /* (dof) ascending, 1/time^2 */
+    double *zero;  /* (dof) |value| up to this is no more than round-off */
+    double *root;  /* (n) M^-1/2 */
+    double *left;  /* (rows x min(rows, n)) column-major, singular vectors */
+    double *right; /* (n x n) row-major: right singular vectors, those of the null space last */
     double *balance, *g, *a, *sigma, *small, *work;
     fw_lapack_space svd, eigen;
 } fw_reduced;

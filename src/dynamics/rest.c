@@ -289,10 +289,10 @@ static const char *block_name(const fw_rest *w, int block) {
 
 /* rows that take part in a combination of rows that is zero: what U_1, the part of U that counts,
    misses of a unit row */
-fw_status fw_rest_rank(const fw_rest *w, fw_rank *rank) {
+fw_status fw_rest_rank(const fw_rest *w, fw_row_rank *rank) {
     const fw_reduced *r = &w->reduced;
     const fw_model *m = w->model;
-    *rank = (fw_rank){.rows = r->rows, .rank = r->rank};
+    *rank = (fw_row_rank){.rows = r->rows, .rank = r->rank};
     if (r->largest > 0) rank->kept = r->kept / r->largest, rank->dropped = r->dropped / r->largest;
     if (r->rank == r->rows) return FW_OK;
     fw_text names = fw_text_new(w->arena);

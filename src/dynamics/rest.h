@@ -62,7 +62,7 @@ fw_status fw_rest_follow(fw_rest *w, int most_points, fw_path **path);
 /* SI: pose, joint angles, joint forces of an evaluated state */
 void fw_rest_pose(const fw_rest *w, const double *u, double *q, double *angle);
 void fw_rest_reactions(const fw_rest *w, double *reaction);
-fw_status fw_rest_rank(const fw_rest *w, fw_rank *rank);
+fw_status fw_rest_rank(const fw_rest *w, fw_row_rank *rank);
 /* names of the bodies that take part in a motion (n), the one that moves most first */
 fw_status fw_rest_bodies(const fw_rest *w, const double *shape, const char **names);
 int fw_rest_mover(const fw_rest *w, const double *shape);

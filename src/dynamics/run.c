@@ -164,7 +164,7 @@ static fw_status next_piece(fw_run *r, fw_stepper *s, int piece) {
                 "a driver of scene %s jumps at %s s: a position cannot; give it a ramp",
                 scene_name(r), fw_number_text(at, sizeof at, t * m->scale.time_s, 6)));
         }
-        if (!m->method->factor(m) || !fw_model_project_velocity(m, t, y + m->nq))
+        if (!m->method->factor(m) || !fw_model_impact(m, t, y + m->nq))
             return stopped(r, s, FW_ODE_SMALL);
         if (m->worked >= 0) y[m->worked] += kinetic(m, y + m->nq) - before;
     }

@@ -23,9 +23,9 @@ double fw_rest_newton(const fw_rest *w, double *step) {
     memset(step, 0, n * sizeof *step);
     for (size_t k = 0; k < (size_t)r->dof; k++) {
         double stiff = fabs(r->value[k]), force = w->gradient[k];
-        if (stiff <= r->tolerance) {
+        if (stiff <= r->zero[k]) {
             if (fabs(force) <= w->noise[k]) continue;
-            stiff = r->tolerance;
+            stiff = fmax(r->zero[k], 1e-12);
         }
         for (size_t i = 0; i < n; i++)
             step[i] += r->shape[k * n + i] * (force / stiff);
@@ -65,7 +65,7 @@ static bool line_search(fw_rest *w, const double *from, const double *step, doub
    energy falls more; false: stable, or indifferent */
 static bool escape(fw_rest *w, double *to) {
     const fw_reduced *r = &w->reduced;
-    if (r->dof == 0 || r->value[0] >= -r->tolerance) return false;
+    if (r->dof == 0 || r->value[0] >= -r->zero[0]) return false;
     const double *u = w->y;
     double most = 0, best = (double)INFINITY, size, length = 0;
     for (int i = 0; i < r->n; i++)
@@ -178,8 +178,8 @@ static fw_status count_signs(const fw_rest *w, fw_statics *out) {
     for (int k = 0; k < r->dof; k++) {
         out->eigenvalue_per_s2[k] = r->value[k] * fw_rest_per_s2(w);
         worst = fmax(worst, fabs(w->gradient[k]));
-        if (r->value[k] < -r->tolerance) out->negative++;
-        if (fabs(r->value[k]) > r->tolerance) continue;
+        if (r->value[k] < -r->zero[k]) out->negative++;
+        if (fabs(r->value[k]) > r->zero[k]) continue;
         out->neutral++;
         for (size_t i = 0; i < n; i++)
             sum[i] += fabs(r->shape[(size_t)k * n + i]);

@@ -15,12 +15,12 @@ typedef struct fw_static_options {
     int most_points;          /* of the path; 0: 2000 */
 } fw_static_options;
 
-typedef struct fw_rank { /* what was found out about the constraint rows */
+typedef struct fw_row_rank { /* what was found out about the constraint rows */
     int rows, rank;
     double kept, dropped; /* smallest singular value that counts, largest that does not, relative to
                              the largest; dropped 0: none */
     const char *joints;   /* joints that repeat what others say, comma separated, or NULL */
-} fw_rank;
+} fw_row_rank;
 
 typedef struct fw_active { /* a stop or a cable */
     const char *id;        /* of the joint or the spring */
@@ -67,7 +67,7 @@ typedef struct fw_statics {
     int iterations;            /* Newton steps */
     fw_active *active;         /* (nactive) */
     int nactive;
-    fw_rank rank;
+    fw_row_rank rank;
     fw_path *path; /* NULL: not asked for */
     fw_effect_ledger ledger;
 } fw_statics;

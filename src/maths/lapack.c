@@ -15,13 +15,16 @@ static int at_least_one(int n) { /* leading dimensions */
     return n > 1 ? n : 1;
 }
 
-/* OpenBLAS, where it is the BLAS, would split matrices of a dozen rows over all cores: on a busy
-   machine that costs 50 times the arithmetic, and the last digits follow the number of threads. */
 void openblas_set_num_threads(int count) __attribute__((weak));
+
+/* OpenBLAS would split matrices of a dozen rows over all cores: on a busy machine that costs 50
+   times the arithmetic, and the last digits follow the number of threads */
+void fw_lapack_one_thread(void) {
+    if (openblas_set_num_threads) openblas_set_num_threads(1);
+}
 
 static fw_status space_of(fw_arena *arena, int info, double ask, fw_lapack_space *space) {
     if (info != 0 || !(ask >= 0) || ask > 1e8) return FW_SOLVER;
-    if (openblas_set_num_threads) openblas_set_num_threads(1);
     space->size = at_least_one((int)ask);
     FW_NEED(space->work = fw_arena_array(arena, double, (size_t)space->size));
     return FW_OK;

@@ -14,7 +14,7 @@ json_t *fw_json_by_body(const fw_mechanism *mechanism, const double *triples, bo
     return o;
 }
 
-json_t *fw_json_rank(const fw_rank *rank, bool *failed) {
+json_t *fw_json_rank(const fw_row_rank *rank, bool *failed) {
     json_t *o = json_object();
     fw_json_put(o, "rows", json_integer(rank->rows), failed);
     fw_json_put(o, "rank", json_integer(rank->rank), failed);

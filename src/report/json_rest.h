@@ -6,5 +6,5 @@
 
 /* {"BODY": [x, y, phi]} from 3 numbers per body */
 json_t *fw_json_by_body(const fw_mechanism *mechanism, const double *triples, bool *failed);
-json_t *fw_json_rank(const fw_rank *rank, bool *failed);
+json_t *fw_json_rank(const fw_row_rank *rank, bool *failed);
 #endif

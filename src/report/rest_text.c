@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/rest.h"
+#include "report/magnitude.h"
 #include <math.h>
 
 static double degrees(double rad) {
@@ -13,10 +14,10 @@ const char *fw_report_path_mark(fw_path_mark mark) {
 
 /* eight decimals in a column; what rounds to zero has no sign */
 static void column(fw_text *out, double value) {
-    fw_text_real(out, "%14.8f", fabs(value) < 5e-9 ? 0.0 : value);
+    fw_text_real(out, " %14.8f", fabs(value) < 5e-9 ? 0.0 : value);
 }
 
-static void rank_line(fw_text *out, int dof, const fw_rank *r) {
+static void rank_line(fw_text *out, int dof, const fw_row_rank *r) {
     fw_text_printf(out, "%d degree%s of freedom; ", dof, dof == 1 ? "" : "s");
     if (r->rows == 0) {
         fw_text_add(out, "no joints\n");
@@ -130,20 +131,30 @@ fw_status fw_report_statics_text(const fw_mechanism *m, const fw_scene *scene, c
     stability(out, s);
     rank_line(out, s->dof, &s->rank);
     active(out, s);
-    fw_text_add(out, "\n  body             x mm          y mm       phi deg\n");
+    double far = 0, strong = 0;
+    for (int i = 0; i < 3 * m->nbody; i++)
+        far = i % 3 == 2 ? far : fmax(far, fabs(s->q[i]));
+    for (int i = 0; i < 2 * m->npin; i++)
+        strong = fmax(strong, fabs(s->reaction_N[i]));
+    const fw_magnitude length = fw_magnitude_of(FW_MEASURE_LENGTH, far);
+    const fw_magnitude force = fw_magnitude_of(FW_MEASURE_FORCE, strong);
+    fw_text_printf(out, "\n  body              x %-2s           y %-2s        phi deg\n",
+                   length.unit, length.unit);
     for (int b = 0; b < m->nbody; b++) {
         fw_text_printf(out, "  %-8s ", m->body[b].id);
-        column(out, s->q[3 * b] * 1e3);
-        column(out, s->q[3 * b + 1] * 1e3);
+        column(out, s->q[3 * b] * length.per_si);
+        column(out, s->q[3 * b + 1] * length.per_si);
         column(out, degrees(s->q[3 * b + 2]));
         fw_text_add(out, "\n");
     }
-    if (m->npin > 0) fw_text_add(out, "\n  joint       angle deg      force on b, x uN and y uN\n");
+    if (m->npin > 0)
+        fw_text_printf(out, "\n  joint         angle deg     force on b, x and y in %s\n",
+                       force.unit);
     for (int k = 0; k < m->npin; k++) {
         fw_text_printf(out, "  %-8s ", m->pin[k].id);
         column(out, degrees(s->angle_rad[k]));
-        column(out, s->reaction_N[2 * k] * 1e6);
-        column(out, s->reaction_N[2 * k + 1] * 1e6);
+        column(out, s->reaction_N[2 * k] * force.per_si);
+        column(out, s->reaction_N[2 * k + 1] * force.per_si);
         fw_text_add(out, "\n");
     }
     if (s->path) path_events(out, s);

@@ -174,6 +174,35 @@ static void damping_of_one_wheel(void **state) {
     }
 }
 
+/* two bars in a row, the second lighter by up to 1e12, or the second spring stiffer: both
+   frequencies keep their digits (det (K - x M) = a x^2 - b x + c), except what a stiff spring
+   takes: the lower one is a difference of terms that are larger by the ratio of the springs */
+static void light_links_and_stiff_springs(void **state) {
+    (void)state;
+    for (int kind = 0; kind < 14; kind++) {
+        fixture f = begin();
+        double light = kind < 7 ? pow(10, -2 * kind) : 1, stiff = kind < 7 ? 1 : pow(10, kind - 6);
+        double m1 = 1e-8, j1 = 3e-16, m2 = light * 1e-8, j2 = light * 2e-16, l = 1e-3, k1 = 1e-6,
+               k2 = 2e-6 * stiff;
+        rig r = rig_new(f.arena, 2, 2, 0);
+        rig_body(&r, "first", m1, j1, l / 2, 0, 0);
+        rig_body(&r, "second", m2, j2, 1.5 * l, 0, 0);
+        rig_pin(&r, "O", FW_GROUND, 0, 0, 0, k1, 0);
+        rig_pin(&r, "P", 0, 1, l, 0, k2, 0);
+        r.scene.duration_s = 1;
+        double m11 = j1 + m1 * l * l / 4 + m2 * l * l, m12 = m2 * l * l / 2,
+               m22 = j2 + m2 * l * l / 4;
+        double a = m11 * m22 - m12 * m12, b = (k1 + k2) * m22 + k2 * m11 + 2 * k2 * m12,
+               c = k1 * k2;
+        double root = b + sqrt(b * b - 4 * a * c);
+        const fw_modes *m = modes_at(&f, &r, false, 0);
+        assert_int_equal(m->count, 2);
+        assert_relative(m->mode[0].stiffness_per_s2, 2 * c / root, 1e-13 + 4e-16 * stiff);
+        assert_relative(m->mode[1].stiffness_per_s2, root / (2 * a), 1e-12);
+        fw_arena_free(f.arena);
+    }
+}
+
 static void free_motions_are_named(void **state) {
     (void)state;
     fixture f = begin();
@@ -309,6 +338,7 @@ int main(void) {
         cmocka_unit_test(shapes_of_the_six_bar),
         cmocka_unit_test(pendulum_up_and_down),
         cmocka_unit_test(damping_of_one_wheel),
+        cmocka_unit_test(light_links_and_stiff_springs),
         cmocka_unit_test(free_motions_are_named),
         cmocka_unit_test(out_of_rest_is_said),
         cmocka_unit_test(damped_pairs_satisfy_the_pencil),
