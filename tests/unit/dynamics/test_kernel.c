@@ -253,6 +253,28 @@ static void test_redundant(void **state) {
     fw_arena_free(arena);
 }
 
+/* the same bits on every processor and from every compiler: no contraction, one order */
+static void test_bits(void **state) {
+    (void)state;
+    static const double want[2][4] = {
+        {-0x1.acc2fedaeba8ap-1, -0x1.411df48ca7d8ap+1, 0x1.c2fe09d03c72fp-1, 0x1.91d66cbd5ca1ap-7},
+        {-0x1.acc2fedaeba8bp-1, -0x1.411df48ca7d8ap+1, 0x1.c2fe09d03c73p-1, 0x1.91d66cbd5ca1bp-7}};
+    fw_arena *arena = fw_arena_new(0);
+    rig r = rig_six_bar(arena, false);
+    fw_model *m = rig_model(arena, &r);
+    fw_kernel *k = kernel_of(arena, m);
+    double *y = rig_state(arena, m, 3, 12), f[31];
+    for (int path = 0; path < 2; path++) {
+        fw_kernel_prefer(k, path);
+        fw_kernel_rhs(k, y, f);
+        const double got[4] = {f[m->nq], f[m->nq + 5], f[m->nq + 10], f[2 * m->nq]};
+        for (int i = 0; i < 4; i++)
+            if (got[i] != want[path][i])
+                fail_msg("path %d: %a, not %a", path, got[i], want[path][i]);
+    }
+    fw_arena_free(arena);
+}
+
 /* ---- projection ---- */
 
 static void test_projection(void **state) {
@@ -358,9 +380,9 @@ int main(void) {
         cmocka_unit_test(test_sincos),          cmocka_unit_test(test_sincos_everywhere),
         cmocka_unit_test(test_against_general), cmocka_unit_test(test_paths),
         cmocka_unit_test(test_both_solves),     cmocka_unit_test(test_singular_positions),
-        cmocka_unit_test(test_redundant),       cmocka_unit_test(test_projection),
-        cmocka_unit_test(test_not_a_number),    cmocka_unit_test(test_only_plain),
-        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_redundant),       cmocka_unit_test(test_bits),
+        cmocka_unit_test(test_projection),      cmocka_unit_test(test_not_a_number),
+        cmocka_unit_test(test_only_plain),      cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
