@@ -79,8 +79,8 @@ static inline fw_tie *hard_tie_at(fw_arena *arena, rig *r, const char *id, fw_ti
     fw_tie *t = hard_tie(arena, r, id, kind, a, b);
     hard_local(r, a, x, y, &t->ax_m, &t->ay_m);
     hard_local(r, b, x, y, &t->bx_m, &t->by_m);
-    t->angle_rad = (b == FW_GROUND ? 0 : r->m.body[b].phi_rad) -
-                   (a == FW_GROUND ? 0 : r->m.body[a].phi_rad);
+    t->angle_rad =
+        (b == FW_GROUND ? 0 : r->m.body[b].phi_rad) - (a == FW_GROUND ? 0 : r->m.body[a].phi_rad);
     return t;
 }
 
@@ -147,8 +147,8 @@ static inline fw_model *hard_model(fw_arena *arena, const rig *r, const fw_metho
     assert_int_equal(
         fw_effects_compile(arena, &r->m, &r->scene, &all, 1e-3, &diags, &ledger, terms), FW_OK);
     assert_int_equal(fw_assemble(arena, &r->m, q, &moved, &diags), FW_OK);
-    assert_int_equal(
-        fw_model_new(arena, &r->m, terms, q, r->scene.duration_s, method, &diags, &m), FW_OK);
+    assert_int_equal(fw_model_new(arena, &r->m, terms, q, r->scene.duration_s, method, &diags, &m),
+                     FW_OK);
     return m;
 }
 
