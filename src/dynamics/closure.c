@@ -190,7 +190,7 @@ void fw_closure_nearest(fw_closure *c) {
     fw_model *m = c->model;
     size_t bytes = (size_t)m->nq * sizeof(double);
     double distance = fw_closure_distance(c, c->u), *held = m->correction;
-    for (int i = 0; i < 60 && distance > 0; i++) {
+    for (int i = 0; i < 100 && distance > 0; i++) {
         memcpy(held, c->u, bytes);
         if (!tangent_step(c)) return;
         double turned = 0, before = distance, fraction = 1;
@@ -209,7 +209,7 @@ void fw_closure_nearest(fw_closure *c) {
             }
             memcpy(c->u, held, bytes);
         }
-        if (!(distance < (1 - 1e-12) * before)) return;
+        if (!(distance < before)) return; /* as near as the arithmetic can tell */
     }
 }
 

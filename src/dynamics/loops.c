@@ -172,7 +172,12 @@ static fw_status hint(fw_arena *arena, const fw_mechanism *mechanism, const fw_c
     length_text(longest, sizeof longest, s->length * m->scale.length_m);
     length_text(others, sizeof others, (s->length - r.missing) * m->scale.length_m);
     length_text(missing, sizeof missing, r.missing * m->scale.length_m);
-    const char *from = fw_block_name(mechanism, &m->block[s->from]);
+    const fw_block *first = &m->block[s->from], *second = &m->block[s->to];
+    if (second->pin != FW_NONE && first->pin > second->pin) { /* in the order of the file */
+        const fw_block *other = first;
+        first = second, second = other;
+    }
+    const char *from = fw_block_name(mechanism, first);
     if (s->body < 0)
         *text = fw_arena_printf(arena,
                                 "around its loop, %s is %s long and the other sides reach %s "
@@ -182,7 +187,7 @@ static fw_status hint(fw_arena *arena, const fw_mechanism *mechanism, const fw_c
         *text = fw_arena_printf(arena,
                                 "around its loop, %s to %s on %s measures %s and the other sides "
                                 "reach %s together: %s are missing",
-                                from, fw_block_name(mechanism, &m->block[s->to]),
+                                from, fw_block_name(mechanism, second),
                                 body_name(mechanism, s->body), longest, others, missing);
     FW_NEED(*text);
     return FW_OK;
@@ -235,11 +240,12 @@ static fw_status blame_driver(const fw_mechanism *mechanism, const fw_closure *c
     bool angle = b->rows == FW_ROWS_TURN;
     char *(*text)(char *, size_t, double) = angle ? angle_text : length_text;
     off *= angle ? 1 : m->scale.length_m;
-    return fw_diag_error(diags, 116, d->place,
-                         "driver %s cannot have the value that it asks for at the start: it asks "
-                         "for %s, the joints allow %s at most near the guess (%s off)",
-                         name_of(d->id), text(asked, sizeof asked, law[0]),
-                         text(best, sizeof best, law[0] + off), text(less, sizeof less, fabs(off)));
+    return fw_diag_error(
+        diags, 116, d->place,
+        "driver %s cannot have the value that it asks for at the start: it asks "
+        "for %s, and the nearest that the joints allow from this guess is %s (%s off)",
+        name_of(d->id), text(asked, sizeof asked, law[0]), text(best, sizeof best, law[0] + off),
+        text(less, sizeof less, fabs(off)));
 }
 
 /* ---- joints ---- */
