@@ -428,7 +428,8 @@ static bool project_position(fw_path *p, double *u, double *norm) {
         *norm = residual(p, u);
         if (!(*norm < (double)INFINITY)) return false;
         bool slow = *norm > 0.25 * before;
-        if (*norm <= 2 * DBL_EPSILON * p->size || (slow && *norm <= 1e-13 * p->size)) break;
+        if (*norm <= 2 * DBL_EPSILON * p->size || (slow && *norm <= fmin(1e-13 * p->size, 1e-12)))
+            break;
         if ((slow || i == 4) && factor(p) < 0) return false;
         before = *norm;
         solve(p);
