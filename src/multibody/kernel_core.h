@@ -403,7 +403,7 @@ static bool project_position(fw_core *k, real *u, double *norm) {
         *norm = residual(k, u, &relative);
         if (!(*norm < (double)INFINITY)) return false;
         bool slow = relative > 0.25 * before;
-        if (relative <= 2 * DBL_EPSILON || (slow && relative <= 1e-13)) break;
+        if (relative <= 2 * DBL_EPSILON || (slow && relative <= 1e-13 && *norm <= 1e-12)) break;
         if (slow || i == 4) {
             factor(k, &broken);
             if (bits_any(broken)) return false;

@@ -10,7 +10,7 @@
 
 static bool factor(fw_model *m) {
     fw_chain_assemble(m);
-    return fw_chain_factor(&m->chain, fw_epsilon);
+    return fw_chain_factor(&m->chain, m->epsilon);
 }
 
 static void accelerate(fw_model *m, const double *gamma, double *a, double *lambda) {

@@ -318,6 +318,7 @@ fw_status fw_model_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_
     m->npin = mechanism->npin, m->ntie = mechanism->ntie, m->ndriver = mechanism->ndriver;
     m->nq = 3 * m->nbody;
     m->projecting = true;
+    m->epsilon = fw_epsilon;
     fw_model_scale(mechanism, terms, duration_s, &m->scale);
     FW_TRY(fw_model_body_arrays(arena, m));
     builder b = {arena, mechanism, terms, m, middle(mechanism, q)};

@@ -136,6 +136,7 @@ typedef struct fw_model {
     double
         baumgarte; /* alpha = beta of G a = -gamma - 2 alpha (G v + Psi_t) - beta^2 Psi; 0: none */
     bool projecting; /* stabilise by projection */
+    double epsilon;  /* of the chain's factor: fw_epsilon, less inside a projection */
     /* work */
     double *cosine, *sine;                 /* (nbody + 1) */
     double *arm;                           /* (4 nblock) arms in world axes */

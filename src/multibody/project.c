@@ -11,6 +11,15 @@ static void move(const fw_model *m, double *x) {
         x[i] += m->correction[i];
 }
 
+/* a new factor where the last one converged slowly: near a singular position modes of S below eps
+   shrink by eps/(s + eps) only, so the shift falls with every call, as far as S stays positive */
+static bool sharpen(fw_model *m) {
+    m->epsilon = fmax(0.1 * m->epsilon, 1e-11);
+    if (m->method->factor(m)) return true;
+    m->epsilon = fw_epsilon;
+    return m->method->factor(m);
+}
+
 /* the joint that stays open, for the message when no smaller step helps; Psi is in m->right */
 static void remember_stuck(fw_model *m, double t, double norm) {
     m->stuck = 0;
@@ -21,11 +30,12 @@ static void remember_stuck(fw_model *m, double t, double norm) {
 
 /* Newton u += d, G d = -Psi with the factor at hand (of a pose a step's error away); it is renewed
    when that converges slowly. Ends at round-off: below 2 eps times the size, or no longer halving
-   below 1e-13 of it. false: |Psi| stays above 1e-12 scaled. Input and output u (3 nbody), scaled;
-   the model is left posed at the result. Cost one to two solves. Source: coordinate projection in
-   the mass metric, Eich 1993. Test: test_simulate.c. */
+   below 1e-13 of it and below the limit. false: |Psi| stays above 1e-12 scaled. Input and output u
+   (3 nbody), scaled; the model is left posed at the result. Cost one to two solves. Source:
+   coordinate projection in the mass metric, Eich 1993. Test: test_simulate.c. */
 bool fw_model_project_position(fw_model *m, double t, double *u) {
     double before = (double)INFINITY, norm = 0;
+    const double round_off = fmin(1e-13 * m->size, fw_position_limit);
     if (m->method->close) {
         if (!m->method->close(m, t, u)) return false;
         norm = fw_model_residual(m, t, u, m->right);
@@ -34,16 +44,19 @@ bool fw_model_project_position(fw_model *m, double t, double *u) {
     }
     for (int i = 0; i < 20; i++) {
         norm = fw_model_residual(m, t, u, m->right);
-        if (!(norm < (double)INFINITY)) return false;
+        if (!(norm < (double)INFINITY)) break;
         bool slow = norm > 0.25 * before;
-        if (norm <= 2 * DBL_EPSILON * m->size || (slow && norm <= 1e-13 * m->size)) break;
-        if ((slow || i == 4) && !m->method->factor(m)) return false;
+        if (norm <= 2 * DBL_EPSILON * m->size || (slow && norm <= round_off)) break;
+        if (slow && i > 2 ? !sharpen(m) : (slow || i == 4) && !m->method->factor(m)) break;
         before = norm;
         m->method->correct(m, m->right, m->correction);
         move(m, u);
     }
-    m->worst_position = fmax(m->worst_position, norm);
-    if (norm <= fw_position_limit) return true;
+    m->epsilon = fw_epsilon;
+    if (norm <= fw_position_limit) {
+        m->worst_position = fmax(m->worst_position, norm);
+        return true;
+    }
     remember_stuck(m, t, norm);
     return false;
 }

@@ -145,12 +145,13 @@ static inline fw_model *hard_model(fw_arena *arena, const rig *r, const fw_metho
         const fw_mass *p = &r->m.body[b];
         q[3 * b] = p->x_m, q[3 * b + 1] = p->y_m, q[3 * b + 2] = p->phi_rad;
     }
-    fw_model *m = NULL;
+    fw_model *m = NULL; /* without the fast kernel, which knows one method only */
     assert_int_equal(
         fw_effects_compile(arena, &r->m, &r->scene, &all, 1e-3, &diags, &ledger, terms), FW_OK);
     assert_int_equal(fw_assemble(arena, &r->m, q, &moved, &diags), FW_OK);
     assert_int_equal(fw_model_new(arena, &r->m, terms, q, r->scene.duration_s, method, &diags, &m),
                      FW_OK);
+    m->kernel = NULL;
     return m;
 }
 
