@@ -17,6 +17,16 @@ set(FW_EXTERN_process PkgConfig::XML2)
 set(FW_EXTERN_report PkgConfig::CAIRO)
 set(FW_EXTERN_base PkgConfig::JANSSON m)
 
+# the batch kernels are the same source compiled for each instruction set and chosen at run time; they
+# alone may contract products and sums
+set(kernels ${PROJECT_SOURCE_DIR}/src/dynamics)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    set_source_files_properties(${kernels}/kernel_core_avx2.c ${kernels}/kernel_path_avx2.c PROPERTIES COMPILE_OPTIONS
+                                "-O3;-mavx2;-mfma;-ffp-contract=fast")
+    set_source_files_properties(${kernels}/kernel_core_avx512.c ${kernels}/kernel_path_avx512.c PROPERTIES COMPILE_OPTIONS
+                                "-O3;-mavx512f;-mavx512dq;-mavx512vl;-mfma;-ffp-contract=fast")
+endif()
+
 set(below)
 foreach(room ${FW_ROOMS})
     file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${room}/*.c)

@@ -85,8 +85,13 @@ typedef struct fw_design_options {
     int32_t force;           /* not 0: masks and recipes of a rejected design too, each marked */
     double mask_tolerance_m; /* largest distance of an arc from its polygon, 1.42e-9..1e-6 m;
                                 default 5e-9 */
-    size_t memory_cap;       /* most bytes that one design holds; default 256 MiB */
+    size_t memory_cap;       /* most bytes that one design holds; default 512 MiB */
     const char *stabilise;   /* "projection" (default), "baumgarte" or "none" */
+    const char *at;          /* for fw_design_modes: about "rest" (default) or "equilibrium" */
+    int32_t path;            /* not 0: fw_design_statics follows the load path */
+    /* for fw_design_assemble: independent coordinates "AB.phi,BC.phi" (default: chosen by
+       pivoting), their rates "10 rad/s,0 rad/s" and accelerations; default 0 */
+    const char *independent, *rates, *accelerations;
 } fw_design_options;
 
 /* Fills `size` bytes (as the caller's header defines the struct) with the defaults. NULL options:
@@ -151,6 +156,26 @@ FW_API int fw_design_fabricate(fw_design *design);
    a six-bar: about 10 ms. */
 FW_API int fw_design_simulate(fw_design *design);
 
+/* Small motions of the mechanism of one scene (options.scene, options.at), after reading: natural
+   frequencies, damped eigenvalues, shapes. About rest a device without scenes will do. Errors as
+   fw_design_simulate; FW_STATUS_SOLVER when there is no equilibrium. Again after FW_STATUS_OK: does
+   nothing. Cost for a six-bar: a millisecond. */
+FW_API int fw_design_modes(fw_design *design);
+
+/* Equilibrium under the loads of one scene (options.scene), and with options.path the path of
+   equilibria that leads there from rest, through limit points; after reading. Errors as
+   fw_design_modes. Again after FW_STATUS_OK: does nothing. Cost for a six-bar: a millisecond, ten
+   with the path. */
+FW_API int fw_design_statics(fw_design *design);
+
+/* Solves the position problem from the poses that the description states, however bad a guess they
+   are; with rates, velocities, accelerations and joint forces under the loads of options.scene too
+   (default: the first scene; none is needed). After reading. FW_STATUS_SOLVER when the joints
+   cannot be closed: the diagnostics name the one that stays open and by how much, and
+   FW_DOCUMENT_ASSEMBLE_SVG shows the least mismatch. FW_STATUS_USAGE for independent coordinates or
+   rates that do not fit. Other errors as fw_design_simulate. Cost for a six-bar: about 5 ms. */
+FW_API int fw_design_assemble(fw_design *design);
+
 enum {                        /* what fw_design_write writes, added up, with a manifest.json */
        FW_DESIGN_VERDICT = 1, /* verdict.json */
        FW_DESIGN_MASKS = 2,   /* masks/FLOW.gds, .svg, .lyp, .json */
@@ -165,24 +190,36 @@ enum {                        /* what fw_design_write writes, added up, with a m
    judging, and for masks and recipes after fw_design_fabricate. FW_STATUS_IO, FW_STATUS_NOMEM,
    FW_STATUS_USAGE (also for bits not named above). */
 FW_API int fw_design_write(fw_design *design, const char *directory, unsigned what);
-/* Files that the last fw_design_write made, manifest.json not counted. 0: there was nothing to write
-   (masks of a rejected design) and `directory` was left as it was. NULL gives 0. */
+/* Files that the last fw_design_write made, manifest.json not counted. 0: there was nothing to
+   write (masks of a rejected design) and `directory` was left as it was. NULL gives 0. */
 FW_API int fw_design_files_written(const fw_design *design);
 
 /* ---- documents ---- */
 
-enum {                                   /* what it is; what must have been called */
-       FW_DOCUMENT_VERDICT_JSON = 0,     /* schema flexwright.verdict/1; judge */
-       FW_DOCUMENT_VERDICT_TEXT = 1,     /* for a terminal; judge */
-       FW_DOCUMENT_SIMULATE_JSON = 2,    /* schema flexwright.simulate/1; simulate */
-       FW_DOCUMENT_SIMULATE_TEXT = 3,    /* for a terminal; simulate */
-       FW_DOCUMENT_MOTION_CSV = 4,       /* every body's motion, 17 digits; simulate */
-       FW_DOCUMENT_ANIMATION_SVG = 5,    /* plays by itself; simulate */
-       FW_DOCUMENT_MASKS_JSON = 6,       /* certificates, schema flexwright.masks/1; fabricate */
-       FW_DOCUMENT_RECIPES_JSON = 7,     /* of one flow, or flexwright.recipes/1; fabricate */
-       FW_DOCUMENT_DEVICE_SVG = 8,       /* the drawing, hinges coloured by utilisation; judge */
-       FW_DOCUMENT_REPORT_HTML = 9,      /* everything on one page; judge */
-       FW_DOCUMENT_DIAGNOSTICS_TEXT = 10 /* one line each with a caret below its place; nothing */
+enum {                                    /* what it is; what must have been called */
+       FW_DOCUMENT_VERDICT_JSON = 0,      /* schema flexwright.verdict/1; judge */
+       FW_DOCUMENT_VERDICT_TEXT = 1,      /* for a terminal; judge */
+       FW_DOCUMENT_SIMULATE_JSON = 2,     /* schema flexwright.simulate/1; simulate */
+       FW_DOCUMENT_SIMULATE_TEXT = 3,     /* for a terminal; simulate */
+       FW_DOCUMENT_MOTION_CSV = 4,        /* every body's motion, 17 digits; simulate */
+       FW_DOCUMENT_ANIMATION_SVG = 5,     /* plays by itself; simulate */
+       FW_DOCUMENT_MASKS_JSON = 6,        /* certificates, schema flexwright.masks/1; fabricate */
+       FW_DOCUMENT_RECIPES_JSON = 7,      /* of one flow, or flexwright.recipes/1; fabricate */
+       FW_DOCUMENT_DEVICE_SVG = 8,        /* the drawing, hinges coloured by utilisation; judge */
+       FW_DOCUMENT_REPORT_HTML = 9,       /* everything on one page; judge */
+       FW_DOCUMENT_DIAGNOSTICS_TEXT = 10, /* one line each with a caret below its place; nothing */
+       FW_DOCUMENT_MODES_JSON = 11,       /* schema flexwright.modes/1; modes */
+       FW_DOCUMENT_MODES_TEXT = 12,       /* for a terminal; modes */
+       FW_DOCUMENT_MODES_SVG = 13,        /* the first twelve shapes, moving; modes */
+       FW_DOCUMENT_STATICS_JSON = 14,     /* schema flexwright.statics/1; statics */
+       FW_DOCUMENT_STATICS_TEXT = 15,     /* for a terminal; statics */
+       FW_DOCUMENT_STATICS_SVG = 16,   /* the equilibrium over rest; moving with a path; statics */
+       FW_DOCUMENT_LOAD_PATH_CSV = 17, /* a row per point, or the equilibrium alone; statics */
+       FW_DOCUMENT_LOAD_PATH_SVG = 18, /* load against displacement; statics with options.path */
+       FW_DOCUMENT_ASSEMBLE_JSON = 19, /* schema flexwright.assemble/1; assemble */
+       FW_DOCUMENT_ASSEMBLE_TEXT = 20, /* for a terminal; assemble */
+       FW_DOCUMENT_ASSEMBLE_SVG = 21,  /* before and after; assemble, also when it failed */
+       FW_DOCUMENT_FORCES_CSV = 22     /* accelerations and joint forces, 17 digits; simulate */
 };
 
 /* One document as UTF-8 text, NUL-terminated; `length` (may be NULL) without the NUL. The text

@@ -120,6 +120,18 @@ static const char *take_tolerance(fw_cli_options *o, const char *v) {
     return NULL;
 }
 
+static const char *take_at(fw_cli_options *o, const char *v) {
+    o->design.at = v;
+    return strcmp(v, "rest") == 0 || strcmp(v, "equilibrium") == 0 ? NULL
+                                                                   : "needs rest or equilibrium";
+}
+
+static const char *take_path(fw_cli_options *o, const char *v) {
+    (void)v;
+    o->design.path = 1;
+    return NULL;
+}
+
 static const char *take_scene(fw_cli_options *o, const char *v) {
     o->design.scene = v;
     return *v ? NULL : "needs the name of a scene";
@@ -168,6 +180,11 @@ static const char *take_samples(fw_cli_options *o, const char *v) {
     return NULL;
 }
 
+static const char *take_forces(fw_cli_options *o, const char *v) {
+    o->forces = v;
+    return *v ? NULL : "needs a file name";
+}
+
 static const char *take_csv(fw_cli_options *o, const char *v) {
     o->csv = v;
     return *v ? NULL : "needs the name of a file";
@@ -175,6 +192,28 @@ static const char *take_csv(fw_cli_options *o, const char *v) {
 
 static const char *take_animate(fw_cli_options *o, const char *v) {
     o->animate = v;
+    return *v ? NULL : "needs the name of a file";
+}
+
+/* ---- of assemble ---- */
+
+static const char *take_independent(fw_cli_options *o, const char *v) {
+    o->design.independent = v;
+    return *v ? NULL : "needs coordinates like AB.phi,CD.x";
+}
+
+static const char *take_rates(fw_cli_options *o, const char *v) {
+    o->design.rates = v;
+    return *v ? NULL : "needs values with units like \"10 rad/s,0.2 mm/s\"";
+}
+
+static const char *take_accelerations(fw_cli_options *o, const char *v) {
+    o->design.accelerations = v;
+    return *v ? NULL : "needs values with units like \"10 rad/s^2,0.2 mm/s^2\"";
+}
+
+static const char *take_svg(fw_cli_options *o, const char *v) {
+    o->svg = v;
     return *v ? NULL : "needs the name of a file";
 }
 
@@ -196,7 +235,14 @@ static const option_row table[] = {
      FW_OPT_FABRICATE, take_force},
     {"mask-tolerance", 0, "NM", "largest distance between an arc and its polygon, in nm; default 5",
      FW_OPT_FABRICATE, take_tolerance},
-    {"scene", 0, "NAME", "the scene to simulate; default the first", FW_OPT_SIMULATE, take_scene},
+    {"scene", 0, "NAME", "the scene; default the first",
+     FW_OPT_SIMULATE | FW_OPT_MODES | FW_OPT_STATICS | FW_OPT_ASSEMBLE, take_scene},
+    {"at", 0, "POSE",
+     "about which pose: rest (default: the assembled pose without the scene's loads) or "
+     "equilibrium",
+     FW_OPT_MODES, take_at},
+    {"path", 0, NULL, "follow the load path from rest to the full load, through limit points",
+     FW_OPT_STATICS, take_path},
     {"method", 0, "NAME", "how the constraint forces are found; default chain", FW_OPT_SIMULATE,
      take_method},
     {"integrator", 0, "NAME", "default auto", FW_OPT_SIMULATE, take_integrator},
@@ -206,9 +252,24 @@ static const option_row table[] = {
      FW_OPT_SIMULATE, take_rtol},
     {"samples", 0, "N", "rows of the CSV, evenly over the scene; default 1001", FW_OPT_SIMULATE,
      take_samples},
+    {"forces", 0, "FILE", "accelerations of bodies, forces of joints and drivers, 17 digits",
+     FW_OPT_SIMULATE, take_forces},
     {"csv", 0, "FILE", "position and velocity of every body, 17 digits; - is standard output",
      FW_OPT_SIMULATE, take_csv},
+    {"csv", 0, "FILE",
+     "load factor, stability, poses, angles and joint forces, 17 digits, of the path "
+     "or the equilibrium; - is standard output",
+     FW_OPT_STATICS, take_csv},
     {"animate", 0, "FILE", "an SVG that plays by itself", FW_OPT_SIMULATE, take_animate},
+    {"independent", 0, "LIST",
+     "independent coordinates like AB.phi,CD.x (BODY.x, BODY.y, BODY.phi); default by pivoting",
+     FW_OPT_ASSEMBLE, take_independent},
+    {"rates", 0, "LIST", "their rates, like \"10 rad/s,0.2 mm/s\"; default 0", FW_OPT_ASSEMBLE,
+     take_rates},
+    {"accelerations", 0, "LIST", "their accelerations, like \"0 rad/s^2,1 m/s^2\"; default 0",
+     FW_OPT_ASSEMBLE, take_accelerations},
+    {"svg", 0, "FILE", "picture of before and after; - is standard output", FW_OPT_ASSEMBLE,
+     take_svg},
     {"quiet", 'q', NULL, "no messages but errors", FW_OPT_COMMON, take_quiet},
     {"verbose", 'v', NULL, "a line per stage, and every note", FW_OPT_COMMON, take_verbose},
     {"color", 0, "WHEN", "auto, always or never", FW_OPT_COMMON, take_colour},

@@ -15,7 +15,8 @@ typedef struct fw_cli_options {
     int nset;
     const char *device; /* "-" = standard input; for explain: the code */
     const char *output; /* -o */
-    const char *csv, *animate;
+    const char *csv, *forces, *animate;
+    const char *svg; /* of assemble */
     bool json, quiet, verbose, no_progress, help, version;
     int colour; /* -1 auto, 0 never, 1 always */
 } fw_cli_options;
@@ -32,7 +33,10 @@ enum { /* option groups */
        FW_OPT_PLAN = 2,
        FW_OPT_SIMULATE = 4,
        FW_OPT_OUTPUT = 8,
-       FW_OPT_FABRICATE = 16
+       FW_OPT_FABRICATE = 16,
+       FW_OPT_MODES = 32,
+       FW_OPT_STATICS = 64,
+       FW_OPT_ASSEMBLE = 128
 };
 
 /* fills options from argv[2..]; false: wrong usage, said on stderr */

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static int use_colour(const fw_cli_options *options, int fd) {
@@ -49,6 +50,24 @@ static int print(fw_design *design, const fw_cli_options *options, int document,
 
 int fw_session_print(fw_design *design, const fw_cli_options *options, int document) {
     return print(design, options, document, stdout);
+}
+
+int fw_session_save(fw_design *design, const char *directory, const fw_session_file *file,
+                    size_t count) {
+    mkdir(directory, 0777); /* what is wrong with it, saving will say */
+    for (size_t i = 0; i < count; i++) {
+        char path[4200];
+        if (snprintf(path, sizeof path, "%s/%s", directory, file[i].name) >= (int)sizeof path)
+            return FW_STATUS_IO;
+        int status = fw_design_save(design, file[i].document, path);
+        if (status != FW_STATUS_OK) return status;
+    }
+    return FW_STATUS_OK;
+}
+
+bool fw_session_csv_on_stdout(const fw_cli_options *options) {
+    return (options->csv && strcmp(options->csv, "-") == 0) ||
+           (options->forces && strcmp(options->forces, "-") == 0);
 }
 
 static bool error_was_said(fw_design *design) {

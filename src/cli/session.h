@@ -7,6 +7,9 @@
 int fw_command_plan(fw_cli_options *options);
 int fw_command_check(fw_cli_options *options);
 int fw_command_simulate(fw_cli_options *options);
+int fw_command_modes(fw_cli_options *options);
+int fw_command_statics(fw_cli_options *options);
+int fw_command_assemble(fw_cli_options *options);
 int fw_command_mask(fw_cli_options *options);
 int fw_command_recipe(fw_cli_options *options);
 int fw_command_hinge(fw_cli_options *options);
@@ -23,5 +26,15 @@ int fw_session_close(fw_design *design, const fw_cli_options *options, int statu
 void fw_session_stage(const fw_cli_options *options, const char *stage);
 /* a document (FW_DOCUMENT_...) on standard output; returns the library's status */
 int fw_session_print(fw_design *design, const fw_cli_options *options, int document);
+
+typedef struct fw_session_file {
+    int document; /* FW_DOCUMENT_... */
+    const char *name;
+} fw_session_file;
+/* documents as files of a directory, each whole or not at all; returns the library's status */
+int fw_session_save(fw_design *design, const char *directory, const fw_session_file *file,
+                    size_t count);
+/* --csv - : the table has standard output for itself */
+bool fw_session_csv_on_stdout(const fw_cli_options *options);
 
 #endif

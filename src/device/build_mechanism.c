@@ -26,10 +26,11 @@ void fw_wafer_check(fw_reader *r, const fw_record *record, const char *name, dou
     const double most_m = 0.3;
     char label[FW_LABEL], value[FW_LABEL];
     if (!(fabs(value_m) > most_m * (1 + 1e-12))) return;
-    fw_diag_error(r->diags, 47, fw_place_of(record, name),
-                  "%s: %s is %s; what is drawn must lie within -300 mm and 300 mm (wafers are at "
-                  "most 300 mm wide); leave the width out for a mechanism that is only computed",
-                  fw_label(record, label), name, fw_in_unit(value, value_m, "mm"));
+    fw_diag_error(
+        r->diags, 47, fw_place_of(record, name),
+        "%s: %s puts it at %s; what is drawn must lie within -300 mm and 300 mm (wafers are at "
+        "most 300 mm wide); leave the width out for a mechanism that is only computed",
+        fw_label(record, label), name, fw_in_unit(value, value_m, "mm"));
 }
 
 static fw_body body_of(fw_reader *r, const fw_record *record) {

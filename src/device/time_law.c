@@ -8,15 +8,15 @@ static const fw_dimension seconds = {.s = 1}, pure = {0};
 
 /* which attributes a law has; `needed` must be there */
 typedef struct law_row {
-    const char *name, *needed, *own[4];
     fw_law_kind kind;
+    const char *needed, *own[4];
 } law_row;
 static const law_row laws[] = {
-    {"step", NULL, {"start", "end"}, FW_LAW_STEP},
-    {"ramp", "rise", {"start", "rise"}, FW_LAW_RAMP},
-    {"sine", "frequency", {"start", "end", "frequency", "phase"}, FW_LAW_SINE},
-    {"table", "table", {"table"}, FW_LAW_TABLE},
-    {"expression", "factor", {"factor"}, FW_LAW_EXPRESSION},
+    {FW_LAW_STEP, NULL, {"start", "end"}},
+    {FW_LAW_RAMP, "rise", {"start", "rise"}},
+    {FW_LAW_SINE, "frequency", {"start", "end", "frequency", "phase"}},
+    {FW_LAW_TABLE, "table", {"table"}},
+    {FW_LAW_EXPRESSION, "factor", {"factor"}},
 };
 static const char *const all[] = {"start", "end", "rise", "frequency", "phase", "table", "factor"};
 
@@ -36,12 +36,13 @@ static bool check_attributes(fw_reader *r, const fw_record *record, const law_ro
             other++;
         fw_diag_error(r->diags, 67, fw_place_of(record, all[i]),
                       "<%s>: %s does not belong to law=\"%s\"; remove it, or write law=\"%s\"%s",
-                      record->row->name, all[i], law->name, other->name,
+                      record->row->name, all[i], fw_law_kind_text(law->kind),
+                      fw_law_kind_text(other->kind),
                       strcmp(all[i], "end") == 0 ? " or \"sine\"" : "");
     }
     if (law->needed && !fw_given(record, law->needed))
         fw_diag_error(r->diags, 67, fw_place_of(record, "law"), "<%s>: law=\"%s\" needs %s=\"...\"",
-                      record->row->name, law->name, law->needed);
+                      record->row->name, fw_law_kind_text(law->kind), law->needed);
     return r->diags->errors == before;
 }
 
@@ -197,7 +198,7 @@ fw_status fw_time_law(fw_reader *r, const fw_record *record, const fw_law **law)
     *law = NULL;
     if (!name && fw_given(record, "law")) return FW_OK; /* misspelt: reported */
     const law_row *row = laws;
-    while (name && strcmp(row->name, name) != 0)
+    while (name && strcmp(fw_law_kind_text(row->kind), name) != 0)
         row++;
     if (!check_attributes(r, record, row)) return r->diags->failed ? FW_NOMEM : FW_OK;
     if (row->kind == FW_LAW_STEP && !fw_given(record, "start") && !fw_given(record, "end"))

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The position problem from any guess: descent, restarts, the pose nearest to the guess, a polish
    to round-off. */
+#include "base/cancel.h"
 #include "dynamics/closure.h"
 #include "dynamics/solved.h"
 #include <float.h>
@@ -40,32 +41,51 @@ static void part_rods(fw_closure *c) {
     }
 }
 
-/* from other starts; on success c->u is closed, otherwise r->best has the least mismatch. Lengths
-   of both models differ by a factor only. */
+/* from other starts; on success c->u is closed. `search` stays for the explanation of a failure:
+   its least mismatch is in r->best. Lengths of both models differ by a factor only. */
 static fw_status try_restarts(fw_arena *arena, const fw_mechanism *mechanism, const double *q,
-                              fw_diags *diags, fw_closure *c, fw_restart *r, bool *good) {
+                              fw_diags *diags, fw_closure *c, fw_closure *search, fw_restart *r,
+                              bool *good) {
     fw_mechanism even;
     fw_model *model;
-    fw_closure search;
     double length = c->model->scale.length_m;
     FW_TRY(even_masses(arena, mechanism, length, &even));
     FW_TRY(fw_model_new(arena, &even, NULL, q, 1, NULL, diags, &model));
-    FW_TRY(fw_closure_new(arena, model, &search));
-    search.left = 1000 + (long)(3e7 / model->nblock);
-    *good = fw_restart_close(r, &search);
-    c->iterations += search.iterations;
-    for (int i = 0; i < model->nq; i++) {
-        double factor = i % 3 == 2 ? 1 : model->scale.length_m / length;
-        c->u[i] = search.u[i] * factor;
-        r->best[i] *= factor;
-    }
+    FW_TRY(fw_closure_new(arena, model, search));
+    FW_TRY(fw_restart_new(arena, model, r));
+    search->left = 1000 + (long)(2e8 / model->nblock);
+    *good = fw_restart_close(r, search);
+    c->iterations += search->iterations;
+    for (int i = 0; i < model->nq; i++)
+        c->u[i] = search->u[i] * (i % 3 == 2 ? 1 : model->scale.length_m / length);
     return FW_OK;
+}
+
+static const double usable = 1e-9; /* scaled gap: coordinates with fewer digits are of no use */
+
+/* a body a million sizes away, or turned ten thousand times, has no digits left for its joints */
+static fw_status too_far(const fw_mechanism *mechanism, const double *guess, fw_diags *diags) {
+    int far = 0;
+    double most = -1;
+    char x[32], y[32], phi[32];
+    for (int b = 0; b < mechanism->nbody; b++) {
+        const double *q = guess + 3 * b;
+        double size = fmax(hypot(q[0], q[1]), fabs(q[2]));
+        if (size > most) most = size, far = b;
+    }
+    const char *id = mechanism->body[far].id;
+    return fw_diag_error(diags, 105, (fw_place){0},
+                         "the poses to assemble are too far away for double precision: body %s "
+                         "stands at x = %s m, y = %s m, phi = %s rad; check units",
+                         id ? id : "(unnamed)", fw_number_text(x, sizeof x, guess[3 * far], 4),
+                         fw_number_text(y, sizeof y, guess[3 * far + 1], 4),
+                         fw_number_text(phi, sizeof phi, guess[3 * far + 2], 4));
 }
 
 /* the result in SI, polished by a model that stands there: its round-off is that of the mechanism,
    not of a guess far away */
 static fw_status polish(fw_arena *arena, const fw_mechanism *mechanism, const double *guess,
-                        fw_diags *diags, const fw_closure *from, double *q, bool *good) {
+                        fw_diags *diags, const fw_closure *from, double *q) {
     fw_model *model;
     fw_closure c;
     double length = from->model->scale.length_m;
@@ -73,46 +93,54 @@ static fw_status polish(fw_arena *arena, const fw_mechanism *mechanism, const do
         q[i] = guess[i] + (i % 3 == 2 ? 1 : length) * from->u[i];
     FW_TRY(fw_model_new(arena, mechanism, NULL, q, 1, NULL, diags, &model));
     FW_TRY(fw_closure_new(arena, model, &c));
-    *good = fw_closure_descend(&c, 30);
+    fw_closure_descend(&c, 30); /* it was closed: what is left is round-off */
+    if (!(fw_model_residual(model, 0, c.u, c.psi) <= usable))
+        return too_far(mechanism, guess, diags);
     for (int i = 0; i < model->nq; i++)
         q[i] += (i % 3 == 2 ? 1 : length) * c.u[i];
     return FW_OK;
 }
 
+/* why not, and the least mismatch in SI */
+static fw_status give_up(fw_arena *arena, const fw_mechanism *mechanism, const double *guess,
+                         fw_diags *diags, fw_closure *search, fw_restart *r, fw_solved *out) {
+    fw_status status = fw_closure_explain(arena, mechanism, search, r, diags);
+    double length = search->model->scale.length_m;
+    for (int i = 0; i < search->model->nq; i++)
+        out->q[i] = guess[i] + (i % 3 == 2 ? 1 : length) * search->u[i];
+    return status;
+}
+
 static fw_status close_up(fw_arena *arena, const fw_mechanism *mechanism, const double *guess,
                           fw_diags *diags, fw_solved *out) {
     fw_model *model;
-    fw_closure c;
-    fw_restart r;
+    fw_closure c, search;
+    fw_restart r = {.restarts = 0};
+    int *group;
     bool good = true;
     FW_TRY(fw_model_new(arena, mechanism, NULL, guess, 1, NULL, diags, &model));
     FW_TRY(fw_closure_new(arena, model, &c));
-    if (fw_closure_descend(&c, 0)) return FW_OK; /* the guess is closed: nothing moves */
+    if (!(fw_model_residual(model, 0, c.u, c.psi) < 1e150)) /* its square must be a number */
+        return too_far(mechanism, guess, diags);
+    if (fw_closure_descend(&c, 0)) /* the guess is closed: nothing moves */
+        return fw_model_residual(model, 0, c.u, c.psi) <= usable ? FW_OK
+                                                                 : too_far(mechanism, guess, diags);
     part_rods(&c);
-    FW_TRY(fw_restart_new(arena, model, &r));
     if (!fw_closure_descend(&c, 500)) {
-        r.value = fw_closure_mismatch(&c, c.u);
-        memcpy(r.best, c.u, (size_t)model->nq * sizeof(double));
-        FW_TRY(try_restarts(arena, mechanism, guess, diags, &c, &r, &good));
-    }
-    out->restarts = r.restarts;
-    if (good) {
-        int *group;
-        FW_NEED(group = fw_arena_array(arena, int, (size_t)model->nbody + 1));
-        c.left = 5000;
-        good = r.restarts == 0 || fw_closure_descend(&c, 50);
-        fw_closure_unwind(&c, group);
-        fw_closure_nearest(&c);
+        FW_TRY(try_restarts(arena, mechanism, guess, diags, &c, &search, &r, &good));
+        out->restarts = r.restarts;
         out->iterations = (int)c.iterations;
-        bool polished;
-        FW_TRY(polish(arena, mechanism, guess, diags, &c, out->q, &polished));
-        if (good && polished) return FW_OK;
+        if (fw_cancel_requested()) return FW_CANCELLED;
+        c.left = 1000;
+        if (!good || !fw_closure_descend(&c, 100))
+            return give_up(arena, mechanism, guess, diags, &search, &r, out);
     }
+    FW_NEED(group = fw_arena_array(arena, int, (size_t)model->nbody + 1));
+    c.left = 5000;
+    fw_closure_unwind(&c, group);
+    fw_closure_nearest(&c);
     out->iterations = (int)c.iterations;
-    fw_status status = fw_closure_explain(arena, mechanism, &c, &r, diags);
-    for (int i = 0; i < model->nq; i++)
-        out->q[i] = guess[i] + (i % 3 == 2 ? 1 : model->scale.length_m) * c.u[i];
-    return status;
+    return polish(arena, mechanism, guess, diags, &c, out->q);
 }
 
 fw_status fw_assembly_close(fw_arena *arena, const fw_mechanism *mechanism, const double *guess,

@@ -60,8 +60,8 @@ static fw_status fastest(fw_run *r, double *rate) {
     return FW_OK;
 }
 
-/* rad per scaled unit of time of the motion that the loads excite: u^T K u = F.u over u^T M u for the
-   static response u; 0 when there is none */
+/* rad per scaled unit of time of the motion that the loads excite: u^T K u = F.u over u^T M u for
+   the static response u; 0 when there is none */
 static fw_status excited(fw_run *r, const fw_terms *terms, double *rate) {
     const fw_mechanism *m = r->mechanism;
     size_t n = 3 * (size_t)m->nbody;
@@ -100,14 +100,15 @@ static fw_status choose(fw_run *r, const fw_terms *terms) {
     fw_number_text(a, sizeof a, fast / unit, 2);
     fw_number_text(b, sizeof b, slow / unit, 2);
     fw_number_text(c, sizeof c, stable, 2);
-    FW_NEED(r->motion->reason = fw_arena_printf(
-                r->arena,
-                "auto: the fastest motion is %s rad/s, the loads excite %s rad/s; explicit steps "
-                "need %s for stability%s",
-                a, slow > 0 ? b : "a free motion of 0", c,
-                !stiff  ? ": order 8 is cheapest"
-                : large ? ", but the model is too large for implicit steps"
-                        : ": implicit steps pass over the fast modes"));
+    FW_NEED(
+        r->motion->reason = fw_arena_printf(
+            r->arena,
+            "auto: the fastest motion is %s rad/s, the loads excite %s%s; explicit steps need %s "
+            "for stability%s",
+            a, slow > 0 ? b : "a free motion", slow > 0 ? " rad/s" : "", c,
+            !stiff  ? ": order 8 is cheapest"
+            : large ? ", but the model is too large for implicit steps"
+                    : ": implicit steps pass over the fast modes"));
     return FW_OK;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Descent onto Psi(q) = 0, and along it to the pose nearest to the guess. */
 #include "dynamics/closure.h"
+#include "base/cancel.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -143,6 +144,7 @@ bool fw_closure_descend(fw_closure *c, int most) {
         double before = value;
         double taken = newton_step(c, mu[level]) ? line_search(c, &value) : 0;
         c->iterations++, c->left--;
+        if (fw_cancel_requested()) c->left = 0;
         if (taken == 0 && level + 1 == levels) break;
         if (taken < 0.25 && level + 1 < levels)
             level++; /* short steps zigzag across a valley: damp */
@@ -190,7 +192,7 @@ void fw_closure_nearest(fw_closure *c) {
     fw_model *m = c->model;
     size_t bytes = (size_t)m->nq * sizeof(double);
     double distance = fw_closure_distance(c, c->u), *held = m->correction;
-    for (int i = 0; i < 60 && distance > 0; i++) {
+    for (int i = 0; i < 100 && distance > 0; i++) {
         memcpy(held, c->u, bytes);
         if (!tangent_step(c)) return;
         double turned = 0, before = distance, fraction = 1;
@@ -209,7 +211,7 @@ void fw_closure_nearest(fw_closure *c) {
             }
             memcpy(c->u, held, bytes);
         }
-        if (!(distance < (1 - 1e-12) * before)) return;
+        if (!(distance < before)) return; /* as near as the arithmetic can tell */
     }
 }
 

@@ -55,6 +55,7 @@ typedef struct fw_restart {
     bool *wanted; /* (nblock) active set to reach */
     bool *loop;   /* (nbody) bodies of the loop at hand */
     int restarts;
+    bool cut; /* ended by the bound on its steps, not because all starts were tried */
 } fw_restart;
 fw_status fw_restart_new(fw_arena *arena, const fw_model *m, fw_restart *r);
 bool fw_restart_close(fw_restart *r, fw_closure *c);

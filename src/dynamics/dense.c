@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dynamics/dense.h"
+#include "maths/lapack.h"
 #include <math.h>
 #include <string.h>
 
@@ -18,6 +19,7 @@ fw_status fw_dense_new(fw_arena *arena, int rows, int n, const fw_dense_kernel *
     double **of_rows[] = {&d->row, &d->b, &d->lambda, &d->gamma, &d->out};
     for (size_t i = 0; i < sizeof of_rows / sizeof of_rows[0]; i++)
         FW_NEED(*of_rows[i] = fw_arena_array(arena, double, r));
+    fw_lapack_one_thread();
     if (rows > 0) FW_TRY(kernel->prepare(arena, d));
     *result = d;
     return FW_OK;
@@ -59,7 +61,7 @@ void fw_dense_accelerate(fw_dense *d, const double *gamma, double *a, double *la
         d->b[i] = -d->row[i] * gamma[i];
     for (int j = 0; j < d->n; j++)
         d->w[j] = a[j] / d->root[j];
-    d->kernel->solve(d, d->b, d->w, d->lambda, FW_SWEEPS);
+    if (!d->kernel->solve(d, d->b, d->w, d->lambda, FW_SWEEPS)) d->w[0] = (double)NAN;
     for (int i = 0; i < d->rows; i++)
         lambda[i] = d->row[i] * d->lambda[i];
     for (int j = 0; j < d->n; j++)
@@ -72,7 +74,7 @@ void fw_dense_correct(fw_dense *d, const double *r, double *correction) {
     for (int i = 0; i < d->rows; i++)
         d->b[i] = -d->row[i] * r[i];
     memset(d->w, 0, (size_t)d->n * sizeof *d->w);
-    d->kernel->solve(d, d->b, d->w, d->lambda, 1);
+    if (!d->kernel->solve(d, d->b, d->w, d->lambda, 1)) d->w[0] = (double)NAN;
     for (int j = 0; j < d->n; j++)
         correction[j] = d->w[j] * d->root[j];
 }
@@ -130,9 +132,9 @@ double fw_dense_largest(const double *x, int count) {
 
 /* (w, lambda) += (dw, dl) with the residuals r1 = w0 - w - A^T lambda, r2 = b - A w formed anew, so
    that the sweeps also refine: at least two, more while a residual exceeds 1e-14 of its terms. */
-void fw_dense_sweep(fw_dense *d, const double *b, double *w, double *lambda, int sweeps,
+bool fw_dense_sweep(fw_dense *d, const double *b, double *w, double *lambda, int sweeps,
                     double *more, double *start,
-                    void (*step)(fw_dense *d, double *r1, double *r2)) {
+                    bool (*step)(fw_dense *d, double *r1, double *r2)) {
     size_t n = (size_t)d->n, rows = (size_t)d->rows;
     double *r1 = more, *r2 = more + n, size = fw_dense_largest(w, d->n);
     memcpy(start, w, n * sizeof *w);
@@ -147,13 +149,14 @@ void fw_dense_sweep(fw_dense *d, const double *b, double *w, double *lambda, int
             r2[i] = b[i] - r2[i];
         double left = fw_dense_largest(r2, d->rows), far = fw_dense_largest(r1, d->n);
         double scale = fmax(size, fw_dense_largest(w, d->n));
-        if (sweep > 1 && left <= 1e-14 * scale && far <= 1e-14 * scale) return;
-        step(d, r1, r2);
+        if (sweep > 1 && left <= 1e-14 * scale && far <= 1e-14 * scale) return true;
+        if (!step(d, r1, r2)) return false;
         for (size_t j = 0; j < n; j++)
             w[j] += r1[j];
         for (size_t i = 0; i < rows; i++)
             lambda[i] += r2[i];
     }
+    return true;
 }
 
 /* ---- for the model ---- */

@@ -21,8 +21,9 @@ typedef struct fw_dense fw_dense;
 typedef struct fw_dense_kernel {                        /* one per method */
     fw_status (*prepare)(fw_arena *arena, fw_dense *d); /* memory: d->space */
     bool (*factor)(fw_dense *d);                        /* of d->a; false: LAPACK gave up */
-    /* w: in w0, out w; lambda out; `sweeps` of the proximal iteration, or as many as it needs */
-    void (*solve)(fw_dense *d, const double *b, double *w, double *lambda, int sweeps);
+    /* w: in w0, out w; lambda out; `sweeps` of the proximal iteration, or as many as it needs;
+       false: LAPACK gave up */
+    bool (*solve)(fw_dense *d, const double *b, double *w, double *lambda, int sweeps);
 } fw_dense_kernel;
 
 typedef struct fw_rank_watch { /* what was met; nothing is computed with it */
@@ -51,7 +52,7 @@ static const double fw_round_off = 1e-13; /* of singular values, relative to the
 fw_status fw_dense_new(fw_arena *arena, int rows, int n, const fw_dense_kernel *kernel,
                        fw_dense **d);
 bool fw_dense_factor(fw_dense *d);
-/* G a = -gamma, M a + G^T lambda = M a_in */
+/* G a = -gamma, M a + G^T lambda = M a_in; NaN where LAPACK gave up */
 void fw_dense_accelerate(fw_dense *d, const double *gamma, double *a, double *lambda);
 /* d of least mass norm with G d = -r, one sweep: rows that cannot be met are left alone */
 void fw_dense_correct(fw_dense *d, const double *r, double *correction);
@@ -64,8 +65,8 @@ void fw_dense_subtract_transpose(const fw_dense *d, const double *l, double *w);
 double fw_dense_largest(const double *x, int count);
 /* the proximal iteration with step = (dw, dl) of [I A^T; A -eps] (dw; dl) = (r1; r2), in place;
    more: (n + rows) */
-void fw_dense_sweep(fw_dense *d, const double *b, double *w, double *lambda, int sweeps,
-                    double *more, double *start, void (*step)(fw_dense *d, double *r1, double *r2));
+bool fw_dense_sweep(fw_dense *d, const double *b, double *w, double *lambda, int sweeps,
+                    double *more, double *start, bool (*step)(fw_dense *d, double *r1, double *r2));
 
 /* the same for fw_method; m->work is the fw_dense */
 fw_status fw_dense_model_prepare(fw_arena *arena, fw_model *m, const fw_dense_kernel *kernel,

@@ -131,6 +131,13 @@ static void measure(const fw_closure *c, ring *r) {
     r->missing = 2 * r->item[r->longest].length - sum;
 }
 
+/* the block that holds a body on its parent; a second one between them closes a loop */
+static bool is_branch(const fw_tree *t, const fw_model *m, int block) {
+    const fw_block *k = &m->block[block];
+    int child = t->parent[k->b] == k->a ? k->b : k->a;
+    return t->link[block] && link_of(t, m, child) == block;
+}
+
 /* the loop that misses most by the polygon inequality; count 0: none */
 static fw_status worst_ring(fw_arena *arena, const fw_closure *c, const fw_tree *t, ring *worst) {
     const fw_model *m = c->model;
@@ -147,7 +154,7 @@ static fw_status worst_ring(fw_arena *arena, const fw_closure *c, const fw_tree 
         depth[b] = t->parent[b] < 0 ? 0 : depth[t->parent[b]] + 1;
     }
     for (int i = 0; i < m->nblock; i++) {
-        if (t->link[i] || !walk(t, m, i, depth, &r)) continue;
+        if (is_branch(t, m, i) || !walk(t, m, i, depth, &r)) continue;
         measure(c, &r);
         if (r.missing <= 1e-12 * m->size || r.missing <= worst->missing) continue;
         memcpy(worst->item, r.item, (size_t)r.count * sizeof *r.item);
@@ -172,7 +179,12 @@ static fw_status hint(fw_arena *arena, const fw_mechanism *mechanism, const fw_c
     length_text(longest, sizeof longest, s->length * m->scale.length_m);
     length_text(others, sizeof others, (s->length - r.missing) * m->scale.length_m);
     length_text(missing, sizeof missing, r.missing * m->scale.length_m);
-    const char *from = fw_block_name(mechanism, &m->block[s->from]);
+    const fw_block *first = &m->block[s->from], *second = &m->block[s->to];
+    if (second->pin != FW_NONE && first->pin > second->pin) { /* in the order of the file */
+        const fw_block *other = first;
+        first = second, second = other;
+    }
+    const char *from = fw_block_name(mechanism, first);
     if (s->body < 0)
         *text = fw_arena_printf(arena,
                                 "around its loop, %s is %s long and the other sides reach %s "
@@ -182,7 +194,7 @@ static fw_status hint(fw_arena *arena, const fw_mechanism *mechanism, const fw_c
         *text = fw_arena_printf(arena,
                                 "around its loop, %s to %s on %s measures %s and the other sides "
                                 "reach %s together: %s are missing",
-                                from, fw_block_name(mechanism, &m->block[s->to]),
+                                from, fw_block_name(mechanism, second),
                                 body_name(mechanism, s->body), longest, others, missing);
     FW_NEED(*text);
     return FW_OK;
@@ -235,17 +247,18 @@ static fw_status blame_driver(const fw_mechanism *mechanism, const fw_closure *c
     bool angle = b->rows == FW_ROWS_TURN;
     char *(*text)(char *, size_t, double) = angle ? angle_text : length_text;
     off *= angle ? 1 : m->scale.length_m;
-    return fw_diag_error(diags, 116, d->place,
-                         "driver %s cannot have the value that it asks for at the start: it asks "
-                         "for %s, the joints allow %s at most near the guess (%s off)",
-                         name_of(d->id), text(asked, sizeof asked, law[0]),
-                         text(best, sizeof best, law[0] + off), text(less, sizeof less, fabs(off)));
+    return fw_diag_error(
+        diags, 116, d->place,
+        "driver %s cannot have the value that it asks for at the start: it asks "
+        "for %s, and the nearest that the joints allow from this guess is %s (%s off)",
+        name_of(d->id), text(asked, sizeof asked, law[0]), text(best, sizeof best, law[0] + off),
+        text(less, sizeof less, fabs(off)));
 }
 
 /* ---- joints ---- */
 
 static fw_status blame_joint(fw_arena *arena, const fw_mechanism *mechanism, const fw_closure *c,
-                             const fw_tree *t, fw_diags *diags) {
+                             const fw_tree *t, bool cut, fw_diags *diags) {
     const fw_model *m = c->model;
     int worst = 0;
     double most = -1;
@@ -264,8 +277,10 @@ static fw_status blame_joint(fw_arena *arena, const fw_mechanism *mechanism, con
     bool both = b->rows == FW_ROWS_SLIDE && gap_m > 0 && gap_rad > 0;
     bool angle = b->rows == FW_ROWS_TURN || (b->rows == FW_ROWS_SLIDE && !both && gap_rad > 0);
     return fw_diag_error(diags, 100, place_of(mechanism, b),
-                         "the mechanism cannot be assembled: joint %s stays open by %s%s%s at "
-                         "best; %s",
+                         "%s: joint %s stays open by %s%s%s at best; %s",
+                         cut ? "no assembly was found within the bound on the search, from this "
+                               "guess"
+                             : "the mechanism cannot be assembled",
                          fw_block_name(mechanism, b), angle ? radian : metres, both ? " and " : "",
                          both ? radian : "", advice);
 }
@@ -274,6 +289,7 @@ fw_status fw_closure_explain(fw_arena *arena, const fw_mechanism *mechanism, fw_
                              fw_restart *r, fw_diags *diags) {
     fw_status status;
     size_t bytes = (size_t)c->model->nq * sizeof(double);
+    bool cut = r->cut; /* of the whole mechanism, not of the search without drivers */
     memcpy(c->u, r->best, bytes);
     c->left = 2000; /* down to the very least mismatch */
     fw_closure_descend(c, 500);
@@ -289,6 +305,6 @@ fw_status fw_closure_explain(fw_arena *arena, const fw_mechanism *mechanism, fw_
         memcpy(c->u, least, bytes);
     }
     fw_closure_mismatch(c, c->u);
-    status = blame_joint(arena, mechanism, c, &r->tree, diags);
+    status = blame_joint(arena, mechanism, c, &r->tree, cut, diags);
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }

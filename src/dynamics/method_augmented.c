@@ -45,15 +45,15 @@ static bool kernel_factor(fw_dense *d) {
     return fw_indefinite((int)size, s->matrix, s->pivot, &s->lapack);
 }
 
-static void step(fw_dense *d, double *r1, double *r2) {
+static bool step(fw_dense *d, double *r1, double *r2) {
     augmented *s = d->space;
     (void)r2; /* follows r1 in memory */
-    fw_indefinite_solve(d->n + d->rows, s->matrix, s->pivot, r1);
+    return fw_indefinite_solve(d->n + d->rows, s->matrix, s->pivot, r1);
 }
 
-static void kernel_solve(fw_dense *d, const double *b, double *w, double *lambda, int sweeps) {
+static bool kernel_solve(fw_dense *d, const double *b, double *w, double *lambda, int sweeps) {
     augmented *s = d->space;
-    fw_dense_sweep(d, b, w, lambda, sweeps, s->more, s->start, step);
+    return fw_dense_sweep(d, b, w, lambda, sweeps, s->more, s->start, step);
 }
 
 const fw_dense_kernel fw_augmented_kernel = {kernel_prepare, kernel_factor, kernel_solve};

@@ -64,25 +64,27 @@ static bool kernel_factor(fw_dense *d) {
     return fw_qr((int)tall, d->n, p->qr, p->pivot, p->tau, &p->lapack);
 }
 
-static void step(fw_dense *d, double *r1, double *r2) {
+static bool step(fw_dense *d, double *r1, double *r2) {
     stack *p = d->space;
     int rows = d->rows, n = d->n, tall = rows + n;
     const double weight = 1 / sqrt(fw_epsilon);
     for (int i = 0; i < rows; i++)
         p->right[i] = weight * r2[i];
     memcpy(p->right + rows, r1, (size_t)n * sizeof *r1);
-    fw_qr_apply(true, tall, n, p->qr, p->tau, p->right, &p->lapack);
-    fw_triangle_solve(false, n, p->qr, tall, p->right);
+    if (!fw_qr_apply(true, tall, n, p->qr, p->tau, p->right, &p->lapack) ||
+        !fw_triangle_solve(false, n, p->qr, tall, p->right))
+        return false;
     for (int j = 0; j < n; j++)
         r1[p->pivot[j]] = p->right[j];
     fw_dense_times(d, r1, p->residual);
     for (int i = 0; i < rows; i++)
         r2[i] = (p->residual[i] - r2[i]) / fw_epsilon;
+    return true;
 }
 
-static void kernel_solve(fw_dense *d, const double *b, double *w, double *lambda, int sweeps) {
+static bool kernel_solve(fw_dense *d, const double *b, double *w, double *lambda, int sweeps) {
     stack *p = d->space;
-    fw_dense_sweep(d, b, w, lambda, sweeps, p->more, p->start, step);
+    return fw_dense_sweep(d, b, w, lambda, sweeps, p->more, p->start, step);
 }
 
 const fw_dense_kernel fw_block_least_squares_kernel = {kernel_prepare, kernel_factor, kernel_solve};

@@ -4,6 +4,7 @@
    time for chains and rings; redundant joints and singular positions allowed. Source: Carpentier,
    Budhiraja and Mansard, RSS 2021; Featherstone 2008, ch. 8. Test: test_block_chain.c,
    test_simulate.c. */
+#include "dynamics/kernel.h"
 #include "dynamics/methods.h"
 #include <string.h>
 
@@ -28,11 +29,18 @@ static void correct(fw_model *m, const double *r, double *d) {
     fw_model_apply(m, m->more, d);
 }
 
+static fw_status prepare(fw_arena *arena, fw_model *m, const fw_mechanism *mechanism,
+                         fw_diags *diags, void **work) {
+    (void)mechanism, (void)diags, (void)work;
+    return fw_kernel_new(arena, m, &m->kernel);
+}
+
 const fw_method fw_method_chain = {
     .name = "chain",
     .summary = "reference-point coordinates, block elimination along the joint graph, proximal "
                "iteration; linear time, redundant joints and singular positions allowed",
     .source = "Carpentier, Budhiraja and Mansard 2021; Featherstone 2008",
+    .prepare = prepare,
     .factor = factor,
     .accelerate = accelerate,
     .correct = correct,

@@ -197,21 +197,22 @@ static bool kernel_factor(fw_dense *d) {
 }
 
 /* c = A_u^-1 b_1 (k), r = h (left) */
-static void particular(fw_dense *d, const double *b) {
+static bool particular(fw_dense *d, const double *b) {
     partition *p = d->space;
     for (int i = 0; i < p->k; i++)
         p->c[i] = b[p->row[i]];
-    if (p->k > 0) fw_lapack_lu_solve(false, p->k, 1, p->lu, p->pivot, p->c);
+    if (p->k > 0 && !fw_lapack_lu_solve(false, p->k, 1, p->lu, p->pivot, p->c)) return false;
     for (int l = 0; l < p->left; l++) {
         double sum = b[p->row[p->k + l]];
         for (int i = 0; i < p->k; i++)
             sum -= entry(d, p->row[p->k + l], p->column[i]) * p->c[i];
         p->r[l] = sum;
     }
+    return true;
 }
 
 /* z += (I + X^T X)^-1 H^T S^-1 (h - H z), swept; mu: the multipliers of H, with opposite sign */
-static void left_rows(partition *p, const double *h, int sweeps) {
+static bool left_rows(partition *p, const double *h, int sweeps) {
     double *step = p->step;
     for (int sweep = 0; sweep < sweeps; sweep++) {
         for (int l = 0; l < p->left; l++) {
@@ -219,13 +220,14 @@ static void left_rows(partition *p, const double *h, int sweeps) {
             for (int j = 0; j < p->free; j++)
                 step[l] -= p->h[j + l * p->free] * p->z[j];
         }
-        fw_cholesky_solve(p->left, p->s, step);
+        if (!fw_cholesky_solve(p->left, p->s, step)) return false;
         for (int l = 0; l < p->left; l++) {
             p->mu[l] -= step[l];
             for (int j = 0; j < p->free; j++)
                 p->z[j] += p->y[j + l * p->free] * step[l];
         }
     }
+    return true;
 }
 
 static void place(fw_dense *d, double *w) { /* w_u = c - X z, w_v = z */
@@ -240,18 +242,18 @@ static void place(fw_dense *d, double *w) { /* w_u = c - X z, w_v = z */
         w[p->column[p->k + j]] = p->z[j];
 }
 
-static void kernel_solve(fw_dense *d, const double *b, double *w, double *lambda, int sweeps) {
+static bool kernel_solve(fw_dense *d, const double *b, double *w, double *lambda, int sweeps) {
     partition *p = d->space;
-    particular(d, b);
+    if (!particular(d, b)) return false;
     for (int j = 0; j < p->free; j++) {
         double sum = w[p->column[p->k + j]];
         for (int i = 0; i < p->k; i++)
             sum -= p->x[i + j * p->k] * (w[p->column[i]] - p->c[i]);
         p->z[j] = sum;
     }
-    if (p->free > 0) fw_cholesky_solve(p->free, p->mass, p->z);
+    if (p->free > 0 && !fw_cholesky_solve(p->free, p->mass, p->z)) return false;
     memset(p->mu, 0, (size_t)d->rows * sizeof *p->mu);
-    if (p->left > 0 && p->free > 0) left_rows(p, p->r, sweeps);
+    if (p->left > 0 && p->free > 0 && !left_rows(p, p->r, sweeps)) return false;
     /* A_u^T lambda_1 = w0_u - w_u - A_lu^T mu */
     double *force = p->force;
     for (int i = 0; i < p->k; i++)
@@ -262,9 +264,10 @@ static void kernel_solve(fw_dense *d, const double *b, double *w, double *lambda
         for (int l = 0; l < p->left; l++)
             force[i] -= entry(d, p->row[p->k + l], p->column[i]) * p->mu[l];
     }
-    if (p->k > 0) fw_lapack_lu_solve(true, p->k, 1, p->lu, p->pivot, force);
+    if (p->k > 0 && !fw_lapack_lu_solve(true, p->k, 1, p->lu, p->pivot, force)) return false;
     for (int i = 0; i < d->rows; i++)
         lambda[p->row[i]] = i < p->k ? force[i] : p->mu[i - p->k];
+    return true;
 }
 
 const fw_dense_kernel fw_coordinate_partitioning_kernel = {kernel_prepare, kernel_factor,
@@ -291,11 +294,12 @@ static void correct(fw_model *m, const double *r, double *correction) {
     fw_model_pack(m, r, d->gamma);
     for (int i = 0; i < d->rows; i++)
         d->b[i] = -d->row[i] * d->gamma[i];
-    particular(d, d->b);
+    bool good = particular(d, d->b);
     memset(p->z, 0, (size_t)d->n * sizeof *p->z);
     memset(p->mu, 0, (size_t)d->rows * sizeof *p->mu);
-    if (p->left > 0 && p->free > 0) left_rows(p, p->r, 1);
+    if (p->left > 0 && p->free > 0) good &= left_rows(p, p->r, 1);
     place(d, correction);
+    if (!good) correction[0] = (double)NAN;
     for (int j = 0; j < d->n; j++)
         correction[j] *= d->root[j];
 }

@@ -65,22 +65,24 @@ static bool kernel_factor(fw_dense *d) {
 }
 
 /* dl = (R^T R + eps)^-1 dl, with R^T R + eps = P' T^T T P'^T */
-static void damped_solve(ranges *p, int rows, double *dl) {
+static bool damped_solve(ranges *p, int rows, double *dl) {
     int tall = p->k + rows;
     for (int i = 0; i < rows; i++)
         p->sorted[i] = dl[p->again[i]];
-    fw_triangle_solve(true, rows, p->damped, tall, p->sorted);
-    fw_triangle_solve(false, rows, p->damped, tall, p->sorted);
+    if (!fw_triangle_solve(true, rows, p->damped, tall, p->sorted) ||
+        !fw_triangle_solve(false, rows, p->damped, tall, p->sorted))
+        return false;
     for (int i = 0; i < rows; i++)
         dl[p->again[i]] = p->sorted[i];
+    return true;
 }
 
-static void kernel_solve(fw_dense *d, const double *b, double *w, double *lambda, int sweeps) {
+static bool kernel_solve(fw_dense *d, const double *b, double *w, double *lambda, int sweeps) {
     ranges *p = d->space;
     size_t n = (size_t)d->n;
     double *y = p->c, size = 0;
     memcpy(p->c, w, n * sizeof *w);
-    fw_qr_apply(true, d->n, d->rows, p->qr, p->tau, p->c, &p->lapack);
+    if (!fw_qr_apply(true, d->n, d->rows, p->qr, p->tau, p->c, &p->lapack)) return false;
     memset(lambda, 0, (size_t)d->rows * sizeof *lambda);
     for (int sweep = 0; sweep < sweeps; sweep++) {
         for (int i = 0; i < d->rows; i++) { /* P^T b - R^T y */
@@ -92,15 +94,16 @@ static void kernel_solve(fw_dense *d, const double *b, double *w, double *lambda
         double left = fw_dense_largest(p->dl, d->rows);
         if (sweep == 0) size = left;
         if (sweep > 1 && left <= 1e-14 * size) break;
-        damped_solve(p, d->rows, p->dl);
+        if (!damped_solve(p, d->rows, p->dl)) return false;
         for (int j = 0; j < p->k; j++)
             for (int i = j; i < d->rows; i++)
                 y[j] += p->qr[(size_t)j + (size_t)i * n] * p->dl[i];
         for (int i = 0; i < d->rows; i++)
             lambda[p->pivot[i]] -= p->dl[i];
     }
-    fw_qr_apply(false, d->n, d->rows, p->qr, p->tau, p->c, &p->lapack);
+    if (!fw_qr_apply(false, d->n, d->rows, p->qr, p->tau, p->c, &p->lapack)) return false;
     memcpy(w, p->c, n * sizeof *w);
+    return true;
 }
 
 const fw_dense_kernel fw_qr_kernel = {kernel_prepare, kernel_factor, kernel_solve};

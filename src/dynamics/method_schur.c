@@ -90,12 +90,12 @@ static void pass(fw_dense *d, double *r1, const double *r2, double *lambda, int 
     memcpy(r1, p->move, n * sizeof *r1);
 }
 
-static void kernel_solve(fw_dense *d, const double *b, double *w, double *lambda, int sweeps) {
+static bool kernel_solve(fw_dense *d, const double *b, double *w, double *lambda, int sweeps) {
     schur *p = d->space;
     memset(lambda, 0, (size_t)d->rows * sizeof *lambda);
     memcpy(p->start, w, (size_t)d->n * sizeof *w);
     pass(d, w, b, lambda, sweeps);
-    if (sweeps == 1) return;
+    if (sweeps == 1) return true;
     for (int j = 0; j < d->n; j++)
         p->again[j] = p->start[j] - w[j];
     fw_dense_subtract_transpose(d, lambda, p->again);
@@ -105,6 +105,7 @@ static void kernel_solve(fw_dense *d, const double *b, double *w, double *lambda
     pass(d, p->again, p->left, lambda, sweeps);
     for (int j = 0; j < d->n; j++)
         w[j] += p->again[j];
+    return true;
 }
 
 const fw_dense_kernel fw_schur_kernel = {kernel_prepare, kernel_factor, kernel_solve};

@@ -47,7 +47,7 @@ static bool kernel_factor(fw_dense *d) {
     return true;
 }
 
-static void kernel_solve(fw_dense *d, const double *b, double *w, double *lambda, int sweeps) {
+static bool kernel_solve(fw_dense *d, const double *b, double *w, double *lambda, int sweeps) {
     rates *p = d->space;
     memset(p->z, 0, (size_t)d->n * sizeof *p->z);
     for (int j = 0; j < d->n; j++)
@@ -70,6 +70,7 @@ static void kernel_solve(fw_dense *d, const double *b, double *w, double *lambda
         for (int i = 0; i < d->n; i++)
             w[j] += p->vt[(size_t)i + (size_t)j * (size_t)d->n] * p->z[i];
     }
+    return true;
 }
 
 const fw_dense_kernel fw_svd_kernel = {kernel_prepare, kernel_factor, kernel_solve};

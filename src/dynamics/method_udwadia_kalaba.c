@@ -44,7 +44,7 @@ static bool kernel_factor(fw_dense *d) {
     return true;
 }
 
-static void kernel_solve(fw_dense *d, const double *b, double *w, double *lambda, int sweeps) {
+static bool kernel_solve(fw_dense *d, const double *b, double *w, double *lambda, int sweeps) {
     pseudo *p = d->space;
     fw_dense_times(d, w, p->right);
     for (int i = 0; i < d->rows; i++) {
@@ -62,6 +62,7 @@ static void kernel_solve(fw_dense *d, const double *b, double *w, double *lambda
         for (int j = 0; j < d->n; j++)
             w[j] += p->s[i] * c * p->vt[i + j * p->k];
     }
+    return true;
 }
 
 const fw_dense_kernel fw_udwadia_kalaba_kernel = {kernel_prepare, kernel_factor, kernel_solve};

@@ -132,7 +132,8 @@ typedef struct fw_model {
     double size; /* largest |offset| + arms: round-off of Psi is eps times this */
     fw_chain chain;
     const struct fw_method *method;
-    void *work; /* the method's */
+    void *work;               /* the method's */
+    struct fw_kernel *kernel; /* fast path of `chain` for plain models, or NULL */
     double
         baumgarte; /* alpha = beta of G a = -gamma - 2 alpha (G v + Psi_t) - beta^2 Psi; 0: none */
     bool projecting; /* stabilise by projection */
@@ -150,6 +151,8 @@ typedef struct fw_model {
     /* kept over a run */
     long projections, events;
     double worst_position, worst_velocity;
+    int stuck; /* block that a projection could not close, and when; -1: none */
+    double stuck_time;
 } fw_model;
 
 /* ---- methods: one file each, method_*.c; rows in table.c ---- */
@@ -239,11 +242,15 @@ void fw_model_stopped(const fw_model *m, const fw_model_stop *s, const double *y
 /* rhs.c */
 void fw_model_accelerate(fw_model *m, double t, const double *y, double *f); /* posed, factored */
 void fw_model_rhs(void *model, double t, const double *y, double *f);
+/* the same, and lambda is there afterwards */
+void fw_model_react(fw_model *m, double t, const double *y, double *f);
 
 /* project.c */
 bool fw_model_project(void *model, double t, double *y, double *f);
 bool fw_model_project_position(fw_model *m, double t, double *u);
 bool fw_model_project_velocity(fw_model *m, double t, double *v); /* factor belongs to the pose */
+bool fw_model_impact(fw_model *m, double t,
+                     double *v); /* likewise: least change in the mass metric */
 
 /* energy.c */
 typedef struct fw_energy {

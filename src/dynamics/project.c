@@ -1,13 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "dynamics/model.h"
+#include "dynamics/kernel.h"
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 static const double fw_position_limit = 1e-12; /* scaled: what every accepted state satisfies */
 
 static void move(const fw_model *m, double *x) {
     for (int i = 0; i < m->nq; i++)
         x[i] += m->correction[i];
+}
+
+/* the joint that stays open, for the message when no smaller step helps; Psi is in m->right */
+static void remember_stuck(fw_model *m, double t, double norm) {
+    m->stuck = 0;
+    for (int i = 0; i < m->nblock; i++)
+        if (hypot(m->right[2 * i], m->right[2 * i + 1]) >= norm) m->stuck = i;
+    m->stuck_time = t;
 }
 
 /* Newton u += d, G d = -Psi with the factor at hand (of a pose a step's error away); it is renewed
@@ -34,7 +43,9 @@ bool fw_model_project_position(fw_model *m, double t, double *u) {
         move(m, u);
     }
     m->worst_position = fmax(m->worst_position, norm);
-    return norm <= fw_position_limit;
+    if (norm <= fw_position_limit) return true;
+    remember_stuck(m, t, norm);
+    return false;
 }
 
 /* v += d, G d = -(G v + Psi_t); factor and pose must belong together */
@@ -59,6 +70,19 @@ bool fw_model_project_velocity(fw_model *m, double t, double *v) {
     return norm < (double)INFINITY;
 }
 
+/* an impact without rebound: v += d with M d = -G^T L, G d = -(G v + Psi_t), the least change in
+   the mass metric, whatever the method corrects its steps by. Pose and factor belong together. */
+bool fw_model_impact(fw_model *m, double t, double *v) {
+    fw_model_jacobian(m, v, m->right);
+    fw_model_drift(m, t, m->drift);
+    for (int i = 0; i < 2 * m->nblock; i++)
+        m->right[i] += m->drift[i];
+    memset(m->correction, 0, (size_t)m->nq * sizeof *m->correction);
+    m->method->accelerate(m, m->right, m->correction, m->lambda);
+    move(m, v);
+    return fw_model_project_velocity(m, t, v);
+}
+
 /* without projection the norms are only watched */
 static void watch(fw_model *m, double t, const double *y) {
     m->worst_position = fmax(m->worst_position, fw_model_residual(m, t, y, m->right));
@@ -78,6 +102,13 @@ bool fw_model_project(void *model, double t, double *y, double *f) {
         return !m->broken;
     }
     m->projections++;
+    if (m->kernel) {
+        if (!fw_kernel_project(m->kernel, y, f)) return false;
+        fw_kernel_norms norms = fw_kernel_norms_of(m->kernel);
+        m->worst_position = fmax(m->worst_position, norms.position);
+        m->worst_velocity = fmax(m->worst_velocity, norms.velocity);
+        return true;
+    }
     double worst = m->worst_position, worst_velocity = m->worst_velocity;
     bool good = fw_model_project_position(m, t, y);
     if (good) {

@@ -74,10 +74,12 @@ static fw_status name_redundant(fw_arena *arena, const fw_mechanism *mechanism, 
             if (left[i] >= 0 && (least < 0 || left[i] < left[least])) least = i;
         left[least] = -1; /* taken */
     }
-    for (int i = 0; i < m->rows; i++) {
-        const char *name = fw_block_name(mechanism, &m->block[block[order[i]]]);
-        bool again = out->nredundant > 0 && out->redundant[out->nredundant - 1] == name;
-        if (left[i] < 0 && !again) out->redundant[out->nredundant++] = name;
+    for (int i = 0, last = -1; i < m->rows; i++) {
+        int here = file_place(m, &m->block[block[order[i]]]);
+        if (left[i] < 0 && here != last)
+            out->redundant[out->nredundant++] =
+                fw_block_name(mechanism, &m->block[block[order[i]]]);
+        if (left[i] < 0) last = here;
     }
     return FW_OK;
 }

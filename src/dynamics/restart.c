@@ -52,7 +52,14 @@ static bool closed(fw_closure *c) {
     return true;
 }
 
-/* turns the bodies of the loop at hand, more with every try, and closes what is placed so far */
+/* another pose of a body: turned by up to `radius`, and shifted by as many lengths of the scene,
+   which counts where its joints leave a travel or a direction open */
+static void disturb(fw_closure *c, int body, double radius, unsigned stream) {
+    for (unsigned k = 0; k < 3; k++)
+        c->u[3 * body + (int)k] += radius * (2 * fw_spread(stream, 3 * (unsigned)body + k) - 1);
+}
+
+/* disturbs the bodies of the loop at hand, more with every try, and closes what is placed so far */
 static bool close_loop(fw_restart *r, fw_closure *c, int count, unsigned stream) {
     const fw_model *m = c->model;
     memcpy(r->saved, c->u, (size_t)m->nq * sizeof(double));
@@ -61,12 +68,9 @@ static bool close_loop(fw_restart *r, fw_closure *c, int count, unsigned stream)
             bool all = i % 3 == 0; /* else only the bodies placed last */
             double radius = fmin(PI, 0.4 * (1 + i / 4));
             memcpy(c->u, r->saved, (size_t)m->nq * sizeof(double));
-            for (int k = all || count < 2 ? 0 : count - 2; k < count; k++) {
-                int b = r->tree.order[k];
-                if (r->loop[b])
-                    c->u[3 * b + 2] +=
-                        radius * (2 * fw_spread(stream + (unsigned)i, (unsigned)b) - 1);
-            }
+            for (int k = all || count < 2 ? 0 : count - 2; k < count; k++)
+                if (r->loop[r->tree.order[k]])
+                    disturb(c, r->tree.order[k], radius, stream + (unsigned)i);
             place_all(r, c, count);
             r->restarts++;
         }
@@ -109,7 +113,7 @@ bool fw_restart_close(fw_restart *r, fw_closure *c) {
         memset(c->u, 0, (size_t)m->nq * sizeof(double));
         unsigned stream = 100000u * (unsigned)i;
         for (int b = 0; b < m->nbody && i > 0; b++)
-            c->u[3 * b + 2] = PI * i / (WHOLE_TRIES - 1) * (2 * fw_spread(stream, (unsigned)b) - 1);
+            disturb(c, b, PI * i / (WHOLE_TRIES - 1), stream);
         r->restarts++;
         bool good = build_up(r, c, stream + 1);
         memcpy(c->active, r->wanted, (size_t)m->nblock * sizeof(bool));
@@ -117,6 +121,7 @@ bool fw_restart_close(fw_restart *r, fw_closure *c) {
         keep_best(r, c);
         if (good) return true;
     }
+    r->cut = c->left <= 0;
     memcpy(c->u, r->best, (size_t)m->nq * sizeof(double));
     return false;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "dynamics/model.h"
+#include "dynamics/kernel.h"
 #include <math.h>
 #include <string.h>
 
@@ -52,6 +52,10 @@ static const double *closed(fw_model *m, double t, const double *y) {
 
 void fw_model_rhs(void *model, double t, const double *y, double *f) {
     fw_model *m = model;
+    if (m->kernel && m->baumgarte == 0) {
+        fw_kernel_rhs(m->kernel, y, f);
+        return;
+    }
     if (m->method->closes_stages) {
         y = closed(m, t, y);
     } else {
@@ -59,4 +63,10 @@ void fw_model_rhs(void *model, double t, const double *y, double *f) {
         m->broken = !m->method->factor(m);
     }
     fw_model_accelerate(m, t, y, f);
+}
+
+void fw_model_react(fw_model *m, double t, const double *y, double *f) {
+    fw_model_rhs(m, t, y, f);
+    if (m->kernel && m->baumgarte == 0)
+        memcpy(m->lambda, fw_kernel_lambda(m->kernel), 2 * (size_t)m->nblock * sizeof(double));
 }

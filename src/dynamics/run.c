@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The loop over steps, smooth pieces and events. */
 #include "base/cancel.h"
+#include "dynamics/closure.h"
 #include "dynamics/run.h"
 #include <math.h>
 #include <string.h>
@@ -35,6 +36,18 @@ static fw_status stopped(const fw_run *r, const fw_stepper *s, fw_ode_result why
             "the motion of scene %s is no longer a number after %s s, at body %s; check "
             "loads, masses and stiffnesses",
             scene_name(r), time, id));
+    /* a position that could not be closed within a billionth of the scene from here is the cause */
+    double final = r->end[r->npiece - 1];
+    if (m->stuck >= 0 && fabs(m->stuck_time - s->t) < 1e-9 * final) {
+        const fw_block *b = &m->block[m->stuck];
+        return solver_error(
+            fw_diag_error(r->diags, 101, r->scene->place,
+                          "the joints of scene %s contradict each other from %s s on: joint %s "
+                          "cannot be kept; %s",
+                          scene_name(r), time, fw_block_name(r->mechanism, b),
+                          m->driven ? "a driver asks for what the other joints do not allow"
+                                    : "the mechanism is at the end of its reach"));
+    }
     return solver_error(fw_diag_error(
         r->diags, 101, r->scene->place,
         "the steps of scene %s become too small at %s s, at body %s; the motion "
@@ -151,7 +164,7 @@ static fw_status next_piece(fw_run *r, fw_stepper *s, int piece) {
                 "a driver of scene %s jumps at %s s: a position cannot; give it a ramp",
                 scene_name(r), fw_number_text(at, sizeof at, t * m->scale.time_s, 6)));
         }
-        if (!m->method->factor(m) || !fw_model_project_velocity(m, t, y + m->nq))
+        if (!m->method->factor(m) || !fw_model_impact(m, t, y + m->nq))
             return stopped(r, s, FW_ODE_SMALL);
         if (m->worked >= 0) y[m->worked] += kinetic(m, y + m->nq) - before;
     }
@@ -180,6 +193,7 @@ static fw_status begin(fw_run *r, fw_stepper *s) {
     if (r->full && r->options->observe) r->options->observe(r->options->context, NULL);
     m->projections = m->events = 0;
     m->worst_position = m->worst_velocity = 0;
+    m->stuck = -1;
     m->piece = 0.5 * r->end[0] * m->scale.time_s;
     fw_model_set_switches(m, r->start);
     fw_stepper_start(s, 0, r->start, r->end[0]);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is read off the steps: evenly spaced rows, the observer's instants, extremes of the joint
    forces. All from the dense output; rows are projected like accepted steps. */
+#include "dynamics/reactions.h"
 #include "dynamics/run.h"
 #include <math.h>
 
@@ -16,54 +17,6 @@ static void pose_in_SI(const fw_run *r, const double *y, double *q, double *angl
     }
 }
 
-static double newton(const fw_model *m) {
-    const fw_scale s = m->scale;
-    return s.mass_kg * s.length_m / (s.time_s * s.time_s);
-}
-
-/* force of every pin on its body b, world axes: the multipliers at the last right-hand side */
-static void pin_forces(const fw_model *m, double *out) {
-    double unit = newton(m);
-    for (int i = 0; i < m->npin; i++)
-        for (int k = 0; k < 2; k++)
-            out[2 * i + k] = unit * m->lambda[2 * m->pin_block[i] + k];
-}
-
-/* -G_b^T lambda of one block, as force and torque about its point b */
-static void add_block_force(const fw_model *m, int block, double *out) {
-    const double *g = m->jac + 12 * block + 6, *l = m->lambda + 2 * block,
-                 *r = m->arm + 4 * block + 2;
-    double fx = -(g[0] * l[0] + g[3] * l[1]), fy = -(g[1] * l[0] + g[4] * l[1]);
-    if (m->body[2 * block + 1] == m->nbody) { /* the ground has no row: the opposite of a's */
-        g -= 6;
-        fx = g[0] * l[0] + g[3] * l[1], fy = g[1] * l[0] + g[4] * l[1];
-        const double *ra = r - 2;
-        out[2] +=
-            newton(m) * m->scale.length_m * (g[2] * l[0] + g[5] * l[1] - ra[0] * fy + ra[1] * fx);
-    } else {
-        out[2] += newton(m) * m->scale.length_m *
-                  (-(g[2] * l[0] + g[5] * l[1]) - (r[0] * fy - r[1] * fx));
-    }
-    out[0] += newton(m) * fx;
-    out[1] += newton(m) * fy;
-}
-
-static void tie_forces(const fw_run *r, double *tie, double *driver) {
-    const fw_model *m = r->model;
-    for (int i = 0; i < m->ntie; i++) {
-        int block = m->tie_block[i];
-        tie[3 * i] = tie[3 * i + 1] = tie[3 * i + 2] = 0;
-        add_block_force(m, block, tie + 3 * i);
-        for (int k = 0; k < m->nblock && r->mechanism->tie[i].kind == FW_TIE_WELD; k++)
-            if (m->block[k].tie == i && k != block) add_block_force(m, k, tie + 3 * i);
-    }
-    for (int i = 0; i < m->ndriver; i++) {
-        const fw_block *b = &m->block[m->driver_block[i]];
-        double unit = newton(m) * (b->rows == FW_ROWS_TURN ? m->scale.length_m : 1);
-        driver[i] = -unit * m->lambda[2 * m->driver_block[i]];
-    }
-}
-
 static void store(fw_run *r, double t_s, double t, const double *y) {
     fw_motion *out = r->motion;
     fw_model *m = r->model;
@@ -71,15 +24,15 @@ static void store(fw_run *r, double t_s, double t, const double *y) {
     size_t row = (size_t)r->row, base = row * (size_t)m->nq;
     out->t_s[row] = t_s;
     pose_in_SI(r, y, out->q + base, out->angle_rad + row * (size_t)out->npin);
-    fw_model_rhs(m, t, y, r->rate);
+    fw_model_react(m, t, y, r->rate);
     for (int i = 0; i < m->nq; i++) {
         double unit = (i % 3 == 2 ? 1 : s.length_m) / s.time_s;
         out->v[base + (size_t)i] = unit * y[m->nq + i];
         out->accel[base + (size_t)i] = unit / s.time_s * r->rate[m->nq + i];
     }
-    pin_forces(m, out->reaction_N + row * 2 * (size_t)out->npin);
-    tie_forces(r, out->tie_N + row * 3 * (size_t)out->ntie,
-               out->driver_N + row * (size_t)out->ndriver);
+    fw_pin_forces(m, out->reaction_N + row * 2 * (size_t)out->npin);
+    fw_tie_forces(m, r->mechanism, out->tie_N + row * 3 * (size_t)out->ntie,
+                  out->driver_N + row * (size_t)out->ndriver);
     r->row++;
 }
 
@@ -126,8 +79,8 @@ void fw_run_show(fw_run *r, fw_stepper *s, double theta_end) {
         double theta = theta_end * i / FW_INSTANTS;
         fw_stepper_dense(s, theta, r->state);
         pose_in_SI(r, r->state, r->seen_q, r->seen_angle);
-        fw_model_rhs(r->model, s->t_old + theta * s->h, r->state, r->rate);
-        pin_forces(r->model, r->seen_force);
+        fw_model_react(r->model, s->t_old + theta * s->h, r->state, r->rate);
+        fw_pin_forces(r->model, r->seen_force);
         const fw_instant now = {(s->t_old + theta * s->h) * r->model->scale.time_s, r->seen_q,
                                 r->seen_angle, r->seen_force};
         r->options->observe(r->options->context, &now);
@@ -139,10 +92,10 @@ void fw_run_show(fw_run *r, fw_stepper *s, double theta_end) {
 static void forces_at(fw_run *r, fw_stepper *s, double theta) {
     const fw_model *m = r->model;
     fw_stepper_dense(s, theta, r->state);
-    fw_model_rhs(r->model, s->t_old + theta * s->h, r->state, r->rate);
+    fw_model_react(r->model, s->t_old + theta * s->h, r->state, r->rate);
     for (int i = 0; i < m->npin; i++) {
         const double *l = m->lambda + 2 * m->pin_block[i];
-        r->force_now[i] = newton(m) * sqrt(l[0] * l[0] + l[1] * l[1]);
+        r->force_now[i] = fw_newton(m) * sqrt(l[0] * l[0] + l[1] * l[1]);
     }
 }
 

@@ -55,15 +55,17 @@ static fw_status run_once(fw_run *r, double rtol, bool full, pass *p) {
     FW_NEED(atol = fw_arena_array(r->arena, double, (size_t)m->ny));
     for (int i = 0; i < m->ny; i++)
         atol[i] = fmax(rtol * r->amplitude, 2e-15);
-    FW_TRY(fw_stepper_new(r->arena, r->integrator, &ode, rtol, atol, &p->stepper));
-    p->stepper->h_fixed = pow(rtol, 0.25);
     FW_TRY(fw_peaks_new(r->arena, r->mechanism, r->q0, &p->peaks));
     r->force = NULL;
     if (r->options->reactions)
         FW_NEED(r->force = fw_arena_array(r->arena, fw_force_peak, (size_t)m->npin));
+    FW_TRY(fw_stepper_new(r->arena, r->integrator, &ode, rtol, atol, &p->stepper));
+    p->stepper->h_fixed = pow(rtol, 0.25);
     p->force = r->force;
     r->full = full;
-    return fw_run_pass(r, p->stepper, &p->peaks);
+    fw_status status = fw_run_pass(r, p->stepper, &p->peaks);
+    fw_stepper_free(p->stepper); /* what a library holds for it; its results stay */
+    return status;
 }
 
 static void take_statistics(fw_run *r, const fw_stepper *s, double rtol, double cpu_s) {

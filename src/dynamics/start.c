@@ -88,7 +88,7 @@ static fw_status start_values(fw_run *r, const fw_terms *terms) {
     }
     fw_model_pose(m, r->start);
     if (!m->method->factor(m) || !fw_model_project_position(m, 0, r->start) ||
-        !m->method->factor(m) || !fw_model_project_velocity(m, 0, v))
+        !m->method->factor(m) || !fw_model_impact(m, 0, v))
         return fw_diag_error(r->diags, 109, r->scene->place,
                              "method %s cannot start scene %s: its equations are singular in the "
                              "assembled position; use --method chain",

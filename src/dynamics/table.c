@@ -6,6 +6,7 @@
 
 static const fw_method *const methods[] = {
     &fw_method_chain,
+    &fw_method_minimal,
     &fw_method_augmented,
     &fw_method_coordinate_partitioning,
     &fw_method_udwadia_kalaba,

@@ -52,15 +52,29 @@ static int next_body(const fw_tree *t, const fw_model *m, const int *place) {
     return best;
 }
 
-/* the body of least depth that stands and is joined to b; -1: none */
+/* rows of all blocks between two bodies: how much of a pose they settle */
+static int rows_between(const fw_tree *t, const fw_model *m, int b, int other) {
+    int rows = 0;
+    for (int e = t->first[b]; e < t->first[b + 1]; e++) {
+        const fw_block *k = &m->block[t->item[e]];
+        if ((k->a == b ? k->b : k->a) != other) continue;
+        rows += k->rows == FW_ROWS_PIN || k->rows == FW_ROWS_SLIDE ? 2 : 1;
+    }
+    return rows;
+}
+
+/* of the bodies that stand and are joined to b the one that settles most of its pose, among equals
+   that of least depth; -1: none */
 static int choose_parent(const fw_tree *t, const fw_model *m, const int *place, const int *depth,
                          int b) {
-    int parent = -1;
+    int parent = -1, most = 0;
     for (int e = t->first[b]; e < t->first[b + 1]; e++) {
         const fw_block *k = &m->block[t->item[e]];
         int other = k->a == b ? k->b : k->a;
         if (other < m->nbody && place[other] < 0) continue;
-        if (parent < 0 || depth[other] < depth[parent]) parent = other;
+        int rows = rows_between(t, m, b, other);
+        if (rows > most || (rows == most && depth[other] < depth[parent]))
+            parent = other, most = rows;
     }
     return parent;
 }

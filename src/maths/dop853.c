@@ -1,229 +1,167 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "maths/dop853.h"
+/* DOP853 of Dormand and Prince: explicit Runge-Kutta of order 8 in 12 stages with error estimates
+   of order 5 and 3, PI step control, and dense output of order 7 from three more stages.
+     Y_i = y + h sum_j a_ij f(t + c_j h, Y_j),   y(t + h) = y + h sum_i b_i f(t + c_i h, Y_i)
+   Source: Hairer, Norsett and Wanner, Solving ODEs I, 2nd ed., II.5 and II.10. Cost of a step of n
+   components: 12 right-hand sides and 74 n multiplications; of the dense output 3 and 72 n.
+   Tests: test_ode_rk.c (coefficients), test_ode_*.c */
 #include "maths/dop853_table.h"
-#include <float.h>
+#include "maths/ode.h"
+#include "maths/rk_kernels.h"
 #include <math.h>
-#include <string.h>
 
-fw_status fw_dop853_new(fw_arena *arena, const fw_ode *ode, double rtol, const double *atol,
-                        fw_dop853 **integrator) {
-    fw_dop853 *s = fw_arena_one(arena, fw_dop853);
+enum { ENTRIES = sizeof dop_a / sizeof dop_a[0], ROWS = 8, LAST = DOP_STAGES };
+
+typedef struct dop853 {
+    fw_stepper base;
+    const fw_rk_kernels *kernel;
+    double *y_new, *f_new;       /* (padded) */
+    double *k;                   /* (DOP_ALL padded) stages; 0 and 12 are f_old and f instead */
+    double *row;                 /* (ROWS padded) dense output */
+    double *zero;                /* (padded) */
+    double a[ENTRIES];           /* dop_a as plain numbers */
+    const double *list[ENTRIES]; /* and the stages that they belong to */
+    double e[2 * DOP_STAGES];    /* errors of order 5 and 3, side by side, for the stages of b */
+    double err_old;
+    bool rejected_last;
+} dop853;
+
+static fw_status create(fw_arena *arena, const fw_ode *ode, fw_stepper **stepper) {
+    size_t width = (size_t)fw_ode_padded(ode->n);
+    dop853 *s = fw_arena_one(arena, dop853);
     FW_NEED(s);
-    size_t n = (size_t)ode->n;
-    s->ode = *ode;
-    s->rtol = rtol;
-    s->atol = atol;
-    s->h_max = (double)INFINITY;
-    FW_NEED(s->y_old = fw_arena_array(arena, double, n));
-    FW_NEED(s->y = fw_arena_array(arena, double, n));
-    FW_NEED(s->f = fw_arena_array(arena, double, n));
-    FW_NEED(s->y_new = fw_arena_array(arena, double, n));
-    FW_NEED(s->f_new = fw_arena_array(arena, double, n));
-    FW_NEED(s->k = fw_arena_array(arena, double, DOP_ALL *n));
-    FW_NEED(s->dense = fw_arena_array(arena, double, 8 * n));
-    *integrator = s;
+    FW_NEED(s->y_new = fw_ode_vector(arena, ode->n));
+    FW_NEED(s->f_new = fw_ode_vector(arena, ode->n));
+    FW_NEED(s->zero = fw_ode_vector(arena, ode->n));
+    FW_NEED(s->k = fw_arena_array(arena, double, DOP_ALL *width));
+    FW_NEED(s->row = fw_arena_array(arena, double, ROWS *width));
+    s->kernel = fw_rk_kernels_best();
+    for (size_t i = 0; i < ENTRIES; i++) {
+        s->a[i] = dop_a[i].a;
+        s->list[i] = s->k + (size_t)dop_a[i].stage * width;
+    }
+    const dop_entry *b = dop_a + dop_row[LAST]; /* e5 has the same stages */
+    for (size_t i = 0; i < sizeof dop_e5 / sizeof dop_e5[0]; i++) {
+        s->e[2 * i] = dop_e5[i].a;
+        s->e[2 * i + 1] = b[i].a;
+        for (int j = 0; j < 3; j++)
+            if (dop_b3[j].stage == b[i].stage) s->e[2 * i + 1] -= dop_b3[j].a;
+    }
+    *stepper = &s->base;
     return FW_OK;
 }
 
-static void evaluate(fw_dop853 *s, double t, const double *y, double *f) {
-    s->ode.rhs(s->ode.context, t, y, f);
-    s->rhs++;
+static void start(fw_stepper *base) {
+    dop853 *s = (dop853 *)base;
+    s->err_old = 1e-4;
+    s->rejected_last = false;
+    base->h_next = fw_ode_first_step(base, 8, s->k);
 }
 
 /* out = y + h sum_j a_ij k_j for row i of the table */
-static void combine(const fw_dop853 *s, int i, double h, const double *restrict y,
-                    double *restrict out) {
-    int n = s->ode.n, first = dop_row[i], count = dop_row[i + 1] - first;
-    const double *k[DOP_STAGES];
-    double a[DOP_STAGES];
-    for (int j = 0; j < count; j++) {
-        k[j] = s->k + (size_t)dop_a[first + j].stage * (size_t)n;
-        a[j] = h * dop_a[first + j].a;
-    }
-    for (int c = 0; c < n; c++)
-        out[c] = y[c] + a[0] * k[0][c];
-    int j = 1;
-    for (; j + 1 < count; j += 2)
-        for (int c = 0; c < n; c++)
-            out[c] += a[j] * k[j][c] + a[j + 1] * k[j + 1][c];
-    if (j < count)
-        for (int c = 0; c < n; c++)
-            out[c] += a[j] * k[j][c];
+static void combine(const dop853 *s, int i, double h, const double *y, double *out) {
+    int first = dop_row[i];
+    s->kernel->combine(s->base.padded, h, dop_row[i + 1] - first, s->a + first, s->list + first, y,
+                       out);
 }
 
-/* err = |h| E5^2 / sqrt(n (E5^2 + 0.01 E3^2)) with E the sums of (e_i / scale_i)^2,
-   scale_i = atol_i + rtol max(|y_i|, |y_new_i|): the step is accepted for err <= 1 */
-static double error_norm(const fw_dop853 *s, double h) {
-    const double *k = s->k;
-    size_t n = (size_t)s->ode.n;
-    double five = 0, three = 0;
-    for (int c = 0; c < s->ode.controlled; c++) {
-        double e5 = 0, e3 = 0;
-        for (size_t j = 0; j < sizeof dop_e5 / sizeof dop_e5[0]; j++)
-            e5 += dop_e5[j].a * k[(size_t)dop_e5[j].stage * n + (size_t)c];
-        /* b has the same stages as e5 */
-        const dop_entry *b = dop_a + dop_row[DOP_STAGES];
-        for (int j = 0; j < 8; j++)
-            e3 += b[j].a * k[(size_t)b[j].stage * n + (size_t)c];
-        for (int j = 0; j < 3; j++)
-            e3 -= dop_b3[j].a * k[(size_t)dop_b3[j].stage * n + (size_t)c];
-        double scale = s->atol[c] + s->rtol * fmax(fabs(s->y[c]), fabs(s->y_new[c]));
-        five += (e5 / scale) * (e5 / scale);
-        three += (e3 / scale) * (e3 / scale);
-    }
-    double denominator = five + 0.01 * three;
-    if (denominator == 0) return 0; /* a NaN falls through */
-    return fabs(h) * five * sqrt(1 / (s->ode.controlled * denominator));
+/* err = |h| E5^2 / sqrt(n (E5^2 + 0.01 E3^2)) with E the sums of (e_i / scale_i)^2: the step is
+   accepted for err <= 1 */
+static double error(const dop853 *s, double h) {
+    const fw_stepper *b = &s->base;
+    double sum[2];
+    s->kernel->errors(b->padded, dop_row[LAST + 1] - dop_row[LAST], s->e, s->list + dop_row[LAST],
+                      b->rtol, b->tolerance, b->y, s->y_new, sum);
+    double both = sum[0] + 0.01 * sum[1];
+    if (both == 0) return 0; /* a NaN falls through */
+    return h * sum[0] * sqrt(1 / (b->ode.controlled * both));
 }
 
-static double weighted_norm(const fw_dop853 *s, const double *y, const double *a, const double *b) {
-    double sum = 0;
-    for (int c = 0; c < s->ode.controlled; c++) {
-        double x = (a[c] - (b ? b[c] : 0)) / (s->atol[c] + s->rtol * fabs(y[c]));
-        sum += x * x;
-    }
-    return sqrt(sum / s->ode.controlled);
-}
-
-/* first step (Hairer, Norsett and Wanner I, II.4): an explicit Euler trial bounds y'' */
-static double first_step(fw_dop853 *s) {
-    double span = s->t_end - s->t;
-    double size = weighted_norm(s, s->y, s->y, NULL), slope = weighted_norm(s, s->y, s->f, NULL);
-    double h = size < 1e-5 || slope < 1e-5 ? 1e-6 * span : 0.01 * size / slope;
-    h = fmin(h, fmin(span, s->h_max));
-    for (int c = 0; c < s->ode.n; c++)
-        s->y_new[c] = s->y[c] + h * s->f[c];
-    evaluate(s, s->t + h, s->y_new, s->f_new);
-    double second = weighted_norm(s, s->y, s->f_new, s->f) / h;
-    double worst = fmax(slope, second);
-    double other = worst <= 1e-15 ? fmax(1e-6 * span, h * 1e-3) : pow(0.01 / worst, 1.0 / 8);
-    h = fmin(100 * h, other);
-    return isfinite(h) && h > 0 ? fmin(h, fmin(span, s->h_max)) : 1e-6 * span;
-}
-
-void fw_dop853_start(fw_dop853 *s, double t, const double *y, double t_end) {
-    size_t bytes = (size_t)s->ode.n * sizeof *y;
-    memcpy(s->y, y, bytes);
-    memcpy(s->y_old, y, bytes);
-    s->t = s->t_old = t;
-    s->t_end = t_end;
-    s->steps = s->rejected = s->rhs = 0;
-    s->err_old = 1e-4;
-    s->rejected_last = s->dense_ready = false;
-    evaluate(s, t, s->y, s->f);
-    s->h = 0;
-    s->h_next = first_step(s);
-}
-
-static bool finite_all(const double *y, int n) {
-    double sum = 0;
-    for (int c = 0; c < n; c++)
-        sum += fabs(y[c]);
-    return isfinite(sum);
-}
-
-/* new step = h / clamp(err^alpha err_old^-beta / 0.9, 1/6, 3), alpha = 1/8 - 0.2 beta, beta 0.04:
-   the proportional-integral controller of Gustafsson with the constants of the cited book */
-static double step_factor(const fw_dop853 *s, double err) {
+/* h / clamp(err^alpha err_old^-beta / 0.9, 1/6, 3), alpha = 1/8 - 0.2 beta, beta = 0.04: the
+   proportional-integral controller with the constants of the cited book */
+static double next_step(const dop853 *s, double h, double err) {
     const double beta = 0.04, safety = 0.9;
     double factor = pow(err, 0.125 - 0.2 * beta) / pow(s->err_old, beta) / safety;
-    return fmin(3, fmax(1.0 / 6, factor));
+    double next = h / fmin(3, fmax(1.0 / 6, factor));
+    return s->rejected_last ? fmin(h, next) : next;
 }
 
-/* y(t + h) by the twelve stages, its error, the projection; order 8. Inputs y, f at t and h_next;
-   outputs the same at t + h. Cost 12 evaluations (11 and the one after the projection).
-   Source: Hairer, Norsett and Wanner I, II.5 and II.10. Test: test_dop853.c. */
-fw_ode_result fw_dop853_step(fw_dop853 *s) {
-    size_t n = (size_t)s->ode.n;
-    double h = fmin(s->h_next, s->h_max);
-    memcpy(s->k, s->f, n * sizeof(double));
-    for (;;) {
-        bool last = s->t + 1.01 * h >= s->t_end;
-        if (last) h = s->t_end - s->t;
-        if (!last && h <= 16 * DBL_EPSILON * fmax(fabs(s->t), DBL_MIN)) return FW_ODE_SMALL;
+static fw_ode_result step(fw_stepper *b) {
+    dop853 *s = (dop853 *)b;
+    double h = fmin(b->h_next, b->h_max);
+    for (int i = 1; i <= LAST; i++)
+        s->list[dop_row[i]] = b->f; /* stage 0 leads every row */
+    for (int tries = 0;;) {
+        double t_new = fw_ode_target(b, &h);
         for (int i = 1; i < DOP_STAGES; i++) {
-            combine(s, i, h, s->y, s->y_new);
-            evaluate(s, s->t + dop_c[i] * h, s->y_new, s->k + (size_t)i * n);
+            combine(s, i, h, b->y, s->y_new);
+            fw_ode_evaluate(b, b->t + dop_c[i] * h, s->y_new, s->k + i * b->padded);
         }
-        combine(s, DOP_STAGES, h, s->y, s->y_new);
-        double err = error_norm(s, h), t_new = last ? s->t_end : s->t + h;
+        combine(s, LAST, h, b->y, s->y_new);
+        double err = error(s, h);
         bool good = err <= 1; /* false for a NaN */
-        if (good && s->ode.project) {
-            good = s->ode.project(s->ode.context, t_new, s->y_new, s->f_new);
-            s->rhs++;
-        } else if (good) {
-            evaluate(s, t_new, s->y_new, s->f_new);
-        }
-        if (good && finite_all(s->f_new, s->ode.n) && finite_all(s->y_new, s->ode.n)) {
-            double factor = step_factor(s, err);
-            double *swap = s->y_old;
-            s->y_old = s->y, s->y = s->y_new, s->y_new = swap;
-            swap = s->f, s->f = s->f_new, s->f_new = swap;
+        if (good && fw_ode_finish(b, t_new, s->y_new, s->f_new)) {
+            b->h_next = next_step(s, h, err);
             s->err_old = fmax(err, 1e-4);
-            s->h_next = s->rejected_last ? fmin(h, h / factor) : h / factor;
-            s->rejected_last = s->dense_ready = false;
-            s->t_old = s->t;
-            s->h = h;
-            s->t = t_new;
-            s->steps++;
+            s->rejected_last = false;
+            fw_ode_accept(b, t_new, &s->y_new, &s->f_new);
             return FW_ODE_STEP;
         }
-        if (h <= 1e-13 * fabs(s->t_end - s->t_old) && !isfinite(err)) return FW_ODE_NAN;
-        h = good || !(err > 1) ? h / 4 : h / fmin(3, pow(err, 0.117) / 0.9);
+        h = good || !isfinite(err) ? h / 4 : h / fmin(3, pow(err, 0.117) / 0.9);
         s->rejected_last = true;
-        s->rejected++;
-        if (!(h > 16 * DBL_EPSILON * fabs(s->t)) || !(h > 1e-15 * fabs(s->t_end)))
-            return isfinite(err) ? FW_ODE_SMALL : FW_ODE_NAN;
+        if (!fw_ode_retry(b, h, &tries)) return isfinite(err) ? FW_ODE_SMALL : FW_ODE_NAN;
     }
 }
 
 /* coefficients of the order-7 interpolant; the first four fit y and f at both ends, so that it
    stays continuous with projected end points */
-void fw_dop853_dense_prepare(fw_dop853 *s) {
-    if (s->dense_ready) return;
-    size_t n = (size_t)s->ode.n;
-    double h = s->h, *k = s->k, *r = s->dense;
-    memcpy(k + 12 * n, s->f, n * sizeof(double));
-    for (int i = 13; i < DOP_ALL; i++) {
-        combine(s, i, h, s->y_old, s->y_new);
-        evaluate(s, s->t_old + dop_c[i] * h, s->y_new, k + (size_t)i * n);
-    }
-    for (size_t c = 0; c < n; c++) {
-        double difference = s->y[c] - s->y_old[c], bend = h * k[c] - difference;
-        r[c] = s->y_old[c];
-        r[n + c] = difference;
-        r[2 * n + c] = bend;
-        r[3 * n + c] = difference - h * s->f[c] - bend;
-    }
-    for (size_t m = 0; m < 4; m++)
-        for (size_t c = 0; c < n; c++) {
-            double sum = 0;
-            for (int j = 0; j < DOP_DENSE; j++)
-                sum += dop_d[m][j] * k[(size_t)dop_d_stage[j] * n + c];
-            r[(4 + m) * n + c] = h * sum;
+static void prepare(fw_stepper *b) {
+    dop853 *s = (dop853 *)b;
+    size_t width = (size_t)b->padded;
+    double h = b->h, *r = s->row;
+    const double *stage[DOP_DENSE];
+    for (int i = LAST + 1; i < DOP_ALL; i++) {
+        for (int j = dop_row[i]; j < dop_row[i + 1]; j++) {
+            if (dop_a[j].stage == 0) s->list[j] = b->f_old;
+            if (dop_a[j].stage == LAST) s->list[j] = b->f;
         }
-    s->dense_ready = true;
+        combine(s, i, h, b->y_old, s->y_new);
+        fw_ode_evaluate(b, b->t_old + dop_c[i] * h, s->y_new, s->k + (size_t)i * width);
+    }
+    for (size_t c = 0; c < (size_t)b->ode.n; c++) {
+        double difference = b->y[c] - b->y_old[c], bend = h * b->f_old[c] - difference;
+        r[c] = b->y_old[c];
+        r[width + c] = difference;
+        r[2 * width + c] = bend;
+        r[3 * width + c] = difference - h * b->f[c] - bend;
+    }
+    for (int j = 0; j < DOP_DENSE; j++)
+        stage[j] = dop_d_stage[j] == 0      ? b->f_old
+                   : dop_d_stage[j] == LAST ? b->f
+                                            : s->k + (size_t)dop_d_stage[j] * width;
+    for (size_t m = 0; m < 4; m++)
+        s->kernel->combine(b->padded, h, DOP_DENSE, dop_d[m], stage, s->zero, r + (4 + m) * width);
 }
 
-void fw_dop853_dense(const fw_dop853 *s, double theta, double *y) {
-    size_t n = (size_t)s->ode.n;
-    double rest = 1 - theta;
-    const double *r = s->dense;
-    for (size_t c = 0; c < n; c++) {
-        double high =
-            r[4 * n + c] + theta * (r[5 * n + c] + rest * (r[6 * n + c] + theta * r[7 * n + c]));
-        y[c] = r[c] +
-               theta * (r[n + c] + rest * (r[2 * n + c] + theta * (r[3 * n + c] + rest * high)));
-    }
+static void dense(const fw_stepper *b, double theta, double *y) {
+    fw_ode_nested_dense(b, ROWS, ((const dop853 *)b)->row, theta, y);
 }
 
-void fw_dop853_dense_value(const double r[8], double theta, double *value, double *slope) {
-    double p = r[7], d = 0;
-    for (int i = 6; i >= 0; i--) {
-        double x = i % 2 ? 1 - theta : theta, dx = i % 2 ? -1 : 1;
-        d = dx * p + x * d;
-        p = r[i] + x * p;
-    }
-    *value = p;
-    *slope = d;
+static void component(const fw_stepper *b, int i, double wi, int j, double wj, double theta,
+                      double *value, double *slope) {
+    fw_ode_nested_component(b, ROWS, ((const dop853 *)b)->row, i, wi, j, wj, theta, value, slope);
 }
+
+const fw_stepper_row fw_dop853_row = {
+    .name = "dop853",
+    .summary = "explicit Runge-Kutta 8(5,3) of Dormand and Prince, for tight tolerances",
+    .order = 8,
+    .dense_order = 7,
+    .dense_order_u = 7,
+    .create = create,
+    .start = start,
+    .step = step,
+    .prepare = prepare,
+    .dense = dense,
+    .component = component,
+};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Coefficients of DOP853, the 8(5,3) pair of Dormand and Prince as published by E. Hairer, S. P.
    Norsett and G. Wanner, Solving Ordinary Differential Equations I, 2nd ed., 1993, section II.5 and
-   appendix. Order conditions: tests/unit/maths/test_dop853.c. */
+   appendix. Order conditions: tests/unit/maths/test_ode_rk.c. */
 #ifndef FW_MATHS_DOP853_TABLE_H
 #define FW_MATHS_DOP853_TABLE_H
 

@@ -1,16 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Generalised-alpha of Chung and Hulbert for u'' = a(t, u, u'), second order, damping the fastest
    oscillations by the spectral radius rho per step:
-     u_1 = u_0 + h v_0 + h^2 ((1/2 - beta) p_0 + beta p_1),   v_1 = v_0 + h ((1 - gamma) p_0 + gamma
-   p_1) (1 - am) p_1 + am p_0 = (1 - af) a_1 + af a_0,           a_1 = a(t_1, u_1, v_1) am = (2 rho
-   - 1)/(rho + 1), af = rho/(rho + 1), gamma = 1/2 - am + af, beta = (1 - am + af)^2/4 p is a at t +
-   (am - af) h to second order; when h changes, p - a is scaled with it, which keeps the order. The
-   step is implicit in p_1: Newton with differences for a_u and a_v. Error estimate: u_1 and v_1
-   minus what the parabola through the accelerations at t_-1, t_0, t_1 gives (Adams-Moulton, third
-   order): asymptotically the local error itself, O(h^3); in the first step after a start the
-   straight line through two. Quadratures by Simpson's rule. Source: Chung and Hulbert, J. Appl.
-   Mech. 60 (1993); Arnold and Bruels, Multibody System Dynamics 18 (2007). Cost: an evaluation and
-   a solution of n x n per iteration, n the number of u. Tests: test_ode_*.c, test_ode_stiff.c */
+     u_1 = u_0 + h v_0 + h^2 ((1/2 - beta) p_0 + beta p_1)
+     v_1 = v_0 + h ((1 - gamma) p_0 + gamma p_1)
+     (1 - am) p_1 + am p_0 = (1 - af) a_1 + af a_0,   a_1 = a(t_1, u_1, v_1)
+     am = (2 rho - 1)/(rho + 1), af = rho/(rho + 1)
+     gamma = 1/2 - am + af, beta = (1 - am + af)^2/4
+   p is a at t + (am - af) h to second order; when h changes, p - a is scaled with it, which keeps
+   the order. The step is implicit in p_1: Newton with differences for a_u and a_v.
+   Error estimate: u_1 and v_1 minus what the parabola through the accelerations at t_-1, t_0, t_1
+   gives (Adams-Moulton, third order): asymptotically the local error itself, O(h^3); in the first
+   step after a start the straight line through two. Quadratures by Simpson's rule.
+   Source: Chung and Hulbert, J. Appl. Mech. 60 (1993); Arnold and Bruels, Multibody System
+   Dynamics 18 (2007). Cost: an evaluation and a solution of n x n per iteration, n the number of u.
+   Tests: test_ode_*.c, test_ode_stiff.c */
 #include "maths/lu.h"
 #include "maths/ode_implicit.h"
 #include <float.h>
@@ -249,7 +252,7 @@ static fw_ode_result step(fw_stepper *b) {
 
 static fw_ode_span span_of(const fw_stepper *b) {
     const alpha *s = (const alpha *)b;
-    return (fw_ode_span){b->h, b->y_old, s->g_old, b->y, s->g, false};
+    return (fw_ode_span){b->h, b->y_old, s->g_old, b->y, s->g, true};
 }
 
 static void prepare(fw_stepper *s) {

@@ -80,7 +80,9 @@ static int jacobian(double t, const double *y, double *dfdy, double *dfdt, void 
         for (size_t k = 0; k < n; k++)
             dfdy[i * n + k] = k < columns ? s->j[i * columns + k] : 0;
     }
-    return fw_ode_finite(dfdt, b->ode.n) ? GSL_SUCCESS : GSL_FAILURE;
+    bool good = fw_ode_finite(dfdt, b->ode.n);
+    if (!good) s->nan = true;
+    return good ? GSL_SUCCESS : GSL_FAILURE;
 }
 
 static int error_level(void *context, double y, double dydt, double h, size_t i, double *level) {
@@ -296,5 +298,5 @@ ROW(msadams, .name = "gsl-msadams",
     .summary = "GSL's Adams multistep method of order 1 to 12: few evaluations per step",
     .order = 12, .variable_order = true);
 ROW(bsimp, .name = "gsl-bsimp",
-    .summary = "GSL's semi-implicit extrapolation of Bader and Deuflhard", .order = 8,
-    .implicit = true);
+    .summary = "GSL's semi-implicit extrapolation of Bader and Deuflhard", .order = 12,
+    .implicit = true, .variable_order = true);

@@ -15,6 +15,14 @@ static int at_least_one(int n) { /* leading dimensions */
     return n > 1 ? n : 1;
 }
 
+void openblas_set_num_threads(int count) __attribute__((weak));
+
+/* OpenBLAS would split matrices of a dozen rows over all cores: on a busy machine that costs 50
+   times the arithmetic, and the last digits follow the number of threads */
+void fw_lapack_one_thread(void) {
+    if (openblas_set_num_threads) openblas_set_num_threads(1);
+}
+
 static fw_status space_of(fw_arena *arena, int info, double ask, fw_lapack_space *space) {
     if (info != 0 || !(ask >= 0) || ask > 1e8) return FW_SOLVER;
     space->size = at_least_one((int)ask);
@@ -115,7 +123,8 @@ bool fw_lapack_lu(int n, double *a, int *pivot) {
     return LAPACKE_dgetrf_work(column_major, n, n, a, at_least_one(n), pivot) == 0;
 }
 
-bool fw_lapack_lu_solve(bool transposed, int n, int count, const double *a, const int *pivot, double *x) {
+bool fw_lapack_lu_solve(bool transposed, int n, int count, const double *a, const int *pivot,
+                        double *x) {
     return LAPACKE_dgetrs_work(column_major, transposed ? 'T' : 'N', n, count, a, at_least_one(n),
                                pivot, x, at_least_one(n)) == 0;
 }

@@ -9,6 +9,9 @@
 #include "base/status.h"
 #include <stdbool.h>
 
+/* where OpenBLAS is the BLAS: one thread, for the whole process */
+void fw_lapack_one_thread(void);
+
 typedef struct fw_lapack_space { /* of one factorisation of one size */
     double *work;
     int size;
@@ -45,7 +48,8 @@ bool fw_cholesky_solve(int n, const double *a, double *x);
 
 /* a (n x n) = P L U; x (n x count) = a^-1 x, or a^-T x. false: exactly singular */
 bool fw_lapack_lu(int n, double *a, int *pivot);
-bool fw_lapack_lu_solve(bool transposed, int n, int count, const double *a, const int *pivot, double *x);
+bool fw_lapack_lu_solve(bool transposed, int n, int count, const double *a, const int *pivot,
+                        double *x);
 
 /* Gaussian elimination of a (m x n, row-major, used up) with complete pivoting, up to the first
    pivot that is 0 or below `stop` times the largest. Returns the pivots taken; row (m) and column

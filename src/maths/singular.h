@@ -5,14 +5,14 @@
 #include "base/arena.h"
 #include "base/status.h"
 
-/* a = U diag(sigma) V^T, rows are contiguous: a (rows x columns), u (rows x rows), v (columns x
-   columns) holds the right singular vectors as rows, sigma (min(rows, columns)) from the largest
-   down. rows 0 gives the unit matrix in v. FW_SOLVER where it does not converge or `a` is not
-   finite. */
+/* a = U diag(sigma) V^T. `a` (rows x columns) has its rows contiguous; sigma (min(rows, columns))
+   from the largest down; u: left vector i at u + i rows; v: right vector i at v + i columns, all
+   `columns` of them, so that those behind the rank span the null space. */
 typedef struct fw_singular {
     int rows, columns;
     double *sigma, *u, *v;
 } fw_singular;
+/* rows 0 gives the unit matrix in v. FW_SOLVER where it does not converge or `a` is not finite. */
 fw_status fw_singular_new(fw_arena *arena, int rows, int columns, const double *a,
                           fw_singular *out);
 

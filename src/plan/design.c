@@ -1,31 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The public library: order of calls, arguments and ownership; the work is the plan's. */
-#include "plan/design.h"
 #include "base/cancel.h"
+#include "plan/design_state.h"
 #include "plan/stages.h"
-#include "report/json.h"
 #include <locale.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { READ = 1, JUDGED = 2, FABRICATED = 4, SIMULATED = 8 }; /* stages that were done */
-enum { NDOCUMENT = FW_DOCUMENT_DIAGNOSTICS_TEXT + 1 };
-
-struct fw_design {
-    fw_plan *plan; /* its arena holds this struct too */
-    locale_t locale;
-    unsigned done;
-    bool tried; /* a description was given, read or not */
-    fw_set *set;
-    int set_capacity;
-    const char *wrong_option; /* a sentence, or NULL */
-    const fw_motion *motion;
-    const fw_mechanism *mechanism;
-    const fw_scene *scene;
-    fw_terminal_style style;
-    fw_text document[NDOCUMENT]; /* data NULL: not composed, or out of date */
-    fw_diagnostic *diagnostic;   /* (FW_DIAG_MOST) */
-};
 
 /* the codes of the header are those of base/status.h */
 #define SAME(code, exit_status, text)                                                              \
@@ -93,6 +73,8 @@ static const char *wrong_option(const fw_design_options *o) {
     if (!known(o->method, fw_method_at)) return "method is not known in this version";
     if (!known(o->integrator, fw_integrator_at)) return "integrator is not known in this version";
     if (!known(o->stabilise, fw_stabilisation_at)) return "there is no such stabilisation";
+    if (o->at && strcmp(o->at, "rest") != 0 && strcmp(o->at, "equilibrium") != 0)
+        return "at must be \"rest\" or \"equilibrium\"";
     return NULL;
 }
 
@@ -127,8 +109,9 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     if (d->wrong_option) return FW_OK;
     if (given) memcpy(&o, given, given->size < sizeof o ? given->size : sizeof o);
     fw_arena *arena = d->plan->arena;
-    const char **text[] = {&o.data_directory, &o.flow,       &o.scene,    &o.effects,
-                           &o.method,         &o.integrator, &o.stabilise};
+    const char **text[] = {&o.data_directory, &o.flow,       &o.scene,        &o.effects,
+                           &o.method,         &o.integrator, &o.stabilise,    &o.at,
+                           &o.independent,    &o.rates,      &o.accelerations};
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
         FW_TRY(keep(arena, text[i]));
     d->wrong_option = wrong_option(&o);
@@ -139,6 +122,11 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     p->scene = o.scene;
     p->mask_tolerance_m = o.mask_tolerance_m;
     p->force = o.force != 0;
+    p->path = o.path != 0;
+    p->at_equilibrium = o.at && strcmp(o.at, "equilibrium") == 0;
+    p->independent = o.independent;
+    p->rates = o.rates;
+    p->accelerations = o.accelerations;
     m->effects = effects_of(o.effects);
     m->method = o.method;
     m->integrator = o.integrator;
@@ -184,20 +172,20 @@ void fw_design_free(fw_design *design) {
 
 /* ---- calls ---- */
 
-static fw_status usage(fw_design *d, const char *what) {
+fw_status fw_design_usage(fw_design *d, const char *what) {
     fw_status status = fw_diag_error(&d->plan->diags, 230, (fw_place){0}, "%s", what);
     return status == FW_NOMEM ? FW_NOMEM : FW_USAGE;
 }
 
 /* all work runs in the "C" locale of this thread, so that the caller's cannot change a byte */
-static int run(fw_design *d, fw_status (*work)(fw_design *d, void *argument), void *argument) {
+int fw_design_run(fw_design *d, fw_status (*work)(fw_design *d, void *argument), void *argument) {
     locale_t before = uselocale(d->locale);
     fw_status status = work(d, argument);
     uselocale(before);
     return (int)status;
 }
 
-static void forget_documents(fw_design *d) {
+void fw_design_forget_documents(fw_design *d) {
     for (int i = 0; i < NDOCUMENT; i++)
         d->document[i] = (fw_text){0};
 }
@@ -206,18 +194,20 @@ static void forget_documents(fw_design *d) {
 static int stage(fw_design *d, unsigned before, const char *missing, unsigned self,
                  fw_status (*work)(fw_design *d, void *argument)) {
     if (!d) return FW_STATUS_USAGE;
-    if (!(d->done & before)) return (int)usage(d, missing);
+    if (!(d->done & before)) return (int)fw_design_usage(d, missing);
     if (d->done & self) return FW_STATUS_OK;
-    int status = run(d, work, NULL);
+    int status = fw_design_run(d, work, NULL);
     if (status == FW_STATUS_OK) d->done |= self;
-    forget_documents(d);
+    fw_design_forget_documents(d);
     return status;
 }
 
 int fw_design_set(fw_design *design, const char *path, const char *value) {
     if (!design) return FW_STATUS_USAGE;
-    if (!path || !value || !path[0]) return (int)usage(design, "set needs a path and a value");
-    if (design->tried) return (int)usage(design, "set values before the description is read");
+    if (!path || !value || !path[0])
+        return (int)fw_design_usage(design, "set needs a path and a value");
+    if (design->tried)
+        return (int)fw_design_usage(design, "set values before the description is read");
     fw_plan_options *o = &design->plan->options;
     fw_arena *arena = design->plan->arena;
     if (o->nset == design->set_capacity) {
@@ -235,14 +225,8 @@ int fw_design_set(fw_design *design, const char *path, const char *value) {
     return FW_STATUS_OK;
 }
 
-typedef struct bytes {
-    const char *name;
-    const void *data; /* NULL: the file `name` */
-    size_t n;
-} bytes;
-
 static fw_status read_work(fw_design *d, void *argument) {
-    const bytes *in = argument;
+    const fw_bytes *in = argument;
     fw_arena *arena = d->plan->arena;
     const char *name = fw_arena_strdup(arena, in->name);
     FW_NEED(name);
@@ -252,26 +236,28 @@ static fw_status read_work(fw_design *d, void *argument) {
     return fw_plan_load_memory(d->plan, name, copy, in->n);
 }
 
-static int read_from(fw_design *d, bytes in) {
-    if (d->tried) return (int)usage(d, "one design reads one description");
-    if (d->wrong_option) return (int)usage(d, d->wrong_option);
+static int read_from(fw_design *d, fw_bytes in) {
+    if (d->tried) return (int)fw_design_usage(d, "one design reads one description");
+    if (d->wrong_option) return (int)fw_design_usage(d, d->wrong_option);
     d->tried = true;
-    int status = run(d, read_work, &in);
+    int status = fw_design_run(d, read_work, &in);
     if (status == FW_STATUS_OK) d->done |= READ;
     return status;
 }
 
 int fw_design_read(fw_design *design, const char *path) {
     if (!design) return FW_STATUS_USAGE;
-    if (!path) return (int)usage(design, "read needs the name of a file");
-    return read_from(design, (bytes){.name = path});
+    if (!path) return (int)fw_design_usage(design, "read needs the name of a file");
+    return read_from(design, (fw_bytes){.name = path});
 }
 
 int fw_design_read_memory(fw_design *design, const char *name, const void *xml, size_t n) {
     if (!design) return FW_STATUS_USAGE;
-    if (!xml) return (int)usage(design, "read_memory needs the bytes of a description");
-    if (n > SIZE_MAX / 2) return (int)usage(design, "read_memory: the length is not possible");
-    return read_from(design, (bytes){name ? name : "memory", xml, n});
+    if (!xml)
+        return (int)fw_design_usage(design, "read_memory needs the fw_bytes of a description");
+    if (n > SIZE_MAX / 2)
+        return (int)fw_design_usage(design, "read_memory: the length is not possible");
+    return read_from(design, (fw_bytes){name ? name : "memory", xml, n});
 }
 
 const char *fw_design_name(const fw_design *design) {
@@ -306,13 +292,63 @@ int fw_design_fabricate(fw_design *design) {
                  fabricate_work);
 }
 
+/* kept only of stages that succeeded, so that an earlier one's documents stay whole */
+static fw_status subject(fw_design *d, const fw_mechanism *mechanism, const fw_scene *scene) {
+    d->mechanism = mechanism;
+    d->scene = scene;
+    return FW_OK;
+}
+
+static fw_status modes_work(fw_design *d, void *argument) {
+    (void)argument;
+    const fw_mechanism *mechanism;
+    const fw_scene *scene;
+    FW_TRY(fw_plan_modes(d->plan, &d->modes, &mechanism, &scene));
+    return subject(d, mechanism, scene);
+}
+
+int fw_design_modes(fw_design *design) {
+    return stage(design, READ, "read a description before its modes are computed", MODES,
+                 modes_work);
+}
+
+static fw_status statics_work(fw_design *d, void *argument) {
+    (void)argument;
+    const fw_mechanism *mechanism;
+    const fw_scene *scene;
+    FW_TRY(fw_plan_statics(d->plan, &d->statics, &mechanism, &scene));
+    return subject(d, mechanism, scene);
+}
+
+int fw_design_statics(fw_design *design) {
+    return stage(design, READ, "read a description before its equilibrium is computed", STATICS,
+                 statics_work);
+}
+
 static fw_status simulate_work(fw_design *d, void *argument) {
     (void)argument;
-    return fw_plan_simulate(d->plan, &d->motion, &d->mechanism, &d->scene);
+    const fw_mechanism *mechanism;
+    const fw_scene *scene;
+    FW_TRY(fw_plan_simulate(d->plan, &d->motion, &mechanism, &scene));
+    return subject(d, mechanism, scene);
 }
 
 int fw_design_simulate(fw_design *design) {
     return stage(design, READ, "read a description before simulating it", SIMULATED, simulate_work);
+}
+
+/* ---- assemble ---- */
+
+static fw_status assemble_work(fw_design *d, void *argument) {
+    (void)argument;
+    return fw_plan_assemble(d->plan, &d->assembly);
+}
+
+int fw_design_assemble(fw_design *design) {
+    int status =
+        stage(design, READ, "read a description before assembling it", ASSEMBLED, assemble_work);
+    if (design && design->assembly.assembly) design->done |= ASSEMBLY_TRIED;
+    return status;
 }
 
 typedef struct target {
@@ -329,148 +365,18 @@ static fw_status write_work(fw_design *d, void *argument) {
 
 int fw_design_write(fw_design *design, const char *directory, unsigned what) {
     if (!design) return FW_STATUS_USAGE;
-    if (!directory || !directory[0]) return (int)usage(design, "write needs a directory");
+    if (!directory || !directory[0]) return (int)fw_design_usage(design, "write needs a directory");
     if (what & ~(unsigned)FW_DESIGN_EVERYTHING)
-        return (int)usage(design, "write knows the bits of FW_DESIGN_EVERYTHING only");
-    if (!(design->done & JUDGED)) return (int)usage(design, "judge a design before writing it");
+        return (int)fw_design_usage(design, "write knows the bits of FW_DESIGN_EVERYTHING only");
+    if (!(design->done & JUDGED))
+        return (int)fw_design_usage(design, "judge a design before writing it");
     if ((what & (FW_DESIGN_MASKS | FW_DESIGN_RECIPES)) && !(design->done & FABRICATED))
-        return (int)usage(design, "call fabricate before masks and recipes are written");
-    return run(design, write_work, &(target){directory, what});
+        return (int)fw_design_usage(design, "call fabricate before masks and recipes are written");
+    return fw_design_run(design, write_work, &(target){directory, what});
 }
 
 int fw_design_files_written(const fw_design *design) {
     return design && design->plan ? design->plan->files_written : 0;
-}
-
-/* ---- documents ---- */
-
-static fw_status verdict_json(fw_design *d, fw_text *out) {
-    return fw_plan_verdict_json(d->plan, out);
-}
-
-static fw_status verdict_text(fw_design *d, fw_text *out) {
-    return fw_plan_verdict_text(d->plan, d->style, out);
-}
-
-static fw_status simulate_json(fw_design *d, fw_text *out) {
-    return fw_report_simulate_json(d->mechanism, d->motion, out);
-}
-
-static fw_status simulate_text(fw_design *d, fw_text *out) {
-    return fw_report_simulate_text(d->scene, d->mechanism, d->motion, out);
-}
-
-static fw_status motion_csv(fw_design *d, fw_text *out) {
-    return fw_report_motion_csv(d->mechanism, d->motion, out);
-}
-
-static fw_status animation_svg(fw_design *d, fw_text *out) {
-    return fw_report_animation_svg(d->plan->arena, d->plan->device, d->plan->layout, d->mechanism,
-                                   d->motion, d->scene, out);
-}
-
-static fw_status masks_json(fw_design *d, fw_text *out) {
-    return fw_plan_masks_json(d->plan, out);
-}
-
-static fw_status recipes_json(fw_design *d, fw_text *out) {
-    return fw_plan_recipes_json(d->plan, out);
-}
-
-static fw_status device_svg(fw_design *d, fw_text *out) {
-    fw_plan *p = d->plan;
-    return fw_report_device_svg(p->arena, p->device, p->layout, &p->verdict, out);
-}
-
-static fw_status report_html(fw_design *d, fw_text *out) {
-    return fw_plan_report_html(d->plan, out);
-}
-
-/* those serious enough for the style; notes of a quiet run are not lost, only not shown */
-static fw_status diagnostics_text(fw_design *d, fw_text *out) {
-    const fw_plan *p = d->plan;
-    fw_diag item[FW_DIAG_MOST];
-    fw_diags shown = p->diags;
-    shown.item = item;
-    shown.count = 0;
-    for (size_t i = 0; i < p->diags.count; i++)
-        if ((int)p->diags.item[i].severity >= (int)FW_WARNING - d->style.detail)
-            item[shown.count++] = p->diags.item[i];
-    fw_diags_print(&shown, out, p->source_file, p->source, p->source_length, d->style.colour);
-    return fw_text_end(out);
-}
-
-/* one row per document: what must be done before it, and who composes it */
-static const struct {
-    unsigned needs;
-    fw_status (*compose)(fw_design *d, fw_text *out);
-} document_table[NDOCUMENT] = {
-    [FW_DOCUMENT_VERDICT_JSON] = {JUDGED, verdict_json},
-    [FW_DOCUMENT_VERDICT_TEXT] = {JUDGED, verdict_text},
-    [FW_DOCUMENT_SIMULATE_JSON] = {SIMULATED, simulate_json},
-    [FW_DOCUMENT_SIMULATE_TEXT] = {SIMULATED, simulate_text},
-    [FW_DOCUMENT_MOTION_CSV] = {SIMULATED, motion_csv},
-    [FW_DOCUMENT_ANIMATION_SVG] = {SIMULATED, animation_svg},
-    [FW_DOCUMENT_MASKS_JSON] = {FABRICATED, masks_json},
-    [FW_DOCUMENT_RECIPES_JSON] = {FABRICATED, recipes_json},
-    [FW_DOCUMENT_DEVICE_SVG] = {JUDGED, device_svg},
-    [FW_DOCUMENT_REPORT_HTML] = {JUDGED, report_html},
-    [FW_DOCUMENT_DIAGNOSTICS_TEXT] = {0, diagnostics_text},
-};
-
-static fw_status document_work(fw_design *d, void *argument) {
-    int which = *(const int *)argument;
-    fw_text text = fw_text_new(d->plan->arena);
-    fw_text_add(&text, ""); /* so that an empty document has a NUL too */
-    FW_TRY(document_table[which].compose(d, &text));
-    FW_TRY(fw_text_end(&text));
-    d->document[which] = text;
-    return FW_OK;
-}
-
-int fw_design_document(fw_design *design, int document, const char **text, size_t *length) {
-    if (text) *text = NULL;
-    if (length) *length = 0;
-    if (!design) return FW_STATUS_USAGE;
-    if (!text) return (int)usage(design, "document needs a place for the text");
-    if (document < 0 || document >= NDOCUMENT) return (int)usage(design, "no such document");
-    unsigned needs = document_table[document].needs;
-    if ((design->done & needs) != needs)
-        return (int)usage(design, "the stage that makes this document was not called");
-    fw_text *have = &design->document[document];
-    if (!have->data || document == FW_DOCUMENT_DIAGNOSTICS_TEXT) { /* these come at any time */
-        int status = run(design, document_work, &document);
-        if (status != FW_STATUS_OK) return status;
-    }
-    *text = have->data;
-    if (length) *length = have->length;
-    return FW_STATUS_OK;
-}
-
-static fw_status save_work(fw_design *d, void *argument) {
-    const bytes *b = argument;
-    const char *path = fw_arena_strdup(d->plan->arena, b->name); /* diagnostics keep it */
-    FW_NEED(path);
-    return fw_output_single(d->plan->arena, path, b->data, b->n, &d->plan->diags);
-}
-
-int fw_design_save(fw_design *design, int document, const char *path) {
-    if (!design) return FW_STATUS_USAGE;
-    if (!path || !path[0]) return (int)usage(design, "save needs the name of a file");
-    const char *text;
-    size_t n;
-    int status = fw_design_document(design, document, &text, &n);
-    if (status != FW_STATUS_OK) return status;
-    return run(design, save_work, &(bytes){path, text, n});
-}
-
-int fw_design_text_style(fw_design *design, int detail, int colour) {
-    if (!design) return FW_STATUS_USAGE;
-    if (detail < FW_DETAIL_QUIET || detail > FW_DETAIL_VERBOSE)
-        return (int)usage(design, "detail is -1, 0 or 1");
-    design->style = (fw_terminal_style){detail, colour != 0};
-    forget_documents(design);
-    return FW_STATUS_OK;
 }
 
 /* ---- diagnostics, cancelling ---- */

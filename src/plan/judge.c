@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dynamics/assembly.h"
 #include "plan/stages.h"
 #include <string.h>
 
@@ -22,7 +23,7 @@ static bool loaded(const fw_plan *plan, const char *flow) {
 }
 
 /* the named scene, else the first one that holds in a flow of this plan */
-static const fw_scene *find_scene(fw_plan *plan) {
+const fw_scene *fw_plan_scene(fw_plan *plan) {
     const fw_device *d = plan->device;
     const char *wanted = plan->options.scene;
     fw_text names = fw_text_new(plan->arena);
@@ -49,16 +50,13 @@ static const fw_scene *find_scene(fw_plan *plan) {
 
 /* a scene that belongs to one flow is run in that flow, else in the first one */
 static const fw_variant *variant_of(const fw_plan *plan, const fw_scene *scene) {
-    for (int i = 0; scene->flow && i < plan->nflow; i++)
+    for (int i = 0; scene && scene->flow && i < plan->nflow; i++)
         if (plan->flow[i].variant.flow && strcmp(plan->flow[i].variant.flow, scene->flow) == 0)
             return &plan->flow[i].variant;
     return &plan->flow[0].variant;
 }
 
-fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mechanism **mechanism,
-                           const fw_scene **scene) {
-    *scene = find_scene(plan);
-    if (!*scene) return FW_INPUT;
+fw_status fw_plan_mechanism(fw_plan *plan, const fw_scene *scene, const fw_mechanism **mechanism) {
     bool from_shapes = fw_device_needs_shapes(plan->device); /* only then is the drawing needed */
     fw_diags drawing = fw_diags_new(plan->arena);
     fw_status status = fw_layout_build(plan->arena, plan->device,
@@ -66,8 +64,22 @@ fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mec
     if (status != FW_OK && (from_shapes || (status != FW_GEOMETRY && status != FW_INPUT)))
         return status;
     if (status != FW_OK) plan->layout = NULL;
-    FW_TRY(fw_mechanism_build(plan->arena, plan->device, plan->layout, variant_of(plan, *scene),
-                              &plan->diags, mechanism));
+    return fw_mechanism_build(plan->arena, plan->device, plan->layout, variant_of(plan, scene),
+                              &plan->diags, mechanism);
+}
+
+/* poses that leave joints open are a guess: effects, motion and pictures start from closed ones */
+fw_status fw_plan_start(fw_plan *plan, const fw_mechanism **mechanism, const fw_scene **scene) {
+    if (!*scene) *scene = fw_plan_scene(plan);
+    if (!*scene) return FW_INPUT;
+    FW_TRY(fw_plan_mechanism(plan, *scene, mechanism));
+    return fw_assembled(plan->arena, *mechanism, &plan->diags, mechanism);
+}
+
+fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mechanism **mechanism,
+                           const fw_scene **scene) {
+    *scene = NULL;
+    FW_TRY(fw_plan_start(plan, mechanism, scene));
     fw_motion_options options = plan->options.verdict.motion;
     options.reactions = true;
     return fw_simulate(plan->arena, *mechanism, *scene, &options, &plan->diags, motion);

@@ -6,6 +6,9 @@
    fw_plan_write. Every stage returns FW_OK or what went wrong; diagnostics are in fw_plan_diags. */
 #ifndef FW_PLAN_PLAN_H
 #define FW_PLAN_PLAN_H
+#include "dynamics/kinematics.h"
+#include "dynamics/modes.h"
+#include "report/assembly.h"
 #include "report/terminal.h"
 
 typedef struct fw_plan_options {
@@ -16,8 +19,12 @@ typedef struct fw_plan_options {
     double mask_tolerance_m;    /* 0: 5 nm */
     const fw_set *set;          /* (nset) */
     int nset;
-    bool force;        /* masks and recipes of a rejected design too */
-    size_t memory_cap; /* 0: 256 MiB */
+    bool force;          /* masks and recipes of a rejected design too */
+    bool at_equilibrium; /* modes: not about rest */
+    bool path;           /* statics: follow the load path */
+    /* for assemble: "AB.phi,BC.phi", "10 rad/s,0 rad/s", "0 rad/s^2,..."; NULL: chosen, 0, 0 */
+    const char *independent, *rates, *accelerations;
+    size_t memory_cap; /* 0: 512 MiB */
 } fw_plan_options;
 fw_plan_options fw_plan_options_default(void);
 
@@ -83,6 +90,22 @@ fw_status fw_plan_write(fw_plan *plan, const char *directory, unsigned what);
 /* one scene of one variant, for simulate; *mechanism too */
 fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mechanism **mechanism,
                            const fw_scene **scene);
+/* modes and equilibrium likewise */
+fw_status fw_plan_modes(fw_plan *plan, const fw_modes **modes, const fw_mechanism **mechanism,
+                        const fw_scene **scene);
+fw_status fw_plan_statics(fw_plan *plan, const fw_statics **statics, const fw_mechanism **mechanism,
+                          const fw_scene **scene);
+
+typedef struct fw_plan_assembly {
+    const fw_scene *scene;         /* its loads; NULL: the device has none */
+    const fw_mechanism *mechanism; /* stands in the guess: as the description states it */
+    const fw_assembly *assembly;   /* NULL: not even started */
+    const fw_kinematics *kinematics;
+    bool closed, motion;
+} fw_plan_assembly;
+/* the position problem, and velocities, accelerations and forces for the given rates */
+fw_status fw_plan_assemble(fw_plan *plan, fw_plan_assembly *assembly);
+
 /* ---- documents: the first three after fw_plan_judge, the others after fw_plan_fabricate ---- */
 fw_status fw_plan_verdict_json(fw_plan *plan, fw_text *out);
 fw_status fw_plan_verdict_text(fw_plan *plan, fw_terminal_style style, fw_text *out);

@@ -6,7 +6,8 @@
 #include "plan/plan.h"
 
 const char *fw_plan_material_names(fw_plan *plan);
-/* FW_INPUT when the device names no material: what is judged or made needs one, a motion does not */
+/* FW_INPUT when the device names no material: what is judged or made needs one, a motion does not
+ */
 fw_status fw_plan_need_material(fw_plan *plan);
 fw_status fw_plan_assume(fw_plan *plan, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
@@ -17,6 +18,15 @@ fw_status fw_plan_assumptions(fw_plan *plan);
 fw_status fw_plan_manifest(const fw_plan *plan, const fw_output_file *file, size_t count,
                            fw_text *out);
 fw_report_input fw_plan_report_input(fw_plan *plan);
+/* the named scene, else the first one that holds in a flow of this plan; NULL: said why not */
+const fw_scene *fw_plan_scene(fw_plan *plan);
+/* the mechanism in the variant that the scene (NULL: any) holds for, with its drawing in
+   plan->layout where there is one */
+fw_status fw_plan_mechanism(fw_plan *plan, const fw_scene *scene, const fw_mechanism **mechanism);
 fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *pf);
+
+/* *scene, or where that is NULL the one asked for, else the first; its mechanism, drawn if possible
+ */
+fw_status fw_plan_start(fw_plan *plan, const fw_mechanism **mechanism, const fw_scene **scene);
 
 #endif

@@ -4,23 +4,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const fw_law *const table[] = {
+static const fw_process_law *const table[] = {
     &fw_law_const,   &fw_law_rate,      &fw_law_arrhenius, &fw_law_faraday,   &fw_law_dose,
     &fw_law_spin,    &fw_law_diffusion, &fw_law_dilution,  &fw_law_lab_table, &fw_law_arde,
     &fw_law_loading, &fw_law_duty,      &fw_law_expr};
 enum { LAW_COUNT = sizeof table / sizeof table[0] };
 
-const fw_law *fw_law_find(const char *name) {
+const fw_process_law *fw_law_find(const char *name) {
     for (int i = 0; i < LAW_COUNT; i++)
         if (strcmp(table[i]->name, name) == 0) return table[i];
     return NULL;
 }
 
-const fw_law *fw_law_row(int i) {
+const fw_process_law *fw_law_row(int i) {
     return i >= 0 && i < LAW_COUNT ? table[i] : NULL;
 }
 
-int fw_law_argument_index(const fw_law *law, const char *name) {
+int fw_law_argument_index(const fw_process_law *law, const char *name) {
     for (int i = 0; i < law->nargument; i++)
         if (strcmp(law->argument[i].name, name) == 0) return i;
     return -1;
@@ -43,7 +43,7 @@ typedef struct input {
 } input;
 
 static void collect(const fw_law_use *use, input *in) {
-    const fw_law *law = use->law;
+    const fw_process_law *law = use->law;
     *in = (input){.n = law->argument ? law->nargument : use->nargument};
     if (in->n > FW_LAW_ARGUMENTS) in->n = FW_LAW_ARGUMENTS;
     for (int i = 0; i < in->n; i++) {
@@ -116,7 +116,7 @@ static fw_status missing(fw_arena *arena, const fw_law_use *use, fw_law_answer *
 }
 
 /* central difference; one-sided where the other side is outside the law's range */
-static fw_status difference(const fw_law *law, fw_law_call *call, const input *in, int i,
+static fw_status difference(const fw_process_law *law, fw_law_call *call, const input *in, int i,
                             double result, double *slope) {
     double x[FW_LAW_ARGUMENTS], at[2] = {0.0, 0.0}, f[2] = {result, result};
     memcpy(x, in->x, sizeof x);
@@ -154,8 +154,8 @@ static int by_size(const void *a, const void *b) {
    x_i, u_i SI; result in SI. Exact for laws that are linear in the logarithm up to O(u^2): 5.52 %
    against 5.53 % by Monte Carlo for plating. Cost: two evaluations per input without a slope.
    Source: JCGM 100:2008, 5.1. Test: test_law.c, uncertainty. */
-static fw_status uncertainty(fw_arena *arena, const fw_law *law, fw_law_call *call, const input *in,
-                             fw_law_answer *answer) {
+static fw_status uncertainty(fw_arena *arena, const fw_process_law *law, fw_law_call *call,
+                             const input *in, fw_law_answer *answer) {
     double dx[FW_LAW_ARGUMENTS];
     share part[FW_LAW_ARGUMENTS];
     int n = 0;

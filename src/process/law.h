@@ -61,7 +61,7 @@ typedef struct fw_law_answer {
 } fw_law_answer;
 
 typedef struct fw_law_use { /* a law with what it is applied to */
-    const struct fw_law *law;
+    const struct fw_process_law *law;
     const char *shape, *expression;
     fw_dimension wanted;
     const fw_argument *argument;
@@ -72,7 +72,7 @@ typedef struct fw_law_use { /* a law with what it is applied to */
     int nsetting;
 } fw_law_use;
 
-typedef struct fw_law {
+typedef struct fw_process_law {
     const char *name, *formula;
     const fw_law_argument *argument; /* (nargument); NULL: any names (expr) */
     int nargument;
@@ -84,12 +84,12 @@ typedef struct fw_law {
     /* quantities that come with the result, for the run sheet; may be NULL */
     fw_status (*derive)(fw_arena *arena, const fw_law_use *use, const fw_law_answer *answer,
                         fw_step *step);
-} fw_law;
+} fw_process_law;
 
-const fw_law *fw_law_row(int i);             /* i-th law, NULL after the last */
-const fw_law *fw_law_find(const char *name); /* or NULL */
+const fw_process_law *fw_law_row(int i);             /* i-th law, NULL after the last */
+const fw_process_law *fw_law_find(const char *name); /* or NULL */
 /* index of argument `name`, or -1 */
-int fw_law_argument_index(const fw_law *law, const char *name);
+int fw_law_argument_index(const fw_process_law *law, const char *name);
 
 /* FW_OK also when it is not computable (answer->computable false, missing filled) */
 fw_status fw_law_evaluate(fw_arena *arena, const fw_law_use *use, fw_law_answer *answer);
@@ -102,9 +102,9 @@ fw_status fw_step_derive(fw_arena *arena, fw_step *step, const char *name, doubl
                          double uncertainty, fw_dimension dimension, const char *unit,
                          fw_value_status status, const char *source);
 
-extern const fw_law fw_law_const, fw_law_rate, fw_law_arrhenius, fw_law_faraday, fw_law_dose,
-    fw_law_spin, fw_law_diffusion, fw_law_dilution, fw_law_lab_table, fw_law_arde, fw_law_loading,
-    fw_law_duty, fw_law_expr;
+extern const fw_process_law fw_law_const, fw_law_rate, fw_law_arrhenius, fw_law_faraday,
+    fw_law_dose, fw_law_spin, fw_law_diffusion, fw_law_dilution, fw_law_lab_table, fw_law_arde,
+    fw_law_loading, fw_law_duty, fw_law_expr;
 
 /* probability that a particle crosses a slot of depth/width x, or a cylinder of length/radius l */
 double fw_knudsen_slot(double x);

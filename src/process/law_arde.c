@@ -93,4 +93,5 @@ static const fw_law_argument argument[] = {
     [LOADING] = {"loading", FW_DIM_PER_AREA, FW_LAW_OPTIONAL, false, NULL},
     [OPEN_AREA] = {"open_area", FW_DIM_AREA, FW_LAW_OPTIONAL, false, NULL},
     [REFERENCE_AREA] = {"reference_area", FW_DIM_AREA, FW_LAW_OPTIONAL, false, NULL}};
-const fw_law fw_law_arde = {"arde", "t = (D + S J(w, D))/R0", argument, 8, evaluate, NULL, NULL};
+const fw_process_law fw_law_arde = {"arde", "t = (D + S J(w, D))/R0", argument, 8, evaluate, NULL,
+                                    NULL};

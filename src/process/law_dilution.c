@@ -16,5 +16,5 @@ static fw_status evaluate(fw_law_call *call, const double *x, double *result) {
 static const fw_law_argument argument[] = {{"volume", FW_DIM_VOLUME, FW_LAW_REQUIRED, false, NULL},
                                            {"flow", FW_DIM_FLOW, FW_LAW_REQUIRED, false, NULL},
                                            {"dilution", FW_DIM_NONE, FW_LAW_REQUIRED, false, NULL}};
-const fw_law fw_law_dilution = {
+const fw_process_law fw_law_dilution = {
     "dilution", "t = (volume/flow) ln(dilution)", argument, 3, evaluate, NULL, NULL};

@@ -39,5 +39,5 @@ static const fw_law_argument argument[] = {
     [TIME] = {"time", FW_DIM_TIME, FW_LAW_REQUIRED, false, NULL},
     [PULSE] = {"pulse", FW_DIM_TIME, FW_LAW_REQUIRED, false, NULL},
     [PAUSE] = {"pause", FW_DIM_TIME, FW_LAW_REQUIRED, false, NULL}};
-const fw_law fw_law_duty = {
+const fw_process_law fw_law_duty = {
     "duty", "t = time + (n - 1) pause, n = ceil(time/pulse)", argument, 3, evaluate, slope, derive};

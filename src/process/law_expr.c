@@ -19,5 +19,5 @@ static fw_status evaluate(fw_law_call *call, const double *x, double *result) {
     return status;
 }
 
-const fw_law fw_law_expr = {"expr", "t = expression over the arguments", NULL, 0, evaluate, NULL,
-                            NULL};
+const fw_process_law fw_law_expr = {
+    "expr", "t = expression over the arguments", NULL, 0, evaluate, NULL, NULL};

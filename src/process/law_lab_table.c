@@ -52,7 +52,8 @@ static const fw_law_argument argument[] = {
     PAIR(FW_LAW_OPTIONAL, 4),
     PAIR(FW_LAW_OPTIONAL, 5),
     PAIR(FW_LAW_OPTIONAL, 6)};
-const fw_law fw_law_lab_table = {"table",  "t between the laboratory's own pairs value_i, time_i",
-                                 argument, FIRST + 2 * PAIRS,
-                                 evaluate, NULL,
-                                 NULL};
+const fw_process_law fw_law_lab_table = {
+    "table",  "t between the laboratory's own pairs value_i, time_i",
+    argument, FIRST + 2 * PAIRS,
+    evaluate, NULL,
+    NULL};

@@ -41,7 +41,7 @@ static fw_status read_arguments(fw_pack *pack, const fw_element *e, const char *
     return FW_OK;
 }
 
-static fw_status check_arguments(fw_pack *pack, const fw_element *e, const fw_law *law) {
+static fw_status check_arguments(fw_pack *pack, const fw_element *e, const fw_process_law *law) {
     for (const fw_element *c = e->first_child; c; c = c->next) {
         const fw_attribute *name = fw_pack_get(c, "name"), *q = fw_pack_get(c, "q");
         if (strcmp(c->name, "arg") != 0 || !name || !q) continue;
@@ -96,7 +96,7 @@ static fw_status check_expression(fw_pack *pack, const fw_element *e, const char
     return FW_OK;
 }
 
-static fw_status read_expression(fw_pack *pack, const fw_element *e, const fw_law *law,
+static fw_status read_expression(fw_pack *pack, const fw_element *e, const fw_process_law *law,
                                  const fw_argument *argument, int n, fw_dimension wanted,
                                  const char **expression) {
     *expression = "";
@@ -113,9 +113,9 @@ static fw_status read_expression(fw_pack *pack, const fw_element *e, const fw_la
     return check_expression(pack, e, found->text, found->text_place, argument, n, wanted);
 }
 
-static const fw_law *law_of(fw_pack *pack, const fw_element *e) {
+static const fw_process_law *law_of(fw_pack *pack, const fw_element *e) {
     const fw_attribute *a = fw_pack_get(e, "law");
-    const fw_law *law = a ? fw_law_find(a->value) : NULL;
+    const fw_process_law *law = a ? fw_law_find(a->value) : NULL;
     if (!a || law) return law;
     const char *names[32];
     size_t n = 0;
@@ -128,7 +128,7 @@ static const fw_law *law_of(fw_pack *pack, const fw_element *e) {
 }
 
 static fw_status read_time(fw_pack *pack, const fw_element *e, fw_step *s) {
-    const fw_law *law = law_of(pack, e);
+    const fw_process_law *law = law_of(pack, e);
     s->overrun = fw_pack_number(pack, e, "overrun", 0.0);
     s->k = fw_pack_number(pack, e, "k", 2.0);
     s->shape = fw_pack_text(e, "shape");
@@ -142,7 +142,7 @@ static fw_status read_time(fw_pack *pack, const fw_element *e, fw_step *s) {
 }
 
 static fw_status read_derive(fw_pack *pack, const fw_element *e, fw_derive *d) {
-    const fw_law *law = law_of(pack, e);
+    const fw_process_law *law = law_of(pack, e);
     const fw_attribute *unit = fw_pack_get(e, "unit"), *id = fw_pack_get(e, "id");
     d->name = fw_pack_text(e, "name");
     d->unit = fw_pack_text(e, "unit");

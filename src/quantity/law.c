@@ -5,6 +5,15 @@
 
 #define PI 3.14159265358979323846
 
+const char *fw_law_kind_text(fw_law_kind kind) {
+    static const char *const text[] = {[FW_LAW_STEP] = "step",
+                                       [FW_LAW_RAMP] = "ramp",
+                                       [FW_LAW_SINE] = "sine",
+                                       [FW_LAW_TABLE] = "table",
+                                       [FW_LAW_EXPRESSION] = "expression"};
+    return text[kind];
+}
+
 /* ---- value ---- */
 
 static void constant(double value[3], double factor) {

@@ -42,6 +42,8 @@ typedef struct fw_law {
     const fw_program *program;
 } fw_law;
 
+const char *fw_law_kind_text(fw_law_kind kind); /* "ramp" */
+/* value[0..2]: the factor or coordinate, d/dt, d2/dt2 */
 void fw_law_value(const fw_law *law, double t_s, double piece_s, double value[3]);
 /* times in (0, end_s) where the law or its slope jumps, ascending; at most `most` are stored.
    Returns how many there are. Expressions: switches of abs, min and max as far as 2000 samples show

@@ -41,3 +41,39 @@ fw_status fw_report_motion_csv(const fw_mechanism *mechanism, const fw_motion *m
     }
     return fw_text_end(out);
 }
+
+/* accelerations of all bodies, forces of all joints and drivers */
+fw_status fw_report_forces_csv(const fw_mechanism *mechanism, const fw_motion *motion,
+                               fw_text *out) {
+    static const char *const of_body[] = {".ax_m_per_s2", ".ay_m_per_s2", ".alpha_rad_per_s2"};
+    static const char *const of_joint[] = {".fx_N", ".fy_N", ".torque_Nm"};
+    fw_text_add(out, "t_s");
+    for (int i = 0; i < 3 * motion->nbody; i++)
+        name(out, mechanism->body[i / 3].id, of_body[i % 3]);
+    for (int i = 0; i < 2 * motion->npin; i++)
+        name(out, mechanism->pin[i / 2].id, of_joint[i % 2]);
+    for (int i = 0; i < 3 * motion->ntie; i++)
+        name(out, mechanism->tie[i / 3].id, of_joint[i % 3]);
+    for (int i = 0; i < motion->ndriver; i++) {
+        const fw_driver *d = &mechanism->driver[i];
+        name(out, d->id, d->joint != FW_NONE ? ".drive_Nm" : ".drive_N");
+    }
+    fw_text_add(out, "\n");
+    const struct {
+        const double *value;
+        int wide;
+    } part[] = {{motion->accel, 3 * motion->nbody},
+                {motion->reaction_N, 2 * motion->npin},
+                {motion->tie_N, 3 * motion->ntie},
+                {motion->driver_N, motion->ndriver}};
+    for (int i = 0; i < motion->nsample && !out->failed; i++) {
+        cell(out, motion->t_s[i]);
+        for (size_t k = 0; k < sizeof part / sizeof part[0]; k++)
+            for (int c = 0; c < part[k].wide; c++) {
+                fw_text_add(out, ",");
+                cell(out, part[k].value[(size_t)i * (size_t)part[k].wide + (size_t)c]);
+            }
+        fw_text_add(out, "\n");
+    }
+    return fw_text_end(out);
+}

@@ -19,6 +19,16 @@ void fw_report_body_path(const fw_layout *layout, int body, const fw_report_view
     }
 }
 
+/* from the centre of a body to its local point (x, y) */
+static void stick_to(const fw_body *b, double x, double y, const fw_report_view *view,
+                     fw_text *out) {
+    double c = cos(b->phi_rad), s = sin(b->phi_rad);
+    if (!isfinite(x) || !isfinite(y) || (x == 0.0 && y == 0.0)) return;
+    fw_report_markup(out, "M{c} {c}L{c} {c}", fw_report_x(view, b->x_m), fw_report_y(view, b->y_m),
+                     fw_report_x(view, b->x_m + c * x - s * y),
+                     fw_report_y(view, b->y_m + s * x + c * y));
+}
+
 void fw_report_body_sticks(const fw_device *device, int body, const fw_report_view *view,
                            fw_text *out) {
     double x = 0.0, y = 0.0;
@@ -38,6 +48,18 @@ void fw_report_body_sticks(const fw_device *device, int body, const fw_report_vi
                              fw_report_x(view, device->joint[j].x_m),
                              fw_report_y(view, device->joint[j].y_m));
     fw_report_markup(out, "M{c} {c}h0", fw_report_x(view, x), fw_report_y(view, y));
+    if (!isfinite(b->x_m) || !isfinite(b->y_m)) return;
+    for (int i = 0; i < device->nspring; i++) {
+        const fw_spring *s = &device->spring[i];
+        if (s->body_a == body) stick_to(b, s->ax_m, s->ay_m, view, out);
+        if (s->body_b == body) stick_to(b, s->bx_m, s->by_m, view, out);
+    }
+    for (int i = 0; i < device->ntie; i++) {
+        const fw_tie *t = &device->tie[i];
+        if (t->body_a == body && t->kind != FW_TIE_PRISMATIC)
+            stick_to(b, t->ax_m, t->ay_m, view, out);
+        if (t->body_b == body) stick_to(b, t->bx_m, t->by_m, view, out);
+    }
 }
 
 static void fixed_parts(const fw_layout *layout, const fw_report_view *view, bool ids,

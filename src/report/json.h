@@ -2,6 +2,7 @@
 /* JSON for programs: 17 digits, keys in a fixed order, null where a number is not finite. */
 #ifndef FW_REPORT_JSON_H
 #define FW_REPORT_JSON_H
+#include "dynamics/modes.h"
 #include "report/report.h"
 
 /* schema flexwright.verdict/1 (verdict.json) */
@@ -9,4 +10,10 @@ fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out);
 /* schema flexwright.simulate/1 */
 fw_status fw_report_simulate_json(const fw_mechanism *mechanism, const fw_motion *motion,
                                   fw_text *out);
+/* schema flexwright.modes/1 */
+fw_status fw_report_modes_json(const fw_mechanism *mechanism, const fw_scene *scene,
+                               const fw_modes *modes, fw_text *out);
+/* schema flexwright.statics/1 */
+fw_status fw_report_statics_json(const fw_mechanism *mechanism, const fw_scene *scene,
+                                 const fw_statics *statics, fw_text *out);
 #endif

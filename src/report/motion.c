@@ -4,14 +4,31 @@
 
 enum { CURVES = 90 }; /* at full resolution in the whole page */
 
+static void law(fw_text *out, const fw_law *law) {
+    if (!law) return;
+    fw_report_markup(out, " times a {s}", fw_law_kind_text(law->kind));
+    if (law->kind == FW_LAW_SINE) fw_report_markup(out, " of {u}", law->frequency_Hz, "Hz");
+    if (law->kind == FW_LAW_RAMP) fw_report_markup(out, " over {u}", law->rise_s, "s");
+    bool starts = law->kind <= FW_LAW_SINE;
+    if (starts && law->start_s > 0) fw_report_markup(out, " from {u} on", law->start_s, "s");
+    if (starts && isfinite(law->end_s)) fw_report_markup(out, " until {u}", law->end_s, "s");
+    if (law->kind >= FW_LAW_TABLE) fw_text_add(out, " in time");
+}
+
 static void loads(fw_text *out, const fw_device *device, const fw_scene *s) {
     fw_report_markup(out, "<p class=\"soft\">{u}", s->duration_s, "s");
-    for (int i = 0; i < s->nforce; i++)
+    for (int i = 0; i < s->nforce; i++) {
         fw_report_markup(out, "; force on {s} ({u}, {u})", device->body[s->force[i].body].id,
                          s->force[i].fx_N, "N", s->force[i].fy_N, "N");
-    for (int i = 0; i < s->ntorque; i++)
+        law(out, s->force[i].law);
+    }
+    for (int i = 0; i < s->ntorque; i++) {
         fw_report_markup(out, "; torque on {s} {u}", device->body[s->torque[i].body].id,
                          s->torque[i].value_Nm, "N\u00b7m");
+        law(out, s->torque[i].law);
+    }
+    for (int i = 0; i < device->ndriver; i++)
+        fw_report_markup(out, "; joint {s} driven in time", device->driver[i].id);
     if (s->gravity)
         fw_report_markup(out, "; gravity ({n}, {n}) m/s\u00b2", s->gx_m_per_s2, s->gy_m_per_s2);
     if (s->ninitial) fw_text_add(out, "; bodies start with a velocity");

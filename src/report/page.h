@@ -95,6 +95,30 @@ typedef struct fw_report_worst {
 fw_report_worst fw_report_motion_worst(const fw_mechanism *mechanism, const fw_motion *motion);
 double fw_report_pin_limit(const fw_mechanism *mechanism, int pin); /* rad; NaN: none */
 
+/* ---- film.c: a mechanism that moves ---- */
+typedef struct fw_report_film {
+    const fw_device *device;
+    const fw_layout *layout; /* NULL or not drawn: bodies as lines between their joints */
+    const fw_mechanism *mechanism;
+    const fw_motion *motion; /* from its first to its last sample */
+    const fw_report_view *view;
+    fw_text *out;
+    int frames, seconds; /* key frames, time to play; 0 frames: a still picture */
+    double still_s;      /* instant that viewers without animation show */
+    bool ghost;          /* the first sample too, dashed */
+    bool small;          /* for small pictures */
+} fw_report_film;
+/* everything that belongs into the <svg> except caption and scale bar */
+fw_status fw_report_film_draw(fw_arena *arena, const fw_report_film *film);
+/* `count` poses q (count x 3 nbody) as a motion from t = 0 to 1 */
+fw_status fw_report_poses(fw_arena *arena, const fw_mechanism *mechanism, int count, double *q,
+                          fw_motion *motion);
+/* adds where bodies, joints, springs and rods get to */
+void fw_report_poses_reach(fw_box *box, const fw_mechanism *mechanism, const fw_motion *motion);
+/* a view of that; where the device is drawn, of the whole of it too */
+fw_report_view fw_report_poses_view(const fw_device *device, const fw_layout *layout,
+                                    const fw_box *reach, double width);
+
 /* ---- decimate.c ---- */
 /* at most `most` indices that keep the first, the last and every extreme; returns how many */
 int fw_report_decimate(const double *y, int stride, int count, int most, int *index);

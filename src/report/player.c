@@ -100,10 +100,11 @@ static void force_arrows(const fw_motion *motion, const fw_scene *scene, double 
             "<g class=\"force\" data-force=\"{i}\" transform=\"translate({c} {c})\">"
             "<path d=\"M{c} {c}L0 0M{c} {c}L0 0L{c} {c}\" fill=\"none\" "
             "stroke=\"#8E3B6F\" stroke-width=\"2\"/><text x=\"{c}\" y=\"{c}\" "
-            "font-size=\"13\" fill=\"#8E3B6F\" text-anchor=\"middle\">{u}</text></g>\n",
+            "font-size=\"13\" fill=\"#8E3B6F\" text-anchor=\"middle\">{u}{r}{r}</text></g>\n",
             i, fw_report_x(view, x), fw_report_y(view, y), -44.0 * dx, -44.0 * dy,
             -9.0 * dx - 4.0 * dy, -9.0 * dy + 4.0 * dx, -9.0 * dx + 4.0 * dy, -9.0 * dy - 4.0 * dx,
-            -58.0 * dx, -54.0 * dy + 4.0, size, "N");
+            -58.0 * dx, -54.0 * dy + 4.0, size, "N", f->law ? " \u00d7 " : "",
+            f->law ? fw_law_kind_text(f->law->kind) : "");
     }
 }
 

@@ -45,6 +45,10 @@ fw_status fw_report_motion_svg(fw_arena *arena, const fw_device *device,
 /* every sample with 17 digits: t_s,BODY.x_m,BODY.y_m,BODY.phi_rad,BODY.vx_m_per_s,... */
 fw_status fw_report_motion_csv(const fw_mechanism *mechanism, const fw_motion *motion,
                                fw_text *out);
+/* accelerations, joint forces on body b in world axes, torques of ties about their point b, drives
+ */
+fw_status fw_report_forces_csv(const fw_mechanism *mechanism, const fw_motion *motion,
+                               fw_text *out);
 /* the mechanism moving through one scene, as an SVG that plays by itself */
 fw_status fw_report_animation_svg(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                                   const fw_mechanism *mechanism, const fw_motion *motion,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/terminal.h"
+#include "report/magnitude.h"
 #include <math.h>
 #include <string.h>
 
@@ -112,30 +113,42 @@ static void statistics(fw_text *out, const fw_motion_stats *s) {
     fw_text_add(out, "\n");
 }
 
+static void peaks(const fw_mechanism *m, const fw_motion *motion, fw_magnitude time, fw_text *out) {
+    double most = 0;
+    for (int i = 0; motion->force_peak && i < motion->npin; i++)
+        most = fmax(most, motion->force_peak[i].force_N);
+    const fw_magnitude force = fw_magnitude_of(FW_MEASURE_FORCE, most);
+    fw_text_printf(out, "  joint    peak angle deg         at %-2s     +- deg", time.unit);
+    if (motion->force_peak)
+        fw_text_printf(out, "   peak force %-2s         at %-2s      +- %s", force.unit, time.unit,
+                       force.unit);
+    fw_text_add(out, "\n");
+    for (int i = 0; i < motion->npin; i++) {
+        fw_text_printf(out, "  %-6s ", m->pin[i].id);
+        fw_text_real(out, "%16.4f ", degrees(motion->peak[i].angle_rad));
+        fw_text_real(out, "%12.5f ", motion->peak[i].t_s * time.per_si);
+        fw_text_real(out, "%10.1e", degrees(motion->peak[i].error_rad));
+        if (motion->force_peak) {
+            fw_text_real(out, " %15.5g ", motion->force_peak[i].force_N * force.per_si);
+            fw_text_real(out, "%13.5f ", motion->force_peak[i].t_s * time.per_si);
+            fw_text_real(out, "%10.1e", motion->force_peak[i].error_N * force.per_si);
+        }
+        fw_text_add(out, "\n");
+    }
+}
+
 fw_status fw_report_simulate_text(const fw_scene *scene, const fw_mechanism *m,
                                   const fw_motion *motion, fw_text *out) {
     fw_text_printf(out, "scene %s over ", scene->name);
-    fw_text_real(out, "%g ms", scene->duration_s * 1e3);
-    fw_text_printf(out, ", method %s, integrator %s (%s)\n", motion->method, motion->integrator,
-                   motion->reason);
+    const fw_magnitude time = fw_magnitude_of(FW_MEASURE_TIME, scene->duration_s);
+    fw_text_real(out, "%g ", scene->duration_s * time.per_si);
+    fw_text_printf(out, "%s, method %s, integrator %s (%s)\n", time.unit, motion->method,
+                   motion->integrator, motion->reason);
     if (strcmp(motion->stabilise, "projection") != 0)
         fw_text_printf(out, "stabilisation: %s\n", motion->stabilise);
     if (motion->method_report) fw_text_printf(out, "%s\n", motion->method_report);
     statistics(out, &motion->stats);
-    fw_text_add(out, "  joint    peak angle          at        +-");
-    fw_text_add(out, motion->force_peak ? "    peak force          at       +-\n" : "\n");
-    for (int i = 0; i < motion->npin; i++) {
-        fw_text_printf(out, "  %-6s ", m->pin[i].id);
-        fw_text_real(out, "%9.4f deg  ", degrees(motion->peak[i].angle_rad));
-        fw_text_real(out, "%9.5f ms  ", motion->peak[i].t_s * 1e3);
-        fw_text_real(out, "%.1e deg", degrees(motion->peak[i].error_rad));
-        if (motion->force_peak) {
-            fw_text_real(out, "  %9.4g mN", motion->force_peak[i].force_N * 1e3);
-            fw_text_real(out, "  %9.5f ms", motion->force_peak[i].t_s * 1e3);
-            fw_text_real(out, "  %.1e mN", motion->force_peak[i].error_N * 1e3);
-        }
-        fw_text_add(out, "\n");
-    }
+    peaks(m, motion, time, out);
     fw_text_add(out, "\n  effect             active  why\n");
     for (int i = 0; i < motion->ledger.count; i++) {
         const fw_effect_entry *e = &motion->ledger.item[i];

@@ -21,5 +21,7 @@ typedef struct fw_six_bar {
 bool fw_six_bar_set_up(const fw_mechanism *mechanism, fw_six_bar *out);
 bool fw_six_bar_solve(const fw_six_bar *six_bar, double x_m, double y_m, double phi_rad,
                       double angle_rad[FW_SIX], int *leg);
+/* id of the joint or driver that takes freedom from the platform, NULL when there is none */
+fw_status fw_six_bar_restrained(fw_arena *arena, const fw_mechanism *mechanism, const char **id);
 
 #endif

@@ -98,6 +98,8 @@ fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *m, fw_diags
         .reachable = true, .fail_box = FW_NONE, .asked = in_flow, .box_reachable = whole};
     fw_six_bar k;
     bool known = fw_six_bar_set_up(m, &k);
+    const char *held = NULL;
+    if (known) FW_TRY(fw_six_bar_restrained(arena, m, &held));
     for (int i = 0; i < m->device->nworkspace; i++) {
         const fw_workspace_box *asked = &m->device->workspace[i];
         if (!fw_device_in_flow(asked->flow, m->variant->flow)) continue;
@@ -107,6 +109,12 @@ fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *m, fw_diags
                           "the mechanism with <six-bar>, or state the motion as a scene");
             return FW_INPUT;
         }
+        if (held)
+            return fw_diag_error(diags, 200, asked->place,
+                                 "%s holds or drives the six-bar, so that its platform cannot take "
+                                 "every pose of a required workspace: remove the <workspace> and "
+                                 "state the motion as a scene, or remove the joint",
+                                 held);
         result->required = true;
         in_flow[i] = true;
         whole[i] = one_box(&k, asked, result);

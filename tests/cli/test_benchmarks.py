@@ -78,7 +78,7 @@ class Benchmarks(unittest.TestCase):
                 self.assertAlmostEqual(q[f"B{i}"][2], phi, delta=1e-9)
 
     def test_squeezer(self):
-        text = (ROOT / "tests/data/squeezer.xml").read_text()
+        text = (ROOT / "docs/mechanisms/squeezer.xml").read_text()
         out = self.simulate(text, "--rtol", "1e-13")
         q, v = out["final"]["q"], out["final"]["v"]
         # beta, Theta, gamma, delta, epsilon at 0.03 s

@@ -29,6 +29,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n) {
         fw_expression_error error;
         s = fw_expression_evaluate(arena, text, n, NULL, (fw_dimension){.m = 1}, &value, &error);
         if (s == FW_INPUT && (!error.message || error.offset > n)) __builtin_trap();
+        fw_program *program;
+        s = fw_program_compile(arena, text, n, NULL, (fw_dimension){.s = 1}, &program, &error);
+        if (s == FW_INPUT && (!error.message || error.offset > n)) __builtin_trap();
+        for (int i = -1; s == FW_OK && i < 2; i++) {
+            double v[3];
+            fw_program_value(program, 0.5 * i, v);
+        }
     }
     fw_arena_free(arena);
     return 0;

@@ -96,7 +96,7 @@ static void test_cable(void **state) {
         assert_near(m->v[3 * i + 1], v, 1e-9);
     }
     assert_true(m->stats.events == 5 || m->stats.events == 6); /* the last one is at the end */
-    assert_true(m->stats.energy_error < 1e-11);
+    assert_true(m->stats.energy_error < 1e-10); /* the dense output is an order below the step */
     fw_arena_free(arena);
 }
 

@@ -124,9 +124,9 @@ static void stops(void **state) {
 static double energy(const bench *b, const double *q) {
     double v = 0;
     for (int i = 0; i < b->m.ntie + b->m.nspring; i++) {
-        const fw_tie *t = &b->tie[i];
-        const fw_spring *s = &b->spring[i - b->m.ntie];
         bool slide = i < b->m.ntie;
+        const fw_tie *t = &b->tie[slide ? i : 0];
+        const fw_spring *s = &b->spring[slide ? 0 : i - b->m.ntie];
         int body[2] = {slide ? t->body_a : s->body_a, slide ? t->body_b : s->body_b};
         const double local[4] = {slide ? t->ax_m : s->ax_m, slide ? t->ay_m : s->ay_m,
                                  slide ? t->bx_m : s->bx_m, slide ? t->by_m : s->by_m};

@@ -639,6 +639,45 @@ static void without_shapes_nothing_is_drawn(void **state) {
     fw_arena_free(d.arena);
 }
 
+/* joints that are no flexures are left out of the drawing, and that is said; drivers need no shape
+ */
+static void ties_are_not_drawn(void **state) {
+    (void)state;
+    fixture f;
+    fixture_six_bar(&f);
+    fw_tie tie = {.id = "rod",
+                  .kind = FW_TIE_DISTANCE,
+                  .body_a = 2,
+                  .body_b = FW_GROUND,
+                  .place = {"d.xml", 5, 3}};
+    fw_driver driver = {.joint = 0, .tie = FW_NONE};
+    drawn plain = draw_well(&f);
+    f.device.driver = &driver, f.device.ndriver = 1;
+    drawn driven = draw_well(&f);
+    assert_int_equal(driven.diags.count, plain.diags.count);
+    f.device.tie = &tie, f.device.ntie = 1;
+    drawn d = draw_well(&f);
+    assert_int_equal(d.diags.count, plain.diags.count + 1);
+    assert_true(said(&d, 130, "distance", "rod"));
+    assert_int_equal(d.layout->npiece, plain.layout->npiece);
+    fw_arena_free(plain.arena);
+    fw_arena_free(driven.arena);
+    fw_arena_free(d.arena);
+}
+
+/* far more than anybody draws: refused at once, not after hours */
+static void large_mechanisms_are_not_drawn(void **state) {
+    (void)state;
+    fixture f;
+    fixture_six_bar(&f);
+    f.device.nbody = 2001; /* none of them is looked at */
+    drawn d = draw(&f);
+    assert_int_equal(d.status, FW_OK);
+    assert_false(d.layout->drawn);
+    assert_non_null(strstr(d.layout->why_not, "2000"));
+    fw_arena_free(d.arena);
+}
+
 static void same_input_same_outlines(void **state) {
     (void)state;
     fixture f;
@@ -699,6 +738,8 @@ int main(void) {
         cmocka_unit_test(bulge_may_be_turned),
         cmocka_unit_test(gap_may_be_small_or_absent),
         cmocka_unit_test(without_shapes_nothing_is_drawn),
+        cmocka_unit_test(ties_are_not_drawn),
+        cmocka_unit_test(large_mechanisms_are_not_drawn),
         cmocka_unit_test(same_input_same_outlines),
         cmocka_unit_test(out_of_memory_is_reported),
     };

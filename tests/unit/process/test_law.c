@@ -383,7 +383,7 @@ static void slopes(void **state) {
     (void)state;
     unsigned seed = 12345;
     for (int l = 0; fw_law_row(l); l++) {
-        const fw_law *law = fw_law_row(l);
+        const fw_process_law *law = fw_law_row(l);
         if (!law->slope || law == &fw_law_duty || law == &fw_law_dose)
             continue; /* their own tests */
         for (int trial = 0; trial < 50; trial++) {

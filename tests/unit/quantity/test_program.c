@@ -268,9 +268,18 @@ static double complex eval(const forest *f, int i, double complex t) {
     }
 }
 
+/* CMPLX is not in every libc */
+static double complex complex_of(double re, double im) {
+    union {
+        double part[2];
+        double complex z;
+    } u = {{re, im}};
+    return u.z;
+}
+
 static double slope(const forest *f, double t) {
     const double h = 1e-40;
-    return cimag(eval(f, 0, CMPLX(t, h))) / h;
+    return cimag(eval(f, 0, complex_of(t, h))) / h;
 }
 
 /* eighth order central difference of the slope, with the error that two step sizes show */

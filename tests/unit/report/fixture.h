@@ -225,11 +225,14 @@ static const fw_motion *fixture_motion(fw_arena *arena, double size) {
                      .nsample = SAMPLES,
                      .method = "chain",
                      .integrator = "dop853",
+                     .stabilise = "projection",
                      .reason =
                          "explicit: the fastest decaying mode is slower than the accuracy needs"};
     m->t_s = FIXTURE_ARRAY(arena, double, SAMPLES);
     m->q = FIXTURE_ARRAY(arena, double, SAMPLES * 3 * FIVE);
     m->v = FIXTURE_ARRAY(arena, double, SAMPLES * 3 * FIVE);
+    m->accel = FIXTURE_ARRAY(arena, double, SAMPLES * 3 * FIVE);
+    m->reaction_N = FIXTURE_ARRAY(arena, double, SAMPLES * 2 * SIX);
     m->angle_rad = FIXTURE_ARRAY(arena, double, SAMPLES *SIX);
     m->peak = FIXTURE_ARRAY(arena, fw_peak, SIX);
     for (int i = 0; i < SAMPLES; i++) {

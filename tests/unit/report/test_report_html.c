@@ -151,6 +151,26 @@ static void mechanics_are_shown(void **state) {
     fw_arena_free(arena);
 }
 
+/* how a load goes with time is said where the load is, and at its arrow */
+static void laws_are_said(void **state) {
+    (void)state;
+    static const fw_law ramp = {.kind = FW_LAW_RAMP, .rise_s = 2e-3, .end_s = (double)INFINITY};
+    static const fw_law pulse = {.kind = FW_LAW_STEP, .start_s = 1e-3, .end_s = 3e-3};
+    fw_arena *arena = fw_arena_new(0);
+    fixture *f = fixture_new(arena, 0.3);
+    fw_driver driver = {.id = "motor", .joint = 0, .tie = FW_NONE};
+    f->device.scene[0].force[0].law = &ramp;
+    f->device.scene[1].force[0].law = &pulse;
+    f->device.driver = &driver, f->device.ndriver = 1;
+    fw_text out = fw_text_new(arena);
+    assert_int_equal(html(arena, f, &out), FW_OK);
+    assert_non_null(strstr(out.data, " times a ramp over 2\u00a0ms"));
+    assert_non_null(strstr(out.data, " times a step from 1\u00a0ms on until 3\u00a0ms"));
+    assert_non_null(strstr(out.data, " \u00d7 ramp</text>"));
+    assert_non_null(strstr(out.data, "joint motor driven in time"));
+    fw_arena_free(arena);
+}
+
 static void hostile_names_are_text(void **state) {
     (void)state;
     static const char evil[] = "\"'><script>alert(1)</script><img src=x onerror=y>]]>";
@@ -345,6 +365,7 @@ int main(void) {
         cmocka_unit_test(banner_says_the_verdict),
         cmocka_unit_test(rejected_in_every_title),
         cmocka_unit_test(mechanics_are_shown),
+        cmocka_unit_test(laws_are_said),
         cmocka_unit_test(hostile_names_are_text),
         cmocka_unit_test(numbers_that_are_not_finite_do_not_show),
         cmocka_unit_test(little_input_is_enough),

@@ -2,6 +2,7 @@
 #include "base/arena.h"
 #include "six_bar_fixture.h"
 #include "test.h"
+#include "workspace/inverse.h"
 
 static fw_workspace_result run(six_bar_fixture *f, double x, double y, double phi) {
     fw_arena *arena = fw_arena_new(0);
@@ -62,11 +63,74 @@ static void symmetric_design_gives_symmetric_hinges(void **state) {
         assert_relative(fabs(r.peak[j].angle_rad), fabs(r.peak[5 - j].angle_rad), 1e-9);
 }
 
+/* what rides on one body leaves the platform free; what joins two, or drives a hinge, does not */
+static void riders(void **state) {
+    (void)state;
+    const struct {
+        fw_tie tie[3];
+        fw_pin pin;
+        int nbody, ntie, npin, driven; /* driven: 1 + joint */
+        const char *held;
+    } row[] = {
+        {.nbody = 5},
+        {{{.id = "t", .body_a = 2, .body_b = 5}}, .nbody = 6, .ntie = 1},
+        {{{.id = "t", .body_a = 2, .body_b = FW_GROUND}}, .nbody = 5, .ntie = 1, .held = "t"},
+        {{{.id = "t", .body_a = 0, .body_b = 3}}, .nbody = 5, .ntie = 1, .held = "t"},
+        /* a loop of riders on the platform */
+        {{{.id = "t", .body_a = 2, .body_b = 5},
+          {.id = "u", .body_a = 5, .body_b = 6},
+          {.id = "v", .body_a = 6, .body_b = 2}},
+         .nbody = 7,
+         .ntie = 3},
+        /* the same loop over the platform and a link, closed by a pin */
+        {{{.id = "t", .body_a = 2, .body_b = 5}, {.id = "u", .body_a = 6, .body_b = 5}},
+         .pin = {.id = "p", .body_a = FW_GROUND, .body_b = 6},
+         .nbody = 7,
+         .ntie = 2,
+         .npin = 1,
+         .held = "t"},
+        {.nbody = 5, .driven = 3, .held = "drive"},
+        {.pin = {.id = "p", .body_a = 2, .body_b = 5}, .nbody = 6, .npin = 1, .driven = 7},
+    };
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        six_bar_fixture f;
+        six_bar_make(&f, six_bar_reference);
+        fw_pin pin[FW_SIX + 1];
+        memcpy(pin, f.mechanism.pin, FW_SIX * sizeof pin[0]);
+        pin[FW_SIX] = row[i].pin;
+        fw_driver driver = {.id = "drive", .joint = row[i].driven - 1, .tie = FW_NONE};
+        fw_mechanism m = f.mechanism;
+        fw_tie tie[3];
+        memcpy(tie, row[i].tie, sizeof tie);
+        m.pin = pin, m.tie = tie, m.driver = &driver;
+        m.npin = FW_SIX + row[i].npin, m.ntie = row[i].ntie, m.nbody = row[i].nbody;
+        m.ndriver = row[i].driven > 0;
+        fw_arena *arena = fw_arena_new(0);
+        const char *held = "?";
+        assert_int_equal(fw_six_bar_restrained(arena, &m, &held), FW_OK);
+        if (!held != !row[i].held || (held && strcmp(held, row[i].held) != 0))
+            fail_msg("row %zu: %s", i, held ? held : "none");
+        /* and the required workspace says so */
+        fw_diags diags = fw_diags_new(arena);
+        fw_workspace_result result;
+        f.box = (fw_workspace_box){.x_min_m = -1e-6, .x_max_m = 1e-6};
+        f.device.nworkspace = 1;
+        fw_mass mass[7] = {0};
+        memcpy(mass, f.mechanism.body, 5 * sizeof mass[0]);
+        m.body = mass;
+        assert_int_equal(fw_workspace_required(arena, &m, &diags, &result),
+                         held ? FW_INPUT : FW_OK);
+        if (held) assert_int_equal(diags.item[0].number, 200);
+        fw_arena_free(arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(corners_and_interior),
         cmocka_unit_test(unreachable_pose_is_named),
         cmocka_unit_test(symmetric_design_gives_symmetric_hinges),
+        cmocka_unit_test(riders),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

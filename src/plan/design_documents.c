@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The documents of the public library: one row each, composed when first asked for. */
+#include "plan/design_state.h"
+#include "plan/stages.h"
+#include "report/json.h"
+#include "report/rest.h"
+#include <string.h>
+
+static fw_status verdict_json(fw_design *d, fw_text *out) {
+    return fw_plan_verdict_json(d->plan, out);
+}
+
+static fw_status verdict_text(fw_design *d, fw_text *out) {
+    return fw_plan_verdict_text(d->plan, d->style, out);
+}
+
+static fw_status simulate_json(fw_design *d, fw_text *out) {
+    return fw_report_simulate_json(d->mechanism, d->motion, out);
+}
+
+static fw_status simulate_text(fw_design *d, fw_text *out) {
+    return fw_report_simulate_text(d->scene, d->mechanism, d->motion, out);
+}
+
+static fw_status motion_csv(fw_design *d, fw_text *out) {
+    return fw_report_motion_csv(d->mechanism, d->motion, out);
+}
+
+static fw_status forces_csv(fw_design *d, fw_text *out) {
+    return fw_report_forces_csv(d->mechanism, d->motion, out);
+}
+
+static fw_status animation_svg(fw_design *d, fw_text *out) {
+    return fw_report_animation_svg(d->plan->arena, d->plan->device, d->plan->layout, d->mechanism,
+                                   d->motion, d->scene, out);
+}
+
+static fw_status modes_json(fw_design *d, fw_text *out) {
+    return fw_report_modes_json(d->mechanism, d->scene, d->modes, out);
+}
+
+static fw_status modes_text(fw_design *d, fw_text *out) {
+    return fw_report_modes_text(d->scene, d->modes, out);
+}
+
+static fw_status modes_svg(fw_design *d, fw_text *out) {
+    const fw_plan *p = d->plan;
+    return fw_report_modes_svg(p->arena, p->device, p->layout, d->mechanism, d->scene, d->modes,
+                               out);
+}
+
+static fw_status statics_json(fw_design *d, fw_text *out) {
+    return fw_report_statics_json(d->mechanism, d->scene, d->statics, out);
+}
+
+static fw_status statics_text(fw_design *d, fw_text *out) {
+    return fw_report_statics_text(d->mechanism, d->scene, d->statics, out);
+}
+
+static fw_status statics_svg(fw_design *d, fw_text *out) {
+    const fw_plan *p = d->plan;
+    return fw_report_statics_svg(p->arena, p->device, p->layout, d->mechanism, d->scene, d->statics,
+                                 out);
+}
+
+static fw_status load_path_csv(fw_design *d, fw_text *out) {
+    return fw_report_load_path_csv(d->mechanism, d->statics, out);
+}
+
+static fw_status load_path_svg(fw_design *d, fw_text *out) {
+    const fw_plan *p = d->plan;
+    return fw_report_load_path_svg(p->arena, p->device, d->mechanism, d->scene, d->statics, out);
+}
+
+static fw_report_assembly assembly_input(const fw_design *d) {
+    const fw_plan_assembly *a = &d->assembly;
+    return (fw_report_assembly){d->plan->device, d->plan->layout, a->mechanism, a->scene,
+                                a->assembly,     a->kinematics,   a->motion,    a->closed};
+}
+
+static fw_status assemble_json(fw_design *d, fw_text *out) {
+    fw_report_assembly in = assembly_input(d);
+    return fw_report_assemble_json(&in, out);
+}
+
+static fw_status assemble_text(fw_design *d, fw_text *out) {
+    fw_report_assembly in = assembly_input(d);
+    return fw_report_assemble_text(&in, out);
+}
+
+static fw_status assemble_svg(fw_design *d, fw_text *out) {
+    fw_report_assembly in = assembly_input(d);
+    return fw_report_assemble_svg(d->plan->arena, &in, out);
+}
+
+static fw_status masks_json(fw_design *d, fw_text *out) {
+    return fw_plan_masks_json(d->plan, out);
+}
+
+static fw_status recipes_json(fw_design *d, fw_text *out) {
+    return fw_plan_recipes_json(d->plan, out);
+}
+
+static fw_status device_svg(fw_design *d, fw_text *out) {
+    fw_plan *p = d->plan;
+    return fw_report_device_svg(p->arena, p->device, p->layout, &p->verdict, out);
+}
+
+static fw_status report_html(fw_design *d, fw_text *out) {
+    return fw_plan_report_html(d->plan, out);
+}
+
+/* those serious enough for the style; notes of a quiet run are not lost, only not shown */
+static fw_status diagnostics_text(fw_design *d, fw_text *out) {
+    const fw_plan *p = d->plan;
+    fw_diag item[FW_DIAG_MOST];
+    fw_diags shown = p->diags;
+    shown.item = item;
+    shown.count = 0;
+    for (size_t i = 0; i < p->diags.count; i++)
+        if ((int)p->diags.item[i].severity >= (int)FW_WARNING - d->style.detail)
+            item[shown.count++] = p->diags.item[i];
+    fw_diags_print(&shown, out, p->source_file, p->source, p->source_length, d->style.colour);
+    return fw_text_end(out);
+}
+
+/* one row per document: what must be done before it, and who composes it */
+static const struct {
+    unsigned needs;
+    fw_status (*compose)(fw_design *d, fw_text *out);
+} document_table[NDOCUMENT] = {
+    [FW_DOCUMENT_VERDICT_JSON] = {JUDGED, verdict_json},
+    [FW_DOCUMENT_VERDICT_TEXT] = {JUDGED, verdict_text},
+    [FW_DOCUMENT_SIMULATE_JSON] = {SIMULATED, simulate_json},
+    [FW_DOCUMENT_SIMULATE_TEXT] = {SIMULATED, simulate_text},
+    [FW_DOCUMENT_MOTION_CSV] = {SIMULATED, motion_csv},
+    [FW_DOCUMENT_FORCES_CSV] = {SIMULATED, forces_csv},
+    [FW_DOCUMENT_ANIMATION_SVG] = {SIMULATED, animation_svg},
+    [FW_DOCUMENT_MASKS_JSON] = {FABRICATED, masks_json},
+    [FW_DOCUMENT_RECIPES_JSON] = {FABRICATED, recipes_json},
+    [FW_DOCUMENT_DEVICE_SVG] = {JUDGED, device_svg},
+    [FW_DOCUMENT_REPORT_HTML] = {JUDGED, report_html},
+    [FW_DOCUMENT_DIAGNOSTICS_TEXT] = {0, diagnostics_text},
+    [FW_DOCUMENT_MODES_JSON] = {MODES, modes_json},
+    [FW_DOCUMENT_MODES_TEXT] = {MODES, modes_text},
+    [FW_DOCUMENT_MODES_SVG] = {MODES, modes_svg},
+    [FW_DOCUMENT_STATICS_JSON] = {STATICS, statics_json},
+    [FW_DOCUMENT_STATICS_TEXT] = {STATICS, statics_text},
+    [FW_DOCUMENT_STATICS_SVG] = {STATICS, statics_svg},
+    [FW_DOCUMENT_LOAD_PATH_CSV] = {STATICS, load_path_csv},
+    [FW_DOCUMENT_LOAD_PATH_SVG] = {STATICS, load_path_svg},
+    [FW_DOCUMENT_ASSEMBLE_JSON] = {ASSEMBLED, assemble_json},
+    [FW_DOCUMENT_ASSEMBLE_TEXT] = {ASSEMBLED, assemble_text},
+    [FW_DOCUMENT_ASSEMBLE_SVG] = {ASSEMBLY_TRIED, assemble_svg},
+};
+
+static fw_status document_work(fw_design *d, void *argument) {
+    int which = *(const int *)argument;
+    fw_text text = fw_text_new(d->plan->arena);
+    fw_text_add(&text, ""); /* so that an empty document has a NUL too */
+    FW_TRY(document_table[which].compose(d, &text));
+    FW_TRY(fw_text_end(&text));
+    d->document[which] = text;
+    return FW_OK;
+}
+
+int fw_design_document(fw_design *design, int document, const char **text, size_t *length) {
+    if (text) *text = NULL;
+    if (length) *length = 0;
+    if (!design) return FW_STATUS_USAGE;
+    if (!text) return (int)fw_design_usage(design, "document needs a place for the text");
+    if (document < 0 || document >= NDOCUMENT || !document_table[document].compose)
+        return (int)fw_design_usage(design, "no such document");
+    unsigned needs = document_table[document].needs;
+    if ((design->done & needs) != needs)
+        return (int)fw_design_usage(design, "the stage that makes this document was not called");
+    fw_text *have = &design->document[document];
+    if (!have->data || document == FW_DOCUMENT_DIAGNOSTICS_TEXT) { /* these come at any time */
+        int status = fw_design_run(design, document_work, &document);
+        if (status != FW_STATUS_OK) return status;
+    }
+    *text = have->data;
+    if (length) *length = have->length;
+    return FW_STATUS_OK;
+}
+
+static fw_status save_work(fw_design *d, void *argument) {
+    const fw_bytes *b = argument;
+    const char *path = fw_arena_strdup(d->plan->arena, b->name); /* diagnostics keep it */
+    FW_NEED(path);
+    return fw_output_single(d->plan->arena, path, b->data, b->n, &d->plan->diags);
+}
+
+int fw_design_save(fw_design *design, int document, const char *path) {
+    if (!design) return FW_STATUS_USAGE;
+    if (!path || !path[0]) return (int)fw_design_usage(design, "save needs the name of a file");
+    const char *text;
+    size_t n;
+    int status = fw_design_document(design, document, &text, &n);
+    if (status != FW_STATUS_OK) return status;
+    return fw_design_run(design, save_work, &(fw_bytes){path, text, n});
+}
+
+int fw_design_text_style(fw_design *design, int detail, int colour) {
+    if (!design) return FW_STATUS_USAGE;
+    if (detail < FW_DETAIL_QUIET || detail > FW_DETAIL_VERBOSE)
+        return (int)fw_design_usage(design, "detail is -1, 0 or 1");
+    design->style = (fw_terminal_style){detail, colour != 0};
+    fw_design_forget_documents(design);
+    return FW_STATUS_OK;
+}

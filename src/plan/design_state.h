@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a design holds. Private to design.c and design_documents.c. */
+#ifndef FW_PLAN_DESIGN_STATE_H
+#define FW_PLAN_DESIGN_STATE_H
+#include "plan/design.h"
+#include <locale.h>
+
+enum { READ = 1, JUDGED = 2, FABRICATED = 4, SIMULATED = 8, MODES = 16, STATICS = 32 }; /* done */
+enum { ASSEMBLED = 64, ASSEMBLY_TRIED = 128 };
+enum { NDOCUMENT = FW_DOCUMENT_FORCES_CSV + 1 };
+
+struct fw_design {
+    fw_plan *plan; /* its arena holds this struct too */
+    locale_t locale;
+    unsigned done;
+    bool tried; /* a description was given, read or not */
+    fw_set *set;
+    int set_capacity;
+    const char *wrong_option; /* a sentence, or NULL */
+    const fw_motion *motion;
+    const fw_modes *modes;
+    const fw_statics *statics;
+    const fw_mechanism *mechanism; /* of `scene`, the same for all three */
+    const fw_scene *scene;
+    fw_plan_assembly assembly;
+    fw_terminal_style style;
+    fw_text document[NDOCUMENT]; /* data NULL: not composed, or out of date */
+    fw_diagnostic *diagnostic;   /* (FW_DIAG_MOST) */
+};
+
+typedef struct fw_bytes {
+    const char *name;
+    const void *data; /* NULL: the file `name` */
+    size_t n;
+} fw_bytes;
+
+/* says what was called wrongly: FW_USAGE */
+fw_status fw_design_usage(fw_design *d, const char *what);
+/* work in the "C" locale of this thread, so that the caller's cannot change a byte */
+int fw_design_run(fw_design *d, fw_status (*work)(fw_design *d, void *argument), void *argument);
+void fw_design_forget_documents(fw_design *d);
+
+#endif

@@ -1,0 +1,496 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Guess and assembled position side by side: every body in its own colour in both, open joints in
+   red with their size. Bodies are their outlines where they are drawn, else lines between their
+   joints. */
+#include "report/assembly.h"
+#include "report/page.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { PANEL = 470, GUTTER = 20, HEAD = 44, FOOT = 64, MOST_LABELS = 40 };
+
+static const char *const open_colour = "#C00000";
+
+typedef struct label_list { /* centres of the labels so far: later ones keep clear of them */
+    fw_vec2 at[MOST_LABELS];
+    int count;
+} label_list;
+
+typedef struct panel {
+    const fw_report_assembly *in;
+    const double *q; /* (3 nbody) pose shown */
+    fw_report_view view;
+    bool guess;
+    double mark; /* pixel: size of joints */
+} panel;
+
+static const char *name_of(const char *id) {
+    return id ? id : "?";
+}
+
+static fw_vec2 place(const double *q, int body, double x, double y) {
+    if (body == FW_GROUND) return (fw_vec2){x, y};
+    double c = cos(q[3 * body + 2]), s = sin(q[3 * body + 2]);
+    return (fw_vec2){q[3 * body] + c * x - s * y, q[3 * body + 1] + s * x + c * y};
+}
+
+/* ---- joints of a body ---- */
+
+typedef struct joint_point {
+    fw_vec2 local;
+    double angle; /* about their middle: outlines run round */
+} joint_point;
+
+static int by_angle(const void *a, const void *b) {
+    double x = ((const joint_point *)a)->angle, y = ((const joint_point *)b)->angle;
+    return (x > y) - (x < y);
+}
+
+static void add_point(joint_point *point, int *count, int body, int owner, double x, double y) {
+    if (owner == body) point[(*count)++] = (joint_point){{x, y}, 0};
+}
+
+static int points_of(const fw_mechanism *m, int body, joint_point *point) {
+    int n = 0;
+    for (int i = 0; i < m->npin; i++) {
+        const fw_pin *p = &m->pin[i];
+        add_point(point, &n, body, p->body_a, p->ax_m, p->ay_m);
+        add_point(point, &n, body, p->body_b, p->bx_m, p->by_m);
+    }
+    for (int i = 0; i < m->ntie; i++) {
+        const fw_tie *t = &m->tie[i];
+        if (t->kind != FW_TIE_PRISMATIC) add_point(point, &n, body, t->body_a, t->ax_m, t->ay_m);
+        add_point(point, &n, body, t->body_b, t->bx_m, t->by_m);
+    }
+    fw_vec2 middle = {0, 0};
+    for (int i = 0; i < n; i++)
+        middle.x += point[i].local.x / n, middle.y += point[i].local.y / n;
+    for (int i = 0; i < n; i++)
+        point[i].angle = atan2(point[i].local.y - middle.y, point[i].local.x - middle.x);
+    if (n > 2) qsort(point, (size_t)n, sizeof *point, by_angle);
+    return n;
+}
+
+/* one point: a line from the centre of mass; two: the line between them; more: an outline */
+static void lines(const panel *p, const double *q, int body, joint_point *point, fw_text *out) {
+    int n = points_of(p->in->mechanism, body, point);
+    if (n < 2) {
+        fw_report_markup(out, "M{c} {c}", fw_report_x(&p->view, q[3 * body]),
+                         fw_report_y(&p->view, q[3 * body + 1]));
+        if (n == 0) fw_text_add(out, "h0");
+    }
+    for (int i = 0; i < n; i++) {
+        fw_vec2 w = place(q, body, point[i].local.x, point[i].local.y);
+        fw_report_markup(out, n > 1 && i == 0 ? "M{c} {c}" : "L{c} {c}", fw_report_x(&p->view, w.x),
+                         fw_report_y(&p->view, w.y));
+    }
+    if (n > 2) fw_text_add(out, "Z");
+}
+
+/* the outlines are those of the guess; they move as rigid bodies, in picture coordinates */
+static void outline(const panel *p, const double *q, int body, fw_text *out) {
+    const double *drawn = p->in->assembly->before + 3 * body, *now = q + 3 * body;
+    double turn = -(now[2] - drawn[2]) * 180.0 / acos(-1.0); /* y points down */
+    fw_report_markup(out, "<g transform=\"translate({c} {c})", fw_report_x(&p->view, now[0]),
+                     fw_report_y(&p->view, now[1]));
+    fw_text_add(out, " rotate(");
+    fw_text_fixed(out, turn, 6);
+    fw_report_markup(out, ") translate({c} {c})\"><path d=\"", -fw_report_x(&p->view, drawn[0]),
+                     -fw_report_y(&p->view, drawn[1]));
+    fw_report_body_path(p->in->layout, body, &p->view, out);
+    fw_text_add(out, "\"/></g>\n");
+}
+
+static bool has_outline(const fw_report_assembly *in, int body) {
+    return fw_report_drawn(in->layout) && in->layout->body && in->layout->body[body].area_m2 > 0.0;
+}
+
+static void draw_bodies(const panel *p, joint_point *point, fw_text *out) {
+    const fw_mechanism *m = p->in->mechanism;
+    for (int b = 0; b < m->nbody; b++) {
+        const char *colour = fw_report_layer_colour(NULL, b);
+        if (has_outline(p->in, b)) {
+            fw_report_markup(out,
+                             "<g fill=\"{r}\" fill-opacity=\"0.35\" stroke=\"{r}\" "
+                             "stroke-width=\"1\">",
+                             colour, colour);
+            outline(p, p->q, b, out);
+            fw_text_add(out, "</g>\n");
+            continue;
+        }
+        fw_report_markup(out,
+                         "<path fill=\"{r}\" fill-opacity=\"0.2\" stroke=\"{r}\" "
+                         "stroke-width=\"{c}\" stroke-linecap=\"round\" "
+                         "stroke-linejoin=\"round\" d=\"",
+                         colour, colour, 1.1 * p->mark);
+        lines(p, p->q, b, point, out);
+        fw_text_add(out, "\"/>\n");
+    }
+}
+
+/* where the bodies were, behind where they are */
+static void draw_ghosts(const panel *p, joint_point *point, fw_text *out) {
+    const fw_report_assembly *in = p->in;
+    if (in->assembly->most_moved_m == 0.0 && in->assembly->most_turned_rad == 0.0) return;
+    fw_text_add(out, "<g fill=\"none\" stroke=\"#aab2ba\" stroke-width=\"1\" "
+                     "stroke-dasharray=\"4 3\">\n");
+    for (int b = 0; b < in->mechanism->nbody; b++) {
+        if (has_outline(in, b)) {
+            outline(p, in->assembly->before, b, out);
+            continue;
+        }
+        fw_text_add(out, "<path d=\"");
+        lines(p, in->assembly->before, b, point, out);
+        fw_text_add(out, "\"/>\n");
+    }
+    fw_text_add(out, "</g>\n");
+}
+
+/* ---- joints ---- */
+
+/* a pin on the ground stands on a foot */
+static void foot(const panel *p, double x, double y, fw_text *out) {
+    double s = 1.9 * p->mark;
+    fw_report_markup(out,
+                     "<path d=\"M{c} {c}l{c} {c}h{c}Zm{c} {c}h{c}\" fill=\"#eceff2\" "
+                     "stroke=\"#57606a\" stroke-width=\"1\"/>\n",
+                     x, y, -0.6 * s, s, 1.2 * s, -0.95 * s, s, 1.9 * s);
+}
+
+static void draw_tie(const panel *p, const fw_tie *t, fw_text *out) {
+    fw_vec2 a = place(p->q, t->body_a, t->ax_m, t->ay_m),
+            b = place(p->q, t->body_b, t->bx_m, t->by_m);
+    double ax = fw_report_x(&p->view, a.x), ay = fw_report_y(&p->view, a.y);
+    double bx = fw_report_x(&p->view, b.x), by = fw_report_y(&p->view, b.y), s = 1.6 * p->mark;
+    if (t->kind == FW_TIE_DISTANCE) {
+        fw_report_markup(out,
+                         "<path d=\"M{c} {c}L{c} {c}\" stroke=\"#57606a\" stroke-width=\"1.4\" "
+                         "fill=\"none\"/>\n",
+                         ax, ay, bx, by);
+        return;
+    }
+    double angle = t->body_a == FW_GROUND ? 0 : p->q[3 * t->body_a + 2];
+    if (t->kind == FW_TIE_PRISMATIC) {
+        double axis = angle + t->axis_rad, c = cos(axis), d = -sin(axis), far = 3000;
+        double turn = -axis * 180.0 / acos(-1.0);
+        fw_report_markup(out,
+                         "<path d=\"M{c} {c}L{c} {c}\" stroke=\"#57606a\" stroke-width=\"1\" "
+                         "stroke-dasharray=\"10 3 2 3\" fill=\"none\"/>\n"
+                         "<rect x=\"{c}\" y=\"{c}\" width=\"{c}\" height=\"{c}\" fill=\"#fff\" "
+                         "fill-opacity=\"0.85\" stroke=\"#1f2328\" transform=\"rotate({c} {c} "
+                         "{c})\"/>\n",
+                         ax - far * c, ay - far * d, ax + far * c, ay + far * d, bx - 1.6 * s,
+                         by - s, 3.2 * s, 2 * s, turn, bx, by);
+        return;
+    }
+    fw_report_markup(out,
+                     "<rect x=\"{c}\" y=\"{c}\" width=\"{c}\" height=\"{c}\" fill=\"#1f2328\"/>\n",
+                     bx - 0.5 * s, by - 0.5 * s, s, s);
+}
+
+static void dot(const panel *p, double x, double y, bool open, fw_text *out) {
+    fw_report_markup(out,
+                     "<circle cx=\"{c}\" cy=\"{c}\" r=\"{c}\" fill=\"#fff\" stroke=\"{r}\" "
+                     "stroke-width=\"1.6\"/>\n",
+                     x, y, 0.75 * p->mark, open ? open_colour : "#1f2328");
+}
+
+static void draw_joints(const panel *p, fw_text *out) {
+    const fw_mechanism *m = p->in->mechanism;
+    for (int i = 0; i < m->ntie; i++)
+        draw_tie(p, &m->tie[i], out);
+    for (int i = 0; i < m->npin; i++) {
+        const fw_pin *pin = &m->pin[i];
+        fw_vec2 a = place(p->q, pin->body_a, pin->ax_m, pin->ay_m);
+        fw_vec2 b = place(p->q, pin->body_b, pin->bx_m, pin->by_m);
+        double ax = fw_report_x(&p->view, a.x), ay = fw_report_y(&p->view, a.y);
+        double bx = fw_report_x(&p->view, b.x), by = fw_report_y(&p->view, b.y);
+        bool open = hypot(ax - bx, ay - by) > 0.5;
+        if (pin->body_a == FW_GROUND) foot(p, ax, ay, out);
+        if (pin->body_b == FW_GROUND) foot(p, bx, by, out);
+        dot(p, ax, ay, open, out);
+        if (open) dot(p, bx, by, true, out);
+    }
+}
+
+static void halo_text(fw_text *out, double x, double y, double size, const char *colour,
+                      const char *weight, const char *anchor) {
+    fw_report_markup(out,
+                     "<text x=\"{c}\" y=\"{c}\" font-size=\"{c}\" font-weight=\"{r}\" "
+                     "text-anchor=\"{r}\" fill=\"{r}\" stroke=\"#fff\" stroke-width=\"3\" "
+                     "paint-order=\"stroke\">",
+                     x, y, size, weight, anchor, colour);
+}
+
+static fw_vec2 middle_of(const panel *p) {
+    const fw_mechanism *m = p->in->mechanism;
+    fw_vec2 sum = {0, 0};
+    for (int b = 0; b < m->nbody; b++) {
+        sum.x += fw_report_x(&p->view, p->q[3 * b]) / m->nbody;
+        sum.y += fw_report_y(&p->view, p->q[3 * b + 1]) / m->nbody;
+    }
+    return sum;
+}
+
+/* moved away from the line until no other label is under it */
+static fw_vec2 free_spot(label_list *taken, fw_vec2 at, double nx, double ny) {
+    for (int tries = 0; tries < 6; tries++) {
+        bool clear = true;
+        for (int i = 0; i < taken->count && clear; i++)
+            clear = fabs(taken->at[i].x - at.x) > 58 || fabs(taken->at[i].y - at.y) > 12;
+        if (clear) break;
+        at.x += 14 * nx, at.y += 14 * (fabs(ny) > 0.2 ? ny : 1);
+    }
+    if (taken->count < MOST_LABELS) taken->at[taken->count++] = at;
+    return at;
+}
+
+static void gap_line(const panel *p, fw_vec2 from, fw_vec2 to, label_list *taken, fw_text *out) {
+    double ax = fw_report_x(&p->view, from.x), ay = fw_report_y(&p->view, from.y);
+    double bx = fw_report_x(&p->view, to.x), by = fw_report_y(&p->view, to.y);
+    if (!(hypot(ax - bx, ay - by) > 0.5)) return;
+    fw_report_markup(out,
+                     "<path d=\"M{c} {c}L{c} {c}\" stroke=\"{r}\" stroke-width=\"1.6\" "
+                     "stroke-dasharray=\"2 2\" fill=\"none\"/>\n",
+                     ax, ay, bx, by, open_colour);
+    double mx = 0.5 * (ax + bx), my = 0.5 * (ay + by);
+    /* beside the line, towards the middle of the mechanism: names of joints stand outside */
+    double d = hypot(bx - ax, by - ay), nx = (by - ay) / d, ny = -(bx - ax) / d;
+    fw_vec2 c = middle_of(p);
+    if (nx * (c.x - mx) + ny * (c.y - my) < 0) nx = -nx, ny = -ny;
+    fw_vec2 at = {mx + (fabs(nx) > 0.3 ? (nx > 0 ? 36 : -36) : 0), my + 11 * ny};
+    at = free_spot(taken, at, nx, ny);
+    at.x = fmax(34, fmin(PANEL - 34, at.x));
+    halo_text(out, at.x, at.y + 4, 11, open_colour, "600", "middle");
+    fw_report_markup(out, "{u}</text>\n", hypot(from.x - to.x, from.y - to.y), "m");
+}
+
+/* pins and welds: point to point; sliding joints: point b to its line; rods: what is missing or too
+   much at point b */
+static void draw_gaps(const panel *p, fw_text *out) {
+    const fw_mechanism *m = p->in->mechanism;
+    label_list taken = {.count = 0};
+    for (int i = 0; i < m->npin; i++) {
+        const fw_pin *k = &m->pin[i];
+        gap_line(p, place(p->q, k->body_a, k->ax_m, k->ay_m),
+                 place(p->q, k->body_b, k->bx_m, k->by_m), &taken, out);
+    }
+    for (int i = 0; i < m->ntie; i++) {
+        const fw_tie *t = &m->tie[i];
+        fw_vec2 a = place(p->q, t->body_a, t->ax_m, t->ay_m);
+        fw_vec2 b = place(p->q, t->body_b, t->bx_m, t->by_m), to = a;
+        double dx = b.x - a.x, dy = b.y - a.y, d = hypot(dx, dy);
+        double axis = t->axis_rad + (t->body_a == FW_GROUND ? 0 : p->q[3 * t->body_a + 2]);
+        double along = cos(axis) * dx + sin(axis) * dy;
+        if (t->kind == FW_TIE_PRISMATIC)
+            to = (fw_vec2){a.x + along * cos(axis), a.y + along * sin(axis)};
+        else if (t->kind == FW_TIE_DISTANCE && d > 0)
+            to = (fw_vec2){a.x + t->length_m / d * dx, a.y + t->length_m / d * dy};
+        bool driven = false; /* a driven rod has the length that its driver asks for */
+        for (int k = 0; k < m->ndriver; k++)
+            driven = driven || (m->driver[k].tie == i && t->kind == FW_TIE_DISTANCE);
+        if (!driven) gap_line(p, to, b, &taken, out);
+    }
+}
+
+/* ---- labels ---- */
+
+/* where a name goes that stands for a joint: point b of a pin or tie, in the picture */
+static fw_vec2 joint_at(const panel *p, int i, const char **id) {
+    const fw_mechanism *m = p->in->mechanism;
+    fw_vec2 w;
+    if (i < m->npin) {
+        w = place(p->q, m->pin[i].body_b, m->pin[i].bx_m, m->pin[i].by_m);
+        *id = name_of(m->pin[i].id);
+    } else {
+        const fw_tie *t = &m->tie[i - m->npin];
+        w = place(p->q, t->body_b, t->bx_m, t->by_m);
+        *id = name_of(t->id);
+    }
+    return (fw_vec2){fw_report_x(&p->view, w.x), fw_report_y(&p->view, w.y)};
+}
+
+static bool near(fw_vec2 a, fw_vec2 b) {
+    return hypot(a.x - b.x, a.y - b.y) < 4;
+}
+
+/* joints on one spot share one label */
+static void joint_labels(const panel *p, fw_vec2 middle, fw_text *out) {
+    const fw_mechanism *m = p->in->mechanism;
+    int n = m->npin + m->ntie;
+    const char *id;
+    for (int i = 0; i < n; i++) {
+        fw_vec2 at = joint_at(p, i, &id);
+        bool told = false;
+        for (int k = 0; k < i && !told; k++)
+            told = near(at, joint_at(p, k, &id));
+        if (told) continue;
+        double dx = at.x - middle.x, dy = at.y - middle.y, d = hypot(dx, dy);
+        dx = d > 1e-9 ? dx / d : 0, dy = d > 1e-9 ? dy / d : -1; /* outwards */
+        double room = 0;                                         /* about what the names need */
+        for (int k = i; k < n; k++)
+            if (near(at, joint_at(p, k, &id))) room += 9.0 * (double)strlen(id) + (k > i ? 4 : 0);
+        double side = dx > 0.5 ? 0.5 : dx < -0.5 ? -0.5 : 0;
+        double x = at.x + 15 * dx + side * room, y = at.y + 17 * dy + 5;
+        if (x < room / 2 + 4 || x > PANEL - room / 2 - 4) y = at.y - 14; /* no room beside it */
+        x = fmax(room / 2 + 4, fmin(PANEL - room / 2 - 4, x));
+        y = fmax(14, fmin(p->view.height - 6, y));
+        halo_text(out, x, y, 13, "#1f2328", "700", "middle");
+        for (int k = i; k < n; k++)
+            if (near(at, joint_at(p, k, &id)))
+                fw_report_markup(out, "{r}{s}", k > i ? " " : "", id);
+        fw_text_add(out, "</text>\n");
+    }
+}
+
+static void draw_labels(const panel *p, joint_point *point, fw_text *out) {
+    const fw_mechanism *m = p->in->mechanism;
+    if (m->nbody + m->npin > MOST_LABELS) return;
+    for (int b = 0; b < m->nbody; b++) {
+        fw_vec2 at = {p->q[3 * b], p->q[3 * b + 1]};
+        int n = has_outline(p->in, b) ? 0 : points_of(m, b, point);
+        for (int i = 0; i < n && n > 1; i++) { /* on the line rather than at the centre of mass */
+            fw_vec2 w = place(p->q, b, point[i].local.x, point[i].local.y);
+            at.x = (i ? at.x : 0) + w.x / n, at.y = (i ? at.y : 0) + w.y / n;
+        }
+        halo_text(out, fw_report_x(&p->view, at.x), fw_report_y(&p->view, at.y) + 4, 11, "#424a53",
+                  "400", "middle");
+        fw_report_markup(out, "{s}</text>\n", name_of(m->body[b].id));
+    }
+    joint_labels(p, middle_of(p), out);
+}
+
+/* ---- the picture ---- */
+
+static fw_box reach(const fw_report_assembly *in, const double *q) {
+    const fw_mechanism *m = in->mechanism;
+    fw_box box = fw_report_box_empty();
+    for (int b = 0; b < m->nbody; b++)
+        fw_report_box_add(&box, q[3 * b], q[3 * b + 1]);
+    for (int i = 0; i < m->npin; i++) {
+        const fw_pin *p = &m->pin[i];
+        fw_vec2 a = place(q, p->body_a, p->ax_m, p->ay_m),
+                b = place(q, p->body_b, p->bx_m, p->by_m);
+        fw_report_box_add(&box, a.x, a.y);
+        fw_report_box_add(&box, b.x, b.y);
+    }
+    for (int i = 0; i < m->ntie; i++) {
+        const fw_tie *t = &m->tie[i];
+        fw_vec2 b = place(q, t->body_b, t->bx_m, t->by_m);
+        fw_report_box_add(&box, b.x, b.y);
+    }
+    double size = fmax(box.x1 - box.x0, box.y1 - box.y0), pad = 0.13 * size;
+    return (fw_box){box.x0 - pad, box.y0 - pad, box.x1 + pad, box.y1 + pad};
+}
+
+static double size_of(const fw_report_assembly *in) {
+    fw_box box = reach(in, in->assembly->after);
+    return fmax(box.x1 - box.x0, box.y1 - box.y0);
+}
+
+static double wide(fw_box b) {
+    return b.x1 - b.x0;
+}
+
+static double high(fw_box b) {
+    return b.y1 - b.y0;
+}
+
+/* the same frame for both where they are of like size and near each other; a guess strewn far and
+   wide, or collapsed, gets its own. Both panels are equally high. */
+static void choose_views(const fw_report_assembly *in, panel *p) {
+    fw_box box[2] = {reach(in, p[0].q), reach(in, p[1].q)}, both = box[0];
+    fw_report_box_add(&both, box[1].x0, box[1].y0);
+    fw_report_box_add(&both, box[1].x1, box[1].y1);
+    double size = fmax(wide(box[1]), high(box[1]));
+    if (fmax(wide(both), high(both)) < 2.5 * size) box[0] = box[1] = both;
+    double tall = 0;
+    for (int i = 0; i < 2; i++) {
+        p[i].view = fw_report_view_fit(box[i], PANEL, 0.0);
+        tall = fmax(tall, p[i].view.height);
+    }
+    for (int i = 0; i < 2; i++) {
+        p[i].view.y1_m += 0.5 * (tall - p[i].view.height) / p[i].view.scale;
+        p[i].view.height = tall;
+    }
+}
+
+static void draw_panel(const panel *p, joint_point *point, const char *letter, const char *title,
+                       double x, fw_text *out) {
+    fw_report_markup(out,
+                     "<text x=\"{c}\" y=\"28\" font-size=\"15\" font-weight=\"700\" "
+                     "fill=\"#1f2328\">{r} <tspan font-weight=\"400\">{r}</tspan></text>\n"
+                     "<svg x=\"{c}\" y=\"{i}\" width=\"{i}\" height=\"{c}\">\n"
+                     "<rect width=\"100%\" height=\"100%\" fill=\"#fff\" stroke=\"#d0d7de\"/>\n",
+                     x, letter, title, x, HEAD, PANEL, p->view.height);
+    if (!p->guess) draw_ghosts(p, point, out);
+    draw_bodies(p, point, out);
+    draw_joints(p, out);
+    draw_gaps(p, out);
+    draw_labels(p, point, out);
+    fw_report_scale_bar_svg(out, &p->view);
+    fw_text_add(out, "</svg>\n");
+}
+
+static void caption(const fw_report_assembly *in, double y, fw_text *out) {
+    const fw_assembly *a = in->assembly;
+    bool tight = a->gap_after_m <= 1e-11 * (a->gap_before_m + size_of(in));
+    fw_report_markup(out, "<g font-size=\"12.5\" fill=\"#424a53\"><text x=\"{i}\" y=\"{c}\">",
+                     GUTTER, y);
+    if (in->closed && a->iterations == 0)
+        fw_text_add(out, "the poses of the description close all joints to round-off; nothing was "
+                         "moved");
+    else {
+        fw_report_markup(out, "largest open joint {u} before, ", a->gap_before_m, "m");
+        if (tight)
+            fw_text_add(out, "round-off after");
+        else
+            fw_report_markup(out, "{u} after", a->gap_after_m, "m");
+        fw_report_markup(out, "; {i} iterations", a->iterations);
+        if (a->restarts) fw_report_markup(out, ", {i} restarts", a->restarts);
+        fw_report_markup(out, "; largest movement {u}, {d}", a->most_moved_m, "m",
+                         a->most_turned_rad);
+    }
+    fw_report_markup(out, "</text>\n<text x=\"{i}\" y=\"{c}\">", GUTTER, y + 18);
+    if (!in->closed)
+        fw_report_markup(out,
+                         "<tspan fill=\"{r}\" font-weight=\"700\">cannot be assembled: the "
+                         "right-hand picture is the least mismatch that was found</tspan>",
+                         open_colour);
+    else {
+        fw_report_markup(out, "{i} degree{r} of freedom", a->rank.dof, a->rank.dof == 1 ? "" : "s");
+        for (int i = 0; i < a->nelbow; i++)
+            if (a->elbow[i].guess != a->elbow[i].found)
+                fw_report_markup(out, "; elbow at {s} {r}", a->elbow[i].id,
+                                 a->elbow[i].found == 0   ? "stretched flat"
+                                 : a->elbow[i].guess == 0 ? "was flat"
+                                                          : "on the other side than in the guess");
+    }
+    fw_text_add(out, "</text></g>\n");
+}
+
+fw_status fw_report_assemble_svg(fw_arena *arena, const fw_report_assembly *in, fw_text *out) {
+    const fw_mechanism *m = in->mechanism;
+    size_t most = 2 * ((size_t)m->npin + (size_t)m->ntie) + 1;
+    joint_point *point = fw_arena_array(arena, joint_point, most);
+    FW_NEED(point);
+    panel p[2] = {{.in = in, .q = in->assembly->before, .guess = true},
+                  {.in = in, .q = in->assembly->after}};
+    choose_views(in, p);
+    p[0].mark = p[1].mark = m->nbody > 30 ? 2.5 : m->nbody > 12 ? 4 : 5.5;
+    double width = 2 * PANEL + 3 * GUTTER, height = HEAD + p[0].view.height + FOOT;
+    fw_report_markup(out,
+                     "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                     "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 {c} "
+                     "{c}\" width=\"{c}\" height=\"{c}\" font-family=\"system-ui,'DejaVu Sans',"
+                     "sans-serif\">\n<title>{s}: guess and assembled position</title>\n"
+                     "<rect width=\"100%\" height=\"100%\" fill=\"#f6f8fa\"/>\n",
+                     width, height, width, height, in->device->name);
+    draw_panel(&p[0], point, "(a)", "guess: as the description states it", GUTTER, out);
+    draw_panel(&p[1], point, "(b)", in->closed ? "assembled" : "least mismatch", 2 * GUTTER + PANEL,
+               out);
+    caption(in, HEAD + p[0].view.height + 24, out);
+    fw_text_add(out, "</svg>\n");
+    return fw_text_end(out);
+}

@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The mechanism under its loads, over the pose at rest. */
+#include "report/page.h"
+#include "report/rest.h"
+#include <math.h>
+#include <string.h>
+
+enum { WIDTH = 720, FRAMES = 120, SECONDS = 8, ARROW = 70 };
+
+typedef struct picture {
+    const fw_mechanism *mechanism;
+    const fw_scene *scene;
+    const fw_motion *motion;
+    const fw_report_view *view;
+    fw_text *out;
+} picture;
+
+/* factor of a load at the scene's end, where statics takes it */
+static double at_end(const picture *p, const fw_law *law) {
+    double value[3] = {1.0, 0.0, 0.0}, end = p->scene->duration_s;
+    if (law) fw_law_value(law, end, end * (1.0 - 1e-9), value);
+    return value[0];
+}
+
+static fw_vec2 place(const picture *p, int body, double x, double y) {
+    double pose[3];
+    fw_report_pose_at(p->motion, body, 1.0, pose);
+    double c = cos(pose[2]), s = sin(pose[2]);
+    fw_vec2 w = {pose[0] + c * x - s * y, pose[1] + s * x + c * y};
+    return (fw_vec2){fw_report_x(p->view, w.x), fw_report_y(p->view, w.y)};
+}
+
+static void label(const picture *p, double x, double y, double value, const char *unit) {
+    x = fmax(6.0, fmin(p->view->width - 70.0, x));
+    fw_report_markup(p->out,
+                     "<text x=\"{c}\" y=\"{c}\" font-size=\"12\" fill=\"#B03A00\" stroke=\"#fff\" "
+                     "stroke-width=\"3\" paint-order=\"stroke\">{u}</text>\n",
+                     x, fmax(12.0, y), value, unit);
+}
+
+/* the arrow ends at the point of the force */
+static void arrow(const picture *p, const fw_force *f, double largest) {
+    double factor = at_end(p, f->law), fx = factor * f->fx_N, fy = factor * f->fy_N;
+    double size = hypot(fx, fy);
+    if (!(size > 0.0)) return;
+    fw_vec2 tip = place(p, f->body, f->x_m, f->y_m);
+    double long_ = ARROW * (0.35 + 0.65 * size / largest), ex = fx / size, ey = -fy / size;
+    double x = tip.x - long_ * ex, y = tip.y - long_ * ey, bx = tip.x - 11.0 * ex,
+           by = tip.y - 11.0 * ey;
+    fw_report_markup(p->out,
+                     "<path d=\"M{c} {c}L{c} {c}\" stroke=\"#D55E00\" stroke-width=\"2.5\"/><path "
+                     "d=\"M{c} {c}L{c} {c}L{c} {c}Z\" fill=\"#D55E00\"/>\n",
+                     x, y, bx, by, tip.x, tip.y, bx - 5.0 * ey, by + 5.0 * ex, bx + 5.0 * ey,
+                     by - 5.0 * ex);
+    label(p, x + 6.0, y - 6.0, size, "N");
+}
+
+static void torque(const picture *p, const fw_torque *t) {
+    double value = at_end(p, t->law) * t->value_Nm, r = 17.0;
+    if (value == 0.0) return;
+    fw_vec2 c = place(p, t->body, 0.0, 0.0);
+    /* counter-clockwise from below to the left, else to the right: the tip points down there */
+    double sign = value > 0.0 ? 1.0 : -1.0;
+    fw_report_markup(p->out,
+                     "<path d=\"M{c} {c}A{c} {c} 0 1 {i} {c} {c}\" fill=\"none\" "
+                     "stroke=\"#D55E00\" stroke-width=\"2.5\"/><path d=\"M{c} {c}l-5-10h10Z\" "
+                     "fill=\"#D55E00\"/>\n",
+                     c.x, c.y + r, r, r, sign > 0.0 ? 0 : 1, c.x - sign * r, c.y, c.x - sign * r,
+                     c.y + 9.0);
+    label(p, c.x + r + 4.0, c.y - 8.0, value, "N\u00b7m");
+}
+
+static void loads(const picture *p) {
+    const fw_scene *s = p->scene;
+    double largest = 0.0;
+    for (int i = 0; i < s->nforce; i++)
+        largest = fmax(largest, fabs(at_end(p, s->force[i].law)) *
+                                    hypot(s->force[i].fx_N, s->force[i].fy_N));
+    for (int i = 0; i < s->nforce; i++)
+        if (s->force[i].body != FW_GROUND) arrow(p, &s->force[i], largest);
+    for (int i = 0; i < s->ntorque; i++)
+        if (s->torque[i].body != FW_GROUND) torque(p, &s->torque[i]);
+}
+
+/* rest and equilibrium, or the points of the path */
+static fw_status poses(fw_arena *arena, const fw_mechanism *m, const fw_statics *s,
+                       fw_motion *motion) {
+    size_t n = 3 * (size_t)m->nbody;
+    if (s->path && s->path->complete)
+        return fw_report_poses(arena, m, s->path->count, s->path->q, motion);
+    double *q;
+    FW_NEED(q = fw_arena_array(arena, double, 2 * n));
+    memcpy(q, s->rest_q, n * sizeof *q);
+    memcpy(q + n, s->q, n * sizeof *q);
+    return fw_report_poses(arena, m, 2, q, motion);
+}
+
+fw_status fw_report_statics_svg(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                                const fw_mechanism *mechanism, const fw_scene *scene,
+                                const fw_statics *statics, fw_text *out) {
+    fw_motion motion;
+    bool moves = statics->path && statics->path->complete;
+    FW_TRY(poses(arena, mechanism, statics, &motion));
+    fw_box box = fw_report_box_empty();
+    fw_report_poses_reach(&box, mechanism, &motion);
+    fw_report_view view = fw_report_poses_view(device, layout, &box, WIDTH);
+    const fw_report_film film = {.device = device,
+                                 .layout = layout,
+                                 .mechanism = mechanism,
+                                 .motion = &motion,
+                                 .view = &view,
+                                 .out = out,
+                                 .frames = moves ? FRAMES : 0,
+                                 .seconds = SECONDS,
+                                 .still_s = 1.0,
+                                 .ghost = true};
+    fw_report_markup(
+        out,
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 {c} {c}\" "
+        "width=\"{c}\" height=\"{c}\" font-family=\"system-ui,'DejaVu Sans',"
+        "sans-serif\">\n<title>{s}, scene {s}: equilibrium</title>\n"
+        "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
+        view.width, view.height + 26.0, view.width, view.height + 26.0, device->name, scene->name);
+    FW_TRY(fw_report_film_draw(arena, &film));
+    const picture p = {mechanism, scene, &motion, &view, out};
+    if (!moves) loads(&p);
+    fw_report_scale_bar_svg(out, &view);
+    fw_report_markup(out,
+                     "<text x=\"14\" y=\"24\" font-size=\"14\" fill=\"#1f2328\" stroke=\"#fff\" "
+                     "stroke-width=\"3\" paint-order=\"stroke\">{s}, scene {s}: {r}</text>\n"
+                     "<rect y=\"{c}\" width=\"100%\" height=\"26\" fill=\"#fff\"/><text x=\"14\" "
+                     "y=\"{c}\" font-size=\"11\" fill=\"#57606a\">{r}</text>\n</svg>\n",
+                     device->name, scene->name,
+                     statics->negative > 0  ? "unstable equilibrium"
+                     : statics->neutral > 0 ? "indifferent equilibrium"
+                                            : "stable equilibrium",
+                     view.height, view.height + 16.0,
+                     moves ? "From rest (dashed) along the load path to the full load."
+                           : "Dashed: at rest. Arrows: the loads at the end of the scene.");
+    return fw_text_end(out);
+}

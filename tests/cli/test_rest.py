@@ -1,0 +1,198 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Equilibria and modes through the program, against independent reference values (34 digits) and
+closed forms."""
+import csv
+import io
+import json
+import math
+import pathlib
+import tempfile
+import unittest
+import xml.etree.ElementTree as tree
+
+from common import GALLERY, ROOT, run
+
+HEAD = '<device xmlns="urn:flexwright:device:1" name="test">\n<mechanism>\n'
+
+# reference six-bar: omega 1/ms, damped eigenvalue 1/ms
+REST = ((3.20948244008156315, -0.0204533271652472767, 3.20941905683972815),
+        (10.8921843666153928, -0.232686531273247363, 10.8897838997340557),
+        (21.6312405147640869, -0.795976084627911108, 21.6164091853811138))
+LOADED = ((3.11975510335430441, -0.0204788855194180835, 3.11968965333070031),
+          (10.5901497014204704, -0.231654262336109059, 10.5877585161423649),
+          (21.8596448005621405, -0.79212668334459096, 21.8449807504278065))
+POSE = {"AB": (0.580982890219696333, 0.812540510142242657, -0.20276460090056886),
+        "BC": (0.851082277851917696, 2.07598729537354477, -0.142242773260803712),
+        "CD": (1.94574108604816751, 2.82800626911484163, -0.0339868842821703535),
+        "DE": (2.87672363392112797, 1.99183206720253852, -0.133436532625450505),
+        "EF": (2.70617898674088477, 0.727185958535157151, -0.212979542122404647)}
+
+
+def truss(load):
+    """Von Mises truss, springs 50 N/m from (+-1 mm, 0) to (0, 0.4 mm)."""
+    spring = ('<spring id="{0}" a="ground" a-x="{1} mm" a-y="0 mm" b="apex" b-x="0 mm" b-y="0 mm" '
+              'stiffness="50 N/m" length="{2!r} mm"/>\n')
+    length = math.hypot(1, 0.4)
+    return (HEAD + '<body id="apex" mass="1 mg" inertia="1 mg mm^2" x="0 mm" y="0.4 mm"/>\n'
+            '<prismatic id="guide" a="ground" b="apex" axis="90 deg"/>\n' + spring.format("left", -1, length) +
+            spring.format("right", 1, length) + '</mechanism>\n<scene name="push" duration="1 ms">'
+            f'<force on="apex" fx="0 N" fy="-{load!r} mN"/></scene>\n</device>\n')
+
+
+class InTemporary(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.here = pathlib.Path(self.temporary.name)
+
+    def device(self, text, name="device.xml"):
+        path = self.here / name
+        path.write_text(text)
+        return path
+
+    def expect(self, result, status=0):
+        self.assertEqual(result.returncode, status, result.stdout[-2000:] + result.stderr[-4000:])
+        return result
+
+    def close(self, got, want, relative):
+        self.assertLessEqual(abs(got - want), relative * abs(want), f"{got!r} for {want!r}")
+
+
+class Modes(InTemporary):
+    def test_reference_values(self):
+        for arguments, table in (((), REST), (("--at", "rest"), REST), (("--at", "equilibrium"), LOADED)):
+            data = json.loads(self.expect(run("modes", GALLERY, "--scene", "step-load", "--json", *arguments)).stdout)
+            self.assertEqual(data["schema"], "flexwright.modes/1")
+            self.assertEqual(len(data["modes"]), 3)
+            for mode, (omega, re, im) in zip(data["modes"], table):
+                self.close(mode["omega_rad_per_s"], 1e3 * omega, 1e-12)
+                self.close(mode["f_Hz"], 1e3 * omega / (2 * math.pi), 1e-12)
+                self.close(mode["eigenvalue_per_s"][0], 1e3 * re, 1e-10)
+                self.close(mode["eigenvalue_per_s"][1], 1e3 * im, 1e-12)
+                self.assertEqual(mode["kind"], "oscillation")
+                self.assertEqual(set(mode["shape"]), {"AB", "BC", "CD", "DE", "EF"})
+
+    def test_output_directory_and_text(self):
+        out = self.here / "out"
+        text = self.expect(run("modes", GALLERY, "-o", out)).stdout
+        self.assertIn("510.805", text)
+        self.assertEqual(sorted(p.name for p in out.iterdir()), ["modes.json", "modes.svg"])
+        svg = tree.parse(out / "modes.svg").getroot()
+        self.assertTrue(svg.tag.endswith("svg"))
+        self.assertEqual(len(svg.findall(".//{*}svg")), 3)  # a panel for each mode
+        self.assertTrue(svg.findall(".//{*}animateTransform"))
+        self.assertNotIn("nan", (out / "modes.svg").read_text())
+        self.assertEqual(self.expect(run("modes", GALLERY, "-q")).stdout, "")
+
+    def test_without_a_scene(self):
+        device = self.device(HEAD + '<body id="disc" mass="1 mg" inertia="2 mg mm^2" x="0 mm" y="0 mm"/>\n'
+                             '<revolute id="A" a="ground" b="disc" stiffness="8e-9 N m/rad"/>\n'
+                             '</mechanism>\n</device>\n')
+        data = json.loads(self.expect(run("modes", device, "--json")).stdout)
+        self.close(data["modes"][0]["omega_rad_per_s"], math.sqrt(8e-9 / 2e-12), 1e-13)
+        self.expect(run("modes", device, "--at", "equilibrium"), 3)
+        self.expect(run("statics", device), 3)
+
+    def test_what_nothing_holds_is_named(self):
+        device = self.device(HEAD + '<body id="held" mass="1 mg" inertia="2 mg mm^2" x="0 mm" y="0 mm"/>\n'
+                             '<body id="adrift" mass="1 mg" inertia="2 mg mm^2" x="9 mm" y="0 mm"/>\n'
+                             '<revolute id="A" a="ground" b="held" stiffness="8e-9 N m/rad"/>\n'
+                             '</mechanism>\n</device>\n')
+        result = self.expect(run("modes", device))
+        self.assertRegex(result.stderr, r"adrift.*FW-D113")
+        self.assertEqual(result.stdout.count("(free)"), 3)
+
+    def test_wrong_usage(self):
+        result = self.expect(run("modes", GALLERY, "--at", "noon"), 2)
+        self.assertIn("rest or equilibrium", result.stderr)
+        self.expect(run("modes", GALLERY, "--path"), 2)
+        self.expect(run("modes", GALLERY, "--scene", "none"), 3)
+
+
+class Statics(InTemporary):
+    def test_reference_values(self):
+        for arguments in ((), ("--path",)):
+            data = json.loads(self.expect(run("statics", GALLERY, "--json", *arguments)).stdout)
+            self.assertEqual(data["schema"], "flexwright.statics/1")
+            self.assertTrue(data["stable"])
+            self.assertEqual(data["degrees_of_freedom"], 3)
+            self.assertEqual((data["constraints"]["rows"], data["constraints"]["rank"]), (12, 12))
+            for body, (x, y, phi) in POSE.items():
+                got = data["q"][body]
+                self.assertAlmostEqual(got[2], phi, delta=1e-12)
+                self.assertAlmostEqual(got[0] * 1e3, x, delta=1e-12)
+                self.assertAlmostEqual(got[1] * 1e3, y, delta=1e-12)
+            force = {h["hinge"]: h["force_N"] for h in data["hinges"]}
+            for name in "ABC":  # on the second body of the joint: against the multipliers there
+                self.close(force[name][0], -0.194549318244111132e-3, 1e-11)
+                self.close(force[name][1], -0.184172615702201609e-3, 1e-11)
+            self.close(data["eigenvalues_per_s2"][0], (3.11975510335430441e3) ** 2, 1e-12)
+            self.assertEqual(data["path"] is not None, bool(arguments))
+
+    def test_snap_through_is_located(self):
+        length = math.hypot(1, 0.4)
+        fold = math.sqrt(length ** (2 / 3) - 1)
+        limit = 2 * 50 * fold * (length / math.hypot(1, fold) - 1)  # mN
+        device = self.device(truss(2.0))
+        out = self.here / "out"
+        data = json.loads(self.expect(run("statics", device, "--path", "--json", "-o", out)).stdout)
+        folds = [e for e in data["path"]["events"] if e["kind"] == "limit point"]
+        self.assertEqual(len(folds), 2)
+        for event, sign in zip(folds, (1, -1)):
+            self.close(event["load_factor"], sign * limit / 2.0, 1e-12)
+            self.close(event["q"]["apex"][1], sign * fold * 1e-3, 1e-9)
+        self.assertGreater(folds[0]["snaps_by_m"], fold * 1e-3)
+        self.assertIsNone(folds[1]["snaps_by_m"])
+        self.assertTrue(data["path"]["complete"])
+        rows = list(csv.DictReader(io.StringIO((out / "statics.csv").read_text())))
+        self.assertEqual(len(rows), len(data["path"]["load_factor"]))
+        for row in rows:
+            y = float(row["apex.y_m"]) * 1e3
+            self.assertAlmostEqual(float(row["load_factor"]) * 2.0,
+                                   2 * 50 * y * (length / math.hypot(1, y) - 1), delta=1e-11)
+            if row["mark"] == "point":
+                self.assertEqual(int(row["negative"]), int(abs(y) < fold))
+        self.assertEqual([r["mark"] for r in rows if r["mark"] != "point"], ["limit point", "limit point", "end"])
+        self.assertEqual(sorted(p.name for p in out.iterdir()),
+                         ["path.svg", "statics.csv", "statics.json", "statics.svg"])
+        for name in ("path.svg", "statics.svg"):
+            text = (out / name).read_text()
+            tree.fromstring(text)
+            self.assertNotIn("nan", text)
+        path = (out / "path.svg").read_text()
+        self.assertEqual(path.count("limit point at"), 2)
+        self.assertGreaterEqual(path.count("stroke-dasharray"), 2)  # the unstable part, the legend
+
+    def test_csv_on_standard_output(self):
+        result = self.expect(run("statics", GALLERY, "--csv", "-"))
+        rows = list(csv.DictReader(io.StringIO(result.stdout)))
+        self.assertEqual(len(rows), 1)
+        self.assertEqual(rows[0]["load_factor"], "1")
+        self.assertAlmostEqual(float(rows[0]["A.angle_rad"]), POSE["AB"][2], delta=1e-12)
+
+    def test_no_equilibrium_is_exit_status_7(self):
+        device = self.device(HEAD + '<body id="wheel" mass="1 mg" inertia="1 mg mm^2" x="0 mm" y="0 mm"/>\n'
+                             '<revolute id="axle" a="ground" b="wheel"/>\n</mechanism>\n'
+                             '<scene name="spin" duration="1 ms"><torque on="wheel" value="1 uN mm"/></scene>\n</device>\n')
+        for arguments in (("statics",), ("statics", "--path"), ("modes", "--at", "equilibrium")):
+            result = self.expect(run(arguments[0], device, *arguments[1:]), 7)
+            self.assertRegex(result.stderr, r"device\.xml:\d+:\d+: error: .*wheel.*FW-D111")
+            self.assertEqual(result.stdout, "")
+
+    def test_same_bytes_twice(self):
+        first, second = self.here / "a", self.here / "b"
+        for out in (first, second):
+            self.expect(run("statics", GALLERY, "--path", "-o", out, "-q"))
+            self.expect(run("modes", GALLERY, "-o", out, "-q"))
+        for path in first.iterdir():
+            self.assertEqual(path.read_bytes(), (second / path.name).read_bytes(), path.name)
+
+    def test_wrong_usage(self):
+        self.expect(run("statics", GALLERY, "--at", "rest"), 2)
+        self.expect(run("statics", GALLERY, "--samples", "3"), 2)
+        self.expect(run("statics"), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
