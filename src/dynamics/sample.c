@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is read off the steps: evenly spaced rows, the observer's instants, extremes of the joint
    forces. All from the dense output; rows are projected like accepted steps. */
-#include "dynamics/reactions.h"
+#include "multibody/reactions.h"
 #include "dynamics/run.h"
 #include <math.h>
+#include <string.h>
 
 /* state y in SI: pose and joint angles */
 static void pose_in_SI(const fw_run *r, const double *y, double *q, double *angle) {
@@ -46,12 +47,23 @@ void fw_run_first_sample(fw_run *r, const double *y) {
     if (r->motion->nsample > 0) store(r, 0, 0, y);
 }
 
-/* onto the constraints, as accepted steps are; without projection as it is */
-static bool settle(fw_model *m, double t, double *y) {
+/* onto the constraints, as accepted steps are; without projection as it is. A step that cannot be
+   projected is made shorter, but a row lies where it was asked for: where that is so near a
+   singular position that Newton's method goes astray, the row stays as integrated, within the
+   tolerance, and the constraint norm tells. */
+static bool settle(fw_run *r, double t, double *y) {
+    fw_model *m = r->model;
     if (!m->projecting) return true;
+    memcpy(r->moved, y, (size_t)m->nq * sizeof *y);
     fw_model_pose(m, y);
-    return m->method->factor(m) && fw_model_project_position(m, t, y) && m->method->factor(m) &&
-           fw_model_project_velocity(m, t, y + m->nq);
+    if (!m->method->factor(m)) return false;
+    if (!fw_model_project_position(m, t, y)) {
+        memcpy(y, r->moved, (size_t)m->nq * sizeof *y);
+        double norm = fw_model_residual(m, t, y, m->right);
+        if (!(norm < (double)INFINITY)) return false;
+        m->worst_position = fmax(m->worst_position, norm);
+    }
+    return m->method->factor(m) && fw_model_project_velocity(m, t, y + m->nq);
 }
 
 bool fw_run_samples(fw_run *r, fw_stepper *s, double theta_end) {
@@ -67,7 +79,7 @@ bool fw_run_samples(fw_run *r, fw_stepper *s, double theta_end) {
             continue;
         }
         fw_stepper_dense(s, fmin(theta_end, (t - s->t_old) / s->h), r->state);
-        if (!settle(m, t, r->state)) return false;
+        if (!settle(r, t, r->state)) return false;
         store(r, t_s, t, r->state);
     }
     return true;

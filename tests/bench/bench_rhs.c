@@ -5,8 +5,8 @@
    bench_rhs            the table
    bench_rhs CASE COUNT only so many evaluations of one case, for instruction counts:
      valgrind --tool=callgrind --toggle-collect=measured ./bench_rhs path 10000 */
-#include "dynamics/kernel.h"
-#include "dynamics/lanes.h"
+#include "multibody/kernel.h"
+#include "multibody/lanes.h"
 #include "dynamics/models.h"
 #include <stdlib.h>
 #include <time.h>

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Linkages that pass through a flat position. Hard because there two branches cross: a parallelogram
-   may go on as an anti-parallelogram and back, both satisfy every equation, and only what the
-   velocity says tells them apart. The kite and the anti-parallelogram cross the same place. */
+/* Linkages that pass through a flat position. Hard because there two branches cross: a
+   parallelogram may go on as an anti-parallelogram and back, both satisfy every equation, and only
+   what the velocity says tells them apart. The kite and the anti-parallelogram cross the same
+   place. */
 #include "hard.h"
 
 enum { ROWS = 201 };
@@ -31,7 +32,8 @@ static double wrapped(double angle) {
     return remainder(angle, 2 * HARD_PI);
 }
 
-/* largest deviation of the second crank from its branch; its bar points from its tip to the ground */
+/* largest deviation of the second crank from its branch; its bar points from its tip to the ground
+ */
 static double off_branch(const fw_motion *m, bool is_crossed) {
     double worst = 0;
     for (int i = 0; i < m->nsample; i++) {
@@ -58,9 +60,9 @@ static void run(const char *what, bool driven, bool is_crossed) {
             rig_velocity(&r, 1, -crank * sin(start), crank * cos(start), 0);
             rig_velocity(&r, 2, -crank / 2 * sin(start), crank / 2 * cos(start), 1);
         }
-        const fw_motion *m = hard_run(
-            arena, &r,
-            (fw_motion_options){.rtol = pow(10, -e), .samples = ROWS, .reactions = true});
+        const fw_motion *m =
+            hard_run(arena, &r,
+                     (fw_motion_options){.rtol = pow(10, -e), .samples = ROWS, .reactions = true});
         double worst = off_branch(m, is_crossed), force = 0, error = 0;
         for (int i = 0; i < m->npin; i++)
             if (m->force_peak[i].force_N > force)
@@ -70,7 +72,8 @@ static void run(const char *what, bool driven, bool is_crossed) {
                       what, e, worst, force, error, m->stats.energy_error, m->stats.steps);
         assert_true(worst < 1e-6);
         assert_true(isfinite(force));
-        if (e >= 9 && !is_crossed) { /* the bars go round evenly: m w^2 r for the coupler and a crank */
+        if (e >= 9 &&
+            !is_crossed) { /* the bars go round evenly: m w^2 r for the coupler and a crank */
             assert_near(wrapped(hard_q(m, ROWS - 1)[2] - start), 0, 1e-6);
         }
         fw_arena_free(arena);
@@ -107,10 +110,7 @@ static void test_kite(void **state) {
         double half = hypot(bx - a, by) / 2, rise = sqrt(b * b - half * half);
         double away = start / 2; /* from A through the middle of B and D, beyond it */
         const double p[4][2] = {
-            {0, 0},
-            {bx, by},
-            {(bx + a) / 2 + rise * cos(away), by / 2 + rise * sin(away)},
-            {a, 0}};
+            {0, 0}, {bx, by}, {(bx + a) / 2 + rise * cos(away), by / 2 + rise * sin(away)}, {a, 0}};
         rig r = rig_new(arena, 3, 4, 0);
         hard_bars(&r, p, 3, 1);
         rig_pin(&r, "A", FW_GROUND, 0, 0, 0, 0, 0);
@@ -149,10 +149,9 @@ static void test_ablation(void **state) {
             rig_velocity(&r, 1, -crank * sin(1), crank * cos(1), 0);
             rig_velocity(&r, 2, -crank / 2 * sin(1), crank / 2 * cos(1), 1);
             r.scene.duration_s = 40 * HARD_PI;
-            outcome out = hard_try(arena, &r,
-                                   (fw_motion_options){.rtol = pow(10, -e),
-                                                       .samples = ROWS,
-                                                       .stabilise = how[k]});
+            outcome out = hard_try(
+                arena, &r,
+                (fw_motion_options){.rtol = pow(10, -e), .samples = ROWS, .stabilise = how[k]});
             kept += out.status == FW_OK && off_branch(out.m, false) < 1e-6;
             fw_arena_free(arena);
         }

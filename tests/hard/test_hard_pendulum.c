@@ -52,8 +52,7 @@ static void test_10_s(void **state) {
         fw_arena *arena = fw_arena_new(0);
         rig r = rig_pendulum(arena);
         const fw_motion *m = hard_run(
-            arena, &r,
-            (fw_motion_options){.rtol = 1e-13, .samples = 11, .stabilise = how[i]});
+            arena, &r, (fw_motion_options){.rtol = 1e-13, .samples = 11, .stabilise = how[i]});
         energy[i] = m->stats.energy_error;
         double x = 2 * hard_q(m, 10)[0];
         print_message("pendulum 10 s, stabilise %-10s: energy %.1e, x to %.1e, constraint %.1e, "

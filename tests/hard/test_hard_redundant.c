@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Joints that say the same twice or thrice. Hard because S = G M^-1 G^T is then singular in every
-   position: a solver that factors it stops or divides round-off by round-off, and one that decides a
-   rank by a threshold may drop the wrong row. What contradicts itself, however little, is an error
-   that names the joint, never a motion. */
+   position: a solver that factors it stops or divides round-off by round-off, and one that decides
+   a rank by a threshold may drop the wrong row. What contradicts itself, however little, is an
+   error that names the joint, never a motion. */
 #include "hard.h"
 
 enum { ROWS = 11, N = 15 };
@@ -70,8 +70,7 @@ static void test_hinge_slightly_elsewhere(void **state) {
     for (size_t k = 0; k < sizeof off / sizeof off[0]; k++) {
         fw_arena *arena = fw_arena_new(0);
         rig r = with_copies(arena, 1, off[k]);
-        outcome out =
-            hard_try(arena, &r, (fw_motion_options){.rtol = 1e-10, .samples = ROWS});
+        outcome out = hard_try(arena, &r, (fw_motion_options){.rtol = 1e-10, .samples = ROWS});
         print_message("redundant: hinge D twice, %.0e m apart: %s\n", off[k],
                       out.status == FW_OK ? "accepted" : out.message);
         assert_int_equal(out.status, FW_SOLVER);
@@ -131,8 +130,7 @@ static rig driven_twice(fw_arena *arena, const char *second, bool same_pin) {
     double start = atan2(0.4, 0.3);
     r.m.pin[2].free_angle_rad = start;
     r.m.pin[3].free_angle_rad = -(r.m.body[2].phi_rad);
-    hard_driver(arena, &r, "first", 2, FW_NONE,
-                hard_law(arena, "0.3 rad * sin(2 * t / 1 s)", rad));
+    hard_driver(arena, &r, "first", 2, FW_NONE, hard_law(arena, "0.3 rad * sin(2 * t / 1 s)", rad));
     hard_driver(arena, &r, "second", same_pin ? 2 : 3, FW_NONE, hard_law(arena, second, rad));
     r.scene.duration_s = 2;
     return r;
@@ -188,9 +186,9 @@ static void test_methods(void **state) {
         fw_arena *arena = fw_arena_new(0);
         const fw_motion *one = plain_motion(arena);
         rig r = with_copies(arena, 2, 0);
-        outcome out = hard_try(arena, &r,
-                               (fw_motion_options){
-                                   .rtol = 1e-12, .samples = ROWS, .method = fw_method_at(i).name});
+        outcome out = hard_try(
+            arena, &r,
+            (fw_motion_options){.rtol = 1e-12, .samples = ROWS, .method = fw_method_at(i).name});
         double worst = out.status == FW_OK ? compare(out.m, one) : 0;
         if (out.status == FW_OK)
             print_message("redundant: hinge D thrice by %-22s: to %.1e\n", fw_method_at(i).name,

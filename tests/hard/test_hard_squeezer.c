@@ -1,30 +1,31 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Andrews' squeezer (IFToMM A03). Hard because seven light bodies with three loops are thrown around
-   at 1000 rad/s and every error of phase grows with the angle: the published reference itself is off
-   by 1e-10. Compared with two quad-precision programs that agree to 20 digits. */
+/* Andrews' squeezer (IFToMM A03). Hard because seven light bodies with three loops are thrown
+   around at 1000 rad/s and every error of phase grows with the angle: the published reference
+   itself is off by 1e-10. Compared with two quad-precision programs that agree to 20 digits. */
 #include "hard.h"
 
-static void near(const char *what, double got, double want, double size, double tol, double *worst) {
+static void near(const char *what, double got, double want, double size, double tol,
+                 double *worst) {
     double error = fabs(got - want) / size;
     *worst = fmax(*worst, error);
-    if (!(error <= tol)) fail_msg("%s = %.17g, expected %.17g (off by %.2e)", what, got, want, error);
+    if (!(error <= tol))
+        fail_msg("%s = %.17g, expected %.17g (off by %.2e)", what, got, want, error);
 }
 
 /* t = 0.03 s: angles, rates, accelerations and multipliers y1 ... y27 of the test set */
 static void test_at_30_ms(void **state) {
     (void)state;
-    static const double angle[7] = {15.810771195153707097,  -15.75637105841183947,
+    static const double angle[7] = {15.810771195153707097,   -15.75637105841183947,
                                     0.040822240119645804858, -0.53473011634207959377,
                                     0.52440996587995406937,  0.53473011634207959377,
                                     1.0480807410419378731};
-    static const double rate[7] = {1139.9203022591060642, -1424.3792951775400732,
-                                   11.032911910618593745, 19.293374105032040832,
+    static const double rate[7] = {1139.9203022591060642,  -1424.3792951775400732,
+                                   11.032911910618593745,  19.293374105032040832,
                                    0.57356991482950245382, -19.293374105032040832,
                                    0.32317914924913087499};
-    static const double accel[7] = {-24631.76312287463447, 51850.319636464231534,
-                                    324102.60070757860581, 566749.42200099532649,
-                                    16743.63541834544461,  -566749.42200099532649,
-                                    9826.5078015441626885};
+    static const double accel[7] = {
+        -24631.76312287463447, 51850.319636464231534,  324102.60070757860581, 566749.42200099532649,
+        16743.63541834544461,  -566749.42200099532649, 9826.5078015441626885};
     static const double lambda[6] = {199.17534810453862819, -29.755309974971763324,
                                      23.066543611622151129, 31.452725275771137075,
                                      22.642494786394378578, 11.617392352611255907};
@@ -102,8 +103,8 @@ static void test_to_50_ms(void **state) {
         double largest = m->stats.largest_energy_J;
         print_message("squeezer to 0.05 s, rtol 1e-%d: F to %.1e m, beta %.1e rad, beta' %.1e, "
                       "T+V-E0-tau(beta-beta0) %.1e of %.3f J\n",
-                      e, f, fabs(q[2] - 33.82586776695451733), fabs(v[2] / 1144.535502653847468 - 1),
-                      balance / largest, largest);
+                      e, f, fabs(q[2] - 33.82586776695451733),
+                      fabs(v[2] / 1144.535502653847468 - 1), balance / largest, largest);
         if (e == 13) {
             assert_true(f < 1e-12);
             assert_near(q[2], 33.82586776695451733, 1e-10);

@@ -93,8 +93,8 @@ static void test_every_tolerance(void **state) {
     }
 }
 
-/* how many runs at 1e-4 ... 1e-10 keep the branch, and come within 1e-3 at 1e-6 and tighter, with the
-   projection and without */
+/* how many runs at 1e-4 ... 1e-10 keep the branch, and come within 1e-3 at 1e-6 and tighter, with
+   the projection and without */
 static void test_ablation_projection(void **state) {
     (void)state;
     static const char *const how[3] = {"projection", "baumgarte", "none"};
@@ -106,10 +106,9 @@ static void test_ablation_projection(void **state) {
             for (int e = 4; e <= 11; e += 2) {
                 fw_arena *arena = fw_arena_new(0);
                 rig r = rig_windows(arena, windows[i]);
-                outcome out = hard_try(arena, &r,
-                                       (fw_motion_options){.rtol = pow(10, -e),
-                                                           .samples = 51,
-                                                           .stabilise = how[k]});
+                outcome out = hard_try(
+                    arena, &r,
+                    (fw_motion_options){.rtol = pow(10, -e), .samples = 51, .stabilise = how[k]});
                 all += k == 0, tight += k == 0 && e >= 6;
                 if (out.status != FW_OK) {
                     refused[k]++;
