@@ -9,7 +9,8 @@ pkg_check_modules(JANSSON REQUIRED IMPORTED_TARGET jansson)
 find_library(LAPACKE_LIBRARY lapacke REQUIRED)
 find_library(LAPACK_LIBRARY lapack REQUIRED)
 
-set(FW_ROOMS base maths geometry quantity device flexure layout mechanism effects dynamics workspace
+set(FW_ROOMS base maths geometry quantity device flexure layout mechanism effects multibody assembly
+             dynamics statics workspace
              verdict process mask recipe report plan cli)
 set(FW_EXTERN_maths PkgConfig::GSL ${LAPACKE_LIBRARY} ${LAPACK_LIBRARY} m)
 set(FW_EXTERN_device PkgConfig::XML2)
@@ -19,12 +20,12 @@ set(FW_EXTERN_base PkgConfig::JANSSON m)
 
 # the batch kernels are the same source compiled for each instruction set and chosen at run time; they
 # alone may contract products and sums
-set(kernels ${PROJECT_SOURCE_DIR}/src/dynamics/core)
+set(kernels ${PROJECT_SOURCE_DIR}/src/multibody)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-    set_source_files_properties(${kernels}_avx2.c PROPERTIES COMPILE_OPTIONS
-                                "-mavx2;-mfma;-ffp-contract=fast")
-    set_source_files_properties(${kernels}_avx512.c PROPERTIES COMPILE_OPTIONS
-                                "-mavx512f;-mavx512dq;-mavx512vl;-mfma;-ffp-contract=fast")
+    set_source_files_properties(${kernels}/kernel_core_avx2.c ${kernels}/kernel_path_avx2.c PROPERTIES COMPILE_OPTIONS
+                                "-O3;-mavx2;-mfma;-ffp-contract=fast")
+    set_source_files_properties(${kernels}/kernel_core_avx512.c ${kernels}/kernel_path_avx512.c PROPERTIES COMPILE_OPTIONS
+                                "-O3;-mavx512f;-mavx512dq;-mavx512vl;-mfma;-ffp-contract=fast")
 endif()
 
 set(below)

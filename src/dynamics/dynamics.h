@@ -6,9 +6,7 @@
    and time. */
 #ifndef FW_DYNAMICS_DYNAMICS_H
 #define FW_DYNAMICS_DYNAMICS_H
-#include "base/diag.h"
-#include "effects/effects.h"
-#include "mechanism/mechanism.h"
+#include "multibody/multibody.h"
 
 typedef struct fw_instant { /* the mechanism at one time, on the dense output */
     double t_s;
@@ -83,20 +81,11 @@ typedef struct fw_motion {
     const char *stabilise, *method_report; /* what the method has to say, or NULL */
 } fw_motion;
 
-/* solves Psi(q) = 0 from the guess q (3 nbody) by damped Newton with mass-weighted steps; *moved_m
-   the largest displacement. FW_SOLVER names the joint that cannot close and by how much. */
-fw_status fw_assemble(fw_arena *arena, const fw_mechanism *mechanism, double *q, double *moved_m,
-                      fw_diags *diags);
-
 /* one scene from the assembled position. FW_SOLVER when the steps become too small. */
 fw_status fw_simulate(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                       const fw_motion_options *options, fw_diags *diags, const fw_motion **motion);
 
-typedef struct fw_method_row { /* feeds --help and reference pages */
-    const char *name, *summary;
-} fw_method_row;
 /* the i-th one; name NULL behind the last */
-fw_method_row fw_method_at(size_t i);
 fw_method_row fw_integrator_at(size_t i);
 fw_method_row fw_stabilisation_at(size_t i);
 

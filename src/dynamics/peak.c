@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "dynamics/model.h"
+#include "dynamics/run.h"
 #include "maths/brent.h"
 #include <math.h>
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The loop over steps, smooth pieces and events. */
 #include "base/cancel.h"
-#include "dynamics/closure.h"
 #include "dynamics/run.h"
 #include <math.h>
 #include <string.h>

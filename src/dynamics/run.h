@@ -2,7 +2,27 @@
 /* One simulation while it runs. Private to dynamics/. */
 #ifndef FW_DYNAMICS_RUN_H
 #define FW_DYNAMICS_RUN_H
-#include "dynamics/model.h"
+#include "assembly/assembly.h"
+#include "dynamics/dynamics.h"
+#include "maths/ode.h"
+#include "multibody/model.h"
+
+/* peak.c */
+typedef struct fw_peaks {
+    double *start; /* (npin of the mechanism) angle at the assembled pose */
+    int *a, *b;    /* (npin) bodies */
+    fw_peak *peak; /* (npin) time scaled */
+    int npin;
+} fw_peaks;
+fw_status fw_peaks_new(fw_arena *arena, const fw_mechanism *mechanism, const double *q,
+                       fw_peaks *peaks);
+double fw_peaks_angle(const fw_peaks *peaks, int pin, const double *y);
+/* the last step up to theta_end */
+void fw_peaks_step(fw_peaks *peaks, const fw_model *m, fw_stepper *s, double theta_end);
+
+/* check.c */
+fw_status fw_check_options(const fw_motion_options *options, fw_diags *diags);
+fw_status fw_check_names(const fw_motion_options *options, fw_diags *diags, fw_motion *motion);
 
 typedef struct fw_run {
     fw_arena *arena;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is read off the steps: evenly spaced rows, the observer's instants, extremes of the joint
    forces. All from the dense output; rows are projected like accepted steps. */
-#include "dynamics/reactions.h"
+#include "multibody/reactions.h"
 #include "dynamics/run.h"
 #include <math.h>
 #include <string.h>

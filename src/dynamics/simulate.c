@@ -189,7 +189,7 @@ fw_status fw_simulate(fw_arena *arena, const fw_mechanism *mechanism, const fw_s
     fw_run r = {
         .arena = arena, .mechanism = mechanism, .scene = scene, .options = options, .diags = diags};
     *motion = NULL;
-    FW_TRY(fw_check_options(options, scene, diags));
+    FW_TRY(fw_check_options(options, diags));
     FW_TRY(fw_check_motion(mechanism, scene, diags));
     FW_NEED(r.motion = fw_arena_one(arena, fw_motion));
     FW_TRY(fw_check_names(options, diags, r.motion));

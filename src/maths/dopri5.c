@@ -118,26 +118,12 @@ static void prepare(fw_stepper *b) {
 }
 
 static void dense(const fw_stepper *b, double theta, double *y) {
-    const dopri5 *s = (const dopri5 *)b;
-    double weight[ROWS];
-    fw_ode_nested_weights(ROWS, theta, weight);
-    for (int c = 0; c < b->ode.n; c++) {
-        double sum = 0;
-        for (int i = ROWS - 1; i >= 0; i--)
-            sum += weight[i] * s->row[i * b->padded + c];
-        y[c] = sum;
-    }
+    fw_ode_nested_dense(b, ROWS, ((const dopri5 *)b)->row, theta, y);
 }
 
 static void component(const fw_stepper *b, int i, double wi, int j, double wj, double theta,
                       double *value, double *slope) {
-    const dopri5 *s = (const dopri5 *)b;
-    double r[ROWS];
-    for (int m = 0; m < ROWS; m++) {
-        const double *row = s->row + m * b->padded;
-        r[m] = wi * row[i] + (j < 0 ? 0 : wj * row[j]);
-    }
-    fw_ode_nested_value(ROWS, r, theta, value, slope);
+    fw_ode_nested_component(b, ROWS, ((const dopri5 *)b)->row, i, wi, j, wj, theta, value, slope);
 }
 
 const fw_stepper_row fw_dopri5_row = {

@@ -236,18 +236,28 @@ void fw_ode_hermite_component(const fw_stepper *s, int a, double wa, int b, doub
     *slope = wa * *slope + wb * d;
 }
 
-void fw_ode_nested_weights(int count, double theta, double *weight) {
-    weight[0] = 1;
-    for (int i = 1; i < count; i++)
+void fw_ode_nested_dense(const fw_stepper *s, int rows, const double *row, double theta,
+                         double *y) {
+    double weight[FW_ODE_NESTED_MOST] = {1};
+    for (int i = 1; i < rows; i++)
         weight[i] = weight[i - 1] * (i % 2 ? theta : 1 - theta);
+    for (int c = 0; c < s->ode.n; c++) {
+        double sum = 0;
+        for (int i = rows - 1; i >= 0; i--)
+            sum += weight[i] * row[i * s->padded + c];
+        y[c] = sum;
+    }
 }
 
-void fw_ode_nested_value(int count, const double *r, double theta, double *value, double *slope) {
-    double p = r[count - 1], d = 0;
-    for (int i = count - 2; i >= 0; i--) {
+void fw_ode_nested_component(const fw_stepper *s, int rows, const double *row, int a, double wa,
+                             int b, double wb, double theta, double *value, double *slope) {
+    double p = 0, d = 0;
+    for (int i = rows - 1; i >= 0; i--) {
+        const double *at = row + i * s->padded;
         double x = i % 2 ? 1 - theta : theta, dx = i % 2 ? -1 : 1;
+        double r = wa * at[a] + (b < 0 ? 0 : wb * at[b]);
         d = dx * p + x * d;
-        p = r[i] + x * p;
+        p = r + x * p;
     }
     *value = p;
     *slope = d;

@@ -126,9 +126,11 @@ typedef struct fw_ode_span {
 } fw_ode_span;
 void fw_ode_span_value(const fw_ode *ode, const fw_ode_span *span, int c, double theta,
                        double *value, double *slope);
-/* p(theta) = r_0 + theta (r_1 + (1 - theta) (r_2 + theta (r_3 + ...))): the weight of every row,
-   and value and slope of one such polynomial */
-void fw_ode_nested_weights(int count, double theta, double *weight);
-void fw_ode_nested_value(int count, const double *r, double theta, double *value, double *slope);
+/* p(theta) = r_0 + theta (r_1 + (1 - theta) (r_2 + theta (r_3 + ...))) of every component, the
+   coefficients one row of `padded` after the other; and a weighted pair of components with slope */
+enum { FW_ODE_NESTED_MOST = 8 }; /* rows */
+void fw_ode_nested_dense(const fw_stepper *s, int rows, const double *row, double theta, double *y);
+void fw_ode_nested_component(const fw_stepper *s, int rows, const double *row, int a, double wa,
+                             int b, double wb, double theta, double *value, double *slope);
 
 #endif

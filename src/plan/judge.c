@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "dynamics/assembly.h"
+#include "assembly/assembly.h"
 #include "plan/stages.h"
 #include <string.h>
 

@@ -6,8 +6,8 @@
    fw_plan_write. Every stage returns FW_OK or what went wrong; diagnostics are in fw_plan_diags. */
 #ifndef FW_PLAN_PLAN_H
 #define FW_PLAN_PLAN_H
-#include "dynamics/kinematics.h"
-#include "dynamics/modes.h"
+#include "assembly/kinematics.h"
+#include "statics/modes.h"
 #include "report/assembly.h"
 #include "report/terminal.h"
 

@@ -147,20 +147,35 @@ static void coordinates(const fw_report_assembly *in, fw_text *out) {
     fw_text_add(out, "\n");
 }
 
-/* round-off against the largest of its kind reads 0 */
-static double clean_motion(const double *all, int body, int axis, int nbody) {
-    double most = 0;
-    for (int i = 0; i < 3 * nbody; i++)
-        if ((i % 3 == 2) == (axis == 2)) most = fmax(most, fabs(all[i]));
-    return fabs(all[3 * body + axis]) <= 1e-12 * most ? 0 : all[3 * body + axis];
+/* what is below 1e-12 of the largest of its kind is round-off and reads 0; rotations and torques
+   are compared as lengths and forces at the mechanism's size */
+static double clean(double value, double most) {
+    return fabs(value) <= 1e-12 * most ? 0 : value;
 }
 
-static void motion(const fw_report_assembly *in, double size, fw_text *out) {
-    static const char *const axis[] = {"x", "y", "phi"};
+static double largest_motion(const double *all, int nbody, double size) {
+    double most = 0;
+    for (int i = 0; i < 3 * nbody; i++)
+        most = fmax(most, fabs(all[i]) * (i % 3 == 2 ? size : 1));
+    return most;
+}
+
+static double largest_force(const fw_kinematics *k) {
+    double most = 0;
+    for (int i = 0; i < 2 * k->npin; i++)
+        most = fmax(most, fabs(k->reaction_N[i]));
+    for (int i = 0; i < 3 * k->ntie; i++)
+        if (i % 3 != 2) most = fmax(most, fabs(k->tie_N[i]));
+    return most;
+}
+
+static void velocities(const fw_report_assembly *in, double size, fw_text *out) {
     const fw_mechanism *m = in->mechanism;
     const fw_kinematics *k = in->kinematics;
     double factor;
     const char *unit = unit_of(size, &factor);
+    const double most[2] = {largest_motion(k->v, m->nbody, size),
+                            largest_motion(k->a, m->nbody, size)};
     fw_text_printf(out,
                    "\n  body        vx %s/s     vy %s/s  omega rad/s     ax %s/s2     ay %s/s2  "
                    "alpha rad/s2\n",
@@ -168,36 +183,51 @@ static void motion(const fw_report_assembly *in, double size, fw_text *out) {
     for (int b = 0; b < m->nbody; b++) {
         fw_text_printf(out, "  %-8s", name_of(m->body[b].id));
         for (int c = 0; c < 6; c++) {
-            double value = clean_motion(c < 3 ? k->v : k->a, b, c % 3, m->nbody);
-            fw_text_real(out, "%13.5g", value * (c % 3 == 2 ? 1 : factor));
+            bool turns = c % 3 == 2;
+            double value = (c < 3 ? k->v : k->a)[3 * b + c % 3];
+            value = clean(value, most[c / 3] / (turns ? size : 1));
+            fw_text_real(out, "%13.5g", value * (turns ? 1 : factor));
         }
         fw_text_add(out, "\n");
     }
+}
+
+static void force(fw_text *out, double value, double most, const char *unit) {
+    fw_text_real(out, "%13.5g ", clean(value, most));
+    fw_text_add(out, unit);
+}
+
+static void forces(const fw_report_assembly *in, double size, fw_text *out) {
+    static const char *const axis[] = {"x", "y", "phi"};
+    const fw_mechanism *m = in->mechanism;
+    const fw_kinematics *k = in->kinematics;
+    double most = largest_force(k);
     fw_text_printf(out, "\n  joint force on its second body%s%s%s\n",
                    in->scene ? ", loads of scene " : "", in->scene ? name_of(in->scene->name) : "",
                    k->unique ? "" : "; redundant joints share it, the least forces are shown");
     for (int i = 0; i < m->npin; i++) {
         fw_text_printf(out, "  %-8s", name_of(m->pin[i].id));
-        fw_text_real(out, "%13.5g N", k->reaction_N[2 * i]);
-        fw_text_real(out, "%13.5g N\n", k->reaction_N[2 * i + 1]);
+        force(out, k->reaction_N[2 * i], most, "N");
+        force(out, k->reaction_N[2 * i + 1], most, "N\n");
     }
     for (int i = 0; i < m->ntie; i++) {
         fw_text_printf(out, "  %-8s", name_of(m->tie[i].id));
-        fw_text_real(out, "%13.5g N", k->tie_N[3 * i]);
-        fw_text_real(out, "%13.5g N", k->tie_N[3 * i + 1]);
-        fw_text_real(out, "%13.5g N m\n", k->tie_N[3 * i + 2]);
+        force(out, k->tie_N[3 * i], most, "N");
+        force(out, k->tie_N[3 * i + 1], most, "N");
+        force(out, k->tie_N[3 * i + 2], most * size, "N m\n");
     }
     for (int i = 0; i < m->ndriver; i++) {
         bool turns = m->driver[i].joint != FW_NONE;
         fw_text_printf(out, "  %-8s", name_of(m->driver[i].id));
-        fw_text_real(out, "%13.5g ", k->driver_N[i]);
-        fw_text_printf(out, "%s along its coordinate\n", turns ? "N m" : "N");
+        force(out, k->driver_N[i], most * (turns ? size : 1), turns ? "N m" : "N");
+        fw_text_add(out, " along its coordinate\n");
     }
     for (int i = 0; i < k->independent.count; i++) {
         const fw_coordinate *c = &k->independent.item[i];
+        bool turns = c->axis == 2;
         fw_text_printf(out, "  %s.%s is driven by ", name_of(m->body[c->body].id), axis[c->axis]);
-        fw_text_number(out, k->drive[i], 5);
-        fw_text_printf(out, " %s\n", c->axis == 2 ? "N m" : "N");
+        fw_text_number(out, clean(k->drive[i], most * (turns ? size : 1)), 5);
+        fw_text_printf(out, " %s\n", turns ? "N m" : "N");
     }
 }
 
@@ -226,6 +256,9 @@ fw_status fw_report_assemble_text(const fw_report_assembly *in, fw_text *out) {
     if (in->kinematics) coordinates(in, out);
     branches(a, out);
     alternatives(in, size, out);
-    if (in->kinematics && in->motion) motion(in, size, out);
+    if (in->kinematics && in->motion) {
+        velocities(in, size, out);
+        forces(in, size, out);
+    }
     return fw_text_end(out);
 }

@@ -3,8 +3,8 @@
 #ifndef FW_REPORT_ASSEMBLY_H
 #define FW_REPORT_ASSEMBLY_H
 #include "base/text.h"
-#include "dynamics/assembly.h"
-#include "dynamics/kinematics.h"
+#include "assembly/assembly.h"
+#include "assembly/kinematics.h"
 
 typedef struct fw_report_assembly {
     const fw_device *device;

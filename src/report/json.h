@@ -2,7 +2,7 @@
 /* JSON for programs: 17 digits, keys in a fixed order, null where a number is not finite. */
 #ifndef FW_REPORT_JSON_H
 #define FW_REPORT_JSON_H
-#include "dynamics/modes.h"
+#include "statics/modes.h"
 #include "report/report.h"
 
 /* schema flexwright.verdict/1 (verdict.json) */

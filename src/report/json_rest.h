@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef FW_REPORT_JSON_REST_H
 #define FW_REPORT_JSON_REST_H
-#include "dynamics/modes.h"
+#include "statics/modes.h"
 #include "report/json_common.h"
 
 /* {"BODY": [x, y, phi]} from 3 numbers per body */

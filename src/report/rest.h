@@ -2,7 +2,7 @@
 /* Equilibria and modes for people: text, tables, pictures. The same bytes every time. */
 #ifndef FW_REPORT_REST_H
 #define FW_REPORT_REST_H
-#include "dynamics/modes.h"
+#include "statics/modes.h"
 #include "report/report.h"
 
 /* "point", "limit point", "bifurcation", "switch", "end" */

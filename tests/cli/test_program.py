@@ -264,7 +264,7 @@ class Simulate(InTemporary):
 
     def test_output_directory(self):
         self.expect(run("simulate", GALLERY, "-o", self.here / "sim", "-q"), 0)
-        self.assertEqual(sorted(p.name for p in (self.here / "sim").iterdir()), ["motion.csv", "motion.svg"])
+        self.assertEqual(sorted(p.name for p in (self.here / "sim").iterdir()), ["forces.csv", "motion.csv", "motion.svg"])
         self.expect(run("check", GALLERY, "-o", self.here / "chk"), 0)
         self.assertEqual(json.loads((self.here / "chk/verdict.json").read_text())["verdict"], "accept")
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What README.md and docs/tutorial.md tell a newcomer to type works, and the files that they name exist.
+"""What README.md, docs/tutorial.md and docs/mechanisms/README.md tell a newcomer to type works, and the files that they name exist.
 ./demo and ./test are not run from inside a test; everything else is."""
 import pathlib
 import re
@@ -18,7 +18,9 @@ with tempfile.TemporaryDirectory() as here:
     (pathlib.Path(here) / "build").mkdir()
     (pathlib.Path(here) / "build/flexwright").symlink_to(program)
     (pathlib.Path(here) / "out").mkdir()
-    pages = text + (ROOT / "docs/tutorial.md").read_text()
+    (pathlib.Path(here) / "docs").symlink_to(ROOT / "docs")
+    pages = text + "".join((ROOT / "docs" / page).read_text()
+                           for page in ("tutorial.md", "mechanisms/README.md"))
     commands = [line.strip() for line in pages.splitlines() if line.startswith("    build/flexwright")]
     if len(commands) < 12:
         problems.append("README or the tutorial has lost its commands")

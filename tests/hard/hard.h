@@ -4,8 +4,10 @@
    judges. FW_HARD_QUICK=1 leaves out what takes long, for sanitizers and valgrind. */
 #ifndef FW_TEST_HARD_H
 #define FW_TEST_HARD_H
-#include "dynamics/model.h"
+#include "multibody/model.h"
+#include "assembly/assembly.h"
 #include "dynamics/models.h"
+#include "maths/ode.h"
 #include <stdlib.h>
 
 static const double HARD_PI = 3.14159265358979323846;

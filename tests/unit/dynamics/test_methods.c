@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* All methods solve the same equations, M a + G^T lambda = Q, G a = -gamma, on random M and G; what
    they report; memory and numbers that are none. */
-#include "dynamics/methods.h"
-#include "dynamics/dense.h"
+#include "multibody/methods.h"
+#include "multibody/dense.h"
 #include "models.h"
 
 enum { N = 15, ROWS = 12 };

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parts of fw_model_new. Private to multibody/. */
+#ifndef FW_MULTIBODY_BUILD_H
+#define FW_MULTIBODY_BUILD_H
+#include "multibody/model.h"
+
+/* scale.c */
+void fw_model_scale(const fw_mechanism *mechanism, const fw_terms *terms, double duration_s,
+                    fw_scale *scale);
+fw_status fw_model_body_arrays(fw_arena *arena, fw_model *m);
+fw_status fw_model_block_arrays(fw_arena *arena, fw_model *m, int nblock);
+
+#endif

@@ -1,0 +1,319 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The constraint equations Psi(q, t) = 0 of every kind of joint: values, Jacobian G = Psi_q, time
+   derivatives. With p(r) = (-r_y, r_x) the velocity of a body's point r is x' + p(r) w, and with
+   d = x_b + r_b - x_a - r_a, axis e = e(phi_a), normal n = p(e):
+
+   block    Psi                            rows of G for b         rows of G for a
+   PIN      -d                             -[I, p(r_b)]            [I, p(r_a)]
+   TURN     phi_b - phi_a - f              (0, 0, 1)               (0, 0, -1)
+   SLIDE    TURN, and n.d                  (n, n.p(r_b))           -(n, n.p(r_a) + e.d)
+   TRAVEL   e.d - f                        (e, e.p(r_b))           -(e, e.p(r_a) - n.d)
+   ROD      |d| - f                        (d/|d|, d/|d|.p(r_b))   -(d/|d|, d/|d|.p(r_a))
+
+   Only f depends on time, so Psi_t = -f', Psi_tt = -f'', Psi_qt = 0.
+   Source: Haug, Computer Aided Kinematics and Dynamics, 1989, ch. 3; Garcia de Jalon and Bayo 1994.
+   Test: test_constraints.c (differences of Psi along motions). */
+#include "multibody/model.h"
+#include <math.h>
+#include <string.h>
+
+static double dot(const double a[2], const double b[2]) {
+    return a[0] * b[0] + a[1] * b[1];
+}
+
+/* value, first and second derivative of what a block keeps, scaled */
+static void kept(const fw_model *m, const fw_block *b, double t, double f[3]) {
+    f[0] = b->value, f[1] = f[2] = 0;
+    if (!b->law) return;
+    double law[3], unit = m->scale.time_s;
+    fw_law_value(b->law, t * unit, m->piece, law);
+    f[0] += law[0] / b->unit;
+    f[1] = law[1] / b->unit * unit;
+    f[2] = law[2] / b->unit * unit * unit;
+}
+
+void fw_model_frame(const fw_model *m, int i, const double *u, double d[2], double e[2],
+                    double n[2]) {
+    const fw_block *b = &m->block[i];
+    const double *r = m->arm + 4 * i;
+    d[0] = r[2] - r[0] - m->offset[2 * i];
+    d[1] = r[3] - r[1] - m->offset[2 * i + 1];
+    if (b->a < m->nbody) d[0] -= u[3 * b->a], d[1] -= u[3 * b->a + 1];
+    if (b->b < m->nbody) d[0] += u[3 * b->b], d[1] += u[3 * b->b + 1];
+    double c = m->cosine[b->a], s = m->sine[b->a];
+    e[0] = c * b->cos_axis - s * b->sin_axis;
+    e[1] = s * b->cos_axis + c * b->sin_axis;
+    n[0] = -e[1], n[1] = e[0];
+}
+
+static void point_row(double *g, const double direction[2], const double arm[2], double sign) {
+    g[0] = sign * direction[0];
+    g[1] = sign * direction[1];
+    g[2] = sign * (direction[1] * arm[0] - direction[0] * arm[1]);
+}
+
+/* the 2 x 3 Jacobians of block i for a (6), then for b (6) */
+static void block_jacobian(const fw_model *m, int i, const double *u, double *g) {
+    const fw_block *b = &m->block[i];
+    const double *ra = m->arm + 4 * i, *rb = ra + 2;
+    double d[2], e[2], n[2];
+    memset(g, 0, 12 * sizeof *g);
+    fw_model_frame(m, i, u, d, e, n);
+    switch (b->rows) {
+    case FW_ROWS_PIN:
+        g[0] = g[4] = 1, g[2] = -ra[1], g[5] = ra[0];
+        g[6] = g[10] = -1, g[8] = rb[1], g[11] = -rb[0];
+        break;
+    case FW_ROWS_TURN:
+        g[2] = -1, g[8] = 1;
+        break;
+    case FW_ROWS_SLIDE:
+        g[2] = -1, g[8] = 1;
+        point_row(g + 3, n, ra, -1);
+        g[5] -= dot(e, d);
+        point_row(g + 9, n, rb, 1);
+        break;
+    case FW_ROWS_TRAVEL:
+        point_row(g, e, ra, -1);
+        g[2] += dot(n, d);
+        point_row(g + 6, e, rb, 1);
+        break;
+    case FW_ROWS_ROD: {
+        double length = sqrt(dot(d, d));
+        const double along[2] = {d[0] / length, d[1] / length}; /* NaN where the points meet */
+        point_row(g, along, ra, -1);
+        point_row(g + 6, along, rb, 1);
+        break;
+    }
+    }
+    for (int k = 0; k < 6; k++) { /* the ground does not move */
+        if (b->a == m->nbody) g[k] = 0;
+        if (b->b == m->nbody) g[6 + k] = 0;
+    }
+}
+
+void fw_model_pose(fw_model *m, const double *u) {
+    const double *origin = m->origin;
+    m->posed = u;
+    for (int b = 0; b < m->nbody; b++) {
+        double angle = origin[3 * b + 2] + u[3 * b + 2];
+        sincos(angle, &m->sine[b], &m->cosine[b]);
+    }
+    for (int i = 0; i < 2 * m->nblock; i++) {
+        double c = m->cosine[m->body[i]], s = m->sine[m->body[i]];
+        double x = m->local[2 * i], y = m->local[2 * i + 1];
+        m->arm[2 * i] = c * x - s * y;
+        m->arm[2 * i + 1] = s * x + c * y;
+    }
+    if (m->plain) return;
+    for (int i = 0; i < m->nblock; i++)
+        block_jacobian(m, i, u, m->jac + 12 * i);
+}
+
+/* angle of b against a less that at the origin */
+static double turned(const fw_model *m, const fw_block *b, const double *u) {
+    return (b->b < m->nbody ? u[3 * b->b + 2] : 0) - (b->a < m->nbody ? u[3 * b->a + 2] : 0);
+}
+
+static void block_residual(const fw_model *m, int i, double t, const double *u, double psi[2]) {
+    const fw_block *b = &m->block[i];
+    double d[2], e[2], n[2], f[3];
+    fw_model_frame(m, i, u, d, e, n);
+    psi[0] = -d[0], psi[1] = -d[1];
+    if (b->rows == FW_ROWS_PIN) return;
+    kept(m, b, t, f);
+    psi[1] = 0;
+    switch (b->rows) {
+    case FW_ROWS_SLIDE:
+        psi[0] = turned(m, b, u) - f[0];
+        psi[1] = dot(n, d);
+        break;
+    case FW_ROWS_ROD:
+        psi[0] = sqrt(dot(d, d)) - f[0];
+        break;
+    case FW_ROWS_TRAVEL:
+        psi[0] = dot(e, d) - f[0];
+        break;
+    case FW_ROWS_TURN:
+    case FW_ROWS_PIN:
+    default:
+        psi[0] = turned(m, b, u) - f[0];
+    }
+}
+
+double fw_model_residual(fw_model *m, double t, const double *u, double *psi) {
+    fw_model_pose(m, u);
+    double worst = 0;
+    for (int i = 0; i < m->nblock; i++) {
+        block_residual(m, i, t, u, psi + 2 * i);
+        double norm = sqrt(dot(psi + 2 * i, psi + 2 * i));
+        worst = norm > worst || isnan(norm) ? norm : worst;
+    }
+    return worst;
+}
+
+/* ---- products with the Jacobian at the pose ---- */
+
+static const double still[3] = {0};
+
+static const double *of(const fw_model *m, const double *v, int body) {
+    return body < m->nbody ? v + 3 * body : still;
+}
+
+void fw_model_jacobian(const fw_model *m, const double *v, double *r) {
+    for (int i = 0; i < m->nblock; i++) {
+        const double *p = of(m, v, m->body[2 * i]), *q = of(m, v, m->body[2 * i + 1]);
+        if (m->plain) {
+            const double *s = m->arm + 4 * i;
+            r[2 * i] = p[0] - p[2] * s[1] - q[0] + q[2] * s[3];
+            r[2 * i + 1] = p[1] + p[2] * s[0] - q[1] - q[2] * s[2];
+            continue;
+        }
+        const double *g = m->jac + 12 * i, *h = g + 6;
+        for (int k = 0; k < 2; k++, g += 3, h += 3)
+            r[2 * i + k] =
+                g[0] * p[0] + g[1] * p[1] + g[2] * p[2] + h[0] * q[0] + h[1] * q[1] + h[2] * q[2];
+    }
+}
+
+static void add_transpose(const double *g, const double *lambda, double scale, double turn,
+                          double *to) {
+    double x = lambda[0], y = lambda[1];
+    to[0] += scale * (g[0] * x + g[3] * y);
+    to[1] += scale * (g[1] * x + g[4] * y);
+    to[2] += turn * (g[2] * x + g[5] * y);
+}
+
+void fw_model_apply(const fw_model *m, const double *lambda, double *a) {
+    for (int i = 0; i < m->nblock; i++) {
+        int p = m->body[2 * i], q = m->body[2 * i + 1];
+        if (!m->plain) {
+            const double *g = m->jac + 12 * i;
+            if (p < m->nbody) add_transpose(g, lambda + 2 * i, -m->minv[p], -m->jinv[p], a + 3 * p);
+            if (q < m->nbody)
+                add_transpose(g + 6, lambda + 2 * i, -m->minv[q], -m->jinv[q], a + 3 * q);
+            continue;
+        }
+        const double *r = m->arm + 4 * i;
+        double x = lambda[2 * i], y = lambda[2 * i + 1];
+        if (p < m->nbody) {
+            a[3 * p] -= m->minv[p] * x;
+            a[3 * p + 1] -= m->minv[p] * y;
+            a[3 * p + 2] -= m->jinv[p] * (r[0] * y - r[1] * x);
+        }
+        if (q < m->nbody) {
+            a[3 * q] += m->minv[q] * x;
+            a[3 * q + 1] += m->minv[q] * y;
+            a[3 * q + 2] += m->jinv[q] * (r[2] * y - r[3] * x);
+        }
+    }
+}
+
+/* Jacobian of block i, side 0 or 1, also where only arms are kept */
+static void side_jacobian(const fw_model *m, int i, int side, double g[6]) {
+    if (!m->plain) {
+        memcpy(g, m->jac + 12 * i + 6 * side, 6 * sizeof *g);
+        return;
+    }
+    const double *r = m->arm + 4 * i + 2 * side;
+    double sign = m->body[2 * i + side] == m->nbody ? 0 : side ? -1 : 1;
+    const double row[6] = {sign, 0, -sign * r[1], 0, sign, sign * r[0]};
+    memcpy(g, row, sizeof row);
+}
+
+void fw_model_transpose(const fw_model *m, const double *lambda, double *force) {
+    for (int i = 0; i < 2 * m->nblock; i++) {
+        double g[6];
+        if (m->body[i] == m->nbody) continue;
+        side_jacobian(m, i / 2, i % 2, g);
+        add_transpose(g, lambda + 2 * (i / 2), 1, 1, force + 3 * m->body[i]);
+    }
+}
+
+/* ---- time derivatives ---- */
+
+void fw_model_drift(const fw_model *m, double t, double *r) {
+    memset(r, 0, 2 * (size_t)m->nblock * sizeof *r);
+    for (int i = 0; m->driven && i < m->nblock; i++) {
+        double f[3];
+        if (!m->block[i].law) continue;
+        kept(m, &m->block[i], t, f);
+        r[2 * i] = -f[1];
+    }
+}
+
+/* (G v)' at a = 0, of one block that is not a pin */
+static void other_gamma(const fw_model *m, int i, double t, const double *v, double r[2]) {
+    const fw_block *b = &m->block[i];
+    const double *p = of(m, v, b->a), *q = of(m, v, b->b), *ra = m->arm + 4 * i, *rb = ra + 2;
+    double f[3], wa = p[2], wb = q[2];
+    kept(m, b, t, f);
+    r[0] = -f[2], r[1] = 0;
+    if (b->rows == FW_ROWS_TURN) return;
+    /* d, its rate and its second derivative without accelerations */
+    double d[2], e[2], n[2];
+    fw_model_frame(m, i, m->posed, d, e, n);
+    const double rate[2] = {q[0] - wb * rb[1] - p[0] + wa * ra[1],
+                            q[1] + wb * rb[0] - p[1] - wa * ra[0]};
+    const double bend[2] = {wa * wa * ra[0] - wb * wb * rb[0], wa * wa * ra[1] - wb * wb * rb[1]};
+    if (b->rows == FW_ROWS_SLIDE) {
+        r[1] = dot(n, bend) - 2 * wa * dot(e, rate) - wa * wa * dot(n, d);
+    } else if (b->rows == FW_ROWS_TRAVEL) {
+        r[0] += dot(e, bend) + 2 * wa * dot(n, rate) - wa * wa * dot(e, d);
+    } else {
+        double length = sqrt(dot(d, d)), along = dot(d, rate) / length;
+        r[0] += dot(d, bend) / length + (dot(rate, rate) - along * along) / length;
+    }
+}
+
+void fw_model_gamma(const fw_model *m, double t, const double *v, double *r) {
+    for (int i = 0; i < m->nblock; i++) {
+        if (m->block[i].rows != FW_ROWS_PIN) {
+            other_gamma(m, i, t, v, r + 2 * i);
+            continue;
+        }
+        const double *s = m->arm + 4 * i;
+        double wp = of(m, v, m->body[2 * i])[2], wq = of(m, v, m->body[2 * i + 1])[2];
+        wp *= wp, wq *= wq;
+        r[2 * i] = wq * s[2] - wp * s[0];
+        r[2 * i + 1] = wq * s[3] - wp * s[1];
+    }
+}
+
+/* ---- dense, without the empty rows ---- */
+
+static bool two_rows(const fw_block *b) {
+    return b->rows == FW_ROWS_PIN || b->rows == FW_ROWS_SLIDE;
+}
+
+void fw_model_dense_jacobian(const fw_model *m, double *g) {
+    memset(g, 0, (size_t)m->rows * (size_t)m->nq * sizeof *g);
+    for (int i = 0, row = 0; i < m->nblock; i++) {
+        int count = two_rows(&m->block[i]) ? 2 : 1;
+        for (int side = 0; side < 2; side++) {
+            int body = m->body[2 * i + side];
+            double part[6];
+            if (body == m->nbody) continue;
+            side_jacobian(m, i, side, part);
+            for (int k = 0; k < count; k++)
+                for (int c = 0; c < 3; c++)
+                    g[(size_t)(row + k) * (size_t)m->nq + (size_t)(3 * body + c)] +=
+                        part[3 * k + c];
+        }
+        row += count;
+    }
+}
+
+void fw_model_pack(const fw_model *m, const double *block, double *rows) {
+    for (int i = 0, row = 0; i < m->nblock; i++) {
+        rows[row++] = block[2 * i];
+        if (two_rows(&m->block[i])) rows[row++] = block[2 * i + 1];
+    }
+}
+
+void fw_model_unpack(const fw_model *m, const double *rows, double *block) {
+    for (int i = 0, row = 0; i < m->nblock; i++) {
+        block[2 * i] = rows[row++];
+        block[2 * i + 1] = two_rows(&m->block[i]) ? rows[row++] : 0;
+    }
+}

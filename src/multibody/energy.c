@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "multibody/model.h"
+#include <math.h>
+
+static double work_of_loads(const fw_model *m, const double *u) {
+    double work = 0;
+    for (int b = 0; b < m->nbody; b++)
+        for (int c = 0; c < 3; c++)
+            work += (c < 2 ? m->mass[b] : m->inertia[b]) * m->constant[3 * b + c] * u[3 * b + c];
+    for (int i = 0; i < m->nload; i++) {
+        const fw_model_load *l = &m->load[i];
+        double c = m->cosine[l->body], s = m->sine[l->body];
+        double c0 = cos(m->origin[3 * l->body + 2]), s0 = sin(m->origin[3 * l->body + 2]);
+        double dx = u[3 * l->body] + (c - c0) * l->x - (s - s0) * l->y;
+        double dy = u[3 * l->body + 1] + (s - s0) * l->x + (c - c0) * l->y;
+        work += l->fx * dx + l->fy * dy;
+    }
+    return work;
+}
+
+static double stored(const fw_model *m, const double *y) {
+    double energy = 0, stretch, rate;
+    for (int i = 0; i < m->ntorsion; i++) {
+        const fw_model_torsion *t = &m->torsion[i];
+        stretch = t->angle0 + (t->b < m->nbody ? y[3 * t->b + 2] : 0) -
+                  (t->a < m->nbody ? y[3 * t->a + 2] : 0);
+        energy += 0.5 * t->k * stretch * stretch;
+    }
+    for (int i = 0; i < m->nstop; i++) {
+        if (!m->stop[i].on) continue;
+        fw_model_stopped(m, &m->stop[i], y, &stretch, &rate);
+        energy += 0.5 * m->stop[i].k * stretch * stretch;
+    }
+    for (int i = 0; i < m->nspring; i++) {
+        if (!m->spring[i].on) continue;
+        stretch = fw_model_pull(m, &m->spring[i], y).length - m->spring[i].length;
+        energy += 0.5 * m->spring[i].k * stretch * stretch;
+    }
+    for (int i = 0; i < m->nslide; i++) {
+        fw_model_travel(m, &m->slide[i], y, &stretch, &rate);
+        energy += 0.5 * m->slide[i].k * stretch * stretch;
+    }
+    return energy;
+}
+
+/* T = v^T M v / 2; V of torsion springs, stops, point springs and slides, k x^2 / 2 each; W = work
+   of constant loads from the assembled pose, and of drivers and timed loads as carried with the
+   state; D = what dampers took, carried with the state. T + V + D - W is constant. Scaled units.
+   Uses the sines of the pose (fw_model_pose). Test: test_simulate.c, test_forces.c. */
+fw_energy fw_model_energy(fw_model *m, const double *y) {
+    const double *u = y, *v = y + m->nq;
+    fw_energy e = {.dissipated = m->dissipated >= 0 ? y[m->dissipated] : 0};
+    for (int b = 0; b < m->nbody; b++)
+        e.kinetic += 0.5 * (m->mass[b] * (v[3 * b] * v[3 * b] + v[3 * b + 1] * v[3 * b + 1]) +
+                            m->inertia[b] * v[3 * b + 2] * v[3 * b + 2]);
+    e.elastic = stored(m, y);
+    e.work = work_of_loads(m, u) + (m->worked >= 0 ? y[m->worked] : 0);
+    return e;
+}

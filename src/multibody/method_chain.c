@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* chain: S lambda = G M^-1 Q + gamma, a = M^-1 (Q - G^T lambda), with S = G M^-1 G^T eliminated in
+   2 x 2 blocks along the joint graph and the proximal iteration in place of a rank decision. Linear
+   time for chains and rings; redundant joints and singular positions allowed. Source: Carpentier,
+   Budhiraja and Mansard, RSS 2021; Featherstone 2008, ch. 8. Test: test_block_chain.c,
+   test_simulate.c. */
+#include "multibody/kernel.h"
+#include "multibody/methods.h"
+#include <string.h>
+
+static bool factor(fw_model *m) {
+    fw_chain_assemble(m);
+    return fw_chain_factor(&m->chain, m->epsilon);
+}
+
+static void accelerate(fw_model *m, const double *gamma, double *a, double *lambda) {
+    fw_model_jacobian(m, a, m->drift);
+    for (int i = 0; i < 2 * m->nblock; i++)
+        m->drift[i] += gamma[i];
+    fw_chain_proximal(&m->chain, m->drift, lambda, m->more);
+    fw_model_apply(m, lambda, a);
+}
+
+/* d = -M^-1 G^T (S + eps D)^-1 r: rows that cannot be met are left alone */
+static void correct(fw_model *m, const double *r, double *d) {
+    memcpy(m->more, r, 2 * (size_t)m->nblock * sizeof *r);
+    fw_chain_solve(&m->chain, m->more);
+    memset(d, 0, (size_t)m->nq * sizeof *d);
+    fw_model_apply(m, m->more, d);
+}
+
+static fw_status prepare(fw_arena *arena, fw_model *m, const fw_mechanism *mechanism,
+                         fw_diags *diags, void **work) {
+    (void)mechanism, (void)diags, (void)work;
+    return fw_kernel_new(arena, m, &m->kernel);
+}
+
+const fw_method fw_method_chain = {
+    .name = "chain",
+    .summary = "reference-point coordinates, block elimination along the joint graph, proximal "
+               "iteration; linear time, redundant joints and singular positions allowed",
+    .source = "Carpentier, Budhiraja and Mansard 2021; Featherstone 2008",
+    .prepare = prepare,
+    .factor = factor,
+    .accelerate = accelerate,
+    .correct = correct,
+};

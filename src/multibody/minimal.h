@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The order in which `minimal` places bodies one after another, from the ground. Private to
+ * multibody/. */
+#ifndef FW_MULTIBODY_MINIMAL_H
+#define FW_MULTIBODY_MINIMAL_H
+#include "multibody/model.h"
+
+typedef struct fw_placing { /* a body turned about a pin of placed bodies, or a dyad of two */
+    bool dyad;
+    int body[2];  /* the bodies placed; one: body[0] */
+    int block[3]; /* pins: placed - body[0], body[0] - body[1], body[1] - placed; one: block[0] */
+    int turn;     /* one: block that keeps its angle, or FW_NONE */
+    int rate;     /* one: index of its angle among the independent ones, or FW_NONE */
+} fw_placing;
+
+typedef struct fw_placing_plan {
+    fw_placing *step; /* (count) */
+    int count, rates; /* independent angles */
+    int *rate_body;   /* (rates) */
+} fw_placing_plan;
+
+enum { FW_MOST_RATES = 200 }; /* N is dense */
+
+/* FW_SOLVER with a diagnostic that names the body where it ends */
+fw_status fw_placing_find(fw_arena *arena, const fw_model *m, const fw_mechanism *mechanism,
+                          fw_diags *diags, fw_placing_plan *plan);
+
+/* which side of a block a body is on: 0 (a) or 1 (b) */
+static inline int fw_side(const fw_model *m, int block, int body) {
+    return m->body[2 * block] == body ? 0 : 1;
+}
+/* the body on the other side */
+static inline int fw_across(const fw_model *m, int block, int body) {
+    return m->body[2 * block + 1 - fw_side(m, block, body)];
+}
+
+#endif

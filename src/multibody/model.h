@@ -1,0 +1,271 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The compiled scene: everything of one mechanism and its active effects in plain arrays, scaled by
+   the scene's own length, mass and time, constraints in the order of elimination. Private to
+   dynamics/.
+
+   State y = (u, v, dissipated, worked): displacements u (3 nbody) from the assembled pose,
+   velocities v (3 nbody), then, where something needs them, the dissipated energy and the work of
+   drivers and of loads that go with time. The ground is body nbody: it has no state and no mass.
+
+   Constraints come in blocks of two rows between two bodies (fw_block). What has one row leaves the
+   second one empty (0 = 0); a weld is a pin and a turn. So S = G M^-1 G^T has 2 x 2 blocks whatever
+   the joints are. */
+#ifndef FW_MULTIBODY_MODEL_H
+#define FW_MULTIBODY_MODEL_H
+#include "multibody/multibody.h"
+
+typedef struct fw_scale { /* one unit of the model in SI */
+    double length_m, mass_kg, time_s;
+} fw_scale;
+
+/* ---- constraints ----
+   d = x_b + r_b - x_a - r_a from point a to point b; e(phi_a), n(phi_a): axis and normal fixed in
+   a. PIN     -d = 0                              (two rows: the force on b is +lambda) SLIDE phi_b
+   - phi_a - value = 0, n.d = 0 ROD     |d| - value = 0 TURN    phi_b - phi_a - value = 0 TRAVEL e.d
+   - value = 0 value is constant or, with a driver, a law in time. */
+typedef enum fw_rows {
+    FW_ROWS_PIN,
+    FW_ROWS_SLIDE,
+    FW_ROWS_ROD,
+    FW_ROWS_TURN,
+    FW_ROWS_TRAVEL
+} fw_rows;
+
+typedef struct fw_block {
+    fw_rows rows;
+    int a, b;                  /* bodies */
+    double cos_axis, sin_axis; /* in the frame of a */
+    double value;              /* TURN, SLIDE: less the angle at the origin */
+    double free;               /* of a driver: value = free + law */
+    const fw_law *law;         /* NULL: constant */
+    double unit;               /* of the law: SI per scaled */
+    int pin, tie, driver;      /* of the mechanism, or FW_NONE */
+} fw_block;
+
+/* ---- forces ---- */
+typedef struct fw_model_torsion {
+    int a, b;            /* bodies */
+    double k, c, angle0; /* angle - free angle at the assembled pose */
+} fw_model_torsion;
+
+typedef struct fw_model_load {
+    int body;
+    double x, y, fx, fy; /* local arm, force in world axes */
+} fw_model_load;
+
+typedef struct fw_model_timed {
+    int body;
+    double x, y, fx, fy, torque;
+    const fw_law *law;
+} fw_model_timed;
+
+typedef struct fw_model_spring {
+    int a, b;
+    double ax, ay, bx, by; /* local arms */
+    double k, c, length;
+    bool cable; /* only pulls */
+    bool on;    /* a cable: is it taut? (held during a step, changed by events) */
+} fw_model_spring;
+
+typedef struct fw_model_stop {
+    int a, b, pin;
+    double side, at, k, c; /* at: angle from the assembled pose's */
+    bool on;
+} fw_model_stop;
+
+typedef struct fw_model_slide { /* spring and damper along a prismatic joint */
+    int a, b, block;            /* the joint's SLIDE block has points and axis */
+    double k, c, free;
+} fw_model_slide;
+
+/* ---- sparse block LDL^T of S = G M^-1 G^T, 2 x 2 blocks, one row of blocks per constraint block
+ */
+typedef struct fw_coupling { /* a body shared by two blocks: block += J_row M^-1 J_column^T */
+    int block, row_arm, column_arm, body;
+    double sign;
+} fw_coupling;
+
+typedef struct fw_update { /* block[to] -= factor[left] block[right]^T */
+    int to, left, right;
+} fw_update;
+
+typedef struct fw_chain {
+    int pins, blocks, ncoupling; /* pins: rows of blocks; blocks: below the diagonal */
+    int *column;                 /* (pins + 1) first block below the diagonal of each column */
+    int *row;                    /* (blocks) */
+    int *first;                  /* (pins + 1) first update of each column */
+    fw_update *update;
+    fw_coupling *coupling;  /* (ncoupling) */
+    double *diagonal;       /* (3 pins) xx, xy, yy of S */
+    double *isotropic;      /* (2 pins) D of the proximal term: 1/m_a + 1/m_b of a pin's rows */
+    double shift;           /* eps of the last factorisation */
+    double *pivot;          /* (3 pins) inverse of the pivot blocks */
+    double *block, *factor; /* (4 blocks) S below the diagonal, then L */
+} fw_chain;
+
+typedef struct fw_model {
+    fw_scale scale;
+    int nbody, nblock, npin, ntie, ndriver;
+    int nq, ny;             /* 3 nbody; length of the state */
+    int rows;               /* constraint rows that are not empty */
+    bool plain;             /* every block is a pin: arms say everything, `jac` is not filled */
+    bool driven;            /* some block has a law */
+    int dissipated, worked; /* index in the state, or -1 */
+    double *origin;         /* (3 (nbody + 1)) assembled pose, unscaled angle, scaled x and y */
+    double *mass, *inertia; /* (nbody) */
+    double *minv, *jinv;    /* (nbody + 1), 0 for the ground */
+    fw_block *block;        /* (nblock) in the order of elimination */
+    int *pin_block;         /* (npin) block of a pin; (ntie, ndriver) first block of those: */
+    int *tie_block, *driver_block;
+    int *body;        /* (2 nblock) bodies a and b */
+    double *local;    /* (4 nblock) local arms of a and b */
+    double *offset;   /* (2 nblock) x_a - x_b of the origins */
+    double *constant; /* (3 (nbody + 1)) forces / masses: accelerations; 0 for ground */
+    fw_model_torsion *torsion;
+    fw_model_load *load;
+    fw_model_timed *timed;
+    fw_model_stop *stop;
+    fw_model_slide *slide;
+    fw_model_spring *spring;
+    int ntorsion, nload, ntimed, nstop, nslide, nspring;
+    double size; /* largest |offset| + arms: round-off of Psi is eps times this */
+    fw_chain chain;
+    const struct fw_method *method;
+    void *work;               /* the method's */
+    struct fw_kernel *kernel; /* fast path of `chain` for plain models, or NULL */
+    double
+        baumgarte; /* alpha = beta of G a = -gamma - 2 alpha (G v + Psi_t) - beta^2 Psi; 0: none */
+    bool projecting; /* stabilise by projection */
+    double epsilon;  /* of the chain's factor: fw_epsilon, less inside a projection */
+    /* work */
+    double *cosine, *sine;                 /* (nbody + 1) */
+    double *arm;                           /* (4 nblock) arms in world axes */
+    double *jac;                           /* (12 nblock) 2 x 3 of body a, then of b; not plain */
+    double *accel;                         /* (3 (nbody + 1)) */
+    double *lambda, *right, *more, *drift; /* (2 nblock) */
+    double *correction;                    /* (3 (nbody + 1)) */
+    const double *posed;                   /* (3 nbody) the u of the last fw_model_pose */
+    double *stage;                         /* (ny) a closed state, for methods that want one */
+    double piece;                          /* s: a time inside the smooth piece of the laws */
+    bool broken;                           /* no factor: the state is not usable */
+    /* kept over a run */
+    long projections, events;
+    double worst_position, worst_velocity;
+    int stuck; /* block that a projection could not close, and when; -1: none */
+    double stuck_time;
+} fw_model;
+
+/* ---- methods: one file each, method_*.c; rows in table.c ---- */
+
+/* What solves  M a + G^T lambda = Q,  G a = -gamma.  Arrays are in the model's order: a (3 nbody),
+   lambda, gamma, r (2 nblock, empty rows are 0 and stay 0). */
+typedef struct fw_method {
+    const char *name, *summary, *source;
+    /* memory; FW_SOLVER with a diagnostic when it cannot treat this mechanism. NULL: none */
+    fw_status (*prepare)(fw_arena *arena, fw_model *m, const fw_mechanism *mechanism,
+                         fw_diags *diags, void **work);
+    /* for the pose that the model holds (fw_model_pose); false: impossible there */
+    bool (*factor)(fw_model *m);
+    /* a: in M^-1 Q, out the constrained acceleration; lambda: out */
+    void (*accelerate)(fw_model *m, const double *gamma, double *a, double *lambda);
+    /* d with G d = -r: of least mass norm, or the method's own choice */
+    void (*correct)(fw_model *m, const double *r, double *d);
+    /* its own way onto Psi(q, t) = 0 from u; leaves the model posed there. NULL: Newton by correct
+     */
+    bool (*close)(fw_model *m, double t, double *u);
+    /* with close: the right-hand side is evaluated at closed states, so that only the independent
+       coordinates are integrated */
+    bool closes_stages;
+    /* what is worth knowing after a run, one sentence: which coordinates are independent, how often
+       they changed, where the rank dropped. NULL: nothing */
+    fw_status (*report)(const fw_model *m, const fw_mechanism *mechanism, fw_text *out);
+} fw_method;
+const fw_method *fw_method_find(const char *name); /* NULL: unknown; name NULL: the default */
+
+/* check.c: what comes in from mechanism and scene; errors are reported */
+fw_status fw_check_motion(const fw_mechanism *mechanism, const fw_scene *scene, fw_diags *diags);
+/* names.c: id of the joint or driver that a block belongs to */
+const char *fw_block_name(const fw_mechanism *mechanism, const fw_block *block);
+fw_place fw_block_place(const fw_mechanism *mechanism, const fw_block *block);
+
+/* model.c: terms may be NULL (assembly: no forces); method NULL: chain */
+fw_status fw_model_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_terms *terms,
+                       const double *q, double duration_s, const fw_method *method, fw_diags *diags,
+                       fw_model **model);
+
+/* topology.c: elimination order of blocks between bodies (2 n; `ground` does not couple):
+   order[k] = block, then the schedule */
+fw_status fw_topology_order(fw_arena *arena, int n, const int *body, int ground, int *order);
+fw_status fw_chain_compile(fw_arena *arena, fw_model *model);
+
+/* block_chain.c */
+void fw_chain_assemble(fw_model *m);               /* S from the arms, or from jac */
+bool fw_chain_factor(fw_chain *c, double epsilon); /* false: not positive */
+void fw_chain_solve(const fw_chain *c, double *x); /* (S + eps D) x = x, in place; D = isotropic */
+/* S x = right by the proximal iteration; right is kept, x (2 pins) */
+void fw_chain_proximal(const fw_chain *c, const double *right, double *x, double *more);
+
+/* constraints.c */
+void fw_model_pose(fw_model *m, const double *u); /* sines, arms and, unless plain, jac */
+/* d from point a to point b of a block, axis and normal of a, at the pose of u */
+void fw_model_frame(const fw_model *m, int block, const double *u, double d[2], double e[2],
+                    double n[2]);
+/* Psi (2 nblock) at (u, t); largest norm of a block. Poses the model. */
+double fw_model_residual(fw_model *m, double t, const double *u, double *psi);
+void fw_model_jacobian(const fw_model *m, const double *v, double *r);   /* r = G v */
+void fw_model_apply(const fw_model *m, const double *lambda, double *a); /* a -= M^-1 G^T lambda */
+void fw_model_transpose(const fw_model *m, const double *lambda, double *force); /* += G^T lambda */
+void fw_model_drift(const fw_model *m, double t, double *r);                     /* r = Psi_t */
+/* r = G' v + Psi_tt, so that G a = -r; gamma of the text books is -r */
+void fw_model_gamma(const fw_model *m, double t, const double *v, double *r);
+/* G without its empty rows, row-major (rows x nq), and vectors of its rows <-> of blocks */
+void fw_model_dense_jacobian(const fw_model *m, double *g);
+void fw_model_pack(const fw_model *m, const double *block, double *rows);
+void fw_model_unpack(const fw_model *m, const double *rows, double *block);
+
+/* forces.c */
+void fw_model_forces(fw_model *m, double t, const double *y); /* accel = M^-1 Q; posed */
+/* power that dampers take (0), that timed loads give (1); drivers' is lambda . Psi_t. Posed. */
+void fw_model_power(const fw_model *m, double t, const double *y, double power[2]);
+typedef struct fw_pull {   /* a spring between two points, as it is now */
+    double ax, ay, bx, by; /* arms in world axes */
+    double ux, uy, length, rate;
+} fw_pull;
+fw_pull fw_model_pull(const fw_model *m, const fw_model_spring *s, const double *y); /* posed */
+/* e.d - free length of a prismatic joint, and its rate; posed */
+void fw_model_travel(const fw_model *m, const fw_model_slide *s, const double *y, double *travel,
+                     double *rate);
+/* angle past a stop, positive beyond it, and its rate */
+void fw_model_stopped(const fw_model *m, const fw_model_stop *s, const double *y, double *past,
+                      double *rate);
+
+/* rhs.c */
+void fw_model_accelerate(fw_model *m, double t, const double *y, double *f); /* posed, factored */
+void fw_model_rhs(void *model, double t, const double *y, double *f);
+/* the same, and lambda is there afterwards */
+void fw_model_react(fw_model *m, double t, const double *y, double *f);
+
+/* project.c */
+bool fw_model_project(void *model, double t, double *y, double *f);
+bool fw_model_project_position(fw_model *m, double t, double *u);
+bool fw_model_project_velocity(fw_model *m, double t, double *v); /* factor belongs to the pose */
+bool fw_model_impact(fw_model *m, double t,
+                     double *v); /* likewise: least change in the mass metric */
+
+/* energy.c */
+typedef struct fw_energy {
+    double kinetic, elastic, work, dissipated;
+} fw_energy;
+fw_energy fw_model_energy(fw_model *m, const double *y);
+
+/* events.c: what holds only on one side (stops, cables) */
+int fw_model_switches(const fw_model *m);
+void fw_model_set_switches(fw_model *m, const double *y); /* all flags from the state; posed here */
+/* > 0: should be on. Reads only u and v of the bodies concerned. */
+double fw_model_switch_value(fw_model *m, int i, const double *y);
+bool fw_model_switch_on(const fw_model *m, int i);
+void fw_model_flip(fw_model *m, int i, double *y); /* energy that is let go counts as dissipated */
+
+static const double fw_epsilon = 1e-8; /* proximal term, relative to 1/m_a + 1/m_b of each pin */
+
+#endif

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "multibody/kernel.h"
+#include <math.h>
+#include <string.h>
+
+/* gamma + 2 alpha (G v + Psi_t) + alpha^2 Psi: the drift of a free run dies away. Source:
+   Baumgarte 1972 */
+static void baumgarte(fw_model *m, double t, const double *y, double *gamma) {
+    double alpha = m->baumgarte;
+    fw_model_jacobian(m, y + m->nq, m->more);
+    fw_model_drift(m, t, m->drift);
+    for (int i = 0; i < 2 * m->nblock; i++)
+        gamma[i] += 2 * alpha * (m->more[i] + m->drift[i]);
+    fw_model_residual(m, t, y, m->more);
+    for (int i = 0; i < 2 * m->nblock; i++)
+        gamma[i] += alpha * alpha * m->more[i];
+}
+
+/* f = (v, a, power) with M a + G^T lambda = Q, G a = -gamma, gamma = G' v + Psi_tt. Inputs: state
+   y; pose and factor at its u. Output f (ny). Error: round-off times cond(S). Cost: the method's.
+   Source: Lagrange multipliers in index-1 form; Garcia de Jalon and Bayo 1994, ch. 5. Test:
+   test_simulate.c (reference six-bar). */
+void fw_model_accelerate(fw_model *m, double t, const double *y, double *f) {
+    const double *v = y + m->nq;
+    fw_model_forces(m, t, y);
+    fw_model_gamma(m, t, v, m->right);
+    if (m->baumgarte > 0) baumgarte(m, t, y, m->right);
+    m->method->accelerate(m, m->right, m->accel, m->lambda);
+    for (int i = 0; i < m->nq; i++) {
+        f[i] = v[i];
+        f[m->nq + i] = m->broken ? (double)NAN : m->accel[i];
+    }
+    if (m->ny == 2 * m->nq) return;
+    double power[2];
+    fw_model_power(m, t, y, power);
+    if (m->driven) {
+        fw_model_drift(m, t, m->drift);
+        for (int i = 0; i < 2 * m->nblock; i++)
+            power[1] += m->lambda[i] * m->drift[i];
+    }
+    if (m->dissipated >= 0) f[m->dissipated] = power[0];
+    if (m->worked >= 0) f[m->worked] = power[1];
+}
+
+/* methods that integrate independent coordinates see the closed state that belongs to them */
+static const double *closed(fw_model *m, double t, const double *y) {
+    memcpy(m->stage, y, (size_t)m->ny * sizeof *y);
+    m->broken = !m->method->close(m, t, m->stage) || !m->method->factor(m) ||
+                !fw_model_project_velocity(m, t, m->stage + m->nq);
+    return m->stage;
+}
+
+void fw_model_rhs(void *model, double t, const double *y, double *f) {
+    fw_model *m = model;
+    if (m->kernel && m->baumgarte == 0) {
+        fw_kernel_rhs(m->kernel, y, f);
+        return;
+    }
+    if (m->method->closes_stages) {
+        y = closed(m, t, y);
+    } else {
+        fw_model_pose(m, y);
+        m->broken = !m->method->factor(m);
+    }
+    fw_model_accelerate(m, t, y, f);
+}
+
+void fw_model_react(fw_model *m, double t, const double *y, double *f) {
+    fw_model_rhs(m, t, y, f);
+    if (m->kernel && m->baumgarte == 0)
+        memcpy(m->lambda, fw_kernel_lambda(m->kernel), 2 * (size_t)m->nblock * sizeof(double));
+}

@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "multibody/build.h"
+#include <math.h>
+
+/* ---- sizes of the scene ---- */
+
+static void add_arm(int body, double x, double y, double *sum, int *count) {
+    if (body != FW_GROUND) *sum += x * x + y * y, ++*count;
+}
+
+/* twice the rms distance between the centres of mass and their joints; a mechanism without such
+   arms takes its radius of gyration */
+static double scene_length(const fw_mechanism *m) {
+    double sum = 0, inertia = 0, mass = 0;
+    int count = 0;
+    for (int i = 0; i < m->npin; i++) {
+        const fw_pin *p = &m->pin[i];
+        add_arm(p->body_a, p->ax_m, p->ay_m, &sum, &count);
+        add_arm(p->body_b, p->bx_m, p->by_m, &sum, &count);
+    }
+    for (int i = 0; i < m->ntie; i++) {
+        const fw_tie *t = &m->tie[i];
+        add_arm(t->body_a, t->ax_m, t->ay_m, &sum, &count);
+        add_arm(t->body_b, t->bx_m, t->by_m, &sum, &count);
+    }
+    for (int b = 0; b < m->nbody; b++)
+        inertia += m->body[b].inertia_kg_m2, mass += m->body[b].mass_kg;
+    double arms = count ? 2 * sqrt(sum / count) : 0, gyration = sqrt(inertia / mass);
+    return fmax(arms, gyration);
+}
+
+/* 1/T^2 = (sum k + sum k_s L^2 + L sum |F| + sum |torque|) / sum (J + m L^2) + (v/L)^2 + omega^2 */
+static double scene_time(const fw_mechanism *m, const fw_terms *terms, double length,
+                         double duration) {
+    if (!terms) return 1;
+    double inertia = 0, torque = 0, speed = 0;
+    for (int b = 0; b < m->nbody; b++) {
+        const double *f = terms->constant + 3 * b, *v = terms->velocity + 3 * b;
+        inertia += m->body[b].inertia_kg_m2 + m->body[b].mass_kg * length * length;
+        torque += length * hypot(f[0], f[1]) + fabs(f[2]);
+        speed = fmax(speed, fmax(hypot(v[0], v[1]) / length, fabs(v[2])));
+    }
+    for (int i = 0; i < terms->ntorsion; i++)
+        torque += terms->torsion[i].stiffness_Nm_per_rad;
+    for (int i = 0; i < terms->nspring; i++)
+        torque += terms->spring[i].stiffness_N_per_m * length * length;
+    for (int i = 0; i < terms->nslide; i++)
+        torque += terms->slide[i].stiffness_N_per_m * length * length;
+    for (int i = 0; i < terms->nload; i++)
+        torque += length * hypot(terms->load[i].fx_N, terms->load[i].fy_N);
+    for (int i = 0; i < terms->ntimed; i++) {
+        const fw_timed_load *l = &terms->timed[i];
+        torque += length * hypot(l->fx_N, l->fy_N) + fabs(l->torque_Nm);
+    }
+    double square = torque / inertia + speed * speed;
+    return square > 0 && isfinite(square) ? 1 / sqrt(square) : duration;
+}
+
+void fw_model_scale(const fw_mechanism *mechanism, const fw_terms *terms, double duration_s,
+                    fw_scale *scale) {
+    double mass = 0;
+    for (int b = 0; b < mechanism->nbody; b++)
+        mass += mechanism->body[b].mass_kg;
+    scale->mass_kg = mass / mechanism->nbody;
+    scale->length_m = scene_length(mechanism);
+    scale->time_s = scene_time(mechanism, terms, scale->length_m, duration_s);
+}
+
+/* ---- arrays ---- */
+
+fw_status fw_model_body_arrays(fw_arena *arena, fw_model *m) {
+    size_t n = (size_t)m->nbody;
+    FW_NEED(m->origin = fw_arena_array(arena, double, 3 * (n + 1)));
+    FW_NEED(m->mass = fw_arena_array(arena, double, n));
+    FW_NEED(m->inertia = fw_arena_array(arena, double, n));
+    FW_NEED(m->minv = fw_arena_array(arena, double, n + 1));
+    FW_NEED(m->jinv = fw_arena_array(arena, double, n + 1));
+    FW_NEED(m->constant = fw_arena_array(arena, double, 3 * (n + 1)));
+    FW_NEED(m->cosine = fw_arena_array(arena, double, n + 1));
+    FW_NEED(m->sine = fw_arena_array(arena, double, n + 1));
+    FW_NEED(m->accel = fw_arena_array(arena, double, 3 * (n + 1)));
+    FW_NEED(m->correction = fw_arena_array(arena, double, 3 * (n + 1)));
+    FW_NEED(m->pin_block = fw_arena_array(arena, int, (size_t)m->npin));
+    FW_NEED(m->tie_block = fw_arena_array(arena, int, (size_t)m->ntie));
+    FW_NEED(m->driver_block = fw_arena_array(arena, int, (size_t)m->ndriver));
+    return FW_OK;
+}
+
+fw_status fw_model_block_arrays(fw_arena *arena, fw_model *m, int nblock) {
+    size_t p = (size_t)nblock;
+    m->nblock = nblock;
+    FW_NEED(m->block = fw_arena_array(arena, fw_block, p));
+    FW_NEED(m->body = fw_arena_array(arena, int, 2 * p));
+    FW_NEED(m->local = fw_arena_array(arena, double, 4 * p));
+    FW_NEED(m->offset = fw_arena_array(arena, double, 2 * p));
+    FW_NEED(m->arm = fw_arena_array(arena, double, 4 * p));
+    FW_NEED(m->jac = fw_arena_array(arena, double, 12 * p));
+    FW_NEED(m->lambda = fw_arena_array(arena, double, 2 * p));
+    FW_NEED(m->right = fw_arena_array(arena, double, 2 * p));
+    FW_NEED(m->more = fw_arena_array(arena, double, 2 * p));
+    FW_NEED(m->drift = fw_arena_array(arena, double, 2 * p));
+    return FW_OK;
+}

@@ -1,0 +1,332 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "statics/rest.h"
+#include "assembly/assembly.h"
+#include "statics/tangent.h"
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *fw_rest_scene_name(const fw_rest *w) {
+    return w->scene->name ? w->scene->name : "(unnamed)";
+}
+
+double fw_rest_per_s2(const fw_rest *w) {
+    return 1 / (w->model->scale.time_s * w->model->scale.time_s);
+}
+
+/* ---- the scene without time ---- */
+
+/* a law at the scene's end, or at its start, as the limit from inside */
+static fw_status law_at(fw_arena *arena, const fw_law *law, double duration, bool end,
+                        double *value) {
+    double all[3], *at, edge = end ? 0 : duration;
+    int count = fw_law_breaks(law, duration, NULL, 0);
+    fw_mark mark = fw_arena_mark(arena);
+    FW_NEED(at = fw_arena_array(arena, double, (size_t)count));
+    count = fw_law_breaks(law, duration, at, count);
+    for (int i = 0; i < count; i++)
+        edge = end ? fmax(edge, at[i]) : fmin(edge, at[i]);
+    fw_arena_rewind(arena, mark);
+    double t = end ? duration : 0;
+    fw_law_value(law, t, 0.5 * (t + edge), all);
+    *value = all[0];
+    return FW_OK;
+}
+
+/* loads with a law become constant ones of their value at the end */
+static fw_status freeze(fw_rest *w, fw_terms *terms) {
+    fw_point_load *load;
+    double *constant;
+    size_t n = 3 * (size_t)terms->nbody, have = (size_t)terms->nload;
+    FW_NEED(load = fw_arena_array(w->arena, fw_point_load, have + (size_t)terms->ntimed));
+    FW_NEED(constant = fw_arena_array(w->arena, double, n));
+    if (have) memcpy(load, terms->load, have * sizeof *load);
+    memcpy(constant, terms->constant, n * sizeof *constant);
+    for (int i = 0; i < terms->ntimed; i++) {
+        const fw_timed_load *l = &terms->timed[i];
+        double factor;
+        if (l->body == FW_GROUND) continue;
+        FW_TRY(law_at(w->arena, l->law, w->scene->duration_s, true, &factor));
+        load[have++] = (fw_point_load){l->body, l->x_m, l->y_m, factor * l->fx_N, factor * l->fy_N};
+        constant[3 * l->body + 2] += factor * l->torque_Nm;
+    }
+    terms->load = load;
+    terms->nload = (int)have;
+    terms->constant = constant;
+    terms->ntimed = 0;
+    return FW_OK;
+}
+
+static bool gravity_acts(const fw_rest *w) {
+    for (int i = 0; i < w->ledger.count; i++)
+        if (strcmp(w->ledger.item[i].id, "gravity") == 0)
+            return w->ledger.item[i].active && w->scene->gravity;
+    return false;
+}
+
+/* what acts always, and what goes with s */
+static void split_loads(fw_rest *w) {
+    const fw_model *m = w->model;
+    double unit = m->scale.time_s * m->scale.time_s / m->scale.length_m;
+    if (gravity_acts(w))
+        for (int b = 0; b < m->nbody; b++) {
+            w->gravity[3 * b] = unit * w->scene->gx_m_per_s2;
+            w->gravity[3 * b + 1] = unit * w->scene->gy_m_per_s2;
+        }
+    for (int i = 0; i < m->nq; i++) {
+        double rest = m->constant[i] - w->gravity[i];
+        /* where only weight acts the difference is round-off */
+        w->loads[i] = fabs(rest) > 4 * DBL_EPSILON * fabs(m->constant[i]) ? rest : 0;
+    }
+    for (int i = 0; i < m->nload; i++)
+        w->load[i] = m->load[i];
+}
+
+/* drivers lose their laws: the blocks keep values that fw_rest_factor sets */
+static fw_status split_drivers(fw_rest *w) {
+    fw_model *m = w->model;
+    for (int i = 0; i < m->nblock; i++) {
+        fw_block *b = &m->block[i];
+        w->start[i] = b->value;
+        if (!b->law) continue;
+        double first, last;
+        FW_TRY(law_at(w->arena, b->law, w->scene->duration_s, false, &first));
+        FW_TRY(law_at(w->arena, b->law, w->scene->duration_s, true, &last));
+        w->start[i] += first / b->unit;
+        w->way[i] = (last - first) / b->unit;
+        w->moving = w->moving || w->way[i] != 0;
+        b->law = NULL;
+    }
+    m->driven = false;
+    return FW_OK;
+}
+
+static fw_status arrays(fw_rest *w) {
+    const fw_model *m = w->model;
+    size_t n = (size_t)m->nq, blocks = (size_t)m->nblock;
+    double **vector[] = {&w->force, &w->slope,   &w->follow, &w->push, &w->gradient,
+                         &w->noise, &w->gravity, &w->loads,  &w->step};
+    for (size_t i = 0; i < sizeof vector / sizeof vector[0]; i++)
+        FW_NEED(*vector[i] = fw_arena_array(w->arena, double, n + 3));
+    FW_NEED(w->y = fw_arena_array(w->arena, double, (size_t)m->ny));
+    FW_NEED(w->trial = fw_arena_array(w->arena, double, (size_t)m->ny));
+    FW_NEED(w->stiffness = fw_arena_array(w->arena, double, n *n));
+    FW_NEED(w->lambda = fw_arena_array(w->arena, double, 2 * blocks));
+    FW_NEED(w->psi = fw_arena_array(w->arena, double, 2 * blocks));
+    FW_NEED(w->start = fw_arena_array(w->arena, double, blocks));
+    FW_NEED(w->way = fw_arena_array(w->arena, double, blocks));
+    FW_NEED(w->load = fw_arena_array(w->arena, fw_model_load, (size_t)m->nload));
+    return FW_OK;
+}
+
+static fw_status too_large(const fw_rest *w) {
+    fw_status status = fw_diag_error(
+        w->diags, 112, w->scene->place,
+        "%d bodies are more than the %d that equilibria and modes are computed for (dense "
+        "matrices); simulate has no such limit",
+        w->mechanism->nbody, FW_STATICS_MOST / 3);
+    return status == FW_NOMEM ? FW_NOMEM : FW_LIMIT;
+}
+
+fw_status fw_rest_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                      const fw_effect_choice *effects, fw_diags *diags, fw_rest *w) {
+    fw_terms terms;
+    double moved;
+    size_t n = 3 * (size_t)mechanism->nbody;
+    *w = (fw_rest){.arena = arena, .mechanism = mechanism, .scene = scene, .diags = diags};
+    FW_TRY(fw_check_motion(mechanism, scene, diags));
+    if (n > FW_STATICS_MOST) return too_large(w);
+    fw_effect_choice choice = *effects;
+    if (choice.mode == FW_EFFECTS_AUTO) choice.mode = FW_EFFECTS_ALL;
+    FW_TRY(fw_effects_compile(arena, mechanism, scene, &choice, 1e-3, diags, &w->ledger, &terms));
+    FW_TRY(freeze(w, &terms));
+    FW_NEED(w->q0 = fw_arena_array(arena, double, n));
+    for (int b = 0; b < mechanism->nbody; b++) {
+        w->q0[3 * b] = mechanism->body[b].x_m;
+        w->q0[3 * b + 1] = mechanism->body[b].y_m;
+        w->q0[3 * b + 2] = mechanism->body[b].phi_rad;
+    }
+    FW_TRY(fw_assemble(arena, mechanism, w->q0, &moved, diags));
+    FW_TRY(
+        fw_model_new(arena, mechanism, &terms, w->q0, scene->duration_s, NULL, diags, &w->model));
+    FW_TRY(arrays(w));
+    split_loads(w);
+    FW_TRY(split_drivers(w));
+    FW_TRY(fw_reduced_new(arena, w->model, &w->reduced));
+    fw_rest_factor(w, 0);
+    return FW_OK;
+}
+
+void fw_rest_factor(fw_rest *w, double s) {
+    fw_model *m = w->model;
+    w->factor = s;
+    for (int i = 0; i < m->nq; i++)
+        m->constant[i] = w->gravity[i] + s * w->loads[i];
+    for (int i = 0; i < m->nload; i++) {
+        m->load[i].fx = s * w->load[i].fx;
+        m->load[i].fy = s * w->load[i].fy;
+    }
+    for (int i = 0; i < m->nblock; i++)
+        m->block[i].value = w->start[i] + s * w->way[i];
+}
+
+/* ---- one state ---- */
+
+bool fw_rest_close(fw_rest *w, double *u) {
+    fw_model *m = w->model;
+    fw_model_pose(m, u);
+    for (int i = 0; i < m->nq; i++)
+        if (!isfinite(u[i])) return false;
+    if (m->nblock > 0 && (!m->method->factor(m) || !fw_model_project_position(m, 0, u)))
+        return false;
+    memcpy(w->trial, u, (size_t)m->nq * sizeof *u);
+    fw_model_set_switches(m, w->trial); /* at rest: the velocities of trial are 0 */
+    fw_model_pose(m, u);
+    return true;
+}
+
+double fw_rest_energy(fw_rest *w, const double *u, double *size) {
+    memcpy(w->trial, u, (size_t)w->model->nq * sizeof *u);
+    fw_energy e = fw_model_energy(w->model, w->trial);
+    *size = fabs(e.elastic) + fabs(e.work);
+    return e.elastic - e.work;
+}
+
+static double inertia_of(const fw_model *m, int i) {
+    return i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3];
+}
+
+/* dQ/ds: the loads in full; du/ds of least mass norm with G du/ds = -dPsi/ds */
+static void derivative_by_factor(fw_rest *w) {
+    const fw_model *m = w->model;
+    for (int i = 0; i < m->nq; i++)
+        w->slope[i] = inertia_of(m, i) * w->loads[i];
+    for (int i = 0; i < m->nload; i++) {
+        const fw_model_load *l = &w->load[i];
+        double c = m->cosine[l->body], s = m->sine[l->body], *to = w->slope + 3 * l->body;
+        to[0] += l->fx;
+        to[1] += l->fy;
+        to[2] += (c * l->x - s * l->y) * l->fy - (s * l->x + c * l->y) * l->fx;
+    }
+    memset(w->follow, 0, (size_t)m->nq * sizeof(double));
+    if (!w->moving) return;
+    for (int i = 0; i < m->nblock; i++)
+        w->psi[2 * i] = -w->way[i], w->psi[2 * i + 1] = 0;
+    fw_reduced_correct(m, &w->reduced, w->psi, w->follow);
+}
+
+/* forces along the modes, their derivative by s, and the round-off that they carry */
+static void project_on_modes(fw_rest *w) {
+    const fw_reduced *r = &w->reduced;
+    size_t n = (size_t)r->n;
+    double *bent = w->step; /* dQ/ds - K du/ds */
+    for (size_t i = 0; i < n; i++) {
+        bent[i] = w->slope[i];
+        for (size_t j = 0; w->moving && j < n; j++)
+            bent[i] -= w->stiffness[i * n + j] * w->follow[j];
+    }
+    for (size_t k = 0; k < (size_t)r->dof; k++) {
+        const double *shape = r->shape + k * n;
+        w->gradient[k] = w->push[k] = w->noise[k] = 0;
+        for (size_t i = 0; i < n; i++) {
+            w->gradient[k] += shape[i] * w->force[i];
+            w->push[k] += shape[i] * bent[i];
+            w->noise[k] += 64 * DBL_EPSILON * fabs(shape[i]) *
+                           (fabs(w->force[i]) + fabs(w->slope[i]) + fabs(w->stiffness[i * n + i]));
+        }
+    }
+}
+
+/* Q, lambda, K = d(G^T lambda)/du - dQ/du, modes of K on the motions that G allows, and along each
+   mode the force. State w->y is moved onto the constraints first. Error: round-off. Cost about
+   30 n^3. Test: test_statics.c. */
+fw_status fw_rest_evaluate(fw_rest *w) {
+    fw_model *m = w->model;
+    if (!fw_rest_close(w, w->y)) return FW_SOLVER;
+    FW_TRY(fw_reduced_null(m, &w->reduced));
+    fw_model_forces(m, 0, w->y);
+    for (int i = 0; i < m->nq; i++) {
+        w->force[i] = inertia_of(m, i) * m->accel[i];
+        if (!isfinite(w->force[i])) return FW_SOLVER;
+    }
+    fw_reduced_multipliers(m, &w->reduced, w->force, w->lambda);
+    fw_tangent(m, 0, w->y, w->lambda, w->stiffness, NULL);
+    FW_TRY(fw_reduced_spectrum(&w->reduced, w->stiffness));
+    derivative_by_factor(w);
+    project_on_modes(w);
+    return FW_OK;
+}
+
+/* ---- to SI, and words ---- */
+
+void fw_rest_pose(const fw_rest *w, const double *u, double *q, double *angle) {
+    for (int i = 0; i < w->model->nq; i++)
+        q[i] = w->q0[i] + (i % 3 == 2 ? 1 : w->model->scale.length_m) * u[i];
+    for (int i = 0; angle && i < w->mechanism->npin; i++) {
+        const fw_pin *p = &w->mechanism->pin[i];
+        angle[i] = (p->body_b == FW_GROUND ? 0 : q[3 * p->body_b + 2]) -
+                   (p->body_a == FW_GROUND ? 0 : q[3 * p->body_a + 2]) - p->free_angle_rad;
+    }
+}
+
+void fw_rest_reactions(const fw_rest *w, double *reaction) {
+    const fw_model *m = w->model;
+    double newton = m->scale.mass_kg * m->scale.length_m * fw_rest_per_s2(w);
+    for (int i = 0; i < 2 * m->npin; i++)
+        reaction[i] = newton * w->lambda[2 * m->pin_block[i / 2] + i % 2];
+}
+
+/* rows that take part in a combination of rows that is zero: what U_1, the part of U that counts,
+   misses of a unit row */
+fw_status fw_rest_rank(const fw_rest *w, fw_row_rank *rank) {
+    const fw_reduced *r = &w->reduced;
+    const fw_model *m = w->model;
+    *rank = (fw_row_rank){.rows = r->rows, .rank = r->rank};
+    if (r->largest > 0) rank->kept = r->kept / r->largest, rank->dropped = r->dropped / r->largest;
+    if (r->rank == r->rows) return FW_OK;
+    fw_text names = fw_text_new(w->arena);
+    for (int i = 0, row = 0; i < m->nblock; i++) {
+        int count = m->block[i].rows == FW_ROWS_PIN || m->block[i].rows == FW_ROWS_SLIDE ? 2 : 1;
+        double missing = count;
+        for (int k = 0; k < count; k++, row++)
+            for (int l = 0; l < r->rank; l++) {
+                double part = r->left[(size_t)l * (size_t)r->rows + (size_t)row];
+                missing -= part * part;
+            }
+        if (missing > 0.02)
+            fw_text_printf(&names, "%s%s", names.length ? ", " : "",
+                           fw_block_name(w->mechanism, &w->model->block[i]));
+    }
+    FW_TRY(fw_text_end(&names));
+    rank->joints = names.data;
+    return FW_OK;
+}
+
+static double part_of(const double *shape, int body) {
+    return fmax(fabs(shape[3 * body + 2]), hypot(shape[3 * body], shape[3 * body + 1]));
+}
+
+int fw_rest_mover(const fw_rest *w, const double *shape) {
+    int best = 0;
+    for (int b = 1; b < w->model->nbody; b++)
+        if (part_of(shape, b) > part_of(shape, best)) best = b;
+    return best;
+}
+
+fw_status fw_rest_bodies(const fw_rest *w, const double *shape, const char **names) {
+    enum { FEW = 6 };
+    int first = fw_rest_mover(w, shape), named = 1, count = 1;
+    fw_text text = fw_text_new(w->arena);
+    const char *id = w->mechanism->body[first].id;
+    fw_text_add(&text, id ? id : "(unnamed)");
+    for (int b = 0; b < w->model->nbody; b++) {
+        if (b == first || part_of(shape, b) < 0.1 * part_of(shape, first)) continue;
+        id = w->mechanism->body[b].id;
+        if (++count <= FEW && ++named) fw_text_printf(&text, ", %s", id ? id : "(unnamed)");
+    }
+    if (count > named) fw_text_printf(&text, " and %d more", count - named);
+    FW_TRY(fw_text_end(&text));
+    *names = text.data;
+    return FW_OK;
+}

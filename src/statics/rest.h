@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A mechanism without time: loads and drivers at a load factor, equilibrium and tangent. Scaled
+   units. Private to statics/. */
+#ifndef FW_STATICS_REST_H
+#define FW_STATICS_REST_H
+#include "statics/reduced.h"
+#include "statics/statics.h"
+
+/* dense matrices of 3 nbody unknowns: more would take minutes */
+enum { FW_STATICS_MOST = 1200 };
+
+typedef struct fw_rest {
+    fw_arena *arena;
+    const fw_mechanism *mechanism;
+    const fw_scene *scene;
+    fw_diags *diags;
+    fw_effect_ledger ledger;
+    fw_model *model;
+    fw_reduced reduced;
+    double *q0;        /* (3 nbody) assembled, SI */
+    double *y;         /* (ny) state; u first, all else 0 */
+    double factor;     /* s */
+    double *force;     /* (n) Q */
+    double *slope;     /* (n) dQ/ds */
+    double *follow;    /* (n) du/ds of least mass norm that the drivers force; 0 without them */
+    double *stiffness; /* (n x n) */
+    double *lambda;    /* (2 nblock) */
+    double *gradient;  /* (dof) force along each mode */
+    double *push;      /* (dof) along each mode: its derivative by s, drivers included */
+    double *noise;     /* (dof) round-off of the gradient */
+    /* what goes with s */
+    double *gravity, *loads; /* (n + 3) accelerations */
+    fw_model_load *load;     /* (nload) as at s = 1 */
+    double *start, *way;     /* (nblock) driver values at s = 0 and from there to s = 1 */
+    double *psi, *trial, *step;
+    bool moving; /* some driver moves */
+    int iterations;
+} fw_rest;
+
+/* model of the scene's end at the assembled pose, s = 0, not evaluated */
+fw_status fw_rest_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                      const fw_effect_choice *effects, fw_diags *diags, fw_rest *w);
+void fw_rest_factor(fw_rest *w, double s);
+/* u onto the constraints at the present s; leaves the model posed, the switches set. false: no */
+bool fw_rest_close(fw_rest *w, double *u);
+/* potential energy at a closed u; *size: sum of its terms' sizes */
+double fw_rest_energy(fw_rest *w, const double *u, double *size);
+/* everything at w->y, closed first: force, lambda, stiffness, modes, gradient, push. FW_SOLVER: the
+   joints cannot close, or something is not finite */
+fw_status fw_rest_evaluate(fw_rest *w);
+/* Newton step along the modes at an evaluated state: step (n), largest component returned */
+double fw_rest_newton(const fw_rest *w, double *step);
+/* the forces along all modes are round-off: what a soft mode does then means nothing */
+bool fw_rest_quiet(const fw_rest *w);
+/* from w->y to a stable equilibrium at the present s. FW_SOLVER without a message: there is none */
+fw_status fw_rest_descend(fw_rest *w, bool *left_unstable);
+/* from the assembled pose to the stable equilibrium at s = 1; says when there is none */
+fw_status fw_rest_settle(fw_rest *w, bool *left_unstable);
+/* path.c: from the equilibrium at s = 0; ends there where the path ends */
+fw_status fw_rest_follow(fw_rest *w, int most_points, fw_path **path);
+
+/* SI: pose, joint angles, joint forces of an evaluated state */
+void fw_rest_pose(const fw_rest *w, const double *u, double *q, double *angle);
+void fw_rest_reactions(const fw_rest *w, double *reaction);
+fw_status fw_rest_rank(const fw_rest *w, fw_row_rank *rank);
+/* names of the bodies that take part in a motion (n), the one that moves most first */
+fw_status fw_rest_bodies(const fw_rest *w, const double *shape, const char **names);
+int fw_rest_mover(const fw_rest *w, const double *shape);
+/* 1/s^2 per scaled eigenvalue */
+double fw_rest_per_s2(const fw_rest *w);
+const char *fw_rest_scene_name(const fw_rest *w);
+
+#endif

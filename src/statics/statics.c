@@ -1,0 +1,264 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "statics/statics.h"
+#include "base/cancel.h"
+#include "statics/rest.h"
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+static const double fw_longest_step = 0.5; /* rad, or scaled lengths */
+/* beyond this the mechanism runs away: no load of a scene turns a part five times around */
+static const double fw_far = 32;
+enum { FW_NEWTON_STEPS = 400, FW_ESCAPES = 20 };
+
+/* ---- descent ---- */
+
+/* du = sum of modes times force / |stiffness|: the Newton step where all stiffnesses are positive,
+   a descent of the energy always. A mode without stiffness goes with its force when there is one
+   above round-off, else it rests. */
+double fw_rest_newton(const fw_rest *w, double *step) {
+    const fw_reduced *r = &w->reduced;
+    size_t n = (size_t)r->n;
+    double most = 0;
+    memset(step, 0, n * sizeof *step);
+    for (size_t k = 0; k < (size_t)r->dof; k++) {
+        double stiff = fabs(r->value[k]), force = w->gradient[k];
+        if (stiff <= r->zero[k]) {
+            if (fabs(force) <= w->noise[k]) continue;
+            stiff = fmax(r->zero[k], 1e-12);
+        }
+        for (size_t i = 0; i < n; i++)
+            step[i] += r->shape[k * n + i] * (force / stiff);
+    }
+    for (size_t i = 0; i < n; i++)
+        most = fmax(most, fabs(step[i]));
+    return most;
+}
+
+bool fw_rest_quiet(const fw_rest *w) {
+    for (int k = 0; k < w->reduced.dof; k++)
+        if (fabs(w->gradient[k]) > w->noise[k]) return false;
+    return true;
+}
+
+static double slope_along(const fw_rest *w, const double *step) {
+    double slope = 0;
+    for (int i = 0; i < w->model->nq; i++)
+        slope += w->force[i] * step[i];
+    return slope;
+}
+
+/* halves the step until the potential falls by a share of what the force promises (Armijo) */
+static bool line_search(fw_rest *w, const double *from, const double *step, double *to) {
+    double size, promise = slope_along(w, step), before = fw_rest_energy(w, from, &size);
+    for (double share = 1; share > 1e-4; share /= 2) {
+        for (int i = 0; i < w->model->nq; i++)
+            to[i] = from[i] + share * step[i];
+        if (!fw_rest_close(w, to)) continue;
+        double after = fw_rest_energy(w, to, &size);
+        if (after <= before - 1e-4 * share * promise + 8 * DBL_EPSILON * size) return true;
+    }
+    return false;
+}
+
+/* an equilibrium that is no minimum is left along its most unstable mode, to the side where the
+   energy falls more; false: stable, or indifferent */
+static bool escape(fw_rest *w, double *to) {
+    const fw_reduced *r = &w->reduced;
+    if (r->dof == 0 || r->value[0] >= -r->zero[0]) return false;
+    const double *u = w->y;
+    double most = 0, best = (double)INFINITY, size, length = 0;
+    for (int i = 0; i < r->n; i++)
+        most = fmax(most, fabs(r->shape[i]));
+    for (int side = 1; side >= -1; side -= 2) {
+        for (int i = 0; i < r->n; i++)
+            to[i] = u[i] + side * 0.05 / most * r->shape[i];
+        if (!fw_rest_close(w, to)) continue;
+        double energy = fw_rest_energy(w, to, &size);
+        if (energy < best - 1e-12 * size) best = energy, length = side * 0.05 / most;
+    }
+    if (length == 0) return false;
+    for (int i = 0; i < r->n; i++)
+        to[i] = u[i] + length * r->shape[i];
+    return fw_rest_close(w, to);
+}
+
+static bool too_far(const double *u, int n) {
+    for (int i = 0; i < n; i++)
+        if (!(fabs(u[i]) < fw_far)) return true;
+    return false;
+}
+
+/* Minimises the potential over the poses that the joints allow: Newton in the modes of the tangent
+   stiffness with |stiffness|, Armijo line search, corrections of the pose in the mass metric;
+   saddles are left along negative curvature. Near the end, where energies differ by round-off only,
+   full steps until they no longer halve. Start and result w->y, scaled; error: round-off times the
+   ratio of the stiffnesses. Cost: one evaluation (30 n^3) per step, about 5 to 15 steps. Stops and
+   cables bend the energy's slope but do not break it: their state follows the pose. Source: Nocedal
+   and Wright, Numerical Optimization 2006, ch. 3; modified spectrum, Greenstadt 1967. Test:
+   test_statics.c. */
+fw_status fw_rest_descend(fw_rest *w, bool *left_unstable) {
+    size_t bytes = (size_t)w->model->nq * sizeof(double);
+    double *step, *next, before = (double)INFINITY;
+    fw_mark mark = fw_arena_mark(w->arena);
+    FW_NEED(step = fw_arena_array(w->arena, double, (size_t)w->model->nq));
+    FW_NEED(next = fw_arena_array(w->arena, double, (size_t)w->model->nq));
+    fw_status status = FW_SOLVER;
+    int escapes = 0;
+    for (int i = 0; i < FW_NEWTON_STEPS; i++, w->iterations++) {
+        if (fw_cancel_requested()) return FW_CANCELLED;
+        status = fw_rest_evaluate(w);
+        if (status != FW_OK) break;
+        double most = fw_rest_newton(w, step);
+        bool settled = most <= 1e-15 || (most > 0.5 * before && (most < 1e-9 || fw_rest_quiet(w)));
+        before = most;
+        if (settled) {
+            if (escapes == FW_ESCAPES || !escape(w, next)) break;
+            escapes++;
+            *left_unstable = true;
+            before = (double)INFINITY;
+            memcpy(w->y, next, bytes);
+            continue;
+        }
+        for (int k = 0; most > fw_longest_step && k < w->model->nq; k++)
+            step[k] *= fw_longest_step / most;
+        if (most < 1e-5) {
+            for (int k = 0; k < w->model->nq; k++)
+                w->y[k] += step[k];
+        } else if (line_search(w, w->y, step, next)) {
+            memcpy(w->y, next, bytes);
+        } else {
+            status = FW_SOLVER;
+            break;
+        }
+        status = FW_SOLVER; /* until it is settled */
+        if (too_far(w->y, w->model->nq)) break;
+    }
+    fw_arena_rewind(w->arena, mark);
+    return status;
+}
+
+/* ---- answer ---- */
+
+static fw_status no_equilibrium(const fw_rest *w) {
+    const char *names;
+    FW_TRY(fw_rest_bodies(w, w->y, &names));
+    char turned[32], factor[32];
+    int b = fw_rest_mover(w, w->y);
+    fw_status status =
+        fw_diag_error(w->diags, 111, w->scene->place,
+                      "no equilibrium of scene %s was found at load factor %s: body %s keeps "
+                      "moving (it had turned "
+                      "by %s rad); nothing holds %s against the loads",
+                      fw_rest_scene_name(w), fw_number_text(factor, sizeof factor, w->factor, 4),
+                      w->mechanism->body[b].id ? w->mechanism->body[b].id : "(unnamed)",
+                      fw_number_text(turned, sizeof turned, w->y[3 * b + 2], 4), names);
+    return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
+}
+
+static fw_status actives(const fw_rest *w, fw_statics *out) {
+    fw_model *m = w->model;
+    out->nactive = fw_model_switches(m);
+    FW_NEED(out->active = fw_arena_array(w->arena, fw_active, (size_t)out->nactive));
+    for (int i = 0; i < m->nstop; i++)
+        out->active[i] = (fw_active){w->mechanism->pin[m->stop[i].pin].id, m->stop[i].side, false};
+    for (int i = 0, k = m->nstop; i < m->nspring; i++)
+        if (m->spring[i].cable)
+            out->active[k++] = (fw_active){w->mechanism->spring[i].id, 0, false};
+    for (int i = 0; i < out->nactive; i++)
+        out->active[i].on = fw_model_switch_on(m, i);
+    return FW_OK;
+}
+
+static fw_status count_signs(const fw_rest *w, fw_statics *out) {
+    const fw_reduced *r = &w->reduced;
+    size_t n = (size_t)r->n;
+    double *sum, largest = DBL_MIN, worst = 0;
+    FW_NEED(sum = fw_arena_array(w->arena, double, n));
+    for (int k = 0; k < r->dof; k++) {
+        out->eigenvalue_per_s2[k] = r->value[k] * fw_rest_per_s2(w);
+        worst = fmax(worst, fabs(w->gradient[k]));
+        if (r->value[k] < -r->zero[k]) out->negative++;
+        if (fabs(r->value[k]) > r->zero[k]) continue;
+        out->neutral++;
+        for (size_t i = 0; i < n; i++)
+            sum[i] += fabs(r->shape[(size_t)k * n + i]);
+    }
+    for (size_t i = 0; i < n; i++)
+        largest = fmax(largest, fabs(w->force[i]) * r->root[i]);
+    out->residual = worst / fmax(largest, 1); /* forces of order one are the scale's */
+    if (out->neutral == 0) return FW_OK;
+    FW_TRY(fw_rest_bodies(w, sum, &out->loose));
+    fw_diag_warning(w->diags, 113, w->scene->place,
+                    "in scene %s nothing holds %s: the equilibrium is one of many",
+                    fw_rest_scene_name(w), out->loose);
+    return FW_OK;
+}
+
+static fw_status answer(const fw_rest *w, fw_statics *out) {
+    size_t n = (size_t)w->model->nq, pins = (size_t)w->mechanism->npin;
+    out->nbody = w->mechanism->nbody;
+    out->npin = w->mechanism->npin;
+    out->dof = w->reduced.dof;
+    out->ledger = w->ledger;
+    out->iterations = w->iterations;
+    out->rest_q = w->q0;
+    FW_NEED(out->q = fw_arena_array(w->arena, double, n));
+    FW_NEED(out->angle_rad = fw_arena_array(w->arena, double, pins));
+    FW_NEED(out->reaction_N = fw_arena_array(w->arena, double, 2 * pins));
+    FW_NEED(out->eigenvalue_per_s2 = fw_arena_array(w->arena, double, (size_t)out->dof));
+    fw_rest_pose(w, w->y, out->q, out->angle_rad);
+    fw_rest_reactions(w, out->reaction_N);
+    FW_TRY(actives(w, out));
+    FW_TRY(fw_rest_rank(w, &out->rank));
+    return count_signs(w, out);
+}
+
+static fw_status path_ends_early(const fw_rest *w, const fw_path *path) {
+    char text[32];
+    fw_diag_warning(w->diags, 112, w->scene->place,
+                    "the load path of scene %s ends after %d points at load factor %s, before the "
+                    "full load: the equilibrium reported is not connected to it",
+                    fw_rest_scene_name(w), path->count,
+                    fw_number_text(text, sizeof text, path->factor[path->count - 1], 4));
+    return FW_OK;
+}
+
+/* drivers take the mechanism along in steps, since a joint may not close over the whole way */
+fw_status fw_rest_settle(fw_rest *w, bool *left_unstable) {
+    enum { STEPS = 16 };
+    memset(w->y, 0, (size_t)w->model->ny * sizeof(double));
+    for (int i = w->moving ? 0 : STEPS; i <= STEPS; i++) {
+        fw_rest_factor(w, (double)i / STEPS);
+        *left_unstable = false;
+        fw_status status = fw_rest_descend(w, left_unstable);
+        if (status != FW_OK) return status == FW_SOLVER ? no_equilibrium(w) : status;
+    }
+    return FW_OK;
+}
+
+/* along the path when it is asked for and complete, else straight down */
+static fw_status reach(fw_rest *w, const fw_static_options *o, fw_statics *out) {
+    if (o->path) {
+        fw_status status = fw_rest_descend(w, &out->left_unstable);
+        if (status != FW_OK) return status == FW_SOLVER ? no_equilibrium(w) : status;
+        FW_TRY(fw_rest_follow(w, o->most_points, &out->path));
+        if (out->path->complete) return FW_OK;
+        FW_TRY(path_ends_early(w, out->path));
+    }
+    return fw_rest_settle(w, &out->left_unstable);
+}
+
+fw_status fw_static_equilibrium(fw_arena *arena, const fw_mechanism *mechanism,
+                                const fw_scene *scene, const fw_static_options *options,
+                                fw_diags *diags, const fw_statics **statics) {
+    fw_rest w;
+    fw_statics *out;
+    *statics = NULL;
+    FW_NEED(out = fw_arena_one(arena, fw_statics));
+    FW_TRY(fw_rest_new(arena, mechanism, scene, &options->effects, diags, &w));
+    FW_TRY(reach(&w, options, out));
+    FW_TRY(answer(&w, out));
+    *statics = out;
+    return FW_OK;
+}

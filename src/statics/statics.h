@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Equilibria of a mechanism under the loads of a scene, and the path that leads there.
+
+   Loads and drivers are taken as they are at the scene's end. The load factor s multiplies forces
+   and torques of the scene and the way of the drivers; springs, stops, cables and gravity act fully
+   at every s. At s = 0 the mechanism is at rest, at s = 1 it carries the scene. Theory:
+   docs/theory/statics-and-modes.md. */
+#ifndef FW_STATICS_STATICS_H
+#define FW_STATICS_STATICS_H
+#include "multibody/multibody.h"
+
+typedef struct fw_static_options {
+    fw_effect_choice effects; /* "auto" is taken as "all": nothing is left out */
+    bool path;                /* follow the load path from s = 0 */
+    int most_points;          /* of the path; 0: 2000 */
+} fw_static_options;
+
+typedef struct fw_row_rank { /* what was found out about the constraint rows */
+    int rows, rank;
+    double kept, dropped; /* smallest singular value that counts, largest that does not, relative to
+                             the largest; dropped 0: none */
+    const char *joints;   /* joints that repeat what others say, comma separated, or NULL */
+} fw_row_rank;
+
+typedef struct fw_active { /* a stop or a cable */
+    const char *id;        /* of the joint or the spring */
+    double side;           /* of a stop: +1 at its largest angle, -1 at its smallest; 0: a cable */
+    bool on;               /* touches, is taut */
+} fw_active;
+
+typedef enum fw_path_mark {
+    FW_PATH_POINT,
+    FW_PATH_FOLD,        /* limit point: the load factor turns back */
+    FW_PATH_BIFURCATION, /* another branch crosses */
+    FW_PATH_SWITCH,      /* a stop or cable takes hold or lets go */
+    FW_PATH_END          /* s = 1 */
+} fw_path_mark;
+
+typedef struct fw_path { /* equilibria one after the other */
+    int count, nbody, npin;
+    double *factor;        /* (count) s */
+    double *q;             /* (count x 3 nbody) m, rad */
+    double *angle_rad;     /* (count x npin) as in fw_motion */
+    double *reaction_N;    /* (count x 2 npin) */
+    double *lowest_per_s2; /* (count) smallest eigenvalue of the reduced tangent stiffness */
+    int *negative;         /* (count) how many are below 0; 0: stable */
+    fw_path_mark *mark;    /* (count) */
+    int *which;            /* (count) of FW_PATH_SWITCH: index into `active`; else FW_NONE */
+    /* of FW_PATH_FOLD where the load was growing: how far the mechanism snaps under a load a little
+       above, as the largest way of a centre of mass and the largest rotation; NaN: nowhere, or no
+       fold of this kind */
+    double *snap_m, *snap_rad; /* (count) */
+    bool complete;             /* reached s = 1 */
+} fw_path;
+
+typedef struct fw_statics {
+    int nbody, npin, dof;
+    double *rest_q;            /* (3 nbody) assembled pose */
+    double *q;                 /* (3 nbody) the equilibrium at s = 1 */
+    double *angle_rad;         /* (npin) phi_b - phi_a - free angle */
+    double *reaction_N;        /* (2 npin) force on body b, world axes */
+    double *eigenvalue_per_s2; /* (dof) of the reduced tangent stiffness, ascending: omega^2 */
+    int negative, neutral;     /* how many are below 0, and 0 within round-off */
+    const char *loose;         /* bodies that nothing holds, or NULL */
+    bool left_unstable;        /* the way there led over an unstable equilibrium */
+    double residual;           /* largest force along an allowed motion over the largest force */
+    int iterations;            /* Newton steps */
+    fw_active *active;         /* (nactive) */
+    int nactive;
+    fw_row_rank rank;
+    fw_path *path; /* NULL: not asked for */
+    fw_effect_ledger ledger;
+} fw_statics;
+
+/* the stable equilibrium that descent from the assembled pose reaches at s = 1; with a path, its
+   end when it reaches s = 1. FW_SOLVER with FW-D111 when there is none. */
+fw_status fw_static_equilibrium(fw_arena *arena, const fw_mechanism *mechanism,
+                                const fw_scene *scene, const fw_static_options *options,
+                                fw_diags *diags, const fw_statics **statics);
+
+#endif

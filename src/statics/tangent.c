@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Every force and every curved constraint of the model is a function of one or two scalars g(u):
+   the distance of two points, or a distance along a direction that turns with the first body.
+
+     spring on g, force -(k (g - g0) + c g') grad g:
+       K = k grad g grad g^T + (k (g - g0) + c g') hess g + c grad g (hess g v)^T,
+       C = c grad g grad g^T
+     constraint g = value with multiplier lambda:  K = lambda hess g
+
+   Coordinates of a pair of bodies: x_a, y_a, phi_a, x_b, y_b, phi_b. With arms r, p(r) = (-r_y,
+   r_x) and dp/dphi = -r. Error: round-off. Cost: a constant per element, and nq^2 zeros. Source:
+   direct differentiation; geometric stiffness as in Geradin and Cardona 2001, ch. 9. Test:
+   test_tangent.c. */
+#include "statics/tangent.h"
+#include <math.h>
+#include <string.h>
+
+typedef struct target { /* where a pair's 6 x 6 goes */
+    int n, nbody;
+    double *matrix;
+} target;
+
+typedef struct gauge {
+    double value, grad[6], hess[6][6];
+} gauge;
+
+typedef struct pair { /* two points: arms and d = from a's to b's, world axes */
+    double ra[2], rb[2], d[2];
+} pair;
+
+static void add_entry(const target *to, int row_body, int row, int column_body, int column,
+                      double value) {
+    if (row_body >= to->nbody || column_body >= to->nbody) return; /* the ground does not move */
+    size_t i = (size_t)(3 * row_body + row), j = (size_t)(3 * column_body + column);
+    to->matrix[i * (size_t)to->n + j] += value;
+}
+
+static void add_pair(const target *to, int a, int b, double matrix[6][6]) {
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 6; j++)
+            add_entry(to, i < 3 ? a : b, i % 3, j < 3 ? a : b, j % 3, matrix[i][j]);
+}
+
+static void turn(const fw_model *m, int body, double x, double y, double out[2]) {
+    out[0] = m->cosine[body] * x - m->sine[body] * y;
+    out[1] = m->sine[body] * x + m->cosine[body] * y;
+}
+
+static pair pair_of(const fw_model *m, const double *u, int a, int b, const double local[4],
+                    const double offset[2]) {
+    pair p;
+    turn(m, a, local[0], local[1], p.ra);
+    turn(m, b, local[2], local[3], p.rb);
+    for (int k = 0; k < 2; k++) {
+        double ua = a < m->nbody ? u[3 * a + k] : 0, ub = b < m->nbody ? u[3 * b + k] : 0;
+        p.d[k] = ub - ua - offset[k] + p.rb[k] - p.ra[k];
+    }
+    return p;
+}
+
+/* g = |d|; grad = D^T e, hess = D^T w w^T D / |d| + the arms' own curvature, D = dd/du, e = d/|d|,
+   w across. Points that coincide have no direction: all zero then. */
+static gauge distance_of(const pair *p) {
+    gauge g = {0};
+    g.value = hypot(p->d[0], p->d[1]);
+    if (!(g.value > 0)) return g;
+    double e[2] = {p->d[0] / g.value, p->d[1] / g.value}, w[2] = {-e[1], e[0]}, across[6];
+    for (int k = 0; k < 2; k++) {
+        g.grad[k] = -e[k], g.grad[3 + k] = e[k];
+        across[k] = -w[k], across[3 + k] = w[k];
+    }
+    g.grad[2] = e[0] * p->ra[1] - e[1] * p->ra[0];
+    g.grad[5] = e[1] * p->rb[0] - e[0] * p->rb[1];
+    across[2] = w[0] * p->ra[1] - w[1] * p->ra[0];
+    across[5] = w[1] * p->rb[0] - w[0] * p->rb[1];
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 6; j++)
+            g.hess[i][j] = across[i] * across[j] / g.value;
+    g.hess[2][2] += e[0] * p->ra[0] + e[1] * p->ra[1];
+    g.hess[5][5] -= e[0] * p->rb[0] + e[1] * p->rb[1];
+    return g;
+}
+
+/* g = w . d with the direction w fixed in a; since w . r_a is constant, only d + r_a counts */
+static gauge along(const pair *p, const double w[2]) {
+    gauge g = {.value = w[0] * p->d[0] + w[1] * p->d[1]};
+    double pw[2] = {-w[1], w[0]}, far[2] = {p->d[0] + p->ra[0], p->d[1] + p->ra[1]};
+    for (int k = 0; k < 2; k++) {
+        g.grad[k] = -w[k], g.grad[3 + k] = w[k];
+        g.hess[k][2] = g.hess[2][k] = -pw[k];
+        g.hess[3 + k][2] = g.hess[2][3 + k] = pw[k];
+    }
+    g.grad[2] = pw[0] * far[0] + pw[1] * far[1];
+    g.grad[5] = w[1] * p->rb[0] - w[0] * p->rb[1];
+    g.hess[2][2] = -(w[0] * far[0] + w[1] * far[1]);
+    g.hess[2][5] = g.hess[5][2] = w[0] * p->rb[0] + w[1] * p->rb[1];
+    g.hess[5][5] = -(w[0] * p->rb[0] + w[1] * p->rb[1]);
+    return g;
+}
+
+/* ---- constraints ---- */
+
+static void constraint(const fw_model *m, const double *u, int i, const double *lambda,
+                       const target *to) {
+    const fw_block *c = &m->block[i];
+    if (c->rows == FW_ROWS_TURN) return; /* linear */
+    pair p = pair_of(m, u, c->a, c->b, m->local + 4 * i, m->offset + 2 * i);
+    if (c->rows == FW_ROWS_PIN) { /* -d: the arms turn */
+        add_entry(to, c->a, 2, c->a, 2, -(lambda[0] * p.ra[0] + lambda[1] * p.ra[1]));
+        add_entry(to, c->b, 2, c->b, 2, lambda[0] * p.rb[0] + lambda[1] * p.rb[1]);
+        return;
+    }
+    double e[2];
+    turn(m, c->a, c->cos_axis, c->sin_axis, e);
+    const double n[2] = {-e[1], e[0]};
+    gauge g = c->rows == FW_ROWS_ROD     ? distance_of(&p)
+              : c->rows == FW_ROWS_SLIDE ? along(&p, n)
+                                         : along(&p, e);
+    double force = c->rows == FW_ROWS_SLIDE ? lambda[1] : lambda[0];
+    for (int k = 0; k < 36; k++)
+        g.hess[k / 6][k % 6] *= force;
+    add_pair(to, c->a, c->b, g.hess);
+}
+
+/* ---- forces ---- */
+
+static void spring_on(const fw_model *m, const gauge *g, int a, int b, const double *v, double k,
+                      double c, double free, const target *stiffness, const target *damping) {
+    double speed[6] = {0}, bend[6] = {0}, rate = 0, matrix[6][6];
+    for (int i = 0; i < 6; i++) {
+        int body = i < 3 ? a : b;
+        if (body < m->nbody) speed[i] = v[3 * body + i % 3];
+        rate += g->grad[i] * speed[i];
+    }
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 6; j++)
+            bend[i] += g->hess[i][j] * speed[j];
+    double force = k * (g->value - free) + c * rate;
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 6; j++)
+            matrix[i][j] = g->grad[i] * (k * g->grad[j] + c * bend[j]) + force * g->hess[i][j];
+    add_pair(stiffness, a, b, matrix);
+    if (!damping->matrix || c == 0) return;
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 6; j++)
+            matrix[i][j] = c * g->grad[i] * g->grad[j];
+    add_pair(damping, a, b, matrix);
+}
+
+static void between_angles(const target *to, int a, int b, double value) {
+    add_entry(to, a, 2, a, 2, value);
+    add_entry(to, b, 2, b, 2, value);
+    add_entry(to, a, 2, b, 2, -value);
+    add_entry(to, b, 2, a, 2, -value);
+}
+
+/* a force of fixed direction turns with its arm only: torque r x f, d/dphi = -r . f */
+static void dead_load(const fw_model *m, int body, double x, double y, double fx, double fy,
+                      const target *to) {
+    double r[2];
+    turn(m, body, x, y, r);
+    add_entry(to, body, 2, body, 2, r[0] * fx + r[1] * fy);
+}
+
+static void forces(const fw_model *m, double t, const double *y, const target *stiffness,
+                   const target *damping) {
+    const double *u = y, *v = y + m->nq;
+    for (int i = 0; i < m->ntorsion; i++) {
+        const fw_model_torsion *s = &m->torsion[i];
+        between_angles(stiffness, s->a, s->b, s->k);
+        if (damping->matrix) between_angles(damping, s->a, s->b, s->c);
+    }
+    for (int i = 0; i < m->nstop; i++) {
+        const fw_model_stop *s = &m->stop[i];
+        if (!s->on) continue;
+        between_angles(stiffness, s->a, s->b, s->k);
+        if (damping->matrix) between_angles(damping, s->a, s->b, s->c);
+    }
+    for (int i = 0; i < m->nload; i++) {
+        const fw_model_load *l = &m->load[i];
+        dead_load(m, l->body, l->x, l->y, l->fx, l->fy, stiffness);
+    }
+    for (int i = 0; i < m->ntimed; i++) {
+        const fw_model_timed *l = &m->timed[i];
+        double factor[3];
+        fw_law_value(l->law, t * m->scale.time_s, m->piece, factor);
+        dead_load(m, l->body, l->x, l->y, factor[0] * l->fx, factor[0] * l->fy, stiffness);
+    }
+    for (int i = 0; i < m->nspring; i++) {
+        const fw_model_spring *s = &m->spring[i];
+        if (!s->on) continue;
+        const double local[4] = {s->ax, s->ay, s->bx, s->by};
+        const double offset[2] = {m->origin[3 * s->a] - m->origin[3 * s->b],
+                                  m->origin[3 * s->a + 1] - m->origin[3 * s->b + 1]};
+        pair p = pair_of(m, u, s->a, s->b, local, offset);
+        gauge g = distance_of(&p);
+        spring_on(m, &g, s->a, s->b, v, s->k, s->c, s->length, stiffness, damping);
+    }
+    for (int i = 0; i < m->nslide; i++) {
+        const fw_model_slide *s = &m->slide[i];
+        const fw_block *c = &m->block[s->block];
+        double e[2];
+        turn(m, s->a, c->cos_axis, c->sin_axis, e);
+        pair p = pair_of(m, u, s->a, s->b, m->local + 4 * s->block, m->offset + 2 * s->block);
+        gauge g = along(&p, e);
+        spring_on(m, &g, s->a, s->b, v, s->k, s->c, s->free, stiffness, damping);
+    }
+}
+
+void fw_tangent(const fw_model *m, double t, const double *y, const double *lambda,
+                double *stiffness, double *damping) {
+    size_t size = (size_t)m->nq * (size_t)m->nq * sizeof(double);
+    const target k = {m->nq, m->nbody, stiffness}, c = {m->nq, m->nbody, damping};
+    memset(stiffness, 0, size);
+    if (damping) memset(damping, 0, size);
+    forces(m, t, y, &k, &c);
+    for (int i = 0; i < m->nblock; i++)
+        constraint(m, y, i, lambda + 2 * i, &k);
+}

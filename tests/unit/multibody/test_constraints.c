@@ -1,0 +1,265 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Every kind of constraint and force against differences: Jacobian and gamma along motions, forces
+   against the derivative of the energy, S against G M^-1 G^T. */
+#include "multibody/model.h"
+#include "dynamics/models.h"
+
+/* bodies, joints and forces of every kind at random; nothing needs to fit together */
+typedef struct zoo {
+    rig r;
+    fw_terms terms;
+    fw_law *law;
+    fw_model *m;
+    double *q;
+    uint64_t seed;
+} zoo;
+
+static double about(zoo *z, double size) {
+    return size * (2 * rig_random(&z->seed) - 1);
+}
+
+static int some_body(zoo *z, int n, bool ground) {
+    return (int)((n + ground) * rig_random(&z->seed)) - ground;
+}
+
+static void two_bodies(zoo *z, int n, int *a, int *b) {
+    *a = some_body(z, n, true);
+    do
+        *b = some_body(z, n, true);
+    while (*b == *a);
+}
+
+static void add_ties(fw_arena *arena, zoo *z, int n) {
+    fw_mechanism *m = &z->r.m;
+    m->tie = fw_arena_array(arena, fw_tie, 6);
+    m->driver = fw_arena_array(arena, fw_driver, 3);
+    for (int i = 0; i < 6; i++) {
+        fw_tie *t = &m->tie[m->ntie++];
+        *t = (fw_tie){.id = "tie",
+                      .kind = (fw_tie_kind)(i % 3),
+                      .ax_m = about(z, 1e-3),
+                      .ay_m = about(z, 1e-3),
+                      .bx_m = about(z, 1e-3),
+                      .by_m = about(z, 1e-3),
+                      .axis_rad = about(z, 3),
+                      .angle_rad = about(z, 1),
+                      .length_m = 1e-3,
+                      .free_length_m = about(z, 1e-3)};
+        two_bodies(z, n, &t->body_a, &t->body_b);
+    }
+    z->law[0] = (fw_law){.kind = FW_LAW_SINE, .frequency_Hz = 700, .phase_rad = 0.4, .end_s = 1};
+    m->driver[0] = (fw_driver){.id = "turns", .joint = 0, .tie = FW_NONE, .law = z->law[0]};
+    m->driver[1] = (fw_driver){.id = "slides", .joint = FW_NONE, .tie = 0, .law = z->law[0]};
+    m->driver[2] = (fw_driver){.id = "stretches", .joint = FW_NONE, .tie = 1, .law = z->law[0]};
+    m->ndriver = 3;
+}
+
+static void add_terms(fw_arena *arena, zoo *z, int n) {
+    fw_mechanism *m = &z->r.m;
+    fw_terms *t = &z->terms;
+    t->nbody = n;
+    t->constant = fw_arena_array(arena, double, 3 * (size_t)n);
+    t->velocity = fw_arena_array(arena, double, 3 * (size_t)n);
+    for (int i = 0; i < 3 * n; i++)
+        t->constant[i] = about(z, i % 3 == 2 ? 1e-7 : 1e-4);
+    t->torsion = fw_arena_array(arena, fw_torsion, 2);
+    t->stop = fw_arena_array(arena, fw_stop, 2);
+    t->load = fw_arena_array(arena, fw_point_load, 2);
+    t->timed = fw_arena_array(arena, fw_timed_load, 2);
+    t->spring = fw_arena_array(arena, fw_spring, 4);
+    t->slide = fw_arena_array(arena, fw_slide, 1);
+    t->ntorsion = t->nstop = t->nload = t->ntimed = 2;
+    t->nspring = 4, t->nslide = 1;
+    for (int i = 0; i < 2; i++) {
+        const fw_pin *p = &m->pin[i];
+        t->torsion[i] = (fw_torsion){i, p->body_a, p->body_b, 1e-6, 2e-10, 0.1};
+        t->stop[i] = (fw_stop){i, p->body_a, p->body_b, i ? 1 : -1, i ? -9 : 9, 0.1, 3e-6, 1e-10};
+        t->load[i] = (fw_point_load){some_body(z, n, false), about(z, 1e-3), about(z, 1e-3),
+                                     about(z, 1e-4), about(z, 1e-4)};
+        t->timed[i] =
+            (fw_timed_load){some_body(z, n, false), about(z, 1e-3), about(z, 1e-3), about(z, 1e-4),
+                            about(z, 1e-4),         about(z, 1e-7), &z->law[0]};
+    }
+    for (int i = 0; i < 4; i++) {
+        fw_spring *s = &t->spring[i];
+        *s = (fw_spring){.ax_m = about(z, 1e-3),
+                         .ay_m = about(z, 1e-3),
+                         .bx_m = about(z, 1e-3),
+                         .by_m = about(z, 1e-3),
+                         .stiffness_N_per_m = 1,
+                         .damping_Ns_per_m = 1e-4,
+                         .length_m = 1e-4,
+                         .cable = i > 1};
+        two_bodies(z, n, &s->body_a, &s->body_b);
+    }
+    t->slide[0] = (fw_slide){0, 2, 1e-4};
+}
+
+static zoo zoo_new(fw_arena *arena, uint64_t seed) {
+    enum { N = 5 };
+    zoo z = {.seed = seed};
+    z.r = rig_new(arena, N, 3, 0);
+    z.law = fw_arena_array(arena, fw_law, 1);
+    for (int i = 0; i < N; i++)
+        rig_body(&z.r, "body", 1e-8 * (1 + rig_random(&z.seed)), 1e-14 * (1 + rig_random(&z.seed)),
+                 about(&z, 2e-3), about(&z, 2e-3), about(&z, 3));
+    for (int i = 0; i < 3; i++) {
+        int a, b;
+        two_bodies(&z, N, &a, &b);
+        fw_pin *p = rig_pin_local(&z.r, "pin", a, about(&z, 1e-3), about(&z, 1e-3), b,
+                                  about(&z, 1e-3), about(&z, 1e-3));
+        p->free_angle_rad = about(&z, 1);
+    }
+    add_ties(arena, &z, N);
+    add_terms(arena, &z, N);
+    z.q = fw_arena_array(arena, double, 3 * N);
+    for (int b = 0; b < N; b++) {
+        z.q[3 * b] = z.r.m.body[b].x_m;
+        z.q[3 * b + 1] = z.r.m.body[b].y_m;
+        z.q[3 * b + 2] = z.r.m.body[b].phi_rad;
+    }
+    assert_int_equal(fw_model_new(arena, &z.r.m, &z.terms, z.q, 1e-2, NULL, NULL, &z.m), FW_OK);
+    z.m->piece = 1e-3;
+    return z;
+}
+
+enum { MOST = 64 };
+
+static void state_of(zoo *z, double *y, double size) {
+    for (int i = 0; i < z->m->ny; i++)
+        y[i] = about(z, size);
+}
+
+/* Psi, and its first and second derivative along u + s v at t + s, by central differences */
+static void test_constraint_derivatives(void **state) {
+    (void)state;
+    for (uint64_t seed = 1; seed <= 40; seed++) {
+        fw_arena *arena = fw_arena_new(0);
+        zoo z = zoo_new(arena, seed);
+        fw_model *m = z.m;
+        assert_true(m->nblock == 3 + 6 + 2 + 2 && !m->plain && m->driven);
+        int n = 2 * m->nblock;
+        double y[MOST], psi[5][MOST], rate[MOST], drift[MOST], gamma[MOST], u[MOST];
+        double t = 1e-3 / m->scale.time_s, step = 1e-3;
+        state_of(&z, y, 0.7);
+        const double *v = y + m->nq;
+        for (int k = 0; k < 5; k++) {
+            double s = (k - 2) * step;
+            for (int i = 0; i < m->nq; i++)
+                u[i] = y[i] + s * v[i];
+            fw_model_residual(m, t + s, u, psi[k]);
+        }
+        fw_model_pose(m, y);
+        fw_model_jacobian(m, v, rate);
+        fw_model_drift(m, t, drift);
+        fw_model_gamma(m, t, v, gamma);
+        for (int i = 0; i < n; i++) {
+            double first = (8 * (psi[3][i] - psi[1][i]) - (psi[4][i] - psi[0][i])) / (12 * step);
+            double second =
+                (16 * (psi[3][i] + psi[1][i]) - psi[4][i] - psi[0][i] - 30 * psi[2][i]) /
+                (12 * step * step);
+            assert_near(rate[i] + drift[i], first, 1e-9 * (1 + fabs(first)));
+            assert_near(gamma[i], second, 3e-7 * (1 + fabs(second)));
+        }
+        fw_arena_free(arena);
+    }
+}
+
+/* S v by the chain's blocks equals G M^-1 G^T v; G^T by fw_model_transpose and by the dense G */
+static void test_products(void **state) {
+    (void)state;
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+        fw_arena *arena = fw_arena_new(0);
+        zoo z = zoo_new(arena, seed);
+        fw_model *m = z.m;
+        int n = 2 * m->nblock;
+        double y[MOST], l[MOST], a[MOST] = {0}, f[MOST] = {0}, rows[MOST], g[MOST * MOST];
+        state_of(&z, y, 0.7);
+        fw_model_pose(m, y);
+        for (int i = 0; i < m->rows; i++)
+            rows[i] = about(&z, 1);
+        fw_model_unpack(m, rows, l);
+        fw_model_transpose(m, l, f);
+        fw_model_apply(m, l, a);
+        fw_model_dense_jacobian(m, g);
+        for (int c = 0; c < m->nq; c++) {
+            double sum = 0;
+            for (int i = 0; i < m->rows; i++)
+                sum += g[i * m->nq + c] * rows[i];
+            assert_near(f[c], sum, 1e-13);
+            assert_near(a[c], -(c % 3 == 2 ? m->jinv : m->minv)[c / 3] * sum,
+                        1e-12 * (1 + fabs(sum) * m->jinv[c / 3]));
+        }
+        /* (S + eps D) x = b solved by the blocks, checked by products */
+        double b[MOST], x[MOST], back[MOST];
+        fw_chain_assemble(m);
+        assert_true(fw_chain_factor(&m->chain, 1e-3));
+        memcpy(x, l, sizeof x);
+        memcpy(b, l, sizeof b);
+        fw_chain_solve(&m->chain, x);
+        memset(a, 0, sizeof a);
+        fw_model_apply(m, x, a);
+        fw_model_jacobian(m, a, back);
+        for (int i = 0; i < n; i++)
+            assert_near(-back[i] + 1e-3 * m->chain.isotropic[i] * x[i], b[i], 1e-9);
+        fw_arena_free(arena);
+    }
+}
+
+static double potential(fw_model *m, const double *y) {
+    fw_model_pose(m, y);
+    fw_energy e = fw_model_energy(m, y);
+    return e.elastic - e.work;
+}
+
+/* without dampers and laws M a = -d(V - W)/du; dampers take exactly the power they are booked with
+ */
+static void test_forces(void **state) {
+    (void)state;
+    for (uint64_t seed = 1; seed <= 40; seed++) {
+        fw_arena *arena = fw_arena_new(0);
+        zoo z = zoo_new(arena, seed);
+        fw_model *m = z.m;
+        double y[MOST], work = 0, booked[2];
+        state_of(&z, y, 0.7);
+        y[m->dissipated] = y[m->worked] = 0;
+        fw_model_set_switches(m, y);
+        assert_int_equal(fw_model_switches(m), 4);
+        fw_model_pose(m, y);
+        fw_model_forces(m, 1e-3 / m->scale.time_s, y);
+        double with[MOST];
+        memcpy(with, m->accel, sizeof(double) * (size_t)m->nq);
+        fw_model_power(m, 1e-3 / m->scale.time_s, y, booked);
+        int timed = m->ntimed;
+        m->ntimed = 0; /* now what is conservative, at rest */
+        double rest[MOST] = {0};
+        memcpy(rest, y, sizeof(double) * (size_t)m->nq);
+        fw_model_forces(m, 0, rest);
+        for (int i = 0; i < m->nq; i++) {
+            const double h = 1e-3;
+            double p[4];
+            for (int k = 0; k < 4; k++) {
+                double u[MOST] = {0};
+                memcpy(u, rest, sizeof u);
+                u[i] += h * (k < 2 ? k - 2 : k - 1);
+                p[k] = potential(m, u);
+            }
+            double slope = (8 * (p[2] - p[1]) - (p[3] - p[0])) / (12 * h);
+            double mass = i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3];
+            assert_near(mass * m->accel[i], -slope, 1e-8 * (1 + fabs(slope)));
+            work += mass * (with[i] - m->accel[i]) * y[m->nq + i];
+        }
+        m->ntimed = timed;
+        assert_near(work, booked[1] - booked[0], 1e-10 * (1 + fabs(booked[0])));
+        fw_arena_free(arena);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_constraint_derivatives),
+        cmocka_unit_test(test_products),
+        cmocka_unit_test(test_forces),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

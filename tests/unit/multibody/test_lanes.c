@@ -1,0 +1,245 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Many designs at once against each of them alone. */
+#include "maths/ode.h"
+#include "multibody/lanes.h"
+#include "kernel_rigs.h"
+
+enum { MOST = 19 };
+
+/* designs of one topology with their own numbers. kind 0: six-bars (a path with an even number of
+   pins); 1: hanging chains (odd); 2: windows; 3: hinge D twice */
+static rig vary(fw_arena *arena, int kind, int design) {
+    uint64_t seed = (uint64_t)(100 * kind + design);
+    rig r = kind == 2 ? rig_windows(arena, 3) : rig_six_bar(arena, kind == 3);
+    if (kind == 1) r.m.npin = 5; /* F let go */
+    for (int b = 0; b < r.m.nbody; b++) {
+        r.m.body[b].mass_kg *= 0.7 + rig_random(&seed);
+        r.m.body[b].inertia_kg_m2 *= 0.7 + rig_random(&seed);
+    }
+    for (int i = 0; i < r.m.npin; i++) {
+        fw_pin *p = &r.m.pin[i];
+        p->stiffness_Nm_per_rad *= 0.5 + rig_random(&seed);
+        p->damping_Nms_per_rad *= 0.5 + rig_random(&seed);
+    }
+    for (int i = 0; i < r.scene.nforce; i++)
+        r.scene.force[i].fx_N *= 2 * rig_random(&seed);
+    return r;
+}
+
+typedef struct batch {
+    fw_arena *arena;
+    const fw_model *model[MOST];
+    fw_kernel *kernel[MOST];
+    double *y[MOST];
+    int count, ny;
+} batch;
+
+static batch begin(int kind, int count) {
+    batch b = {.arena = fw_arena_new(0), .count = count};
+    for (int d = 0; d < count; d++) {
+        rig r = vary(b.arena, kind, d);
+        fw_model *m = rig_model(b.arena, &r);
+        b.model[d] = m;
+        assert_int_equal(fw_kernel_new(b.arena, m, &b.kernel[d]), FW_OK);
+        b.y[d] = rig_state(b.arena, m, 0.3, (uint64_t)d);
+        b.ny = m->ny;
+    }
+    return b;
+}
+
+static fw_lanes *lanes_of(batch *b, const char *set, double **y, double **f) {
+    fw_lanes *l;
+    assert_int_equal(fw_lanes_new(b->arena, b->model, b->count, set, &l), FW_OK);
+    assert_non_null(l);
+    assert_string_equal(fw_lanes_set_name(l), set);
+    *y = fw_arena_array(b->arena, double, fw_lanes_size(l));
+    *f = fw_arena_array(b->arena, double, fw_lanes_size(l));
+    for (int d = 0; d < b->count; d++)
+        fw_lanes_put(l, d, b->y[d], *y);
+    return l;
+}
+
+static void expect(const double *got, const double *want, int n, double tolerance) {
+    double most = rig_largest(want, n);
+    for (int i = 0; i < n; i++)
+        assert_near(got[i], want[i], tolerance * most);
+}
+
+static void test_each_lane(void **state) {
+    (void)state;
+    for (int kind = 0; kind < 4; kind++)
+        for (int count = 1; count <= MOST; count += 3)
+            for (int s = 0; fw_lanes_set(s); s++) {
+                batch b = begin(kind, count);
+                double *y, *f, got[64], want[64], lambda[64];
+                fw_lanes *l = lanes_of(&b, fw_lanes_set(s), &y, &f);
+                fw_lanes_rhs(l, y, f);
+                for (int d = 0; d < count; d++) {
+                    fw_lanes_get(l, d, f, got);
+                    fw_kernel_rhs(b.kernel[d], b.y[d], want);
+                    expect(got, want, b.ny, 1e-13);
+                    fw_lanes_lambda(l, d, lambda);
+                    if (kind != 3) /* shares between the two hinges D are round-off */
+                        expect(lambda, fw_kernel_lambda(b.kernel[d]), 2 * b.model[d]->nblock,
+                               1e-13);
+                }
+                fw_arena_free(b.arena);
+            }
+}
+
+static void test_projection(void **state) {
+    (void)state;
+    for (int kind = 0; kind < 4; kind++)
+        for (int s = 0; fw_lanes_set(s); s++) {
+            batch b = begin(kind, 11);
+            double *y, *f, got[64], want[64], alone[64];
+            for (int d = 0; d < 11; d++)
+                for (int i = 0; i < b.ny; i++)
+                    b.y[d][i] *= 1e-5;
+            fw_lanes *l = lanes_of(&b, fw_lanes_set(s), &y, &f);
+            fw_lanes_rhs(l, y, f);
+            assert_true(fw_lanes_project(l, y, f));
+            for (int d = 0; d < 11; d++) {
+                memcpy(alone, b.y[d], sizeof(double) * (size_t)b.ny);
+                fw_kernel_rhs(b.kernel[d], alone, want);
+                assert_true(fw_kernel_project(b.kernel[d], alone, want));
+                fw_lanes_get(l, d, y, got);
+                for (int i = 0; i < b.ny; i++)
+                    assert_near(got[i], alone[i], 1e-14);
+                fw_lanes_get(l, d, f, got);
+                for (int i = 0; i < b.ny; i++) /* of order one in scaled units */
+                    assert_near(got[i], want[i], 1e-12);
+            }
+            fw_arena_free(b.arena);
+        }
+}
+
+/* a design at its singular position takes the careful solve, one that is not a number is lost; the
+   others keep their bits. An angle of a million turns is no different. */
+static void test_lanes_are_alone(void **state) {
+    (void)state;
+    for (int kind = 0; kind < 3; kind += 2)
+        for (int s = 0; fw_lanes_set(s); s++) {
+            batch b = begin(kind, 8);
+            double *y, *f, *g, got[64], want[64];
+            fw_lanes *l = lanes_of(&b, fw_lanes_set(s), &y, &f);
+            g = fw_arena_array(b.arena, double, fw_lanes_size(l));
+            fw_lanes_rhs(l, y, f);
+            double flat[64] = {0};
+            if (kind == 2) /* all bars on a line */
+                for (int i = 0; i <= 3; i++)
+                    flat[3 * i + 2] = -1.57079632679489661923;
+            fw_lanes_put(l, 2, flat, y);
+            memcpy(want, b.y[4], sizeof(double) * (size_t)b.ny);
+            want[2] = (double)NAN;
+            fw_lanes_put(l, 4, want, y);
+            memcpy(want, b.y[5], sizeof(double) * (size_t)b.ny);
+            want[5] += 6.283185307179586e6;
+            fw_lanes_put(l, 5, want, y);
+            fw_lanes_rhs(l, y, g);
+            for (int d = 0; d < 8; d++) {
+                fw_lanes_get(l, d, f, want);
+                fw_lanes_get(l, d, g, got);
+                if (d == 2) {
+                    fw_kernel_rhs(b.kernel[d], flat, want);
+                    expect(got, want, b.ny, 1e-10);
+                } else if (d == 4) {
+                    assert_true(isnan(got[b.model[d]->nq + 2]));
+                } else if (d == 5) {
+                    assert_true(isfinite(got[b.model[d]->nq + 5]) != 0);
+                } else {
+                    assert_memory_equal(got, want, sizeof(double) * (size_t)b.ny);
+                }
+            }
+            fw_arena_free(b.arena);
+        }
+}
+
+/* the lockstep run against each design alone, at their own durations */
+static void test_integrate(void **state) {
+    (void)state;
+    for (int s = 0; fw_lanes_set(s); s++) {
+        batch b = begin(0, 5);
+        double *y, *f, duration[5], atol[40], got[40];
+        fw_lanes *l = lanes_of(&b, fw_lanes_set(s), &y, &f);
+        fw_lanes_run run;
+        for (int i = 0; i < b.ny; i++)
+            atol[i] = 1e-11;
+        for (int d = 0; d < 5; d++) {
+            duration[d] = (1 + 0.5 * d) * 1e-3 / b.model[d]->scale.time_s;
+            memset(b.y[d], 0, sizeof(double) * (size_t)b.ny);
+            fw_lanes_put(l, d, b.y[d], y);
+        }
+        assert_int_equal(fw_lanes_integrate(b.arena, l, duration, 1e-11, atol, y, &run), FW_OK);
+        assert_true(run.steps > 10 && run.rhs > 11 * run.steps);
+        for (int d = 0; d < 5; d++) {
+            fw_model *m = (fw_model *)(uintptr_t)b.model[d];
+            const fw_ode ode = {.context = m,
+                                .rhs = fw_model_rhs,
+                                .project = fw_model_project,
+                                .n = m->ny,
+                                .controlled = 2 * m->nq};
+            fw_stepper *alone;
+            assert_int_equal(
+                fw_stepper_new(b.arena, fw_stepper_find("dop853"), &ode, 1e-11, atol, &alone),
+                FW_OK);
+            fw_stepper_start(alone, 0, b.y[d], duration[d]);
+            while (alone->t < alone->t_end)
+                assert_int_equal(fw_stepper_step(alone), FW_ODE_STEP);
+            fw_lanes_get(l, d, y, got);
+            for (int i = 0; i < b.ny; i++)
+                assert_near(got[i], alone->y[i], 1e-9);
+            fw_stepper_free(alone);
+        }
+        fw_arena_free(b.arena);
+    }
+}
+
+static void test_refused(void **state) {
+    (void)state;
+    batch b = begin(0, 3), other = begin(2, 1);
+    fw_lanes *l;
+    assert_int_equal(fw_lanes_new(b.arena, b.model, 3, "abacus", &l), FW_USAGE);
+    assert_int_equal(fw_lanes_new(b.arena, b.model, 0, NULL, &l), FW_USAGE);
+    b.model[2] = other.model[0];
+    assert_int_equal(fw_lanes_new(b.arena, b.model, 3, NULL, &l), FW_OK);
+    assert_null(l);
+    assert_non_null(fw_lanes_set(0)); /* sse2 at least, on any processor */
+    assert_null(fw_lanes_set(9));
+    fw_arena_free(b.arena);
+    fw_arena_free(other.arena);
+}
+
+static void test_memory(void **state) {
+    (void)state;
+    for (int kind = 0; kind < 3; kind += 2) {
+        batch b = begin(kind, 9);
+        fw_status status = FW_NOMEM;
+        int n = 1;
+        for (; n < 200 && status != FW_OK; n++) {
+            fw_lanes *l;
+            fw_arena_fail_at(n, 0);
+            status = fw_lanes_new(b.arena, b.model, 9, NULL, &l);
+            fw_arena_fail_at(0, 0);
+            assert_true(status == FW_OK ? l != NULL : status == FW_NOMEM && l == NULL);
+        }
+        assert_true(n > 5 && n < 200);
+        double *y, *f;
+        fw_lanes *l = lanes_of(&b, fw_lanes_set(0), &y, &f);
+        fw_arena_fail_at(0, 0);
+        long count = fw_arena_count();
+        fw_lanes_rhs(l, y, f);
+        fw_lanes_project(l, y, f);
+        assert_int_equal(fw_arena_count(), count);
+        fw_arena_free(b.arena);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_each_lane),       cmocka_unit_test(test_projection),
+        cmocka_unit_test(test_lanes_are_alone), cmocka_unit_test(test_integrate),
+        cmocka_unit_test(test_refused),         cmocka_unit_test(test_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
