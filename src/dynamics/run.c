@@ -64,13 +64,13 @@ static fw_status too_long(const fw_run *r, const fw_stepper *s) {
     char count[32], step[32], at[32];
     double unit = r->model->scale.time_s;
     bool steps = r->steps > most_steps(r);
-    double million = 1e-6 * (double)(steps ? most_steps(r) : fw_most_events);
+    double limit = (double)(steps ? most_steps(r) : fw_most_events);
     fw_status status =
         fw_diag_error(r->diags, 108, r->scene->place,
-                      "scene %s needs more than %s million %s (steps are %s s, and %s s are "
+                      "scene %s needs more than %s %s (steps are %s s, and %s s are "
                       "reached): shorten it, or "
                       "look for a stiffness or damping that is extreme against the masses",
-                      scene_name(r), fw_number_text(count, sizeof count, million, 4),
+                      scene_name(r), fw_number_text(count, sizeof count, limit, 9),
                       steps ? "steps" : "events", fw_number_text(step, sizeof step, s->h * unit, 2),
                       fw_number_text(at, sizeof at, s->t * unit, 3));
     return status == FW_NOMEM ? FW_NOMEM : FW_LIMIT;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Mechanisms that cannot be put together. Hard because a Newton iteration then wanders or stops
-   somewhere, and its last iterate says nothing: the answer wanted is which joint cannot close, and by
-   how much at best. Those that just barely close must close. */
+   somewhere, and its last iterate says nothing: the answer wanted is which joint cannot close, and
+   by how much at best. Those that just barely close must close. */
 #include "hard.h"
 
 static outcome assemble(fw_arena *arena, const rig *r, double *moved) {

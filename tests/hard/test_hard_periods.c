@@ -1,18 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A hundred thousand periods of a linkage without damping. Hard because the round-off of some
-   millions of steps adds up: in the energy, in the phase, and, were it not for the projection, in the
-   joints, where it would grow and not merely add. */
+   millions of steps adds up: in the energy, in the phase, and, were it not for the projection, in
+   the joints, where it would grow and not merely add. */
 #include "hard.h"
 
 /* a parallelogram with a torsion spring at one ground pin: its coupler only translates, so that the
-   crank angle swings like a linear oscillator of J = 2 (J_c + m r^2) + m l^2, whatever the amplitude */
+   crank angle swings like a linear oscillator of J = 2 (J_c + m r^2) + m l^2, whatever the
+   amplitude */
 static rig oscillator(fw_arena *arena, double amplitude, double *omega) {
     const double l = 0.5, m = 1, k = 40;
     double angle = HARD_PI / 2, at = angle + amplitude;
-    const double p[4][2] = {{0, 0},
-                            {l * cos(at), l * sin(at)},
-                            {1 + l * cos(at), l * sin(at)},
-                            {1, 0}};
+    const double p[4][2] = {
+        {0, 0}, {l * cos(at), l * sin(at)}, {1 + l * cos(at), l * sin(at)}, {1, 0}};
     rig r = rig_new(arena, 3, 4, 0);
     hard_bars(&r, p, 3, m);
     rig_pin(&r, "A", FW_GROUND, 0, 0, 0, k, 0);
@@ -31,10 +30,10 @@ static void test_periods(void **state) {
         fw_arena *arena = fw_arena_new(0);
         rig r = oscillator(arena, amplitude, &omega);
         r.scene.duration_s = (double)periods * 2 * HARD_PI / omega;
-        const fw_motion *m = hard_run(arena, &r,
-                                      (fw_motion_options){.rtol = pow(10, -e),
-                                                          .samples = 11,
-                                                          .most_steps = 40 * 1000 * 1000});
+        const fw_motion *m =
+            hard_run(arena, &r,
+                     (fw_motion_options){
+                         .rtol = pow(10, -e), .samples = 11, .most_steps = 40 * 1000 * 1000});
         double phase = 0, size = 0, couple = 0;
         for (int i = 1; i < 11; i++) {
             double u = (hard_q(m, i)[2] - HARD_PI / 2) / amplitude;
@@ -67,11 +66,10 @@ static void test_ablation(void **state) {
         fw_arena *arena = fw_arena_new(0);
         rig r = oscillator(arena, 0.8, &omega);
         r.scene.duration_s = (double)periods * 2 * HARD_PI / omega;
-        outcome out = hard_try(arena, &r,
-                               (fw_motion_options){.rtol = 1e-9,
-                                                   .samples = 2,
-                                                   .stabilise = how[k],
-                                                   .most_steps = 1000 * 1000});
+        outcome out = hard_try(
+            arena, &r,
+            (fw_motion_options){
+                .rtol = 1e-9, .samples = 2, .stabilise = how[k], .most_steps = 1000 * 1000});
         if (out.status != FW_OK)
             print_message("periods: %ld, stabilise %-10s: %s\n", periods, how[k], out.message);
         else

@@ -42,7 +42,8 @@ static void test_bar(void **state) {
 }
 
 /* random velocities on mechanisms of all kinds: v+ satisfies G v+ = 0; the change is orthogonal to
-   every motion that is allowed, so that T(v) = T(v+) + T(v - v+), and projecting again does nothing */
+   every motion that is allowed, so that T(v) = T(v+) + T(v - v+), and projecting again does nothing
+ */
 static void test_is_the_mass_orthogonal_one(void **state) {
     (void)state;
     uint64_t seed = 11;
@@ -62,10 +63,9 @@ static void test_is_the_mass_orthogonal_one(void **state) {
                 rig_velocity(&r, b, v[3 * b], v[3 * b + 1], v[3 * b + 2]);
             }
             r.scene.duration_s = run % 3 == 2 ? 1e-3 : 1e-5;
-            outcome out = hard_try(arena, &r,
-                                   (fw_motion_options){.rtol = 1e-8,
-                                                       .samples = 2,
-                                                       .method = fw_method_at(k).name});
+            outcome out = hard_try(
+                arena, &r,
+                (fw_motion_options){.rtol = 1e-8, .samples = 2, .method = fw_method_at(k).name});
             if (out.status != FW_OK) {
                 refused++;
                 fw_arena_free(arena);
@@ -82,10 +82,9 @@ static void test_is_the_mass_orthogonal_one(void **state) {
             r.scene.ninitial = 0;
             for (int b = 0; b < r.m.nbody; b++)
                 rig_velocity(&r, b, after[3 * b], after[3 * b + 1], after[3 * b + 2]);
-            outcome twice = hard_try(arena, &r,
-                                     (fw_motion_options){.rtol = 1e-8,
-                                                         .samples = 2,
-                                                         .method = fw_method_at(k).name});
+            outcome twice = hard_try(
+                arena, &r,
+                (fw_motion_options){.rtol = 1e-8, .samples = 2, .method = fw_method_at(k).name});
             assert_int_equal(twice.status, FW_OK);
             assert_int_equal(twice.number, 0); /* nothing to say */
             again = fmax(again, twice.m->stats.velocity_moved);
