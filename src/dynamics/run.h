@@ -33,6 +33,8 @@ typedef struct fw_run {
     fw_motion *motion;
     fw_model *model;
     const fw_stepper_row *integrator;
+    double uneven;    /* heaviest body over the lightest one between two joints */
+    const char *why;  /* this method though none was asked for; NULL: the default, or asked for */
     double *q0;       /* (3 nbody) assembled, SI */
     double *start;    /* (ny) */
     double *state;    /* (ny) a sample */
@@ -57,7 +59,9 @@ typedef struct fw_run {
 fw_status fw_run_prepare(fw_run *r, const fw_terms *terms);
 fw_status fw_run_arrays(fw_run *r);
 
-/* choose.c: by name, or by the scene; says why in motion->reason */
+/* choose.c: by name, or by the masses; r->why says so where it is not the default */
+fw_status fw_method_choose(fw_run *r);
+/* by name, or by the scene; says why in motion->reason */
 fw_status fw_integrator_choose(fw_run *r, const fw_terms *terms, const char *name);
 
 /* sample.c */

@@ -17,21 +17,23 @@ static double cpu_seconds(void) {
 }
 
 /* where m r^2/J is huge the accelerations carry round-off of 1e-16 m r^2/J; below some 1e-3 of that
-   the error estimate follows noise, and steps shrink for nothing */
-static double noise_floor(const fw_model *m) {
-    double ratio = 0;
+   the error estimate follows noise, and steps shrink for nothing. Likewise where a light body sits
+   between heavy ones, but for methods in independent coordinates. */
+static double noise_floor(const fw_run *r) {
+    const fw_model *m = r->model;
+    double ratio = 0, masses = m->method->independent ? 0 : 3e-17 * r->uneven;
     for (int i = 0; i < 2 * m->nblock; i++) {
         int b = m->body[i];
         double x = m->local[2 * i], y = m->local[2 * i + 1];
         if (b < m->nbody) ratio = fmax(ratio, m->jinv[b] / m->minv[b] * (x * x + y * y));
     }
-    return 3e-19 * ratio;
+    return fmax(3e-19 * ratio, masses);
 }
 
-static double chosen_rtol(const fw_motion_options *o, const fw_model *m) {
+static double chosen_rtol(const fw_motion_options *o, const fw_run *r) {
     double accuracy = o->accuracy > 0 ? o->accuracy : 1e-3;
     double rtol = o->rtol > 0 ? o->rtol : fmin(1e-6, 1e-4 * accuracy);
-    return fmin(fw_loosest, fmax(fmax(fw_tightest, noise_floor(m)), rtol));
+    return fmin(fw_loosest, fmax(fmax(fw_tightest, noise_floor(r)), rtol));
 }
 
 /* ---- the two runs ---- */
@@ -134,7 +136,7 @@ static bool good_enough(const fw_run *r) {
 
 static fw_status solve(fw_run *r) {
     const fw_motion_options *o = r->options;
-    double rtol = chosen_rtol(o, r->model), tightest = fmax(fw_tightest, noise_floor(r->model));
+    double rtol = chosen_rtol(o, r), tightest = fmax(fw_tightest, noise_floor(r));
     int rows = r->motion->nsample;
     for (;;) {
         r->motion->nsample = rows;
@@ -175,8 +177,10 @@ static void set_stabilisation(fw_run *r) {
 
 static fw_status say_method(fw_run *r) {
     const fw_method *method = r->model->method;
+    r->motion->method_report = r->why;
     if (!method->report) return FW_OK;
     fw_text text = fw_text_new(r->arena);
+    if (r->why) fw_text_printf(&text, "%s; ", r->why);
     FW_TRY(method->report(r->model, r->mechanism, &text));
     FW_TRY(fw_text_end(&text));
     r->motion->method_report = text.data;
@@ -193,6 +197,7 @@ fw_status fw_simulate(fw_arena *arena, const fw_mechanism *mechanism, const fw_s
     FW_TRY(fw_check_motion(mechanism, scene, diags));
     FW_NEED(r.motion = fw_arena_one(arena, fw_motion));
     FW_TRY(fw_check_names(options, diags, r.motion));
+    FW_TRY(fw_method_choose(&r));
     double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
     FW_TRY(fw_effects_compile(arena, mechanism, scene, &options->effects, accuracy, diags,
                               &r.motion->ledger, &terms));
