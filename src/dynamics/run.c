@@ -69,6 +69,19 @@ static fw_status too_long(const fw_run *r, const fw_stepper *s) {
     return status == FW_NOMEM ? FW_NOMEM : FW_LIMIT;
 }
 
+/* ---- steps that see all of the loads ---- */
+
+/* longer by half in the second run, so that the difference of the two tells the error where not the
+   tolerance but a law limits the steps */
+static void limit_step(const fw_run *r, fw_stepper *s, double t) {
+    if (r->nstride > 0) s->h_max = fw_run_stride(r, r->full ? 1 : 1.5, t);
+}
+
+static void start_stepper(const fw_run *r, fw_stepper *s, double t, const double *y, double end) {
+    limit_step(r, s, t);
+    fw_stepper_start(s, t, y, end);
+}
+
 /* ---- energy ---- */
 
 static void watch_energy(fw_run *r, const double *y) {
@@ -133,7 +146,7 @@ static bool pass_event(fw_run *r, fw_stepper *s, int which, double theta) {
             !m->method->factor(m) || !fw_model_project_velocity(m, t, r->moved + m->nq))
             return false;
     }
-    fw_stepper_start(s, t, r->moved, s->t_end);
+    start_stepper(r, s, t, r->moved, s->t_end);
     return true;
 }
 
@@ -167,7 +180,7 @@ static fw_status next_piece(fw_run *r, fw_stepper *s, int piece) {
             return stopped(r, s, FW_ODE_SMALL);
         if (m->worked >= 0) y[m->worked] += kinetic(m, y + m->nq) - before;
     }
-    fw_stepper_start(s, t, y, r->end[piece]);
+    start_stepper(r, s, t, y, r->end[piece]);
     return FW_OK;
 }
 
@@ -195,7 +208,7 @@ static fw_status begin(fw_run *r, fw_stepper *s) {
     m->stuck = -1;
     m->piece = 0.5 * r->end[0] * m->scale.time_s;
     fw_model_set_switches(m, r->start);
-    fw_stepper_start(s, 0, r->start, r->end[0]);
+    start_stepper(r, s, 0, r->start, r->end[0]);
     if (!r->full) return FW_OK;
     first_energy(r, s->y);
     fw_run_first_sample(r, s->y);
@@ -210,6 +223,7 @@ fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks) {
         if (piece > 0) FW_TRY(next_piece(r, s, piece));
         while (s->t < r->end[piece] && !ended) {
             if (fw_cancel_requested()) return FW_CANCELLED;
+            limit_step(r, s, s->t);
             fw_ode_result result = fw_stepper_step(s);
             if (result != FW_ODE_STEP) return stopped(r, s, result);
             int which;

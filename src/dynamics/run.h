@@ -46,6 +46,9 @@ typedef struct fw_run {
     long steps;                               /* over all tries */
     double *end; /* (npiece) scaled times at which a smooth piece ends */
     int npiece;
+    fw_law_strides *stride; /* (nstride) of the laws that limit steps, s */
+    int *stride_row;        /* (nstride) where each search stands */
+    int nstride;
     int row;              /* next sample */
     bool full;            /* samples, observer and energy too */
     fw_force_peak *force; /* (npin) of this pass, scaled time; NULL: not asked for */
@@ -55,6 +58,9 @@ typedef struct fw_run {
 
 /* start.c: pieces, assembled state with fitting velocities, size of the motion, output arrays */
 fw_status fw_run_prepare(fw_run *r, const fw_terms *terms);
+/* longest scaled step from scaled time t on that leaps over nothing in any law, each of whose
+   strides may be `factor` times as long */
+double fw_run_stride(const fw_run *r, double factor, double t);
 fw_status fw_run_arrays(fw_run *r);
 
 /* choose.c: by name, or by the scene; says why in motion->reason */
