@@ -13,12 +13,23 @@ typedef struct fw_peaks {
     int *a, *b;    /* (npin) bodies */
     fw_peak *peak; /* (npin) time scaled */
     int npin;
+    double *mark_t; /* (nmark) instants at which two runs are compared, ascending, scaled */
+    double *mark;   /* (nmark x npin) angles there */
+    int nmark;
+    const struct fw_peaks *marked; /* the run that set the instants; NULL: this one sets them */
 } fw_peaks;
+enum { FW_MARKS = 16 };
 fw_status fw_peaks_new(fw_arena *arena, const fw_mechanism *mechanism, const double *q,
                        fw_peaks *peaks);
 double fw_peaks_angle(const fw_peaks *peaks, int pin, const double *y);
 /* the last step up to theta_end */
 void fw_peaks_step(fw_peaks *peaks, const fw_model *m, fw_stepper *s, double theta_end);
+/* notes all angles at the marks that the step reaches; final: scaled end of the scene */
+void fw_peaks_mark(fw_peaks *peaks, fw_stepper *s, double theta_end, double final, double *y);
+/* the first mark of both runs at or behind scaled time t; FW_MARKS: none */
+int fw_peaks_first_mark(const fw_peaks *peaks, const fw_peaks *other, double t);
+/* largest difference of any angle of two runs at mark k; 0 when one of them has none */
+double fw_peaks_apart(const fw_peaks *peaks, const fw_peaks *other, int k);
 
 /* check.c */
 fw_status fw_check_options(const fw_motion_options *options, fw_diags *diags);
