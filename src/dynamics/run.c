@@ -76,6 +76,19 @@ static fw_status too_long(const fw_run *r, const fw_stepper *s) {
     return status == FW_NOMEM ? FW_NOMEM : FW_LIMIT;
 }
 
+/* ---- steps that see all of the loads ---- */
+
+/* longer by half in the second run, so that the difference of the two tells the error where not the
+   tolerance but a law limits the steps */
+static void limit_step(const fw_run *r, fw_stepper *s, double t) {
+    if (r->nstride > 0) s->h_max = fw_run_stride(r, r->full ? 1 : 1.5, t);
+}
+
+static void start_stepper(const fw_run *r, fw_stepper *s, double t, const double *y, double end) {
+    limit_step(r, s, t);
+    fw_stepper_start(s, t, y, end);
+}
+
 /* ---- energy ---- */
 
 static void watch_energy(fw_run *r, const double *y) {
@@ -140,7 +153,7 @@ static bool pass_event(fw_run *r, fw_stepper *s, int which, double theta) {
             !m->method->factor(m) || !fw_model_project_velocity(m, t, r->moved + m->nq))
             return false;
     }
-    fw_stepper_start(s, t, r->moved, s->t_end);
+    start_stepper(r, s, t, r->moved, s->t_end);
     return true;
 }
 
@@ -174,7 +187,7 @@ static fw_status next_piece(fw_run *r, fw_stepper *s, int piece) {
             return stopped(r, s, FW_ODE_SMALL);
         if (m->worked >= 0) y[m->worked] += kinetic(m, y + m->nq) - before;
     }
-    fw_stepper_start(s, t, y, r->end[piece]);
+    start_stepper(r, s, t, y, r->end[piece]);
     return FW_OK;
 }
 
@@ -187,6 +200,7 @@ static bool turned_too_far(const fw_run *r, const fw_peaks *peaks) {
 /* everything that looks at the step just made, up to theta_end */
 static bool look(fw_run *r, fw_stepper *s, fw_peaks *peaks, double theta_end) {
     fw_peaks_step(peaks, r->model, s, theta_end);
+    fw_peaks_mark(peaks, s, theta_end, r->end[r->npiece - 1], r->moved);
     fw_run_forces(r, s, theta_end);
     if (!r->full) return true;
     if (theta_end == 1) watch_energy(r, s->y);
@@ -202,7 +216,7 @@ static fw_status begin(fw_run *r, fw_stepper *s) {
     m->stuck = -1;
     m->piece = 0.5 * r->end[0] * m->scale.time_s;
     fw_model_set_switches(m, r->start);
-    fw_stepper_start(s, 0, r->start, r->end[0]);
+    start_stepper(r, s, 0, r->start, r->end[0]);
     if (!r->full) return FW_OK;
     first_energy(r, s->y);
     fw_run_first_sample(r, s->y);
@@ -217,6 +231,7 @@ fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks) {
         if (piece > 0) FW_TRY(next_piece(r, s, piece));
         while (s->t < r->end[piece] && !ended) {
             if (fw_cancel_requested()) return FW_CANCELLED;
+            limit_step(r, s, s->t);
             fw_ode_result result = fw_stepper_step(s);
             if (result != FW_ODE_STEP) return stopped(r, s, result);
             int which;
