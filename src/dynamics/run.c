@@ -180,7 +180,7 @@ static bool turned_too_far(const fw_run *r, const fw_peaks *peaks) {
 /* everything that looks at the step just made, up to theta_end */
 static bool look(fw_run *r, fw_stepper *s, fw_peaks *peaks, double theta_end) {
     fw_peaks_step(peaks, r->model, s, theta_end);
-    fw_run_forces(r, s, theta_end);
+    fw_run_extremes(r, s, theta_end);
     if (!r->full) return true;
     if (theta_end == 1) watch_energy(r, s->y);
     fw_run_show(r, s, theta_end);

@@ -39,7 +39,7 @@ static double chosen_rtol(const fw_motion_options *o, const fw_model *m) {
 typedef struct pass {
     fw_stepper *stepper;
     fw_peaks peaks;
-    fw_force_peak *force; /* (npin) or NULL */
+    fw_extreme *extreme; /* (channels) or NULL */
 } pass;
 
 /* a fixed step has no tolerance: h = rtol^(1/4) scaled makes its error go with rtol, too */
@@ -56,12 +56,12 @@ static fw_status run_once(fw_run *r, double rtol, bool full, pass *p) {
     for (int i = 0; i < m->ny; i++)
         atol[i] = fmax(rtol * r->amplitude, 2e-15);
     FW_TRY(fw_peaks_new(r->arena, r->mechanism, r->q0, &p->peaks));
-    r->force = NULL;
+    r->extreme = NULL;
     if (r->options->reactions)
-        FW_NEED(r->force = fw_arena_array(r->arena, fw_force_peak, (size_t)m->npin));
+        FW_NEED(r->extreme = fw_arena_array(r->arena, fw_extreme, (size_t)fw_run_channels(r)));
     FW_TRY(fw_stepper_new(r->arena, r->integrator, &ode, rtol, atol, &p->stepper));
     p->stepper->h_fixed = pow(rtol, 0.25);
-    p->force = r->force;
+    p->extreme = r->extreme;
     r->full = full;
     fw_status status = fw_run_pass(r, p->stepper, &p->peaks);
     fw_stepper_free(p->stepper); /* what a library holds for it; its results stay */
@@ -108,28 +108,17 @@ static void estimate_errors(fw_run *r, const pass *fine, const pass *coarse) {
             worst + DBL_EPSILON * (double)(8 + s->steps) * (1 + fabs(p->angle_rad)) +
             r->motion->stats.energy_error * fabs(p->angle_rad); /* never below the books */
     }
-    double other = 0;
-    for (int i = 0; fine->force && i < fine->peaks.npin; i++)
-        other = fmax(other, fabs(fine->force[i].force_N - coarse->force[i].force_N));
-    for (int i = 0; fine->force && i < fine->peaks.npin; i++) {
-        fw_force_peak *p = &r->motion->force_peak[i];
-        *p = fine->force[i];
-        p->t_s *= unit;
-        p->error_N = other + DBL_EPSILON * (double)(8 + s->steps) * p->force_N;
-    }
+    if (fine->extreme) fw_run_take_extremes(r, fine->extreme, coarse->extreme, s->steps);
 }
 
 static bool good_enough(const fw_run *r) {
     const fw_motion_options *o = r->options;
-    double accuracy = o->accuracy > 0 ? o->accuracy : 1e-3, most = 0, error = 0, force = 0, off = 0;
+    double accuracy = o->accuracy > 0 ? o->accuracy : 1e-3, most = 0, error = 0;
     for (int i = 0; i < r->motion->npin; i++) {
         most = fmax(most, fabs(r->motion->peak[i].angle_rad));
         error = fmax(error, r->motion->peak[i].error_rad);
-        if (!o->reactions) continue;
-        force = fmax(force, r->motion->force_peak[i].force_N);
-        off = fmax(off, r->motion->force_peak[i].error_N);
     }
-    return error <= accuracy * most && off <= accuracy * force;
+    return error <= accuracy * most && (!o->reactions || fw_run_extremes_good(r, accuracy));
 }
 
 static fw_status solve(fw_run *r) {
@@ -162,7 +151,10 @@ static fw_status assembled(fw_run *r) {
         r->q0[3 * b + 1] = m->body[b].y_m;
         r->q0[3 * b + 2] = m->body[b].phi_rad;
     }
-    return fw_assemble(r->arena, m, r->q0, &r->motion->stats.assembly_moved_m, r->diags);
+    double moved;
+    FW_TRY(fw_assemble(r->arena, m, r->q0, &moved, r->diags));
+    r->motion->stats.assembly_moved_m = fmax(moved, r->options->moved_m);
+    return FW_OK;
 }
 
 static void set_stabilisation(fw_run *r) {
