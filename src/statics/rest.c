@@ -279,7 +279,14 @@ void fw_rest_reactions(const fw_rest *w, double *reaction, double *tie, double *
 }
 
 /* rows that take part in a combination of rows that is zero: what U_1, the part of U that counts,
-   misses of a unit row */
+   misses of a unit row.
+
+   fw_assembly_rank (assembly/rank.c) finds a rank too, and neither can stand for the other. Here it
+   must be the one of the decomposition, in the mass metric and cut at round-off, that the modes and
+   multipliers beside it come from, or their count would contradict the freedoms that are reported;
+   it is there for every state of a path at no further cost, and names all joints of a dependency.
+   There it answers for a pose before masses matter: cut at 1e-10, so that a pose closed to 1e-12
+   counts as what it is meant to be, and it names what is redundant in file order. */
 fw_status fw_rest_rank(const fw_rest *w, fw_row_rank *rank) {
     const fw_reduced *r = &w->reduced;
     const fw_model *m = w->model;
