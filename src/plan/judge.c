@@ -69,18 +69,19 @@ fw_status fw_plan_mechanism(fw_plan *plan, const fw_scene *scene, const fw_mecha
 }
 
 /* poses that leave joints open are a guess: effects, motion and pictures start from closed ones */
-fw_status fw_plan_start(fw_plan *plan, const fw_mechanism **mechanism, const fw_scene **scene) {
+fw_status fw_plan_start(fw_plan *plan, const fw_mechanism **mechanism, const fw_scene **scene,
+                        double *moved_m) {
     if (!*scene) *scene = fw_plan_scene(plan);
     if (!*scene) return FW_INPUT;
     FW_TRY(fw_plan_mechanism(plan, *scene, mechanism));
-    return fw_assembled(plan->arena, *mechanism, &plan->diags, mechanism);
+    return fw_assembled(plan->arena, *mechanism, &plan->diags, mechanism, moved_m);
 }
 
 fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mechanism **mechanism,
                            const fw_scene **scene) {
     *scene = NULL;
-    FW_TRY(fw_plan_start(plan, mechanism, scene));
     fw_motion_options options = plan->options.verdict.motion;
+    FW_TRY(fw_plan_start(plan, mechanism, scene, &options.moved_m));
     options.reactions = true;
     return fw_simulate(plan->arena, *mechanism, *scene, &options, &plan->diags, motion);
 }
