@@ -98,9 +98,7 @@ static void look(const fw_figure_part *part, const pen_t *pen) {
         fw_report_markup(pen->out, " stroke=\"#D55E00\" stroke-width=\"{c}\"", 0.8 * mark);
         return;
     case FW_FIGURE_SPRING:
-        fw_report_markup(pen->out,
-                         " fill=\"none\" stroke=\"#8250df\" stroke-width=\"{c}\" "
-                         "stroke-linejoin=\"round\"",
+        fw_report_markup(pen->out, " fill=\"none\" stroke=\"#8250df\" stroke-width=\"{c}\"",
                          0.28 * mark);
         return;
     case FW_FIGURE_CABLE:
