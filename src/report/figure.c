@@ -366,3 +366,28 @@ fw_status fw_figure_make(fw_arena *arena, const fw_mechanism *mechanism, const d
     pins(&k);
     return FW_OK;
 }
+
+fw_status fw_figure_of_verdict(fw_arena *arena, const fw_verdict *verdict, fw_figure *figure,
+                               double **q) {
+    const fw_mechanism *m = verdict && verdict->nvariant > 0 ? verdict->variant[0].mechanism : NULL;
+    *q = NULL;
+    if (!m) return FW_OK;
+    double *pose = fw_arena_array(arena, double, 3 * (size_t)m->nbody + 1);
+    FW_NEED(pose);
+    for (int b = 0; b < m->nbody; b++) {
+        pose[3 * b] = m->body[b].x_m;
+        pose[3 * b + 1] = m->body[b].y_m;
+        pose[3 * b + 2] = m->body[b].phi_rad;
+    }
+    *q = pose;
+    return fw_figure_make(arena, m, pose, 1, figure);
+}
+
+fw_status fw_figure_rest_reach(fw_arena *arena, const fw_verdict *verdict, fw_box *box) {
+    fw_figure figure;
+    double *q;
+    FW_TRY(fw_figure_of_verdict(arena, verdict, &figure, &q));
+    for (int i = 0; q && i < figure.count; i++)
+        fw_figure_reach(box, &figure.part[i], q, 1, figure.mechanism->nbody);
+    return FW_OK;
+}

@@ -51,6 +51,11 @@ typedef struct fw_figure {
 /* the parts. Guides are as long as the sliders go in the `count` poses q (count x 3 nbody). */
 fw_status fw_figure_make(fw_arena *arena, const fw_mechanism *mechanism, const double *q, int count,
                          fw_figure *figure);
+/* the figure of the first variant's mechanism in its drawn pose *q (3 nbody), which is set to NULL
+   where `verdict` has none (or is NULL) */
+fw_status fw_figure_of_verdict(fw_arena *arena, const fw_verdict *verdict, fw_figure *figure,
+                               double **q);
+fw_status fw_figure_rest_reach(fw_arena *arena, const fw_verdict *verdict, fw_box *box);
 /* adds where a part gets to */
 void fw_figure_reach(fw_box *box, const fw_figure_part *part, const double *q, int count,
                      int nbody);
@@ -68,6 +73,8 @@ typedef struct fw_figure_pen {
     double mark;                /* pixels: size of marks */
 } fw_figure_pen;
 void fw_figure_draw(const fw_figure_part *part, const fw_figure_pen *pen);
+/* the path data of the line or outline of a part at `q` */
+void fw_figure_path(const fw_figure_part *part, const fw_figure_pen *pen, const double *q);
 /* the line or outline of a body, dashed, where `q` has it; nothing for other parts */
 void fw_figure_ghost(const fw_figure_part *part, const double *q, const fw_figure_pen *pen);
 const char *fw_figure_colour(int body);

@@ -54,7 +54,7 @@ static void zigzag(const pen_t *pen, fw_vec2 a, fw_vec2 b, int waves) {
     fw_report_markup(pen->out, "L{c} {c}L{c} {c}", b.x - lead * ex, b.y - lead * ey, b.x, b.y);
 }
 
-static void path(const fw_figure_part *part, const pen_t *pen, const double *q) {
+void fw_figure_path(const fw_figure_part *part, const fw_figure_pen *pen, const double *q) {
     if (part->noutline) {
         for (int i = 0; i < part->noutline; i++) {
             fw_vec2 p =
@@ -116,7 +116,7 @@ static void hatch(const fw_figure_part *part, const pen_t *pen) {
     fw_report_markup(pen->out,
                      "<path stroke=\"#8c959f\" stroke-width=\"{c}\" stroke-dasharray=\"1 5\" d=\"",
                      1.8 * pen->mark);
-    path(part, pen, pen->still);
+    fw_figure_path(part, pen, pen->still);
     fw_text_add(pen->out, "\"/>\n");
 }
 
@@ -125,7 +125,7 @@ static void line(const fw_figure_part *part, const pen_t *pen) {
     fw_text_add(pen->out, "<path");
     look(part, pen);
     fw_text_add(pen->out, " stroke-linecap=\"round\" stroke-linejoin=\"round\" d=\"");
-    path(part, pen, pen->still);
+    fw_figure_path(part, pen, pen->still);
     if (pen->frames == 0 || at_rest(part)) {
         fw_text_add(pen->out, "\"/>\n");
         return;
@@ -134,7 +134,7 @@ static void line(const fw_figure_part *part, const pen_t *pen) {
     timing(pen);
     for (int i = 0; i < pen->frames; i++) {
         fw_text_add(pen->out, i ? ";" : "");
-        path(part, pen, frame(pen, i));
+        fw_figure_path(part, pen, frame(pen, i));
     }
     fw_text_add(pen->out, "\"/></path>\n");
 }
@@ -266,7 +266,7 @@ void fw_figure_draw(const fw_figure_part *part, const fw_figure_pen *pen) {
 void fw_figure_ghost(const fw_figure_part *part, const double *q, const fw_figure_pen *pen) {
     if (part->role != FW_FIGURE_BODY) return;
     fw_text_add(pen->out, "<path d=\"");
-    path(part, pen, q);
+    fw_figure_path(part, pen, q);
     fw_text_add(pen->out, "\"/>\n");
 }
 

@@ -139,14 +139,12 @@ fw_status fw_report_panels(fw_arena *arena, const fw_mechanism *mechanism, const
 
 /* ---- drawing.c ---- */
 /* everything inside the <svg> of the device drawing; `ids` adds ids that figures may <use> */
-void fw_report_drawing(const fw_device *device, const fw_layout *layout, const fw_verdict *verdict,
-                       const fw_report_view *view, bool ids, fw_text *out);
+fw_status fw_report_drawing(const fw_device *device, const fw_layout *layout,
+                            const fw_verdict *verdict, const fw_report_view *view, bool ids,
+                            fw_text *out);
 /* path of all rigid pieces of a body */
 void fw_report_body_path(const fw_layout *layout, int body, const fw_report_view *view,
                          fw_text *out);
-/* stick figure of body `body` for mechanisms without shapes */
-void fw_report_body_sticks(const fw_device *device, int body, const fw_report_view *view,
-                           fw_text *out);
 double fw_report_joint_utilisation(const fw_verdict *verdict, int joint); /* NaN: none */
 
 /* ---- sections of the page ---- */
