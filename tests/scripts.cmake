@@ -29,6 +29,8 @@ fw_script_test(docs.readme COMMAND ${Python3_EXECUTABLE} tests/docs/readme.py ${
 fw_script_test(build.clang COMMAND tests/build/clang.sh TIMEOUT 600)
 fw_script_test(build.sanitized COMMAND tests/build/sanitized.sh TIMEOUT 900)
 fw_script_test(fuzz.device COMMAND tests/build/fuzz.sh TIMEOUT 600)
+fw_script_test(hard.valgrind LABEL hard COMMAND tests/build/valgrind.sh ${PROJECT_BINARY_DIR}/tests TIMEOUT 600)
+set_tests_properties(hard.valgrind PROPERTIES SKIP_RETURN_CODE 77)
 set_tests_properties(build.clang build.sanitized fuzz.device PROPERTIES RUN_SERIAL ON)
 
 add_executable(fault_memory fault/memory.c)

@@ -28,6 +28,7 @@ typedef struct fw_motion_options {
     int samples; /* rows of `sample`, evenly over the scene, first at 0, last at the end */
     fw_effect_choice effects;
     bool reactions;        /* peaks of the joint forces too */
+    long most_steps;       /* over all tries; FW-D108 beyond; 0: 10 million */
     double most_angle_rad; /* ends the run when a joint has turned further: the verdict needs no
                               more; 0: never */
     fw_observer observe;   /* NULL: nobody looks */

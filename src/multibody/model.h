@@ -162,6 +162,8 @@ typedef struct fw_model {
    lambda, gamma, r (2 nblock, empty rows are 0 and stay 0). */
 typedef struct fw_method {
     const char *name, *summary, *source;
+    bool independent; /* solves for independent coordinates, not for forces: very different masses
+                         cost it no digits */
     /* memory; FW_SOLVER with a diagnostic when it cannot treat this mechanism. NULL: none */
     fw_status (*prepare)(fw_arena *arena, fw_model *m, const fw_mechanism *mechanism,
                          fw_diags *diags, void **work);
