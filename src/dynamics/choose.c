@@ -113,26 +113,41 @@ static fw_status fastest(fw_run *r, double *rate) {
     return FW_OK;
 }
 
-/* rad per scaled unit of time of the motion that the loads excite: u^T K u = F.u over u^T M u for
-   the static response u; 0 when there is none */
-static fw_status excited(fw_run *r, const fw_terms *terms, double *rate) {
-    const fw_mechanism *m = r->mechanism;
-    size_t n = 3 * (size_t)m->nbody;
-    double *force, *u, *rotation, work = 0, mass = 0;
+/* omega^2 = F.u / u^T M u for the static response u to F (SI), scaled; 0 when there is none */
+static fw_status rayleigh(fw_run *r, const fw_terms *terms, const double *force, double *u,
+                          double *rotation, double *rate) {
+    double work = 0, mass = 0;
     bool valid = false;
-    fw_mark mark = fw_arena_mark(r->arena);
-    *rate = 0;
-    FW_NEED(force = fw_arena_array(r->arena, double, n));
-    FW_NEED(u = fw_arena_array(r->arena, double, n));
-    FW_NEED(rotation = fw_arena_array(r->arena, double, (size_t)m->npin));
-    fw_terms_initial_force(m, terms, force);
-    FW_TRY(fw_static_response(r->arena, m, terms, force, u, rotation, &valid));
-    for (size_t i = 0; i < n && valid; i++) {
-        const fw_mass *b = &m->body[i / 3];
+    FW_TRY(fw_static_response(r->arena, r->mechanism, terms, force, u, rotation, &valid));
+    for (int i = 0; i < r->model->nq && valid; i++) {
+        const fw_mass *b = &r->mechanism->body[i / 3];
         work += force[i] * u[i];
         mass += (i % 3 == 2 ? b->inertia_kg_m2 : b->mass_kg) * u[i] * u[i];
     }
-    if (valid && work > 0 && mass > 0) *rate = sqrt(work / mass) * r->model->scale.time_s;
+    *rate = valid && work > 0 && mass > 0 ? sqrt(work / mass) * r->model->scale.time_s : 0;
+    return FW_OK;
+}
+
+/* rad per scaled unit of time of the motion that is excited: by the loads at their largest, else by
+   the starting velocities, whose momenta stand in for forces; 0 for a free motion. Source:
+   Rayleigh's quotient. */
+static fw_status excited(fw_run *r, const fw_terms *terms, double *rate) {
+    const fw_mechanism *m = r->mechanism;
+    size_t n = 3 * (size_t)m->nbody;
+    double *force, *u, *rotation;
+    fw_mark mark = fw_arena_mark(r->arena);
+    FW_NEED(force = fw_arena_array(r->arena, double, n));
+    FW_NEED(u = fw_arena_array(r->arena, double, n));
+    FW_NEED(rotation = fw_arena_array(r->arena, double, (size_t)m->npin));
+    fw_terms_largest_force(m, terms, r->scene->duration_s, force);
+    FW_TRY(rayleigh(r, terms, force, u, rotation, rate));
+    const fw_scale s = r->model->scale;
+    for (size_t i = 0; i < n; i++) /* SI momenta over a second */
+        force[i] =
+            r->start[n + i] *
+            (i % 3 == 2 ? m->body[i / 3].inertia_kg_m2 : m->body[i / 3].mass_kg * s.length_m) /
+            s.time_s;
+    if (*rate == 0) FW_TRY(rayleigh(r, terms, force, u, rotation, rate));
     fw_arena_rewind(r->arena, mark);
     return FW_OK;
 }
@@ -146,22 +161,26 @@ static fw_status choose(fw_run *r, const fw_terms *terms) {
     double fast, slow, unit = m->scale.time_s, time = r->scene->duration_s / unit;
     FW_TRY(fastest(r, &fast));
     FW_TRY(excited(r, terms, &slow));
+    slow = fmin(slow, fast); /* a nearly rigid response says nothing */
     double stable = time * fast / 6, needed = fmax(200, time * (slow > 0 ? slow : fast));
     bool stiff = stable > 20 * needed, large = m->ny > IMPLICIT_MOST;
     r->integrator = fw_stepper_find(stiff && !large ? "radau5" : "dop853");
     char a[32], b[32], c[32];
-    fw_number_text(a, sizeof a, fast / unit, 2);
-    fw_number_text(b, sizeof b, slow / unit, 2);
-    fw_number_text(c, sizeof c, stable, 2);
-    FW_NEED(
-        r->motion->reason = fw_arena_printf(
-            r->arena,
-            "auto: the fastest motion is %s rad/s, the loads excite %s%s; explicit steps need %s "
-            "for stability%s",
-            a, slow > 0 ? b : "a free motion", slow > 0 ? " rad/s" : "", c,
-            !stiff  ? ": order 8 is cheapest"
-            : large ? ", but the model is too large for implicit steps"
-                    : ": implicit steps pass over the fast modes"));
+    fw_number_text(c, sizeof c, ceil(stable), 2);
+    if (!stiff) {
+        FW_NEED(
+            r->motion->reason = fw_arena_printf(
+                r->arena, "auto: not stiff (%s explicit steps would be stable), so order 8", c));
+        return FW_OK;
+    }
+    FW_NEED(r->motion->reason = fw_arena_printf(
+                r->arena,
+                "auto: stiff, the fastest motion has %s rad/s where %s rad/s are excited; explicit "
+                "steps need %s for stability, %s",
+                fw_number_text(a, sizeof a, fast / unit, 2),
+                fw_number_text(b, sizeof b, slow / unit, 2), c,
+                large ? "but the model is too large for implicit ones"
+                      : "implicit ones pass over the fast motion"));
     return FW_OK;
 }
 

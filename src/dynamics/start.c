@@ -84,7 +84,7 @@ static fw_status motion_size(fw_run *r, const fw_terms *terms) {
     FW_NEED(force = fw_arena_array(r->arena, double, n));
     FW_NEED(displacement = fw_arena_array(r->arena, double, n));
     FW_NEED(rotation = fw_arena_array(r->arena, double, (size_t)m->npin));
-    fw_terms_initial_force(m, terms, force);
+    fw_terms_largest_force(m, terms, r->scene->duration_s, force);
     FW_TRY(fw_static_response(r->arena, m, terms, force, displacement, rotation, &valid));
     const fw_scale s = r->model->scale;
     for (size_t i = 0; i < n; i++) {

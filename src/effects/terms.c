@@ -65,7 +65,8 @@ bool fw_spring_slack(const fw_mechanism *m, const fw_spring *s) {
     return s->cable && !(hypot(b.x - a.x, b.y - a.y) > s->length_m);
 }
 
-static void add_loads(const fw_mechanism *m, const fw_terms *terms, double *force) {
+/* timed loads at the start, or with end_s > 0 at the largest of their factor in the scene */
+static void add_loads(const fw_mechanism *m, const fw_terms *terms, double end_s, double *force) {
     for (int i = 0; i < terms->nload; i++) {
         const fw_point_load *l = &terms->load[i];
         push_at(m, force, l->body, l->x_m, l->y_m, l->fx_N, l->fy_N);
@@ -74,6 +75,7 @@ static void add_loads(const fw_mechanism *m, const fw_terms *terms, double *forc
         const fw_timed_load *l = &terms->timed[i];
         double factor[3];
         fw_law_value(l->law, 0, DBL_MIN, factor); /* the piece that begins at 0 */
+        if (end_s > 0) factor[0] = fw_law_largest(l->law, end_s);
         push_at(m, force, l->body, l->x_m, l->y_m, factor[0] * l->fx_N, factor[0] * l->fy_N);
         turn(force, l->body, factor[0] * l->torque_Nm);
     }
@@ -124,11 +126,20 @@ static void add_torques(const fw_mechanism *m, const fw_terms *terms, double *fo
     }
 }
 
-void fw_terms_initial_force(const fw_mechanism *m, const fw_terms *terms, double *force) {
+static void add_all(const fw_mechanism *m, const fw_terms *terms, double end_s, double *force) {
     for (int i = 0; i < 3 * terms->nbody; i++)
         force[i] = terms->constant[i];
-    add_loads(m, terms, force);
+    add_loads(m, terms, end_s, force);
     add_torques(m, terms, force);
     add_springs(m, terms, force);
     add_slides(m, terms, force);
+}
+
+void fw_terms_initial_force(const fw_mechanism *m, const fw_terms *terms, double *force) {
+    add_all(m, terms, 0, force);
+}
+
+void fw_terms_largest_force(const fw_mechanism *m, const fw_terms *terms, double end_s,
+                            double *force) {
+    add_all(m, terms, end_s, force);
 }

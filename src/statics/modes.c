@@ -227,11 +227,17 @@ static fw_status damped_shape(const fw_rest *w, const damped *d, int which, fw_m
     return FW_OK;
 }
 
-static fw_mode_kind kind_of(const fw_mode *m) {
-    if (m->stiffness_per_s2 == 0)
-        return m->eigenvalue_per_s[0][0] > 0 ? FW_MODE_UNSTABLE : FW_MODE_FREE;
-    if (m->stiffness_per_s2 < 0) return FW_MODE_UNSTABLE;
-    return m->eigenvalue_per_s[0][1] > 0 ? FW_MODE_OSCILLATION : FW_MODE_OVERDAMPED;
+/* by the damped eigenvalues, which are what the motion does. A double eigenvalue 0 comes out of the
+   eigenproblem as +-sqrt(eps) of the largest: below 1e-7 of it a motion is free. */
+static fw_mode_kind kind_of(const fw_mode *m, double largest_per_s) {
+    const double(*e)[2] = m->eigenvalue_per_s;
+    double size = fmax(hypot(e[0][0], e[0][1]), hypot(e[1][0], e[1][1]));
+    if (m->stiffness_per_s2 == 0 || size <= 1e-7 * largest_per_s) {
+        bool grows = e[0][0] > 1e-6 * largest_per_s;
+        return grows ? FW_MODE_UNSTABLE : FW_MODE_FREE;
+    }
+    if (e[0][0] > 1e-9 * size) return FW_MODE_UNSTABLE;
+    return e[0][1] > 0 ? FW_MODE_OSCILLATION : FW_MODE_OVERDAMPED;
 }
 
 static void take_values(const fw_rest *w, const damped *d, const int *owner, int k, fw_mode *mode,
@@ -255,7 +261,11 @@ static void take_values(const fw_rest *w, const damped *d, const int *owner, int
     mode->stiffness_per_s2 = mu * per_s * per_s;
     mode->omega_rad_per_s = mu > 0 ? sqrt(mu) * per_s : 0;
     mode->f_Hz = mode->omega_rad_per_s / (2 * acos(-1.0));
-    mode->kind = kind_of(mode);
+    double largest = 0;
+    for (int i = 0; i < 2 * w->reduced.dof; i++)
+        largest = fmax(largest, hypot(d->re[i], d->im[i]) * per_s);
+    mode->kind = kind_of(mode, largest);
+    if (mode->kind == FW_MODE_FREE) mode->omega_rad_per_s = mode->f_Hz = 0;
     const double *value = mode->eigenvalue_per_s[0];
     mode->damping_ratio = (double)NAN;
     if (mode->kind == FW_MODE_OSCILLATION)

@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* `auto`: which integrator, for loads that act at once, that come later, and for starting
+   velocities; the choice is never far from the cheaper of the two. */
+#include "models.h"
+
+static const fw_motion *run(fw_arena *arena, const rig *r, const char *integrator) {
+    fw_diags diags = fw_diags_new(arena);
+    fw_motion_options o = {.integrator = integrator, .effects = {FW_EFFECTS_ALL, NULL}};
+    const fw_motion *motion = NULL;
+    fw_status status = fw_simulate(arena, &r->m, &r->scene, &o, &diags, &motion);
+    if (status != FW_OK) fail_msg("%s", diags.count ? diags.item[0].message : "no diagnostic");
+    return motion;
+}
+
+/* two bars in a row, the second held by a spring and a damper that are `stiff` times the first */
+static rig two_bars(fw_arena *arena, double stiff) {
+    rig r = rig_new(arena, 2, 2, 0);
+    rig_body(&r, "a", 1e-6, 1e-12, 1e-3, 0, 0);
+    rig_body(&r, "b", 1e-6, 1e-12, 3e-3, 0, 0);
+    rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 1e-6, 1e-10);
+    rig_pin(&r, "P", 0, 1, 2e-3, 0, 1e-6 * stiff, 1e-11 * stiff);
+    r.scene.duration_s = 0.1;
+    return r;
+}
+
+static void test_stiff_scenes(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    static fw_law ramp = {.kind = FW_LAW_RAMP, .rise_s = 5e-3};
+    for (int kind = 0; kind < 3; kind++) {
+        rig r = two_bars(arena, 1e6);
+        if (kind < 2) rig_torque(&r, 0, 2e-7);
+        if (kind == 1) r.scene.torque[0].law = &ramp;
+        if (kind == 2) {
+            rig_velocity(&r, 0, 0, 0.05, 50);
+            rig_velocity(&r, 1, 0, 0.15, 50);
+        }
+        const fw_motion *m = run(arena, &r, NULL);
+        assert_string_equal(m->integrator, "radau5");
+        assert_non_null(strstr(m->reason, "stiff, "));
+        assert_true(m->stats.steps < 5000);
+        const fw_motion *same = run(arena, &r, "generalised-alpha");
+        assert_near(m->peak[0].angle_rad, same->peak[0].angle_rad,
+                    m->peak[0].error_rad + same->peak[0].error_rad);
+    }
+    fw_arena_free(arena);
+}
+
+static void test_ordinary_scenes(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    rig some[4] = {two_bars(arena, 1), rig_six_bar(arena, false), rig_pendulum(arena),
+                   rig_windows(arena, 3)};
+    rig_torque(&some[0], 0, 2e-7);
+    for (int i = 0; i < 4; i++) {
+        const fw_motion *m = run(arena, &some[i], NULL);
+        assert_string_equal(m->integrator, "dop853");
+        assert_non_null(strstr(m->reason, "not stiff"));
+    }
+    const fw_motion *m = run(arena, &some[0], "dopri5");
+    assert_string_equal(m->reason, "asked for");
+    fw_arena_free(arena);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_stiff_scenes),
+        cmocka_unit_test(test_ordinary_scenes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
