@@ -22,6 +22,7 @@ fw_script_test(cli.program COMMAND ${Python3_EXECUTABLE} tests/cli/test_program.
 fw_script_test(cli.benchmarks COMMAND ${Python3_EXECUTABLE} tests/cli/test_benchmarks.py ${FW_PROGRAM})
 fw_script_test(cli.rest COMMAND ${Python3_EXECUTABLE} tests/cli/test_rest.py ${FW_PROGRAM})
 fw_script_test(cli.assemble COMMAND ${Python3_EXECUTABLE} tests/cli/test_assemble.py ${FW_PROGRAM})
+fw_script_test(cli.pictures COMMAND ${Python3_EXECUTABLE} tests/cli/test_pictures.py ${FW_PROGRAM})
 fw_script_test(cli.reproducible COMMAND ${Python3_EXECUTABLE} tests/cli/test_reproducible.py ${FW_PROGRAM})
 fw_script_test(fault.files COMMAND ${Python3_EXECUTABLE} tests/fault/test_faults.py ${FW_PROGRAM})
 fw_script_test(accept.masks COMMAND tests/accept/gallery.sh ${FW_PROGRAM} TIMEOUT 600)

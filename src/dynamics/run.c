@@ -202,7 +202,7 @@ static bool turned_too_far(const fw_run *r, const fw_peaks *peaks) {
 static bool look(fw_run *r, fw_stepper *s, fw_peaks *peaks, double theta_end) {
     fw_peaks_step(peaks, r->model, s, theta_end);
     fw_peaks_mark(peaks, s, theta_end, r->end[r->npiece - 1], r->moved);
-    fw_run_forces(r, s, theta_end);
+    fw_run_extremes(r, s, theta_end);
     if (!r->full) return true;
     if (theta_end == 1) watch_energy(r, s->y);
     fw_run_show(r, s, theta_end);

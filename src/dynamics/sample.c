@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is read off the steps: evenly spaced rows, the observer's instants, extremes of the joint
-   forces. All from the dense output; rows are projected like accepted steps. */
+/* What is read off the steps: evenly spaced rows, the observer's instants. All from the dense
+   output; rows are projected like accepted steps. */
 #include "multibody/reactions.h"
 #include "dynamics/run.h"
 #include <math.h>
@@ -96,88 +96,5 @@ void fw_run_show(fw_run *r, fw_stepper *s, double theta_end) {
         const fw_instant now = {(s->t_old + theta * s->h) * r->model->scale.time_s, r->seen_q,
                                 r->seen_angle, r->seen_force};
         r->options->observe(r->options->context, &now);
-    }
-}
-
-/* ---- extremes of the joint forces ---- */
-
-static void forces_at(fw_run *r, fw_stepper *s, double theta) {
-    const fw_model *m = r->model;
-    fw_stepper_dense(s, theta, r->state);
-    fw_model_react(r->model, s->t_old + theta * s->h, r->state, r->rate);
-    for (int i = 0; i < m->npin; i++) {
-        const double *l = m->lambda + 2 * m->pin_block[i];
-        r->force_now[i] = fw_newton(m) * sqrt(l[0] * l[0] + l[1] * l[1]);
-    }
-}
-
-static void offer(fw_force_peak *peak, double force, double t) {
-    if (force > peak->force_N) peak->force_N = force, peak->t_s = t;
-}
-
-enum { GRID = 8 };
-
-/* Chebyshev-Lobatto points of [0, 1]: a polynomial through values there does not swing */
-static double place(int k) {
-    static const double PI = 3.14159265358979323846;
-    return 0.5 - 0.5 * cos(PI * k / GRID);
-}
-
-/* the polynomial of degree 8 through one force at the nine places (column of the grid), by the
-   barycentric formula; its error in a step of one radian is some 1e-10. Source: Berrut and
-   Trefethen 2004. */
-static double between(const double *column, int stride, double x) {
-    double above = 0, below = 0;
-    for (int k = 0; k <= GRID; k++) {
-        double distance = x - place(k), weight = (k % 2 ? -1.0 : 1.0) * (k % GRID ? 1 : 0.5);
-        if (distance == 0) return column[k * stride];
-        above += weight / distance * column[k * stride];
-        below += weight / distance;
-    }
-    return above / below;
-}
-
-/* maximum of that polynomial in [a, b] by golden section; no further evaluation of forces */
-static double highest(const double *column, int stride, double a, double b, double *at) {
-    const double golden = 0.6180339887498949;
-    double x = b - golden * (b - a), y = a + golden * (b - a);
-    double fx = between(column, stride, x), fy = between(column, stride, y);
-    for (int i = 0; i < 40 && b - a > 1e-8; i++) {
-        if (fx > fy) {
-            b = y, y = x, fy = fx, x = b - golden * (b - a);
-            fx = between(column, stride, x);
-        } else {
-            a = x, x = y, fx = fy, y = a + golden * (b - a);
-            fy = between(column, stride, y);
-        }
-    }
-    *at = fx > fy ? x : y;
-    return fmax(fx, fy);
-}
-
-/* every force at nine places of the step; where an inner one is highest and comes near the peak so
-   far, the maximum between its neighbours is searched. Cost nine evaluations per step, whatever the
-   number of joints. */
-void fw_run_forces(fw_run *r, fw_stepper *s, double theta_end) {
-    if (!r->force) return;
-    int pins = r->model->npin;
-    double *grid = r->force_grid, span = theta_end * s->h;
-    for (int k = 0; k <= GRID; k++) {
-        forces_at(r, s, theta_end * place(k));
-        for (int i = 0; i < pins; i++)
-            grid[k * pins + i] = r->force_now[i];
-    }
-    for (int i = 0; i < pins; i++) {
-        int best = 0;
-        for (int k = 1; k <= GRID; k++)
-            if (grid[k * pins + i] > grid[best * pins + i]) best = k;
-        double most = grid[best * pins + i], at;
-        offer(&r->force[i], most, s->t_old + place(best) * span);
-        if (best == 0 || best == GRID) continue;
-        double before = grid[(best - 1) * pins + i], after = grid[(best + 1) * pins + i];
-        /* a parabola through three points rises above the middle one by less than its bend */
-        if (most + fabs(before - 2 * most + after) < r->force[i].force_N) continue;
-        double top = highest(grid + i, pins, place(best - 1), place(best + 1), &at);
-        offer(&r->force[i], top, s->t_old + at * span);
     }
 }

@@ -42,7 +42,7 @@ static double chosen_rtol(const fw_motion_options *o, const fw_run *r) {
 typedef struct pass {
     fw_stepper *stepper;
     fw_peaks peaks;
-    fw_force_peak *force; /* (npin) or NULL */
+    fw_extreme *extreme; /* (channels) or NULL */
 } pass;
 
 /* fine: the run that this one is compared with, NULL: this is it. A fixed step has no tolerance: h
@@ -61,12 +61,12 @@ static fw_status run_once(fw_run *r, double rtol, const pass *fine, pass *p) {
         atol[i] = fmax(rtol * r->amplitude, 2e-15);
     FW_TRY(fw_peaks_new(r->arena, r->mechanism, r->q0, &p->peaks));
     p->peaks.marked = fine ? &fine->peaks : NULL;
-    r->force = NULL;
+    r->extreme = NULL;
     if (r->options->reactions)
-        FW_NEED(r->force = fw_arena_array(r->arena, fw_force_peak, (size_t)m->npin));
+        FW_NEED(r->extreme = fw_arena_array(r->arena, fw_extreme, (size_t)fw_run_channels(r)));
     FW_TRY(fw_stepper_new(r->arena, r->integrator, &ode, rtol, atol, &p->stepper));
     p->stepper->h_fixed = pow(rtol, 0.25);
-    p->force = r->force;
+    p->extreme = r->extreme;
     r->full = !fine;
     fw_status status = fw_run_pass(r, p->stepper, &p->peaks);
     fw_stepper_free(p->stepper); /* what a library holds for it; its results stay */
@@ -140,15 +140,7 @@ static void estimate_errors(fw_run *r, const pass *fine, const pass *coarse) {
             DBL_EPSILON * (double)(8 + s->steps) * (1 + fabs(p->angle_rad)) +
             r->motion->stats.energy_error * fabs(p->angle_rad); /* never below the books */
     }
-    double change = 0;
-    for (int i = 0; fine->force && i < fine->peaks.npin; i++)
-        change = fmax(change, fabs(fine->force[i].force_N - coarse->force[i].force_N));
-    for (int i = 0; fine->force && i < fine->peaks.npin; i++) {
-        fw_force_peak *p = &r->motion->force_peak[i];
-        *p = fine->force[i];
-        p->t_s *= unit;
-        p->error_N = change + DBL_EPSILON * (double)(8 + s->steps) * p->force_N;
-    }
+    if (fine->extreme) fw_run_take_extremes(r, fine->extreme, coarse->extreme, s->steps);
 }
 
 typedef struct reached { /* largest values and errors of any pin; force 0 when not asked for */
@@ -174,7 +166,8 @@ static double accuracy_wanted(const fw_run *r) {
 static bool good_enough(const fw_run *r) {
     const reached x = what_is_reached(r);
     double accuracy = accuracy_wanted(r);
-    return x.error_rad <= accuracy * x.angle_rad && x.error_N <= accuracy * x.force_N;
+    return x.error_rad <= accuracy * x.angle_rad &&
+           (!r->options->reactions || fw_run_extremes_good(r, accuracy));
 }
 
 /* an angle or a force that is round-off has no relative accuracy */
@@ -253,7 +246,10 @@ static fw_status assembled(fw_run *r) {
         r->q0[3 * b + 1] = m->body[b].y_m;
         r->q0[3 * b + 2] = m->body[b].phi_rad;
     }
-    return fw_assemble(r->arena, m, r->q0, &r->motion->stats.assembly_moved_m, r->diags);
+    double moved;
+    FW_TRY(fw_assemble(r->arena, m, r->q0, &moved, r->diags));
+    r->motion->stats.assembly_moved_m = fmax(moved, r->options->moved_m);
+    return FW_OK;
 }
 
 static void set_stabilisation(fw_run *r) {

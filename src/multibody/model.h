@@ -235,6 +235,8 @@ typedef struct fw_pull {   /* a spring between two points, as it is now */
     double ux, uy, length, rate;
 } fw_pull;
 fw_pull fw_model_pull(const fw_model *m, const fw_model_spring *s, const double *y); /* posed */
+/* points of a spring that are no farther apart than this coincide: their line means nothing */
+double fw_spring_round_off(const fw_model *m, const fw_model_spring *s);
 /* e.d - free length of a prismatic joint, and its rate; posed */
 void fw_model_travel(const fw_model *m, const fw_model_slide *s, const double *y, double *travel,
                      double *rate);

@@ -211,11 +211,90 @@ static void test_half_redundant(void **state) {
     }
 }
 
+static const fw_motion *run_peaks(fw_arena *arena, const rig *r, double moved) {
+    fw_diags diags = fw_diags_new(arena);
+    fw_motion_options o = {.rtol = 1e-11,
+                           .samples = 2,
+                           .effects = {FW_EFFECTS_ALL, NULL},
+                           .reactions = true,
+                           .moved_m = moved};
+    const fw_motion *motion = NULL;
+    fw_status status = fw_simulate(arena, &r->m, &r->scene, &o, &diags, &motion);
+    if (status != FW_OK) fail_msg("%s", diags.count ? diags.item[0].message : "no diagnostic");
+    assert_near(motion->stats.assembly_moved_m, moved, 1e-15);
+    return motion;
+}
+
+static void near_peak(double value, double error, double expected) {
+    assert_near(value, expected, error + 1e-13 * expected);
+    assert_true(error < 1e-6 * expected);
+}
+
+/* extremes of what rods, slides, welds and drivers exert, and of travels, against closed forms */
+static void test_peaks_of_ties(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    rig r = rig_new(arena, 1, 0, 0); /* rod: 3 m g at the bottom, from rest at its level */
+    rig_body(&r, "bob", 2, 0.3, -1, 0, 0);
+    rig_tie(arena, &r, FW_TIE_DISTANCE, FW_GROUND, 0)->length_m = 1;
+    r.scene.gravity = true;
+    r.scene.gy_m_per_s2 = -9.81;
+    r.scene.duration_s = 1.5;
+    const fw_motion *m = run_peaks(arena, &r, 0);
+    near_peak(m->tie_peak[0].force_N, m->tie_peak[0].error_N, 6 * 9.81);
+    /* a quarter of the period: K(sin(pi/4)) sqrt(l/g), K = 1.8540746773013719 */
+    assert_near(m->tie_peak[0].t_s, 1.8540746773013719 / sqrt(9.81), 1e-5);
+    assert_near(m->tie_peak[0].torque_Nm, 0, 0);
+    assert_near(m->travel_peak[0].travel_m, 0, 0);
+
+    r = rig_new(arena, 1, 0, 0); /* a cart on a spring: amplitude v / omega, to the left first */
+    rig_body(&r, "cart", 2, 1, 0, 0, 0);
+    fw_tie *t = rig_tie(arena, &r, FW_TIE_PRISMATIC, FW_GROUND, 0);
+    t->stiffness_N_per_m = 50;
+    rig_velocity(&r, 0, -1.5, 0, 0);
+    r.scene.gravity = true;
+    r.scene.gy_m_per_s2 = -9.81;
+    r.scene.duration_s = 0.5; /* less than half a period: one extreme */
+    rig_torque(&r, 0, 0.7);
+    m = run_peaks(arena, &r, 3e-6);
+    near_peak(-m->travel_peak[0].travel_m, m->travel_peak[0].error_m, 0.3);
+    assert_near(m->travel_peak[0].t_s, acos(0.0) / 5, 1e-5);
+    near_peak(m->tie_peak[0].force_N, m->tie_peak[0].error_N, 2 * 9.81);
+    near_peak(m->tie_peak[0].torque_Nm, m->tie_peak[0].torque_error_Nm, 0.7);
+
+    r = rig_new(arena, 3, 1, 0); /* a weld that hangs on a driven cart, a wheel that is driven */
+    rig_body(&r, "cart", 2, 1, 0, 0, 0);
+    rig_body(&r, "load", 3, 1, 0, 0, 0);
+    rig_body(&r, "wheel", 3, 0.4, 5, 0, 0);
+    rig_pin(&r, "hub", FW_GROUND, 2, 5, 0, 0, 0);
+    rig_tie(arena, &r, FW_TIE_PRISMATIC, FW_GROUND, 0);
+    rig_tie(arena, &r, FW_TIE_WELD, 0, 1)->by_m = -0.25;
+    r.m.body[1].y_m = 0.25;
+    const fw_law sine = {.kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 2};
+    rig_driver(arena, &r, FW_NONE, 0, sine);
+    rig_driver(arena, &r, 0, FW_NONE, sine);
+    rig_velocity(&r, 0, 4 * acos(-1.0), 0, 0); /* as fast as the laws start */
+    rig_velocity(&r, 1, 4 * acos(-1.0), 0, 0);
+    rig_velocity(&r, 2, 0, 0, 4 * acos(-1.0));
+    r.scene.duration_s = 0.45;
+    m = run_peaks(arena, &r, 0);
+    double most = pow(4 * acos(-1.0), 2); /* of the acceleration: 1 m, 1 rad times omega^2 */
+    near_peak(m->tie_peak[1].force_N, m->tie_peak[1].error_N, 3 * most);
+    near_peak(m->tie_peak[1].torque_Nm, m->tie_peak[1].torque_error_Nm, 3 * most * 0.25);
+    near_peak(m->driver_peak[0].force_N, m->driver_peak[0].error_N, 5 * most);
+    assert_near(m->driver_peak[0].torque_Nm, 0, 0);
+    near_peak(m->driver_peak[1].torque_Nm, m->driver_peak[1].torque_error_Nm, 0.4 * most);
+    assert_near(m->driver_peak[1].force_N, 0, 0);
+    near_peak(fabs(m->travel_peak[0].travel_m), m->travel_peak[0].error_m, 1);
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_rod_is_the_pendulum), cmocka_unit_test(test_weld_is_one_body),
         cmocka_unit_test(test_driven_slider_crank), cmocka_unit_test(test_table_law),
-        cmocka_unit_test(test_ramped_driver),       cmocka_unit_test(test_half_redundant),
+        cmocka_unit_test(test_ramped_driver),       cmocka_unit_test(test_peaks_of_ties),
+        cmocka_unit_test(test_half_redundant),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
