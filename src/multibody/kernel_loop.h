@@ -18,10 +18,9 @@
    every pivot of M keeps 1e-4 of its diagonal and the 2 x 2 pivot is 100 times above the limit of
    the blocks; other lanes, and angles beyond fw_sincos_range, take the blocks. Error of the
    accelerations, of the largest that a joint force gives to the lightest body: 4e-16 at worst for
-   masses alike, 3e-12 for masses over four decades; in the median a fifth of the blocks' or less. Cost
-   for 5 bodies: 412 arithmetic operations, sines included.
-   Source: Wittenburg, Dynamics of Multibody Systems, 2nd ed., ch. 5 (augmented bodies, cut joints).
-   Test: test_lanes.c. */
+   masses alike, 3e-12 for masses over four decades; in the median a fifth of the blocks' or less.
+   Cost for 5 bodies: 412 arithmetic operations, sines included. Source: Wittenburg, Dynamics of
+   Multibody Systems, 2nd ed., ch. 5 (augmented bodies, cut joints). Test: test_lanes.c. */
 
 enum { LOOP_LEAST = 3, LOOP_MOST = 6, HALF_MOST = 3 };
 
