@@ -5,6 +5,7 @@
 #include "assembly/solved.h"
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static fw_vec2 place(const double *q, int body, double x, double y) {
@@ -119,23 +120,79 @@ fw_status fw_assembly_solve(fw_arena *arena, const fw_mechanism *mechanism, cons
     return fw_alternatives_find(arena, mechanism, diags, a);
 }
 
+/* of the largest part: arms of joints, lengths of rods, distances between bodies */
+static double size_of(const fw_mechanism *m) {
+    double size = DBL_MIN;
+    for (int i = 0; i < m->npin; i++) {
+        const fw_pin *p = &m->pin[i];
+        size = fmax(size, fmax(hypot(p->ax_m, p->ay_m), hypot(p->bx_m, p->by_m)));
+    }
+    for (int i = 0; i < m->ntie; i++) {
+        const fw_tie *t = &m->tie[i];
+        size = fmax(size, fmax(hypot(t->ax_m, t->ay_m), hypot(t->bx_m, t->by_m)));
+        size = fmax(size, t->kind == FW_TIE_DISTANCE ? t->length_m : 0);
+    }
+    for (int b = 1; b < m->nbody; b++)
+        size = fmax(size, hypot(m->body[b].x_m - m->body[0].x_m, m->body[b].y_m - m->body[0].y_m));
+    return size;
+}
+
+/* "3 mm and 4 deg": the angle where it counts, of lengths of `size` */
+static char *amount(char *to, size_t n, double metres, double radian, double size,
+                    fw_length_unit unit) {
+    char number[48];
+    bool turns = radian * size > 1e-6 * metres, shifts = metres > 1e-6 * radian * size;
+    fw_length_text(to, n, metres, unit);
+    if (!turns) return to;
+    fw_number_text(number, sizeof number, radian * 180 / acos(-1.0), 4);
+    size_t at = shifts ? strlen(to) : 0;
+    snprintf(to + at, n - at, "%s%s deg", shifts ? " and " : "", number);
+    return to;
+}
+
+/* a guess that was far off may have led to another assembly than was meant: that is a warning */
+static void say_moved(const fw_mechanism *m, const fw_joint_gap *gap, const double *q, double size,
+                      fw_diags *diags) {
+    double moved = 0, turned = 0, open = 0, askew = 0;
+    for (int b = 0; b < m->nbody; b++) {
+        moved = fmax(moved, hypot(q[3 * b] - m->body[b].x_m, q[3 * b + 1] - m->body[b].y_m));
+        turned = fmax(turned, fabs(q[3 * b + 2] - m->body[b].phi_rad));
+    }
+    for (int i = 0; i < m->npin + m->ntie + m->ndriver; i++)
+        open = fmax(open, gap[i].gap_m), askew = fmax(askew, gap[i].gap_rad);
+    const fw_length_unit unit = fw_length_unit_for(fmax(open, moved), fmax(open, moved));
+    char before[96], way[96], text[400];
+    const fw_place place = {.file = m->device ? m->device->file : NULL};
+    snprintf(text, sizeof text,
+             "the poses that the description states leave joints open by up to %s; they are taken "
+             "as a guess, and bodies were moved by up to %s to close them; `flexwright assemble` "
+             "shows it",
+             amount(before, sizeof before, open, askew, size, unit),
+             amount(way, sizeof way, moved, turned, size, unit));
+    if (fmax(moved, turned * size) > 1e-6 * size)
+        fw_diag_warning(diags, 115, place, "%s", text);
+    else
+        fw_diag_note(diags, 115, place, "%s", text);
+}
+
 fw_status fw_assembled(fw_arena *arena, const fw_mechanism *mechanism, fw_diags *diags,
-                       const fw_mechanism **assembled) {
+                       const fw_mechanism **assembled, double *moved_m) {
     size_t n = 3 * (size_t)mechanism->nbody;
-    double *q, moved, gap, size = DBL_MIN;
+    double *q, moved = 0, largest, size = size_of(mechanism);
+    size_t joints = (size_t)(mechanism->npin + mechanism->ntie + mechanism->ndriver);
+    fw_joint_gap *gap = fw_arena_array(arena, fw_joint_gap, joints);
+    FW_NEED(gap);
     *assembled = mechanism;
+    if (moved_m) *moved_m = 0;
     FW_NEED(q = fw_arena_array(arena, double, n));
     for (int b = 0; b < mechanism->nbody; b++) {
         const fw_mass *body = &mechanism->body[b];
         q[3 * b] = body->x_m, q[3 * b + 1] = body->y_m, q[3 * b + 2] = body->phi_rad;
     }
-    for (int i = 0; i < mechanism->npin; i++) {
-        const fw_pin *p = &mechanism->pin[i];
-        size = fmax(size, fmax(hypot(p->ax_m, p->ay_m), hypot(p->bx_m, p->by_m)));
-    }
-    FW_TRY(find_gaps(arena, mechanism, q, diags, NULL, &gap));
-    if (gap <= 1e-9 * size) return FW_OK;
+    FW_TRY(find_gaps(arena, mechanism, q, diags, gap, &largest));
+    if (largest <= 1e-9 * size) return FW_OK;
     FW_TRY(fw_assemble(arena, mechanism, q, &moved, diags));
+    if (moved_m) *moved_m = moved;
     fw_mechanism *copy = fw_arena_one(arena, fw_mechanism);
     FW_NEED(copy);
     *copy = *mechanism;
@@ -145,13 +202,7 @@ fw_status fw_assembled(fw_arena *arena, const fw_mechanism *mechanism, fw_diags 
         copy->body[b].x_m = q[3 * b], copy->body[b].y_m = q[3 * b + 1];
         copy->body[b].phi_rad = q[3 * b + 2];
     }
-    char open[32], far[32];
-    fw_diag_note(diags, 115, (fw_place){.file = mechanism->device ? mechanism->device->file : NULL},
-                 "the poses that the description states leave joints open by up to %s um; they are "
-                 "taken as a guess, and bodies were moved by up to %s um to close them; "
-                 "`flexwright assemble` shows it",
-                 fw_number_text(open, sizeof open, gap * 1e6, 4),
-                 fw_number_text(far, sizeof far, moved * 1e6, 4));
     *assembled = copy;
+    say_moved(mechanism, gap, q, size, diags);
     return FW_OK;
 }

@@ -73,8 +73,9 @@ fw_status fw_assembly_solve(fw_arena *arena, const fw_mechanism *mechanism, cons
                             fw_diags *diags, fw_assembly **assembly);
 
 /* a mechanism that stands in its assembled pose: `mechanism` itself when its own pose closes all
-   joints to 1e-9 of its size, else a copy and a note (FW-D115) on how far bodies were moved */
+   joints to 1e-9 of its size, else a copy, and FW-D115 on how far bodies were moved: a warning
+   beyond 1e-6 of the size. *moved_m (may be NULL): the largest displacement. */
 fw_status fw_assembled(fw_arena *arena, const fw_mechanism *mechanism, fw_diags *diags,
-                       const fw_mechanism **assembled);
+                       const fw_mechanism **assembled, double *moved_m);
 
 #endif

@@ -32,9 +32,9 @@ fw_status fw_closure_new(fw_arena *arena, fw_model *m, fw_closure *c) {
     FW_NEED(c->lambda = fw_arena_array(arena, double, 2 * k));
     FW_NEED(c->kept = fw_arena_array(arena, double, k));
     FW_NEED(c->active = fw_arena_array(arena, bool, k));
-    FW_NEED(c->soft = fw_arena_array(arena, double, k));
+    FW_NEED(c->soft = fw_arena_array(arena, double, 2 * k));
     for (size_t i = 0; i < k; i++)
-        c->active[i] = true, c->soft[i] = 1;
+        c->active[i] = true, c->soft[2 * i] = c->soft[2 * i + 1] = 1;
     m->piece = DBL_MIN; /* the piece of the laws that begins at 0 */
     fw_model_residual(m, 0, c->u, c->psi);
     find_kept(c);
@@ -55,7 +55,7 @@ double fw_closure_mismatch(fw_closure *c, const double *u) {
     double sum = 0;
     for (int i = 0; i < c->model->nblock; i++) {
         if (!c->active[i]) c->psi[2 * i] = c->psi[2 * i + 1] = 0;
-        double x = c->psi[2 * i] / c->soft[i], y = c->psi[2 * i + 1] / c->soft[i];
+        double x = c->psi[2 * i] / c->soft[2 * i], y = c->psi[2 * i + 1] / c->soft[2 * i + 1];
         sum += x * x + y * y;
     }
     return sum;
@@ -88,8 +88,8 @@ static bool newton_step(fw_closure *c, double mu) {
     for (int i = 0; i < m->nblock; i++)
         if (c->active[i]) largest = fmax(largest, fmax(d[3 * i], d[3 * i + 2]));
     for (int i = 0; i < m->nblock && mu > 0; i++) {
-        double add = mu * largest * c->soft[i] * c->soft[i];
-        d[3 * i] += add, d[3 * i + 2] += add;
+        d[3 * i] += mu * largest * c->soft[2 * i] * c->soft[2 * i];
+        d[3 * i + 2] += mu * largest * c->soft[2 * i + 1] * c->soft[2 * i + 1];
     }
     if (!fw_chain_factor(&m->chain, mu > 0 ? 0 : shift)) return false;
     memcpy(c->lambda, c->psi, 2 * (size_t)m->nblock * sizeof(double));
@@ -107,7 +107,7 @@ static bool newton_step(fw_closure *c, double mu) {
     fw_model_jacobian(m, c->step, c->lambda);
     c->promise = 0;
     for (int i = 0; i < 2 * m->nblock; i++)
-        c->promise -= 2 * c->psi[i] * c->lambda[i] / (c->soft[i / 2] * c->soft[i / 2]);
+        c->promise -= 2 * c->psi[i] * c->lambda[i] / (c->soft[i] * c->soft[i]);
     return c->promise > 0;
 }
 
@@ -176,7 +176,7 @@ static bool tangent_step(fw_closure *c) {
         c->psi[i] -= c->lambda[i];
     fw_chain_assemble(m);
     if (!fw_chain_factor(&m->chain, fw_epsilon)) return false;
-    fw_chain_proximal(&m->chain, c->psi, c->lambda, m->more);
+    fw_chain_proximal(m, c->psi, c->lambda);
     memset(c->step, 0, (size_t)m->nq * sizeof(double));
     fw_model_apply(m, c->lambda, c->step);
     for (int i = 0; i < m->nq; i++)

@@ -13,7 +13,7 @@ typedef struct fw_closure {
     double *trial, *step, *psi, *lambda; /* work */
     double *kept;                        /* (nblock) angle, length or travel that a block keeps */
     bool *active;                        /* (nblock) blocks that count */
-    double *soft;                        /* (nblock) a mismatch counts divided by this */
+    double *soft;                        /* (2 nblock) a mismatch counts divided by this */
     double promise;                      /* first-order decrease of the mismatch along the step */
     double goal;                         /* |Psi| of a closed mechanism */
     long iterations, left;               /* done; most that may follow */
@@ -67,6 +67,14 @@ double fw_spread(unsigned stream, unsigned index);
 /* what cannot close, in words; psi at the best pose */
 fw_status fw_closure_explain(fw_arena *arena, const fw_mechanism *mechanism, fw_closure *c,
                              fw_restart *r, fw_diags *diags);
+typedef struct fw_length_unit {
+    const char *name;
+    double per_m;
+} fw_length_unit;
+/* one unit for lengths of one sentence: that of the longest, but so that the shortest keeps digits
+ */
+fw_length_unit fw_length_unit_for(double longest_m, double shortest_m);
+char *fw_length_text(char *to, size_t n, double metres, fw_length_unit unit);
 void fw_block_gap(const fw_model *m, int block, const double *psi, double *gap_m, double *gap_rad);
 
 #endif

@@ -29,14 +29,17 @@ void fw_block_gap(const fw_model *m, int i, const double *psi, double *gap_m, do
     }
 }
 
-/* a length in the unit that suits it */
-static char *length_text(char *to, size_t n, double metres) {
-    double size = fabs(metres), factor = size < 0.01 ? 1e6 : size < 10 ? 1e3 : 1;
+fw_length_unit fw_length_unit_for(double longest, double shortest) {
+    double suits = fmax(fabs(longest), 0), least = fabs(shortest);
+    if (least > 0 && least < 1e-3 * suits) suits = 1e3 * least;
+    if (suits < 0.01) return (fw_length_unit){"um", 1e6};
+    return suits < 10 ? (fw_length_unit){"mm", 1e3} : (fw_length_unit){"m", 1};
+}
+
+char *fw_length_text(char *to, size_t n, double metres, fw_length_unit unit) {
     char number[32];
-    snprintf(to, n, "%s %s", fw_number_text(number, sizeof number, metres * factor, 4),
-             size < 0.01 ? "um"
-             : size < 10 ? "mm"
-                         : "m");
+    snprintf(to, n, "%s %s", fw_number_text(number, sizeof number, metres * unit.per_m, 4),
+             unit.name);
     return to;
 }
 
@@ -155,17 +158,20 @@ static const char *body_name(const fw_mechanism *m, int body) {
 }
 
 static fw_status hint(fw_arena *arena, const fw_mechanism *mechanism, const fw_closure *c,
-                      const fw_tree *t, const char **text) {
+                      const fw_tree *t, double gap_m, fw_length_unit *unit, const char **text) {
     const fw_model *m = c->model;
     ring r;
     *text = "check the joint points and the lengths around this loop";
+    *unit = fw_length_unit_for(gap_m, gap_m);
     FW_TRY(worst_ring(arena, c, t, &r));
     if (r.count == 0) return FW_OK;
+    double size = m->scale.length_m;
+    *unit = fw_length_unit_for(r.item[r.longest].length * size, fmin(r.missing * size, gap_m));
     const side *s = &r.item[r.longest];
     char longest[48], others[48], missing[48];
-    length_text(longest, sizeof longest, s->length * m->scale.length_m);
-    length_text(others, sizeof others, (s->length - r.missing) * m->scale.length_m);
-    length_text(missing, sizeof missing, r.missing * m->scale.length_m);
+    fw_length_text(longest, sizeof longest, s->length * size, *unit);
+    fw_length_text(others, sizeof others, (s->length - r.missing) * size, *unit);
+    fw_length_text(missing, sizeof missing, r.missing * size, *unit);
     const fw_block *first = &m->block[s->from], *second = &m->block[s->to];
     if (second->pin != FW_NONE && first->pin > second->pin) { /* in the order of the file */
         const fw_block *other = first;
@@ -207,14 +213,14 @@ static bool close_without_drivers(fw_closure *c, fw_restart *r) {
     bool good = fw_closure_descend(c, 200) || fw_restart_close(r, c);
     for (int i = 0; i < m->nblock; i++) {
         c->active[i] = true;
-        c->soft[i] = m->block[i].driver == FW_NONE ? 1 : 1e3;
+        c->soft[2 * i] = c->soft[2 * i + 1] = m->block[i].driver == FW_NONE ? 1 : 1e3;
     }
     if (good) {
         c->left = 2000;
         fw_closure_descend(c, 500);
         fw_closure_mismatch(c, c->u);
     }
-    for (int i = 0; i < m->nblock; i++)
+    for (int i = 0; i < 2 * m->nblock; i++)
         c->soft[i] = 1;
     return good;
 }
@@ -232,37 +238,109 @@ static fw_status blame_driver(const fw_mechanism *mechanism, const fw_closure *c
     char asked[48], best[48], less[48];
     fw_law_value(&d->law, 0, m->piece, law);
     bool angle = b->rows == FW_ROWS_TURN;
-    char *(*text)(char *, size_t, double) = angle ? angle_text : length_text;
     off *= angle ? 1 : m->scale.length_m;
+    double longest = fmax(fabs(law[0]), fabs(law[0] + off));
+    const fw_length_unit unit = fw_length_unit_for(longest, off);
+    const double shown[3] = {law[0], law[0] + off, fabs(off)};
+    char *const text[3] = {asked, best, less};
+    for (int i = 0; i < 3; i++)
+        if (angle)
+            angle_text(text[i], sizeof asked, shown[i]);
+        else
+            fw_length_text(text[i], sizeof asked, shown[i], unit);
     return fw_diag_error(
         diags, 116, d->place,
         "driver %s cannot have the value that it asks for at the start: it asks "
         "for %s, and the nearest that the joints allow from this guess is %s (%s off)",
-        name_of(d->id), text(asked, sizeof asked, law[0]), text(best, sizeof best, law[0] + off),
-        text(less, sizeof less, fabs(off)));
+        name_of(d->id), asked, best, less);
 }
 
 /* ---- joints ---- */
 
-static fw_status blame_joint(fw_arena *arena, const fw_mechanism *mechanism, const fw_closure *c,
+static bool turns(const fw_block *b) {
+    return b->rows == FW_ROWS_TURN || b->rows == FW_ROWS_SLIDE;
+}
+
+/* row of the angle or of the length; -1: none */
+static int row_of(const fw_block *b, bool angle) {
+    if (angle) return turns(b) ? 0 : -1;
+    return b->rows == FW_ROWS_TURN ? -1 : b->rows == FW_ROWS_SLIDE ? 1 : 0;
+}
+
+/* block with the largest gap, of the angles or of the lengths; -1: none */
+static int worst_block(const fw_closure *c, bool angle) {
+    const fw_model *m = c->model;
+    int worst = -1;
+    double most = 0;
+    for (int i = 0; i < m->nblock; i++) {
+        const fw_block *b = &m->block[i];
+        int row = row_of(b, angle);
+        if (row < 0) continue;
+        double gap = b->rows == FW_ROWS_PIN ? hypot(c->psi[2 * i], c->psi[2 * i + 1])
+                                            : fabs(c->psi[2 * i + row]);
+        if (gap > most * (1 + 1e-6)) most = gap, worst = i;
+    }
+    return worst;
+}
+
+/* that block's length, or angle, counts a million times less, and the pose follows */
+static void concentrate(fw_closure *c, int block, bool angle) {
+    const fw_block *b = &c->model->block[block];
+    for (int k = 0; k < 2; k++)
+        if (b->rows == FW_ROWS_PIN || k == row_of(b, angle)) c->soft[2 * block + k] = 1e3;
+    c->left = 4000;
+    fw_closure_descend(c, 1000);
+    fw_closure_mismatch(c, c->u);
+}
+
+/* Where angles are held a sum of squares of lengths and angles has no meaning for people. There the
+   gap is put into one joint: first a length, with all angles and all other joints kept; what angle
+   stays open then, into one joint too. Returns the block that stays open. */
+static int gather(fw_closure *c) {
+    const fw_model *m = c->model;
+    const double open = 1e-5; /* scaled: what a weight of a millionth leaves elsewhere */
+    bool any = false;
+    int worst = 0, angle;
+    for (int i = 0; i < m->nblock; i++) {
+        const double *psi = c->psi + 2 * i, *most = c->psi + 2 * worst;
+        any = any || turns(&m->block[i]);
+        if (hypot(psi[0], psi[1]) > hypot(most[0], most[1]) * (1 + 1e-6)) worst = i;
+    }
+    if (!any) return worst;
+    int length = row_of(&m->block[worst], false) >= 0 ? worst : worst_block(c, false);
+    if (length >= 0) concentrate(c, length, false);
+    angle = worst_block(c, true);
+    if (angle >= 0 && fabs(c->psi[2 * angle]) > open)
+        concentrate(c, angle, true);
+    else
+        angle = -1;
+    for (int i = 0; i < 2 * m->nblock; i++)
+        c->soft[i] = 1;
+    length = worst_block(c, false);
+    int row = length < 0 ? 0 : row_of(&m->block[length], false);
+    if (angle >= 0 && (length < 0 || fabs(c->psi[2 * length + row]) < fabs(c->psi[2 * angle])))
+        return angle;
+    return length < 0 ? 0 : length;
+}
+
+static fw_status blame_joint(fw_arena *arena, const fw_mechanism *mechanism, fw_closure *c,
                              const fw_tree *t, bool cut, fw_diags *diags) {
     const fw_model *m = c->model;
-    int worst = 0;
-    double most = -1;
-    for (int i = 0; i < m->nblock; i++) {
-        double gap = hypot(c->psi[2 * i], c->psi[2 * i + 1]);
-        if (gap > most * (1 + 1e-6) || isnan(gap)) most = gap, worst = i;
-    }
+    int worst = gather(c);
     const fw_block *b = &m->block[worst];
     const char *advice;
     double gap_m, gap_rad;
     char metres[48], radian[48];
-    FW_TRY(hint(arena, mechanism, c, t, &advice));
+    fw_length_unit unit;
     fw_block_gap(m, worst, c->psi, &gap_m, &gap_rad);
-    length_text(metres, sizeof metres, gap_m);
+    FW_TRY(hint(arena, mechanism, c, t, gap_m, &unit, &advice));
+    fw_length_text(metres, sizeof metres, gap_m, unit);
     angle_text(radian, sizeof radian, gap_rad);
-    bool both = b->rows == FW_ROWS_SLIDE && gap_m > 0 && gap_rad > 0;
-    bool angle = b->rows == FW_ROWS_TURN || (b->rows == FW_ROWS_SLIDE && !both && gap_rad > 0);
+    /* the other one is what the weights left */
+    bool slide = b->rows == FW_ROWS_SLIDE;
+    bool far = gap_m > 1e-4 * gap_rad * m->scale.length_m;
+    bool askew = gap_rad * m->scale.length_m > 1e-4 * gap_m;
+    bool both = slide && far && askew, angle = b->rows == FW_ROWS_TURN || (slide && !far);
     return fw_diag_error(diags, 100, fw_block_place(mechanism, b),
                          "%s: joint %s stays open by %s%s%s at best; %s",
                          cut ? "no assembly was found within the bound on the search, from this "

@@ -86,7 +86,8 @@ static fw_status name_redundant(fw_arena *arena, const fw_mechanism *mechanism, 
 
 /* dof = unknowns - rank(G), G scaled at q (3 nbody, SI). The rank is where the singular values drop
    below 1e-10 of the largest; both neighbours of the drop are handed out, so that nobody has to
-   believe it. Cost of a singular value decomposition. Test: test_assemble.c. */
+   believe it. statics/ has its own (fw_rest_rank says why). Cost of a singular value decomposition.
+   Test: test_assemble.c. */
 fw_status fw_assembly_rank(fw_arena *arena, const fw_mechanism *mechanism, const double *q,
                            fw_diags *diags, fw_rank *out) {
     fw_model *m;

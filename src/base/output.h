@@ -33,6 +33,7 @@ fw_status fw_input_read(fw_arena *arena, const char *path, size_t most, fw_diags
 
 /* where packs and layer tables are: the caller's directory ($FLEXWRIGHT_DATA) and no other when it
    is given, else the installed one, else the source tree. A path of `name` that exists, or NULL. */
-const char *fw_data_path(fw_arena *arena, const char *override, const char *name);
+fw_status fw_data_path(fw_arena *arena, const char *override, const char *name,
+                       const char **path);
 
 #endif

@@ -98,6 +98,9 @@ void fw_text_fixed(fw_text *text, double value, int decimals) {
 void fw_text_real(fw_text *text, const char *conversion, double value) {
     char buffer[400];
     int n = snprintf(buffer, sizeof buffer, conversion, value);
+    int zero = isfinite(value) && n > 0 && (size_t)n < sizeof buffer;
+    if (zero && signbit(value) && !strpbrk(buffer, "123456789")) /* shown as zero: no sign */
+        n = snprintf(buffer, sizeof buffer, conversion, 0.0);
     if (n < 0 || (size_t)n >= sizeof buffer) {
         text->failed = 1;
         return;

@@ -14,7 +14,9 @@ int fw_command_doctor(fw_cli_options *options) {
     printf("flexwright %s\ncompiler %s\njansson %s\n", FW_VERSION, __VERSION__, JANSSON_VERSION);
     int missing = 0;
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++) {
-        const char *path = fw_data_path(arena, options->design.data_directory, needed[i]);
+        const char *path = NULL;
+        if (fw_data_path(arena, options->design.data_directory, needed[i], &path) != FW_OK)
+            path = NULL;
         printf("%-40s %s\n", needed[i], path ? path : "MISSING");
         missing += !path;
     }

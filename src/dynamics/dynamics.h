@@ -27,7 +27,9 @@ typedef struct fw_motion_options {
     double accuracy;        /* relative error wanted on the peak hinge deflection; default 1e-3 */
     int samples; /* rows of `sample`, evenly over the scene, first at 0, last at the end */
     fw_effect_choice effects;
-    bool reactions;        /* peaks of the joint forces too */
+    bool reactions;        /* peaks of the joint forces and of travels too */
+    double moved_m;        /* how far assembly had moved bodies already; for the statistics */
+    long most_steps;       /* over all tries; FW-D108 beyond; 0: 10 million */
     double most_angle_rad; /* ends the run when a joint has turned further: the verdict needs no
                               more; 0: never */
     fw_observer observe;   /* NULL: nobody looks */
@@ -40,9 +42,17 @@ typedef struct fw_peak { /* per pin: extreme of |phi_b - phi_a - free angle| ove
     double error_rad; /* estimate, >= 0 */
 } fw_peak;
 
-typedef struct fw_force_peak { /* per pin: extreme of the joint force */
+typedef struct fw_force_peak { /* per joint or driver: largest force and torque that it exerts */
     double force_N, t_s, error_N;
+    /* of prismatic joints and welds, about their point b; of drivers that turn. Else 0 */
+    double torque_Nm, torque_t_s, torque_error_Nm;
 } fw_force_peak;
+
+typedef struct fw_travel_peak { /* per prismatic joint: extreme of |distance along the axis - free
+                                   length| */
+    double travel_m;            /* with its sign */
+    double t_s, error_m;
+} fw_travel_peak;
 
 typedef struct fw_motion_stats {
     long steps, rejected, rhs, projections;
@@ -71,7 +81,9 @@ typedef struct fw_motion {
     double *tie_N;    /* (nsample x 3 ntie) force on body b, torque on it about its point b (N m) */
     double *driver_N; /* (nsample x ndriver) N or N m along the driven coordinate */
     fw_peak *peak;    /* (npin) */
-    fw_force_peak *force_peak; /* (npin) when asked for, else NULL */
+    /* when asked for, else NULL */
+    fw_force_peak *force_peak, *tie_peak, *driver_peak; /* (npin) (ntie) (ndriver) */
+    fw_travel_peak *travel_peak;                        /* (ntie) 0 for what is not prismatic */
     fw_motion_stats stats;
     fw_effect_ledger ledger;
     bool ended;                      /* by most_angle_rad, before the scene's end */

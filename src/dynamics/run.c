@@ -5,7 +5,11 @@
 #include <math.h>
 #include <string.h>
 
-static const long fw_most_steps = 2 * 1000 * 1000, fw_most_events = 100 * 1000;
+static const long fw_usual_steps = 10 * 1000 * 1000, fw_most_events = 1000 * 1000;
+
+static long most_steps(const fw_run *r) {
+    return r->options->most_steps > 0 ? r->options->most_steps : fw_usual_steps;
+}
 
 static const char *scene_name(const fw_run *r) {
     return r->scene->name ? r->scene->name : "(unnamed)";
@@ -57,14 +61,17 @@ static fw_status stopped(const fw_run *r, const fw_stepper *s, fw_ode_result why
 
 /* the step says which of the two it is: a few per period of the motion, or tiny ones */
 static fw_status too_long(const fw_run *r, const fw_stepper *s) {
-    char step[32], at[32];
+    char count[32], step[32], at[32];
     double unit = r->model->scale.time_s;
+    bool steps = r->steps > most_steps(r);
+    double limit = (double)(steps ? most_steps(r) : fw_most_events);
     fw_status status =
         fw_diag_error(r->diags, 108, r->scene->place,
-                      "scene %s needs more than 2 million steps (they are %s s, and %s s are "
+                      "scene %s needs more than %s %s (steps are %s s, and %s s are "
                       "reached): shorten it, or "
                       "look for a stiffness or damping that is extreme against the masses",
-                      scene_name(r), fw_number_text(step, sizeof step, s->h * unit, 2),
+                      scene_name(r), fw_number_text(count, sizeof count, limit, 9),
+                      steps ? "steps" : "events", fw_number_text(step, sizeof step, s->h * unit, 2),
                       fw_number_text(at, sizeof at, s->t * unit, 3));
     return status == FW_NOMEM ? FW_NOMEM : FW_LIMIT;
 }
@@ -88,8 +95,9 @@ static void start_stepper(const fw_run *r, fw_stepper *s, double t, const double
 
 /* ---- energy ---- */
 
+/* the energy of models that have a kernel needs no arms: no loads or springs at points */
 static void watch_energy(fw_run *r, const double *y) {
-    fw_model_pose(r->model, y);
+    if (!r->model->kernel) fw_model_pose(r->model, y);
     fw_energy e = fw_model_energy(r->model, y);
     double balance = e.kinetic + e.elastic + e.dissipated - e.work;
     double start = r->first.kinetic + r->first.elastic + r->first.dissipated - r->first.work;
@@ -198,7 +206,7 @@ static bool turned_too_far(const fw_run *r, const fw_peaks *peaks) {
 static bool look(fw_run *r, fw_stepper *s, fw_peaks *peaks, double theta_end) {
     fw_peaks_step(peaks, r->model, s, theta_end);
     fw_peaks_mark(peaks, s, theta_end, r->end[r->npiece - 1], r->moved);
-    fw_run_forces(r, s, theta_end);
+    fw_run_extremes(r, s, theta_end);
     if (!r->full) return true;
     if (theta_end == 1) watch_energy(r, s->y);
     fw_run_show(r, s, theta_end);
@@ -235,7 +243,7 @@ fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks) {
             double theta = find_event(r, s, &which);
             if (!look(r, s, peaks, theta)) return stopped(r, s, FW_ODE_SMALL);
             if (which >= 0 && !pass_event(r, s, which, theta)) return stopped(r, s, FW_ODE_SMALL);
-            if (++r->steps > fw_most_steps || m->events > fw_most_events) return too_long(r, s);
+            if (++r->steps > most_steps(r) || m->events > fw_most_events) return too_long(r, s);
             ended = turned_too_far(r, peaks);
         }
     }

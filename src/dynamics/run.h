@@ -35,6 +35,13 @@ double fw_peaks_apart(const fw_peaks *peaks, const fw_peaks *other, int k);
 fw_status fw_check_options(const fw_motion_options *options, fw_diags *diags);
 fw_status fw_check_names(const fw_motion_options *options, fw_diags *diags, fw_motion *motion);
 
+/* extreme.c: what has extremes besides the angles, SI: forces of pins, forces, torques and travels
+   of ties, forces or torques of drivers */
+typedef struct fw_extreme {
+    double value, t; /* largest in size, with its sign; scaled time */
+    double end;      /* value where the pass ends */
+} fw_extreme;
+
 typedef struct fw_run {
     fw_arena *arena;
     const fw_mechanism *mechanism;
@@ -44,6 +51,8 @@ typedef struct fw_run {
     fw_motion *motion;
     fw_model *model;
     const fw_stepper_row *integrator;
+    double uneven;    /* heaviest body over the lightest one between two joints */
+    const char *why;  /* this method though none was asked for; NULL: the default, or asked for */
     double *q0;       /* (3 nbody) assembled, SI */
     double *start;    /* (ny) */
     double *state;    /* (ny) a sample */
@@ -62,9 +71,10 @@ typedef struct fw_run {
     int nstride;
     int row;              /* next sample */
     bool full;            /* samples, observer and energy too */
-    fw_force_peak *force; /* (npin) of this pass, scaled time; NULL: not asked for */
-    double *force_now;    /* (npin) */
-    double *force_grid;   /* (9 npin) along a step */
+    fw_extreme *extreme;  /* (channels) of this pass; NULL: not asked for */
+    double *channel_now;  /* (channels) */
+    double *channel_grid; /* (9 channels) along a step */
+    double *pin_now, *tie_now;
 } fw_run;
 
 /* start.c: pieces, assembled state with fitting velocities, size of the motion, output arrays */
@@ -74,7 +84,9 @@ fw_status fw_run_prepare(fw_run *r, const fw_terms *terms);
 double fw_run_stride(const fw_run *r, double factor, double t);
 fw_status fw_run_arrays(fw_run *r);
 
-/* choose.c: by name, or by the scene; says why in motion->reason */
+/* choose.c: by name, or by the masses; r->why says so where it is not the default */
+fw_status fw_method_choose(fw_run *r);
+/* by name, or by the scene; says why in motion->reason */
 fw_status fw_integrator_choose(fw_run *r, const fw_terms *terms, const char *name);
 
 /* sample.c */
@@ -82,8 +94,16 @@ void fw_run_first_sample(fw_run *r, const double *y);
 /* rows and observer along the last step up to theta_end; false: a state cannot be projected */
 bool fw_run_samples(fw_run *r, fw_stepper *s, double theta_end);
 void fw_run_show(fw_run *r, fw_stepper *s, double theta_end);
-/* largest joint forces along the last step */
-void fw_run_forces(fw_run *r, fw_stepper *s, double theta_end);
+
+/* extreme.c */
+int fw_run_channels(const fw_run *r);
+fw_status fw_run_extremes_new(fw_run *r); /* work, and the peaks of the motion */
+/* the last step up to theta_end */
+void fw_run_extremes(fw_run *r, fw_stepper *s, double theta_end);
+/* peaks of the motion with errors from the looser pass */
+void fw_run_take_extremes(fw_run *r, const fw_extreme *fine, const fw_extreme *coarse, long steps);
+/* all of them within the accuracy of the largest of their kind? */
+bool fw_run_extremes_good(const fw_run *r, double accuracy);
 
 /* run.c: from start to end with one stepper; counts and norms are in model and stepper */
 fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is read off the steps: evenly spaced rows, the observer's instants, extremes of the joint
-   forces. All from the dense output; rows are projected like accepted steps. */
+/* What is read off the steps: evenly spaced rows, the observer's instants. All from the dense
+   output; rows are projected like accepted steps. */
 #include "multibody/reactions.h"
 #include "dynamics/run.h"
 #include <math.h>
@@ -96,69 +96,5 @@ void fw_run_show(fw_run *r, fw_stepper *s, double theta_end) {
         const fw_instant now = {(s->t_old + theta * s->h) * r->model->scale.time_s, r->seen_q,
                                 r->seen_angle, r->seen_force};
         r->options->observe(r->options->context, &now);
-    }
-}
-
-/* ---- extremes of the joint forces ---- */
-
-static void forces_at(fw_run *r, fw_stepper *s, double theta) {
-    const fw_model *m = r->model;
-    fw_stepper_dense(s, theta, r->state);
-    fw_model_react(r->model, s->t_old + theta * s->h, r->state, r->rate);
-    for (int i = 0; i < m->npin; i++) {
-        const double *l = m->lambda + 2 * m->pin_block[i];
-        r->force_now[i] = fw_newton(m) * sqrt(l[0] * l[0] + l[1] * l[1]);
-    }
-}
-
-static void offer(fw_force_peak *peak, double force, double t) {
-    if (force > peak->force_N) peak->force_N = force, peak->t_s = t;
-}
-
-enum { GRID = 8 };
-
-/* maximum of one force around grid point k, by golden section on the force itself */
-static void refine(fw_run *r, fw_stepper *s, int pin, double low, double high) {
-    const double golden = 0.6180339887498949;
-    double a = low, b = high, x = b - golden * (b - a), y = a + golden * (b - a);
-    forces_at(r, s, x);
-    double fx = r->force_now[pin];
-    forces_at(r, s, y);
-    double fy = r->force_now[pin];
-    for (int i = 0; i < 32 && b - a > 1e-7; i++) {
-        bool left = fx > fy;
-        if (left)
-            b = y, y = x, fy = fx, x = b - golden * (b - a);
-        else
-            a = x, x = y, fx = fy, y = a + golden * (b - a);
-        forces_at(r, s, left ? x : y);
-        *(left ? &fx : &fy) = r->force_now[pin];
-    }
-    double theta = fx > fy ? x : y;
-    offer(&r->force[pin], fmax(fx, fy), s->t_old + theta * s->h);
-}
-
-/* every force at nine places of the step; where the middle one of three is highest and comes near
-   the peak so far, its maximum is searched */
-void fw_run_forces(fw_run *r, fw_stepper *s, double theta_end) {
-    if (!r->force) return;
-    int pins = r->model->npin;
-    double *grid = r->force_grid;
-    for (int k = 0; k <= GRID; k++) {
-        forces_at(r, s, theta_end * k / GRID);
-        for (int i = 0; i < pins; i++)
-            grid[k * pins + i] = r->force_now[i];
-    }
-    for (int i = 0; i < pins; i++) {
-        int best = 0;
-        for (int k = 1; k <= GRID; k++)
-            if (grid[k * pins + i] > grid[best * pins + i]) best = k;
-        double most = grid[best * pins + i];
-        offer(&r->force[i], most, s->t_old + theta_end * best / GRID * s->h);
-        int low = best > 0 ? best - 1 : 0, high = best < GRID ? best + 1 : GRID;
-        /* a parabola through three points rises above the middle one by an eighth of its bend */
-        double bend = fabs(grid[low * pins + i] - 2 * most + grid[high * pins + i]);
-        if (most + bend >= r->force[i].force_N && best > 0 && best < GRID)
-            refine(r, s, i, theta_end * low / GRID, theta_end * high / GRID);
     }
 }

@@ -18,21 +18,23 @@ static double cpu_seconds(void) {
 }
 
 /* where m r^2/J is huge the accelerations carry round-off of 1e-16 m r^2/J; below some 1e-3 of that
-   the error estimate follows noise, and steps shrink for nothing */
-static double noise_floor(const fw_model *m) {
-    double ratio = 0;
+   the error estimate follows noise, and steps shrink for nothing. Likewise where a light body sits
+   between heavy ones, but for methods in independent coordinates. */
+static double noise_floor(const fw_run *r) {
+    const fw_model *m = r->model;
+    double ratio = 0, masses = m->method->independent ? 0 : 3e-17 * r->uneven;
     for (int i = 0; i < 2 * m->nblock; i++) {
         int b = m->body[i];
         double x = m->local[2 * i], y = m->local[2 * i + 1];
         if (b < m->nbody) ratio = fmax(ratio, m->jinv[b] / m->minv[b] * (x * x + y * y));
     }
-    return 3e-19 * ratio;
+    return fmax(3e-19 * ratio, masses);
 }
 
-static double chosen_rtol(const fw_motion_options *o, const fw_model *m) {
+static double chosen_rtol(const fw_motion_options *o, const fw_run *r) {
     double accuracy = o->accuracy > 0 ? o->accuracy : 1e-3;
     double rtol = o->rtol > 0 ? o->rtol : fmin(1e-6, 1e-4 * accuracy);
-    return fmin(fw_loosest, fmax(fmax(fw_tightest, noise_floor(m)), rtol));
+    return fmin(fw_loosest, fmax(fmax(fw_tightest, noise_floor(r)), rtol));
 }
 
 /* ---- the two runs ---- */
@@ -40,7 +42,7 @@ static double chosen_rtol(const fw_motion_options *o, const fw_model *m) {
 typedef struct pass {
     fw_stepper *stepper;
     fw_peaks peaks;
-    fw_force_peak *force; /* (npin) or NULL */
+    fw_extreme *extreme; /* (channels) or NULL */
 } pass;
 
 /* fine: the run that this one is compared with, NULL: this is it. A fixed step has no tolerance: h
@@ -59,12 +61,12 @@ static fw_status run_once(fw_run *r, double rtol, const pass *fine, pass *p) {
         atol[i] = fmax(rtol * r->amplitude, 2e-15);
     FW_TRY(fw_peaks_new(r->arena, r->mechanism, r->q0, &p->peaks));
     p->peaks.marked = fine ? &fine->peaks : NULL;
-    r->force = NULL;
+    r->extreme = NULL;
     if (r->options->reactions)
-        FW_NEED(r->force = fw_arena_array(r->arena, fw_force_peak, (size_t)m->npin));
+        FW_NEED(r->extreme = fw_arena_array(r->arena, fw_extreme, (size_t)fw_run_channels(r)));
     FW_TRY(fw_stepper_new(r->arena, r->integrator, &ode, rtol, atol, &p->stepper));
     p->stepper->h_fixed = pow(rtol, 0.25);
-    p->force = r->force;
+    p->extreme = r->extreme;
     r->full = !fine;
     fw_status status = fw_run_pass(r, p->stepper, &p->peaks);
     fw_stepper_free(p->stepper); /* what a library holds for it; its results stay */
@@ -145,15 +147,7 @@ static void estimate_errors(fw_run *r, const pass *fine, const pass *coarse) {
             DBL_EPSILON * (double)(8 + s->steps) * (1 + fabs(p->angle_rad)) +
             r->motion->stats.energy_error * fabs(p->angle_rad); /* never below the books */
     }
-    double change = 0;
-    for (int i = 0; fine->force && i < fine->peaks.npin; i++)
-        change = fmax(change, fabs(fine->force[i].force_N - coarse->force[i].force_N));
-    for (int i = 0; fine->force && i < fine->peaks.npin; i++) {
-        fw_force_peak *p = &r->motion->force_peak[i];
-        *p = fine->force[i];
-        p->t_s *= unit;
-        p->error_N = change + DBL_EPSILON * (double)(8 + s->steps) * p->force_N;
-    }
+    if (fine->extreme) fw_run_take_extremes(r, fine->extreme, coarse->extreme, s->steps);
 }
 
 typedef struct reached { /* largest values and errors of any pin; force 0 when not asked for */
@@ -179,7 +173,8 @@ static double accuracy_wanted(const fw_run *r) {
 static bool good_enough(const fw_run *r) {
     const reached x = what_is_reached(r);
     double accuracy = accuracy_wanted(r);
-    return x.error_rad <= accuracy * x.angle_rad && x.error_N <= accuracy * x.force_N;
+    return x.error_rad <= accuracy * x.angle_rad &&
+           (!r->options->reactions || fw_run_extremes_good(r, accuracy));
 }
 
 /* an angle or a force that is round-off has no relative accuracy */
@@ -236,7 +231,7 @@ static void warn_energy(const fw_run *r) {
 
 static fw_status solve(fw_run *r) {
     const fw_motion_options *o = r->options;
-    double rtol = chosen_rtol(o, r->model), tightest = fmax(fw_tightest, noise_floor(r->model));
+    double rtol = chosen_rtol(o, r), tightest = fmax(fw_tightest, noise_floor(r));
     int rows = r->motion->nsample;
     for (;;) {
         r->motion->nsample = rows;
@@ -269,7 +264,10 @@ static fw_status assembled(fw_run *r) {
         r->q0[3 * b + 1] = m->body[b].y_m;
         r->q0[3 * b + 2] = m->body[b].phi_rad;
     }
-    return fw_assemble(r->arena, m, r->q0, &r->motion->stats.assembly_moved_m, r->diags);
+    double moved;
+    FW_TRY(fw_assemble(r->arena, m, r->q0, &moved, r->diags));
+    r->motion->stats.assembly_moved_m = fmax(moved, r->options->moved_m);
+    return FW_OK;
 }
 
 static void set_stabilisation(fw_run *r) {
@@ -282,8 +280,10 @@ static void set_stabilisation(fw_run *r) {
 
 static fw_status say_method(fw_run *r) {
     const fw_method *method = r->model->method;
+    r->motion->method_report = r->why;
     if (!method->report) return FW_OK;
     fw_text text = fw_text_new(r->arena);
+    if (r->why) fw_text_printf(&text, "%s; ", r->why);
     FW_TRY(method->report(r->model, r->mechanism, &text));
     FW_TRY(fw_text_end(&text));
     r->motion->method_report = text.data;
@@ -300,6 +300,7 @@ fw_status fw_simulate(fw_arena *arena, const fw_mechanism *mechanism, const fw_s
     FW_TRY(fw_check_motion(mechanism, scene, diags));
     FW_NEED(r.motion = fw_arena_one(arena, fw_motion));
     FW_TRY(fw_check_names(options, diags, r.motion));
+    FW_TRY(fw_method_choose(&r));
     double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
     FW_TRY(fw_effects_compile(arena, mechanism, scene, &options->effects, accuracy, diags,
                               &r.motion->ledger, &terms));

@@ -166,10 +166,7 @@ fw_status fw_run_arrays(fw_run *r) {
     FW_NEED(r->seen_q = fw_arena_array(r->arena, double, n));
     FW_NEED(r->seen_angle = fw_arena_array(r->arena, double, pins));
     FW_NEED(r->seen_force = fw_arena_array(r->arena, double, 2 * pins));
-    FW_NEED(r->force_now = fw_arena_array(r->arena, double, pins));
-    if (r->options->reactions)
-        FW_NEED(m->force_peak = fw_arena_array(r->arena, fw_force_peak, pins));
-    FW_NEED(r->force_grid = fw_arena_array(r->arena, double, 9 * pins));
+    if (r->options->reactions) FW_TRY(fw_run_extremes_new(r));
     size_t ny = (size_t)r->model->ny;
     FW_NEED(r->start = fw_arena_array(r->arena, double, ny));
     FW_NEED(r->state = fw_arena_array(r->arena, double, ny));

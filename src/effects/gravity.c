@@ -32,12 +32,32 @@ bool fw_effect_not_proportional(const fw_effect_case *c) {
     return false;
 }
 
-/* 2 max|theta_gravity| / max|theta_rest| of the linear static responses: a load put on at once
+/* how much weight can change the stiffness, relative: in a chain of n joints the second derivative
+   of the height of a centre of mass is at most n R per unit of sum theta_i^2, R the reach, and the
+   springs give at least k_least, so that s = n R sum(m g) / k_least. Infinite where a joint has no
+   spring. A weight along a mast moves nothing and still makes it soft. */
+static double softening(const fw_mechanism *m, double g_m_per_s2) {
+    double weight = 0, reach = 0, least = (double)INFINITY;
+    for (int b = 0; b < m->nbody; b++)
+        weight += m->body[b].mass_kg * g_m_per_s2;
+    for (int i = 0; i < m->npin; i++) {
+        fw_vec2 p = fw_pin_place(m, &m->pin[i], 0);
+        least = fmin(least, m->pin[i].stiffness_Nm_per_rad);
+        for (int b = 0; b < m->nbody; b++)
+            reach = fmax(reach, hypot(m->body[b].x_m - p.x, m->body[b].y_m - p.y));
+    }
+    if (m->npin == 0 || m->ntie > 0 || !(least > 0)) return (double)INFINITY;
+    return m->npin * reach * weight / least;
+}
+
+/* s/(1 - s) of the softening, and 2 max|theta_gravity| / max|theta_rest| of the linear static
+   responses: a load put on at once
    moves up to twice its static response, and the rest moves at least by its own. Infinite where the
    mechanism has a free motion, nothing else moves it, it starts with a velocity, or the motion is
    not that of constant loads on springs: a load that comes late, a driver, a stop or a cable may
    move it by less than its own static response.
-   Output dimensionless; conservative for small angles. Cost one dense solve each.
+   Output dimensionless; conservative for small angles away from singular positions. Cost one dense
+   solve each.
    Test: test_effects.c. */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
     const fw_mechanism *m = c->mechanism;
@@ -70,9 +90,12 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
         FW_TRY(fw_static_response(c->arena, m, &rest, force, displacement, rotation, &valid));
         others = largest(rotation, m->npin);
     }
+    double soft = softening(m, hypot(c->scene->gx_m_per_s2, c->scene->gy_m_per_s2));
     if (valid && others > 0) {
-        *value = 2 * moved / others;
-        *reason = "bound: twice the static response to the weights over that to the other loads";
+        *value = soft < 1 ? 2 * moved / others + soft / (1 - soft) : (double)INFINITY;
+        *reason = soft < 1 ? "bound: twice the static response to the weights over that to the "
+                             "other loads, and what they can take from the stiffness"
+                           : "weight could take all stiffness: kept";
     }
     fw_arena_rewind(c->arena, mark);
     return FW_OK;

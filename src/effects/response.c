@@ -81,15 +81,23 @@ static void add_row(const system *s, int row, const line *l) {
         put(s, row, l->index[i], l->row[i]), put(s, l->index[i], row, l->row[i]);
 }
 
+static void add_spring_along(const system *s, const fw_mechanism *m, const fw_spring *p, double ux,
+                             double uy) {
+    line along = {.count = 0};
+    add_end(s, &along, p->body_a, arm(m, p->body_a, p->ax_m, p->ay_m), ux, uy, -1);
+    add_end(s, &along, p->body_b, arm(m, p->body_b, p->bx_m, p->by_m), ux, uy, 1);
+    add_stiffness(s, &along, p->stiffness_N_per_m / s->force);
+}
+
+/* points that coincide: a spring without length holds them in all directions */
 static void add_spring(const system *s, const fw_mechanism *m, const fw_spring *p) {
     fw_vec2 a = fw_local_place(m, p->body_a, p->ax_m, p->ay_m);
     fw_vec2 b = fw_local_place(m, p->body_b, p->bx_m, p->by_m);
     double dx = b.x - a.x, dy = b.y - a.y, l = hypot(dx, dy);
-    if (!(l > 0) || fw_spring_slack(m, p)) return;
-    line along = {.count = 0};
-    add_end(s, &along, p->body_a, arm(m, p->body_a, p->ax_m, p->ay_m), dx / l, dy / l, -1);
-    add_end(s, &along, p->body_b, arm(m, p->body_b, p->bx_m, p->by_m), dx / l, dy / l, 1);
-    add_stiffness(s, &along, p->stiffness_N_per_m / s->force);
+    if (l > 0 && !fw_spring_slack(m, p)) add_spring_along(s, m, p, dx / l, dy / l);
+    if (l > 0 || p->length_m != 0) return;
+    add_spring_along(s, m, p, 1, 0);
+    add_spring_along(s, m, p, 0, 1);
 }
 
 /* a direction (ux, uy) fixed in body a: turning it moves the point b, at a distance from a */

@@ -5,10 +5,13 @@
    torsion   torque -k angle - c rate between two bodies
    stop      the same beyond an angle, while it touches
    load      constant force at a point; timed: force and torque times a law
-   spring    k (l - l0) + c l' along the line between two points; a cable only while taut
+   spring    k (l - l0) + c l' along the line between two points; a cable only while taut. Where
+             the points meet, along their relative velocity, which is where the line comes to lie
+             next: the damping force is continuous there along every motion
    slide     -k s - c s' along the axis of a prismatic joint
    Test: test_simulate.c, test_forces.c (against the derivative of the energy). */
 #include "multibody/model.h"
+#include <float.h>
 #include <math.h>
 
 static void push(fw_model *m, int body, double rx, double ry, double fx, double fy) {
@@ -25,6 +28,12 @@ static void twist(fw_model *m, int a, int b, double torque) {
 
 static double difference(const fw_model *m, const double *x, int a, int b) {
     return (b < m->nbody ? x[3 * b + 2] : 0) - (a < m->nbody ? x[3 * a + 2] : 0);
+}
+
+double fw_spring_round_off(const fw_model *m, const fw_model_spring *s) {
+    const double *a = m->origin + 3 * s->a, *b = m->origin + 3 * s->b;
+    double reach = fabs(a[0]) + fabs(a[1]) + fabs(b[0]) + fabs(b[1]);
+    return 64 * DBL_EPSILON * (reach + fabs(s->ax) + fabs(s->ay) + fabs(s->bx) + fabs(s->by));
 }
 
 fw_pull fw_model_pull(const fw_model *m, const fw_model_spring *s, const double *y) {
@@ -45,9 +54,12 @@ fw_pull fw_model_pull(const fw_model *m, const fw_model_spring *s, const double 
         p[3] = v[3 * b + 1] + v[3 * b + 2] * rx;
     }
     double dx = state[1][0] - state[0][0], dy = state[1][1] - state[0][1];
-    double length = sqrt(dx * dx + dy * dy), inverse = length > 0 ? 1 / length : 0;
-    double ux = dx * inverse, uy = dy * inverse;
-    double rate = ux * (state[1][2] - state[0][2]) + uy * (state[1][3] - state[0][3]);
+    double wx = state[1][2] - state[0][2], wy = state[1][3] - state[0][3];
+    double length = sqrt(dx * dx + dy * dy), size = length;
+    if (length <= fw_spring_round_off(m, s) && (wx != 0 || wy != 0))
+        dx = wx, dy = wy, size = sqrt(wx * wx + wy * wy);
+    double inverse = size > 0 ? 1 / size : 0, ux = dx * inverse, uy = dy * inverse;
+    double rate = ux * wx + uy * wy;
     return (fw_pull){state[0][4], state[0][5], state[1][4], state[1][5], ux, uy, length, rate};
 }
 

@@ -42,7 +42,8 @@ static fw_status remember_input(fw_plan *plan, const char *name, const char *dat
 /* a file below the data directory; its name in messages and the manifest is the relative one */
 static fw_status read_data(fw_plan *plan, const char *name, fw_place asked, char **data,
                            size_t *n) {
-    const char *path = fw_data_path(plan->arena, plan->options.data_directory, name);
+    const char *path;
+    FW_TRY(fw_data_path(plan->arena, plan->options.data_directory, name, &path));
     if (!path) {
         fw_diag_error(&plan->diags, 224, asked,
                       "data file %s was not found: set FLEXWRIGHT_DATA to the directory that holds "
@@ -221,7 +222,9 @@ static fw_status check_references(fw_plan *plan, const fw_device *d) {
         const char *name =
             use->ref ? fw_arena_printf(plan->arena, "processes/%s.xml", use->ref) : "";
         FW_NEED(name);
-        if (*name && !fw_data_path(plan->arena, plan->options.data_directory, name))
+        const char *path = name;
+        if (*name) FW_TRY(fw_data_path(plan->arena, plan->options.data_directory, name, &path));
+        if (!path)
             status = fw_diag_error(&plan->diags, 224, use->place,
                                    "there is no process pack %s: correct the name, or set "
                                    "FLEXWRIGHT_DATA to the directory that holds it",

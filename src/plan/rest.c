@@ -15,7 +15,7 @@ fw_status fw_plan_modes(fw_plan *plan, const fw_modes **modes, const fw_mechanis
     *scene = NULL;
     if (plan->device->nscene == 0 && !plan->options.scene && !o.at_equilibrium)
         *scene = &without_loads;
-    FW_TRY(fw_plan_start(plan, mechanism, scene));
+    FW_TRY(fw_plan_start(plan, mechanism, scene, NULL));
     return fw_small_motions(plan->arena, *mechanism, *scene, &o, &plan->diags, modes);
 }
 
@@ -24,6 +24,6 @@ fw_status fw_plan_statics(fw_plan *plan, const fw_statics **statics, const fw_me
     const fw_static_options o = {.effects = plan->options.verdict.motion.effects,
                                  .path = plan->options.path};
     *scene = NULL;
-    FW_TRY(fw_plan_start(plan, mechanism, scene));
+    FW_TRY(fw_plan_start(plan, mechanism, scene, NULL));
     return fw_static_equilibrium(plan->arena, *mechanism, *scene, &o, &plan->diags, statics);
 }

@@ -27,6 +27,7 @@ fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *
 
 /* *scene, or where that is NULL the one asked for, else the first; its mechanism, drawn if possible
  */
-fw_status fw_plan_start(fw_plan *plan, const fw_mechanism **mechanism, const fw_scene **scene);
+fw_status fw_plan_start(fw_plan *plan, const fw_mechanism **mechanism, const fw_scene **scene,
+                        double *moved_m);
 
 #endif

@@ -3,6 +3,7 @@
 #include <math.h>
 
 json_t *fw_json_real(double value) {
+    if (value == 0.0) value = 0.0; /* no minus zero */
     return isfinite(value) ? json_real(value) : json_null();
 }
 

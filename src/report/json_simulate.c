@@ -36,15 +36,54 @@ static json_t *peaks(const fw_mechanism *mechanism, const fw_motion *m, bool *fa
     return list;
 }
 
-/* largest joint forces */
+static const char *const tie_kind[] = {
+    [FW_TIE_PRISMATIC] = "prismatic", [FW_TIE_DISTANCE] = "distance", [FW_TIE_WELD] = "weld"};
+
+/* the torque of what has one; where there is no force (a driver that turns) the time is its own */
+static void reaction(json_t *list, const char *id, const char *kind, const fw_force_peak *p,
+                     bool turns, bool pushes, bool *failed) {
+    json_t *o = json_object();
+    fw_json_put(o, "joint", fw_json_text(id), failed);
+    fw_json_put(o, "force_N", fw_json_real(p->force_N), failed);
+    fw_json_put(o, "t_s", fw_json_real(pushes ? p->t_s : p->torque_t_s), failed);
+    fw_json_put(o, "error_N", fw_json_real(p->error_N), failed);
+    fw_json_put(o, "kind", fw_json_text(kind), failed);
+    if (turns) {
+        fw_json_put(o, "torque_Nm", fw_json_real(p->torque_Nm), failed);
+        fw_json_put(o, "torque_t_s", fw_json_real(p->torque_t_s), failed);
+        fw_json_put(o, "torque_error_Nm", fw_json_real(p->torque_error_Nm), failed);
+    }
+    fw_json_push(list, o, failed);
+}
+
+/* largest forces of revolute joints, of the others, of drivers */
 static json_t *reactions(const fw_mechanism *mechanism, const fw_motion *m, bool *failed) {
     json_t *list = json_array();
-    for (int k = 0; m->force_peak && k < m->npin; k++) {
+    for (int k = 0; m->force_peak && k < m->npin; k++)
+        reaction(list, mechanism->pin[k].id, "revolute", &m->force_peak[k], false, true, failed);
+    for (int k = 0; m->tie_peak && k < m->ntie; k++) {
+        const fw_tie *t = &mechanism->tie[k];
+        reaction(list, t->id, tie_kind[t->kind], &m->tie_peak[k], t->kind != FW_TIE_DISTANCE, true,
+                 failed);
+    }
+    for (int k = 0; m->driver_peak && k < m->ndriver; k++) {
+        bool turns = mechanism->driver[k].joint != FW_NONE;
+        reaction(list, mechanism->driver[k].id, "driver", &m->driver_peak[k], turns, !turns,
+                 failed);
+    }
+    return list;
+}
+
+/* extremes of prismatic joints */
+static json_t *travels(const fw_mechanism *mechanism, const fw_motion *m, bool *failed) {
+    json_t *list = json_array();
+    for (int k = 0; m->travel_peak && k < m->ntie; k++) {
+        if (mechanism->tie[k].kind != FW_TIE_PRISMATIC) continue;
         json_t *o = json_object();
-        fw_json_put(o, "joint", fw_json_text(mechanism->pin[k].id), failed);
-        fw_json_put(o, "force_N", fw_json_real(m->force_peak[k].force_N), failed);
-        fw_json_put(o, "t_s", fw_json_real(m->force_peak[k].t_s), failed);
-        fw_json_put(o, "error_N", fw_json_real(m->force_peak[k].error_N), failed);
+        fw_json_put(o, "joint", fw_json_text(mechanism->tie[k].id), failed);
+        fw_json_put(o, "travel_m", fw_json_real(m->travel_peak[k].travel_m), failed);
+        fw_json_put(o, "t_s", fw_json_real(m->travel_peak[k].t_s), failed);
+        fw_json_put(o, "error_m", fw_json_real(m->travel_peak[k].error_m), failed);
         fw_json_push(list, o, failed);
     }
     return list;
@@ -79,6 +118,7 @@ fw_status fw_report_simulate_json(const fw_mechanism *mechanism, const fw_motion
     fw_json_effects(effects, &motion->ledger, NULL, NULL, &failed);
     fw_json_put(root, "effects", effects, &failed);
     fw_json_put(root, "peaks", peaks(mechanism, motion, &failed), &failed);
+    fw_json_put(root, "travels", travels(mechanism, motion, &failed), &failed);
     fw_json_put(root, "reactions", reactions(mechanism, motion, &failed), &failed);
     if (motion->nsample > 0) {
         json_t *final = json_object();

@@ -17,6 +17,33 @@ static json_t *hinges(const fw_mechanism *m, const double *angle, const double *
     return list;
 }
 
+static json_t *ties(const fw_mechanism *m, const double *force, bool *failed) {
+    static const char *const kind[] = {
+        [FW_TIE_PRISMATIC] = "prismatic", [FW_TIE_DISTANCE] = "distance", [FW_TIE_WELD] = "weld"};
+    json_t *list = json_array();
+    for (int k = 0; k < m->ntie; k++) {
+        json_t *o = json_object();
+        fw_json_put(o, "joint", fw_json_text(m->tie[k].id), failed);
+        fw_json_put(o, "kind", fw_json_text(kind[m->tie[k].kind]), failed);
+        fw_json_put(o, "force_N", fw_json_pair(force[3 * k], force[3 * k + 1], failed), failed);
+        fw_json_put(o, "torque_Nm", fw_json_real(force[3 * k + 2]), failed);
+        fw_json_push(list, o, failed);
+    }
+    return list;
+}
+
+static json_t *drivers(const fw_mechanism *m, const double *force, bool *failed) {
+    json_t *list = json_array();
+    for (int k = 0; k < m->ndriver; k++) {
+        bool turns = m->driver[k].joint != FW_NONE;
+        json_t *o = json_object();
+        fw_json_put(o, "driver", fw_json_text(m->driver[k].id), failed);
+        fw_json_put(o, turns ? "torque_Nm" : "force_N", fw_json_real(force[k]), failed);
+        fw_json_push(list, o, failed);
+    }
+    return list;
+}
+
 static json_t *actives(const fw_statics *s, bool *failed) {
     json_t *list = json_array();
     for (int i = 0; i < s->nactive; i++) {
@@ -86,6 +113,8 @@ fw_status fw_report_statics_json(const fw_mechanism *mechanism, const fw_scene *
     fw_json_put(root, "constraints", fw_json_rank(&s->rank, &failed), &failed);
     fw_json_put(root, "q", fw_json_by_body(mechanism, s->q, &failed), &failed);
     fw_json_put(root, "hinges", hinges(mechanism, s->angle_rad, s->reaction_N, &failed), &failed);
+    fw_json_put(root, "ties", ties(mechanism, s->tie_N, &failed), &failed);
+    fw_json_put(root, "drivers", drivers(mechanism, s->driver_N, &failed), &failed);
     fw_json_put(root, "active", actives(s, &failed), &failed);
     for (int i = 0; i < s->dof; i++)
         fw_json_push(values, fw_json_real(s->eigenvalue_per_s2[i]), &failed);

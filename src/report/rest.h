@@ -12,8 +12,8 @@ const char *fw_report_path_mark(fw_path_mark mark);
 fw_status fw_report_modes_text(const fw_scene *scene, const fw_modes *modes, fw_text *out);
 fw_status fw_report_statics_text(const fw_mechanism *mechanism, const fw_scene *scene,
                                  const fw_statics *statics, fw_text *out);
-/* load_factor,lowest_per_s2,negative,mark,BODY.x_m,...,HINGE.angle_rad,... with 17 digits: a row
-   per point of the path, or the equilibrium alone */
+/* load_factor,lowest_per_s2,negative,mark,BODY.x_m,...,HINGE.angle_rad,...,TIE.fx_N,...,DRIVER
+   with 17 digits: a row per point of the path, or the equilibrium alone */
 fw_status fw_report_load_path_csv(const fw_mechanism *mechanism, const fw_statics *statics,
                                   fw_text *out);
 

@@ -125,6 +125,27 @@ static void path_events(fw_text *out, const fw_statics *s) {
         fw_text_add(out, "  no limit point, no bifurcation: the load only pushes further\n");
 }
 
+/* joints other than revolute, and drivers; torques about point b */
+static void ties(const fw_mechanism *m, const fw_statics *s, fw_magnitude force, fw_text *out) {
+    if (m->ntie > 0)
+        fw_text_printf(out, "\n  joint         force on b, x and y in %-2s       torque N m\n",
+                       force.unit);
+    for (int k = 0; k < m->ntie; k++) {
+        fw_text_printf(out, "  %-8s ", m->tie[k].id);
+        column(out, s->tie_N[3 * k] * force.per_si);
+        column(out, s->tie_N[3 * k + 1] * force.per_si);
+        fw_text_real(out, " %14.6g", s->tie_N[3 * k + 2]);
+        fw_text_add(out, "\n");
+    }
+    if (m->ndriver > 0) fw_text_add(out, "\n  driver          holds with\n");
+    for (int k = 0; k < m->ndriver; k++) {
+        bool turns = m->driver[k].joint != FW_NONE;
+        fw_text_printf(out, "  %-8s ", m->driver[k].id);
+        fw_text_real(out, " %14.6g ", s->driver_N[k] * (turns ? 1 : force.per_si));
+        fw_text_printf(out, "%s\n", turns ? "N m" : force.unit);
+    }
+}
+
 fw_status fw_report_statics_text(const fw_mechanism *m, const fw_scene *scene, const fw_statics *s,
                                  fw_text *out) {
     fw_text_printf(out, "scene %s: equilibrium under its loads, ", scene->name);
@@ -136,6 +157,10 @@ fw_status fw_report_statics_text(const fw_mechanism *m, const fw_scene *scene, c
         far = i % 3 == 2 ? far : fmax(far, fabs(s->q[i]));
     for (int i = 0; i < 2 * m->npin; i++)
         strong = fmax(strong, fabs(s->reaction_N[i]));
+    for (int i = 0; i < 3 * m->ntie; i++)
+        strong = i % 3 == 2 ? strong : fmax(strong, fabs(s->tie_N[i]));
+    for (int i = 0; i < m->ndriver; i++)
+        strong = m->driver[i].joint != FW_NONE ? strong : fmax(strong, fabs(s->driver_N[i]));
     const fw_magnitude length = fw_magnitude_of(FW_MEASURE_LENGTH, far);
     const fw_magnitude force = fw_magnitude_of(FW_MEASURE_FORCE, strong);
     fw_text_printf(out, "\n  body              x %-2s           y %-2s        phi deg\n",
@@ -157,6 +182,7 @@ fw_status fw_report_statics_text(const fw_mechanism *m, const fw_scene *scene, c
         column(out, s->reaction_N[2 * k + 1] * force.per_si);
         fw_text_add(out, "\n");
     }
+    ties(m, s, force, out);
     if (s->path) path_events(out, s);
     return fw_text_end(out);
 }
@@ -173,22 +199,32 @@ static void header(const fw_mechanism *m, fw_text *out) {
         const char *id = m->pin[k].id;
         fw_text_printf(out, ",%s.angle_rad,%s.fx_N,%s.fy_N", id, id, id);
     }
+    for (int k = 0; k < m->ntie; k++) {
+        const char *id = m->tie[k].id;
+        fw_text_printf(out, ",%s.fx_N,%s.fy_N,%s.torque_Nm", id, id, id);
+    }
+    for (int k = 0; k < m->ndriver; k++)
+        fw_text_printf(out, ",%s.drive_%s", m->driver[k].id,
+                       m->driver[k].joint != FW_NONE ? "Nm" : "N");
     fw_text_add(out, "\n");
 }
 
-static void row(const fw_mechanism *m, const double *q, const double *angle, const double *force,
-                fw_text *out) {
-    for (int i = 0; i < 3 * m->nbody; i++) {
+static void cells(fw_text *out, const double *value, int count) {
+    for (int i = 0; i < count; i++) {
         fw_text_add(out, ",");
-        fw_text_number(out, q[i], 17);
+        fw_text_number(out, value[i], 17);
     }
+}
+
+static void row(const fw_mechanism *m, const double *q, const double *angle, const double *force,
+                const double *tie, const double *driver, fw_text *out) {
+    cells(out, q, 3 * m->nbody);
     for (int k = 0; k < m->npin; k++) {
         const double value[3] = {angle[k], force[2 * k], force[2 * k + 1]};
-        for (int c = 0; c < 3; c++) {
-            fw_text_add(out, ",");
-            fw_text_number(out, value[c], 17);
-        }
+        cells(out, value, 3);
     }
+    cells(out, tie, 3 * m->ntie);
+    cells(out, driver, m->ndriver);
     fw_text_add(out, "\n");
 }
 
@@ -205,11 +241,12 @@ fw_status fw_report_load_path_csv(const fw_mechanism *m, const fw_statics *s, fw
     size_t n = 3 * (size_t)m->nbody, pins = (size_t)m->npin;
     if (!p) {
         lead(out, 1, s->dof > 0 ? s->eigenvalue_per_s2[0] : (double)NAN, s->negative, FW_PATH_END);
-        row(m, s->q, s->angle_rad, s->reaction_N, out);
+        row(m, s->q, s->angle_rad, s->reaction_N, s->tie_N, s->driver_N, out);
     }
     for (size_t i = 0; p && i < (size_t)p->count; i++) {
         lead(out, p->factor[i], p->lowest_per_s2[i], p->negative[i], p->mark[i]);
-        row(m, p->q + i * n, p->angle_rad + i * pins, p->reaction_N + 2 * i * pins, out);
+        row(m, p->q + i * n, p->angle_rad + i * pins, p->reaction_N + 2 * i * pins,
+            p->tie_N + 3 * i * (size_t)m->ntie, p->driver_N + i * (size_t)m->ndriver, out);
     }
     return fw_text_end(out);
 }

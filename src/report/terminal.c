@@ -113,11 +113,21 @@ static void statistics(fw_text *out, const fw_motion_stats *s) {
     fw_text_add(out, "\n");
 }
 
-static void peaks(const fw_mechanism *m, const fw_motion *motion, fw_magnitude time, fw_text *out) {
-    double most = 0;
-    for (int i = 0; motion->force_peak && i < motion->npin; i++)
-        most = fmax(most, motion->force_peak[i].force_N);
-    const fw_magnitude force = fw_magnitude_of(FW_MEASURE_FORCE, most);
+static void timed(fw_text *out, double value, double t, double error) {
+    fw_text_real(out, " %15.5g ", value);
+    fw_text_real(out, "%13.5f ", t);
+    fw_text_real(out, "%10.1e", error);
+}
+
+static double strongest(const fw_force_peak *p, int count, double most) {
+    for (int i = 0; p && i < count; i++)
+        most = fmax(most, p[i].force_N);
+    return most;
+}
+
+static void angle_peaks(const fw_mechanism *m, const fw_motion *motion, fw_magnitude time,
+                        fw_magnitude force, fw_text *out) {
+    if (motion->npin == 0) return;
     fw_text_printf(out, "  joint    peak angle deg         at %-2s     +- deg", time.unit);
     if (motion->force_peak)
         fw_text_printf(out, "   peak force %-2s         at %-2s      +- %s", force.unit, time.unit,
@@ -128,13 +138,61 @@ static void peaks(const fw_mechanism *m, const fw_motion *motion, fw_magnitude t
         fw_text_real(out, "%16.4f ", degrees(motion->peak[i].angle_rad));
         fw_text_real(out, "%12.5f ", motion->peak[i].t_s * time.per_si);
         fw_text_real(out, "%10.1e", degrees(motion->peak[i].error_rad));
-        if (motion->force_peak) {
-            fw_text_real(out, " %15.5g ", motion->force_peak[i].force_N * force.per_si);
-            fw_text_real(out, "%13.5f ", motion->force_peak[i].t_s * time.per_si);
-            fw_text_real(out, "%10.1e", motion->force_peak[i].error_N * force.per_si);
-        }
+        if (motion->force_peak)
+            timed(out, motion->force_peak[i].force_N * force.per_si,
+                  motion->force_peak[i].t_s * time.per_si,
+                  motion->force_peak[i].error_N * force.per_si);
         fw_text_add(out, "\n");
     }
+}
+
+static void force_line(fw_text *out, const char *id, const char *what, double value,
+                       const char *unit, double t, const char *time, double error) {
+    fw_text_printf(out, "  %-8s %-7s", id, what);
+    fw_text_real(out, " %14.6g ", value);
+    fw_text_printf(out, "%-3s", unit);
+    fw_text_real(out, " %13.5f ", t);
+    fw_text_add(out, time);
+    fw_text_real(out, "   %8.1e\n", error);
+}
+
+/* a line per force, torque and travel: their units differ */
+static void tie_peaks(const fw_mechanism *m, const fw_motion *motion, fw_magnitude time,
+                      fw_magnitude force, fw_text *out) {
+    if (!motion->tie_peak || motion->ntie + motion->ndriver == 0) return;
+    double far = 0;
+    for (int i = 0; i < motion->ntie; i++)
+        far = fmax(far, fabs(motion->travel_peak[i].travel_m));
+    const fw_magnitude length = fw_magnitude_of(FW_MEASURE_LENGTH, far);
+    fw_text_add(out, "\n  joint, driver         peak                  at              +-\n");
+    for (int i = 0; i < motion->ntie + motion->ndriver; i++) {
+        bool tie = i < motion->ntie;
+        int k = tie ? i : i - motion->ntie;
+        const fw_force_peak *p = tie ? &motion->tie_peak[k] : &motion->driver_peak[k];
+        const char *id = tie ? m->tie[k].id : m->driver[k].id;
+        bool pushes = tie || m->driver[k].joint == FW_NONE;
+        bool turns = tie ? m->tie[k].kind != FW_TIE_DISTANCE : !pushes;
+        if (tie && m->tie[k].kind == FW_TIE_PRISMATIC) {
+            const fw_travel_peak *t = &motion->travel_peak[k];
+            force_line(out, id, "travel", t->travel_m * length.per_si, length.unit,
+                       t->t_s * time.per_si, time.unit, t->error_m * length.per_si);
+        }
+        if (pushes)
+            force_line(out, id, "force", p->force_N * force.per_si, force.unit,
+                       p->t_s * time.per_si, time.unit, p->error_N * force.per_si);
+        if (turns)
+            force_line(out, id, "torque", p->torque_Nm, "N m", p->torque_t_s * time.per_si,
+                       time.unit, p->torque_error_Nm);
+    }
+}
+
+static void peaks(const fw_mechanism *m, const fw_motion *motion, fw_magnitude time, fw_text *out) {
+    double most = strongest(motion->force_peak, motion->npin, 0);
+    most = strongest(motion->tie_peak, motion->ntie, most);
+    most = strongest(motion->driver_peak, motion->ndriver, most);
+    const fw_magnitude force = fw_magnitude_of(FW_MEASURE_FORCE, most);
+    angle_peaks(m, motion, time, force, out);
+    tie_peaks(m, motion, time, force, out);
 }
 
 fw_status fw_report_simulate_text(const fw_scene *scene, const fw_mechanism *m,

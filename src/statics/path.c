@@ -178,12 +178,17 @@ static fw_status grow(follower *f) {
     fw_arena *arena = f->w->arena;
     size_t old = (size_t)f->capacity, new = old ? 2 * old : 128;
     size_t n = 3 * (size_t)p->nbody, pins = (size_t)p->npin;
+    size_t ties = (size_t)p->ntie, drivers = (size_t)p->ndriver;
     FW_NEED(p->factor = fw_arena_grow(arena, p->factor, old, new, sizeof(double)));
     FW_NEED(p->q = fw_arena_grow(arena, p->q, old * n, new *n, sizeof(double)));
     FW_NEED(p->angle_rad =
                 fw_arena_grow(arena, p->angle_rad, old * pins, new *pins, sizeof(double)));
     FW_NEED(p->reaction_N = fw_arena_grow(arena, p->reaction_N, old * 2 * pins, new * 2 * pins,
                                           sizeof(double)));
+    FW_NEED(p->tie_N =
+                fw_arena_grow(arena, p->tie_N, old * 3 * ties, new * 3 * ties, sizeof(double)));
+    FW_NEED(p->driver_N =
+                fw_arena_grow(arena, p->driver_N, old * drivers, new *drivers, sizeof(double)));
     FW_NEED(p->lowest_per_s2 = fw_arena_grow(arena, p->lowest_per_s2, old, new, sizeof(double)));
     FW_NEED(p->negative = fw_arena_grow(arena, p->negative, old, new, sizeof(int)));
     FW_NEED(p->mark = fw_arena_grow(arena, p->mark, old, new, sizeof(fw_path_mark)));
@@ -201,7 +206,9 @@ static fw_status record(follower *f, const state *p, fw_path_mark mark, int whic
     size_t i = (size_t)path->count++, n = 3 * (size_t)path->nbody, pins = (size_t)path->npin;
     path->factor[i] = mark == FW_PATH_END ? 1 : p->s;
     fw_rest_pose(f->w, p->u, path->q + i * n, path->angle_rad + i * pins);
-    fw_rest_reactions(f->w, path->reaction_N + i * 2 * pins);
+    fw_rest_reactions(f->w, path->reaction_N + i * 2 * pins,
+                      path->tie_N + i * 3 * (size_t)path->ntie,
+                      path->driver_N + i * (size_t)path->ndriver);
     path->lowest_per_s2[i] = p->dof ? p->value[0] * fw_rest_per_s2(f->w) : (double)NAN;
     path->negative[i] = p->negative;
     path->mark[i] = mark;
@@ -412,6 +419,8 @@ fw_status fw_rest_follow(fw_rest *w, int most_points, fw_path **out) {
     FW_NEED(path = f.path = fw_arena_one(w->arena, fw_path));
     path->nbody = w->mechanism->nbody;
     path->npin = w->mechanism->npin;
+    path->ntie = w->mechanism->ntie;
+    path->ndriver = w->mechanism->ndriver;
     FW_TRY(state_new(w->arena, w->model, f.switches, &f.at));
     FW_TRY(state_new(w->arena, w->model, f.switches, &f.next));
     FW_TRY(state_new(w->arena, w->model, f.switches, &f.probe));

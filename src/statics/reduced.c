@@ -170,6 +170,51 @@ static void set_zero(fw_reduced *r, const double *stiffness) {
     }
 }
 
+/* Motions without stiffness have any basis: each takes the one coordinate that they move most in
+   the mass metric, and the rest of them leave it alone. So what bodies do independently of each
+   other stays apart, whatever their masses. Orthonormal as before: shape = P e_j / sqrt(P_jj) with
+   the projector P onto the motions that are left. false: there are not two. Cost 3 n per pair.
+   Test: test_modes.c. */
+static bool separate_free(fw_reduced *r) {
+    size_t n = (size_t)r->n, first = 0, end;
+    while (first < (size_t)r->dof && fabs(r->value[first]) > r->zero[first])
+        first++;
+    for (end = first; end < (size_t)r->dof && fabs(r->value[end]) <= r->zero[end];)
+        end++;
+    if (end < first + 2) return false;
+    for (; first + 1 < end; first++) {
+        size_t pivot = 0;
+        double most = -1;
+        for (size_t j = 0; j < n; j++) {
+            double share = 0;
+            for (size_t k = first; k < end; k++) {
+                double part = r->shape[k * n + j] / r->root[j];
+                share += part * part;
+            }
+            if (share > most * (1 + 1e-9)) most = share, pivot = j;
+        }
+        for (size_t k = first + 1; k < end; k++) { /* Givens: the pivot's part moves to `first` */
+            double *a = r->shape + first * n, *b = r->shape + k * n;
+            double length = hypot(a[pivot], b[pivot]);
+            if (!(length > 0)) continue;
+            double c = a[pivot] / length, s = b[pivot] / length;
+            for (size_t j = 0; j < n; j++) {
+                double keep = c * a[j] + s * b[j];
+                b[j] = c * b[j] - s * a[j], a[j] = keep;
+            }
+            b[pivot] = 0;
+        }
+    }
+    return true;
+}
+
+/* z^T K z of each mode */
+static void rayleigh(fw_reduced *r, const double *stiffness) {
+    project(r, stiffness);
+    for (size_t k = 0; k < (size_t)r->dof; k++)
+        r->value[k] = r->small[k * (size_t)r->dof + k];
+}
+
 /* Modes of K on the null space: eigenvectors of V_0^T M^-1/2 K M^-1/2 V_0 by LAPACK, then a
    Rayleigh-Ritz step in the coordinates of the bodies with Jacobi rotations. Error of a value:
    round- off of its own terms. Cost 4 n^2 dof and 20 dof^3. Source: Demmel and Veselic, SIAM J.
@@ -195,6 +240,11 @@ fw_status fw_reduced_spectrum(fw_reduced *r, const double *stiffness) {
     refine(r, stiffness);
     sort_modes(r);
     set_zero(r, stiffness);
+    if (separate_free(r)) {
+        rayleigh(r, stiffness);
+        sort_modes(r);
+        set_zero(r, stiffness);
+    }
     return FW_OK;
 }
 

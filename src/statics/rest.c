@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "statics/rest.h"
 #include "assembly/assembly.h"
+#include "multibody/reactions.h"
 #include "statics/tangent.h"
 #include <float.h>
 #include <math.h>
@@ -270,15 +271,22 @@ void fw_rest_pose(const fw_rest *w, const double *u, double *q, double *angle) {
     }
 }
 
-void fw_rest_reactions(const fw_rest *w, double *reaction) {
-    const fw_model *m = w->model;
-    double newton = m->scale.mass_kg * m->scale.length_m * fw_rest_per_s2(w);
-    for (int i = 0; i < 2 * m->npin; i++)
-        reaction[i] = newton * w->lambda[2 * m->pin_block[i / 2] + i % 2];
+void fw_rest_reactions(const fw_rest *w, double *reaction, double *tie, double *driver) {
+    fw_model *m = w->model;
+    memcpy(m->lambda, w->lambda, 2 * (size_t)m->nblock * sizeof(double));
+    fw_pin_forces(m, reaction);
+    fw_tie_forces(m, w->mechanism, tie, driver);
 }
 
 /* rows that take part in a combination of rows that is zero: what U_1, the part of U that counts,
-   misses of a unit row */
+   misses of a unit row.
+
+   fw_assembly_rank (assembly/rank.c) finds a rank too, and neither can stand for the other. Here it
+   must be the one of the decomposition, in the mass metric and cut at round-off, that the modes and
+   multipliers beside it come from, or their count would contradict the freedoms that are reported;
+   it is there for every state of a path at no further cost, and names all joints of a dependency.
+   There it answers for a pose before masses matter: cut at 1e-10, so that a pose closed to 1e-12
+   counts as what it is meant to be, and it names what is redundant in file order. */
 fw_status fw_rest_rank(const fw_rest *w, fw_row_rank *rank) {
     const fw_reduced *r = &w->reduced;
     const fw_model *m = w->model;
@@ -303,14 +311,14 @@ fw_status fw_rest_rank(const fw_rest *w, fw_row_rank *rank) {
     return FW_OK;
 }
 
-static double part_of(const double *shape, int body) {
+double fw_rest_part(const double *shape, int body) {
     return fmax(fabs(shape[3 * body + 2]), hypot(shape[3 * body], shape[3 * body + 1]));
 }
 
 int fw_rest_mover(const fw_rest *w, const double *shape) {
     int best = 0;
     for (int b = 1; b < w->model->nbody; b++)
-        if (part_of(shape, b) > part_of(shape, best)) best = b;
+        if (fw_rest_part(shape, b) > fw_rest_part(shape, best)) best = b;
     return best;
 }
 
@@ -321,7 +329,7 @@ fw_status fw_rest_bodies(const fw_rest *w, const double *shape, const char **nam
     const char *id = w->mechanism->body[first].id;
     fw_text_add(&text, id ? id : "(unnamed)");
     for (int b = 0; b < w->model->nbody; b++) {
-        if (b == first || part_of(shape, b) < 0.1 * part_of(shape, first)) continue;
+        if (b == first || fw_rest_part(shape, b) < 0.1 * fw_rest_part(shape, first)) continue;
         id = w->mechanism->body[b].id;
         if (++count <= FEW && ++named) fw_text_printf(&text, ", %s", id ? id : "(unnamed)");
     }

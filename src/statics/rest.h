@@ -54,17 +54,22 @@ double fw_rest_newton(const fw_rest *w, double *step);
 bool fw_rest_quiet(const fw_rest *w);
 /* from w->y to a stable equilibrium at the present s. FW_SOLVER without a message: there is none */
 fw_status fw_rest_descend(fw_rest *w, bool *left_unstable);
-/* from the assembled pose to the stable equilibrium at s = 1; says when there is none */
+/* the message that there is none, from where the descent ended */
+fw_status fw_rest_nowhere(const fw_rest *w);
+/* settle.c: from the assembled pose to the stable equilibrium at s = 1; says when there is none, or
+   that the drivers cannot be followed */
 fw_status fw_rest_settle(fw_rest *w, bool *left_unstable);
 /* path.c: from the equilibrium at s = 0; ends there where the path ends */
 fw_status fw_rest_follow(fw_rest *w, int most_points, fw_path **path);
 
-/* SI: pose, joint angles, joint forces of an evaluated state */
+/* SI: pose and joint angles; forces of pins (2 npin), ties (3 ntie) and drivers of an evaluated
+   state, as in fw_motion */
 void fw_rest_pose(const fw_rest *w, const double *u, double *q, double *angle);
-void fw_rest_reactions(const fw_rest *w, double *reaction);
+void fw_rest_reactions(const fw_rest *w, double *reaction, double *tie, double *driver);
 fw_status fw_rest_rank(const fw_rest *w, fw_row_rank *rank);
 /* names of the bodies that take part in a motion (n), the one that moves most first */
 fw_status fw_rest_bodies(const fw_rest *w, const double *shape, const char **names);
+double fw_rest_part(const double *shape, int body); /* how far it moves, scaled, or turns */
 int fw_rest_mover(const fw_rest *w, const double *shape);
 /* 1/s^2 per scaled eigenvalue */
 double fw_rest_per_s2(const fw_rest *w);

@@ -140,19 +140,22 @@ fw_status fw_rest_descend(fw_rest *w, bool *left_unstable) {
 
 /* ---- answer ---- */
 
-static fw_status no_equilibrium(const fw_rest *w) {
+fw_status fw_rest_nowhere(const fw_rest *w) {
     const char *names;
     FW_TRY(fw_rest_bodies(w, w->y, &names));
-    char turned[32], factor[32];
+    char far[32], factor[32];
     int b = fw_rest_mover(w, w->y);
-    fw_status status =
-        fw_diag_error(w->diags, 111, w->scene->place,
-                      "no equilibrium of scene %s was found at load factor %s: body %s keeps "
-                      "moving (it had turned "
-                      "by %s rad); nothing holds %s against the loads",
-                      fw_rest_scene_name(w), fw_number_text(factor, sizeof factor, w->factor, 4),
-                      w->mechanism->body[b].id ? w->mechanism->body[b].id : "(unnamed)",
-                      fw_number_text(turned, sizeof turned, w->y[3 * b + 2], 4), names);
+    const double *u = w->y + 3 * b;
+    double way = hypot(u[0], u[1]) * w->model->scale.length_m;
+    bool turns = fabs(u[2]) >= hypot(u[0], u[1]);
+    fw_status status = fw_diag_error(
+        w->diags, 111, w->scene->place,
+        "no equilibrium of scene %s was found at load factor %s: body %s keeps moving (it had %s "
+        "by %s %s); nothing holds %s against the loads",
+        fw_rest_scene_name(w), fw_number_text(factor, sizeof factor, w->factor, 4),
+        w->mechanism->body[b].id ? w->mechanism->body[b].id : "(unnamed)",
+        turns ? "turned" : "moved", fw_number_text(far, sizeof far, turns ? u[2] : way, 4),
+        turns ? "rad" : "m", names);
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
 
@@ -181,8 +184,10 @@ static fw_status count_signs(const fw_rest *w, fw_statics *out) {
         if (r->value[k] < -r->zero[k]) out->negative++;
         if (fabs(r->value[k]) > r->zero[k]) continue;
         out->neutral++;
-        for (size_t i = 0; i < n; i++)
-            sum[i] += fabs(r->shape[(size_t)k * n + i]);
+        const double *shape = r->shape + (size_t)k * n;
+        double most = fw_rest_part(shape, fw_rest_mover(w, shape));
+        for (size_t i = 0; i < n; i++) /* each motion as large, whatever its masses */
+            sum[i] = fmax(sum[i], fabs(shape[i]) / most);
     }
     for (size_t i = 0; i < n; i++)
         largest = fmax(largest, fabs(w->force[i]) * r->root[i]);
@@ -199,6 +204,8 @@ static fw_status answer(const fw_rest *w, fw_statics *out) {
     size_t n = (size_t)w->model->nq, pins = (size_t)w->mechanism->npin;
     out->nbody = w->mechanism->nbody;
     out->npin = w->mechanism->npin;
+    out->ntie = w->mechanism->ntie;
+    out->ndriver = w->mechanism->ndriver;
     out->dof = w->reduced.dof;
     out->ledger = w->ledger;
     out->iterations = w->iterations;
@@ -206,9 +213,11 @@ static fw_status answer(const fw_rest *w, fw_statics *out) {
     FW_NEED(out->q = fw_arena_array(w->arena, double, n));
     FW_NEED(out->angle_rad = fw_arena_array(w->arena, double, pins));
     FW_NEED(out->reaction_N = fw_arena_array(w->arena, double, 2 * pins));
+    FW_NEED(out->tie_N = fw_arena_array(w->arena, double, 3 * (size_t)out->ntie));
+    FW_NEED(out->driver_N = fw_arena_array(w->arena, double, (size_t)out->ndriver));
     FW_NEED(out->eigenvalue_per_s2 = fw_arena_array(w->arena, double, (size_t)out->dof));
     fw_rest_pose(w, w->y, out->q, out->angle_rad);
-    fw_rest_reactions(w, out->reaction_N);
+    fw_rest_reactions(w, out->reaction_N, out->tie_N, out->driver_N);
     FW_TRY(actives(w, out));
     FW_TRY(fw_rest_rank(w, &out->rank));
     return count_signs(w, out);
@@ -224,24 +233,11 @@ static fw_status path_ends_early(const fw_rest *w, const fw_path *path) {
     return FW_OK;
 }
 
-/* drivers take the mechanism along in steps, since a joint may not close over the whole way */
-fw_status fw_rest_settle(fw_rest *w, bool *left_unstable) {
-    enum { STEPS = 16 };
-    memset(w->y, 0, (size_t)w->model->ny * sizeof(double));
-    for (int i = w->moving ? 0 : STEPS; i <= STEPS; i++) {
-        fw_rest_factor(w, (double)i / STEPS);
-        *left_unstable = false;
-        fw_status status = fw_rest_descend(w, left_unstable);
-        if (status != FW_OK) return status == FW_SOLVER ? no_equilibrium(w) : status;
-    }
-    return FW_OK;
-}
-
 /* along the path when it is asked for and complete, else straight down */
 static fw_status reach(fw_rest *w, const fw_static_options *o, fw_statics *out) {
     if (o->path) {
         fw_status status = fw_rest_descend(w, &out->left_unstable);
-        if (status != FW_OK) return status == FW_SOLVER ? no_equilibrium(w) : status;
+        if (status != FW_OK) return status == FW_SOLVER ? fw_rest_nowhere(w) : status;
         FW_TRY(fw_rest_follow(w, o->most_points, &out->path));
         if (out->path->complete) return FW_OK;
         FW_TRY(path_ends_early(w, out->path));

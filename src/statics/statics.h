@@ -37,11 +37,13 @@ typedef enum fw_path_mark {
 } fw_path_mark;
 
 typedef struct fw_path { /* equilibria one after the other */
-    int count, nbody, npin;
+    int count, nbody, npin, ntie, ndriver;
     double *factor;        /* (count) s */
     double *q;             /* (count x 3 nbody) m, rad */
     double *angle_rad;     /* (count x npin) as in fw_motion */
     double *reaction_N;    /* (count x 2 npin) */
+    double *tie_N;         /* (count x 3 ntie) */
+    double *driver_N;      /* (count x ndriver) */
     double *lowest_per_s2; /* (count) smallest eigenvalue of the reduced tangent stiffness */
     int *negative;         /* (count) how many are below 0; 0: stable */
     fw_path_mark *mark;    /* (count) */
@@ -54,11 +56,13 @@ typedef struct fw_path { /* equilibria one after the other */
 } fw_path;
 
 typedef struct fw_statics {
-    int nbody, npin, dof;
+    int nbody, npin, ntie, ndriver, dof;
     double *rest_q;            /* (3 nbody) assembled pose */
     double *q;                 /* (3 nbody) the equilibrium at s = 1 */
     double *angle_rad;         /* (npin) phi_b - phi_a - free angle */
     double *reaction_N;        /* (2 npin) force on body b, world axes */
+    double *tie_N;             /* (3 ntie) force on body b, torque on it about its point b (N m) */
+    double *driver_N;          /* (ndriver) N or N m along the driven coordinate */
     double *eigenvalue_per_s2; /* (dof) of the reduced tangent stiffness, ascending: omega^2 */
     int negative, neutral;     /* how many are below 0, and 0 within round-off */
     const char *loose;         /* bodies that nothing holds, or NULL */

@@ -5,6 +5,9 @@
      spring on g, force -(k (g - g0) + c g') grad g:
        K = k grad g grad g^T + (k (g - g0) + c g') hess g + c grad g (hess g v)^T,
        C = c grad g grad g^T
+     a spring without length between points that coincide, force -(k d + c d') on point b, which is
+     what the line above tends to along every motion through that place (D = dd/du):
+       K = k D^T D,   C = c D^T D
      constraint g = value with multiplier lambda:  K = lambda hess g
 
    Coordinates of a pair of bodies: x_a, y_a, phi_a, x_b, y_b, phi_b. With arms r, p(r) = (-r_y,
@@ -58,8 +61,19 @@ static pair pair_of(const fw_model *m, const double *u, int a, int b, const doub
     return p;
 }
 
+/* component k of d */
+static gauge component(const pair *p, int k) {
+    gauge g = {.value = p->d[k]};
+    g.grad[k] = -1, g.grad[3 + k] = 1;
+    g.grad[2] = k ? -p->ra[0] : p->ra[1];
+    g.grad[5] = k ? p->rb[0] : -p->rb[1];
+    g.hess[2][2] = p->ra[k], g.hess[5][5] = -p->rb[k];
+    return g;
+}
+
 /* g = |d|; grad = D^T e, hess = D^T w w^T D / |d| + the arms' own curvature, D = dd/du, e = d/|d|,
-   w across. Points that coincide have no direction: all zero then. */
+   w across. Points that coincide have no direction: all zero then. The potential of a spring with a
+   length has a tip there, and no tangent. */
 static gauge distance_of(const pair *p) {
     gauge g = {0};
     g.value = hypot(p->d[0], p->d[1]);
@@ -147,6 +161,24 @@ static void spring_on(const fw_model *m, const gauge *g, int a, int b, const dou
     add_pair(damping, a, b, matrix);
 }
 
+/* a point spring; where its points lie apart by no more than round-off, a direction means nothing
+ */
+static void point_spring(const fw_model *m, const fw_model_spring *s, const double *u,
+                         const double *v, const target *stiffness, const target *damping) {
+    const double local[4] = {s->ax, s->ay, s->bx, s->by};
+    const double offset[2] = {m->origin[3 * s->a] - m->origin[3 * s->b],
+                              m->origin[3 * s->a + 1] - m->origin[3 * s->b + 1]};
+    pair p = pair_of(m, u, s->a, s->b, local, offset);
+    bool together = s->length == 0 && hypot(p.d[0], p.d[1]) <= fw_spring_round_off(m, s);
+    for (int k = 0; together && k < 2; k++) {
+        gauge g = component(&p, k);
+        spring_on(m, &g, s->a, s->b, v, s->k, s->c, 0, stiffness, damping);
+    }
+    if (together) return;
+    gauge g = distance_of(&p);
+    spring_on(m, &g, s->a, s->b, v, s->k, s->c, s->length, stiffness, damping);
+}
+
 static void between_angles(const target *to, int a, int b, double value) {
     add_entry(to, a, 2, a, 2, value);
     add_entry(to, b, 2, b, 2, value);
@@ -188,13 +220,7 @@ static void forces(const fw_model *m, double t, const double *y, const target *s
     }
     for (int i = 0; i < m->nspring; i++) {
         const fw_model_spring *s = &m->spring[i];
-        if (!s->on) continue;
-        const double local[4] = {s->ax, s->ay, s->bx, s->by};
-        const double offset[2] = {m->origin[3 * s->a] - m->origin[3 * s->b],
-                                  m->origin[3 * s->a + 1] - m->origin[3 * s->b + 1]};
-        pair p = pair_of(m, u, s->a, s->b, local, offset);
-        gauge g = distance_of(&p);
-        spring_on(m, &g, s->a, s->b, v, s->k, s->c, s->length, stiffness, damping);
+        if (s->on) point_spring(m, s, u, v, stiffness, damping);
     }
     for (int i = 0; i < m->nslide; i++) {
         const fw_model_slide *s = &m->slide[i];

@@ -278,13 +278,13 @@ static void six_bar(const request &wish) {
         for (int cut = 0; cut < (best ? 2 : 1); cut++) {
             o.cut_at_D = cut;
             const std::string name = kind_name[kind] + std::string(cut ? " cut at D" : "");
-            curve(wish, o, name, 3, 11, six_run);
+            curve(wish, o, name, 3, 12, six_run);
             if (!cut) continue;
             o.every_step = true;
-            curve(wish, o, name + " project every step", 3, 11, six_run);
+            curve(wish, o, name + " project every step", 3, 12, six_run);
             o.every_step = false;
             o.infinity_norm = true;
-            curve(wish, o, name + " infinity norm", 3, 11, six_run);
+            curve(wish, o, name + " infinity norm", 3, 12, six_run);
             o.infinity_norm = false;
         }
     }

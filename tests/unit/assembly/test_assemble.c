@@ -518,6 +518,60 @@ static void test_impossible_driver(void **state) {
 
 /* ---- impossible closures ---- */
 
+/* where angles are held the gap means something: all of it in one joint, the others closed */
+static void test_gap_of_slides(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    rig r = rig_new(arena, 2, 2, 0); /* a level bar on a crank of 1 m reaches 1 m high, not 2.5 */
+    rig_body(&r, "a", 1, 0.1, 0.5, 0, 0);
+    rig_body(&r, "b", 1, 0.1, 1.5, 0, 0);
+    rig_pin_local(&r, "A", FW_GROUND, 0, 0, 0, -0.5, 0);
+    rig_pin_local(&r, "B", 0, 0.5, 0, 1, -0.5, 0);
+    r.m.tie = fw_arena_array(arena, fw_tie, 3);
+    r.m.tie[r.m.ntie++] = (fw_tie){.id = "C",
+                                   .kind = FW_TIE_PRISMATIC,
+                                   .body_a = FW_GROUND,
+                                   .body_b = 1,
+                                   .ay_m = 2.5,
+                                   .bx_m = 0.5};
+    double q[6], moved;
+    pose(&r, q);
+    assert_int_equal(fw_assemble(arena, &r.m, q, &moved, &diags), FW_SOLVER);
+    assert_non_null(strstr(diags.item[0].message, "joint C stays open by 1500 mm at best"));
+    r.m.npin = 0; /* three welds in a ring that turns by 0.3 rad */
+    r.m.ntie = 3;
+    for (int i = 0; i < 3; i++)
+        r.m.tie[i] = (fw_tie){.id = "W",
+                              .kind = FW_TIE_WELD,
+                              .body_a = i == 0 ? FW_GROUND : i - 1,
+                              .body_b = i == 2 ? FW_GROUND : i,
+                              .angle_rad = i == 1 ? 0.3 : 0};
+    assert_int_equal(fw_assemble(arena, &r.m, q, &moved, &diags), FW_SOLVER);
+    assert_non_null(strstr(diags.item[1].message, "joint W stays open by 17.19 deg at best"));
+    fw_arena_free(arena);
+}
+
+/* 10 m and 4 m in one sentence: one unit */
+static void test_one_unit(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    rig r = rig_new(arena, 1, 0, 0);
+    rig_body(&r, "a", 1, 0.1, 0.5, 0, 0);
+    r.m.tie = fw_arena_array(arena, fw_tie, 2);
+    r.m.ntie = 2;
+    r.m.tie[0] = (fw_tie){"r1", FW_TIE_DISTANCE, FW_GROUND, 0, 0, 0, -0.5, 0, .length_m = 1};
+    r.m.tie[1] = (fw_tie){"r2", FW_TIE_DISTANCE, FW_GROUND, 0, 10, 0, 0.5, 0, .length_m = 2};
+    double q[3], moved;
+    pose(&r, q);
+    assert_int_equal(fw_assemble(arena, &r.m, q, &moved, &diags), FW_SOLVER);
+    const char *text = diags.item[0].message;
+    assert_non_null(strstr(text, "measures 10 m and the other sides reach 4 m together: 6 m"));
+    assert_null(strstr(text, " mm"));
+    fw_arena_free(arena);
+}
+
 /* random rings with one link too long by 1 % to 200 %: always refused, and the hint names that side
    and what is missing */
 static void test_always_refused(void **state) {
@@ -571,13 +625,25 @@ static void test_assembled(void **state) {
     fw_diags diags = fw_diags_new(arena);
     rig r = rig_six_bar(arena, false);
     const fw_mechanism *m;
-    assert_int_equal(fw_assembled(arena, &r.m, &diags, &m), FW_OK);
+    double far = -1;
+    assert_int_equal(fw_assembled(arena, &r.m, &diags, &m, &far), FW_OK);
     assert_ptr_equal(m, &r.m);
     assert_int_equal(diags.count, 0);
-    r.m.body[2].x_m += 3e-4, r.m.body[4].phi_rad += 0.3;
-    assert_int_equal(fw_assembled(arena, &r.m, &diags, &m), FW_OK);
-    assert_ptr_not_equal(m, &r.m);
+    assert_near(far, 0, 0);
+    r.m.body[2].x_m += 1e-10; /* hardly: a note */
+    assert_int_equal(fw_assembled(arena, &r.m, &diags, &m, &far), FW_OK);
     assert_int_equal(diags.item[0].number, 115);
+    assert_int_equal(diags.item[0].severity, FW_NOTE);
+    assert_true(far > 1e-12 && far < 2e-10);
+    r.m.body[2].x_m += 3e-4, r.m.body[4].phi_rad += 0.3;
+    assert_int_equal(fw_assembled(arena, &r.m, &diags, &m, &far), FW_OK);
+    assert_ptr_not_equal(m, &r.m);
+    assert_int_equal(diags.item[1].number, 115);
+    assert_int_equal(diags.item[1].severity, FW_WARNING);
+    assert_true(far > 1e-5 && far < 1e-3);
+    for (int b = 0; b < m->nbody; b++)
+        assert_true(far >=
+                    hypot(m->body[b].x_m - r.m.body[b].x_m, m->body[b].y_m - r.m.body[b].y_m));
     double q[15];
     rig moved = r;
     moved.m.body = m->body;
@@ -625,7 +691,8 @@ int main(void) {
         cmocka_unit_test(test_far_away),       cmocka_unit_test(test_four_bar_branches),
         cmocka_unit_test(test_other_side),     cmocka_unit_test(test_rank),
         cmocka_unit_test(test_ties),           cmocka_unit_test(test_impossible_driver),
-        cmocka_unit_test(test_always_refused), cmocka_unit_test(test_assembled),
+        cmocka_unit_test(test_always_refused), cmocka_unit_test(test_gap_of_slides),
+        cmocka_unit_test(test_one_unit),       cmocka_unit_test(test_assembled),
         cmocka_unit_test(test_out_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

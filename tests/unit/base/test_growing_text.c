@@ -69,11 +69,30 @@ static void spelling(void **state) {
     assert_int_equal(fw_edit_distance("kitten", "sitting", 5), 3);
 }
 
+static void zero_has_no_sign(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const struct {
+        const char *conversion;
+        double value;
+        const char *shown;
+    } row[] = {{"%5.4g %%", -0.0, "    0 %"}, {"%8.2f", -0.001, "    0.00"},
+               {"%.1e", -0.0, "0.0e+00"},     {"%.2f", -0.006, "-0.01"},
+               {"%.1e", -3e-9, "-3.0e-09"},   {"%g", -(double)INFINITY, "-inf"}};
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        fw_text text = fw_text_new(arena);
+        fw_text_real(&text, row[i].conversion, row[i].value);
+        assert_int_equal(fw_text_end(&text), FW_OK);
+        assert_string_equal(text.data, row[i].shown);
+    }
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_round_trip), cmocka_unit_test(numbers_are_strict),
-        cmocka_unit_test(fixed_and_escaped),  cmocka_unit_test(short_memory_sticks),
-        cmocka_unit_test(spelling),
+        cmocka_unit_test(zero_has_no_sign),    cmocka_unit_test(numbers_round_trip),
+        cmocka_unit_test(numbers_are_strict),  cmocka_unit_test(fixed_and_escaped),
+        cmocka_unit_test(short_memory_sticks), cmocka_unit_test(spelling),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

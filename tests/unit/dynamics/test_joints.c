@@ -178,11 +178,123 @@ static void test_ramped_driver(void **state) {
     fw_arena_free(arena);
 }
 
+/* joints that repeat each other in one direction only (two plates on two pins, a weld with a pin)
+   leave pivots of condition 1e8; the motion, the steps it takes and the accelerations are those of
+   the same plates welded once. Small inertias against m r^2 make it worse. */
+static void test_half_redundant(void **state) {
+    (void)state;
+    for (double inertia = 5e-14; inertia > 1e-18; inertia /= 10) {
+        fw_arena *arena = fw_arena_new(0);
+        rig r[3];
+        for (int i = 0; i < 3; i++) {
+            r[i] = rig_new(arena, 2, 3, 0);
+            rig_body(&r[i], "a", 1e-7, inertia, 1e-3, 0, 0);
+            rig_body(&r[i], "b", 1e-7, inertia, 3e-3, 0, 0);
+            rig_pin(&r[i], "O", FW_GROUND, 0, 0, 0, 1e-6, 0);
+            if (i > 0) rig_tie(arena, &r[i], FW_TIE_WELD, 0, 1)->ax_m = 2e-3;
+            if (i != 1) rig_pin(&r[i], "p", 0, 1, 2e-3, 0, 0, 0);
+            if (i == 0) rig_pin(&r[i], "q", 0, 1, 3e-3, 1e-3, 0, 0);
+            rig_force(&r[i], 1, 0, 5e-5);
+            r[i].scene.duration_s = 1e-2;
+        }
+        const fw_motion *once = run(arena, &r[1], 1e-12);
+        for (int i = 0; i < 3; i += 2) {
+            const fw_motion *m = run(arena, &r[i], 1e-12);
+            assert_true(m->stats.steps < 3 * once->stats.steps);
+            for (int k = 0; k < 6 * m->nsample; k++) {
+                double unit = k % 3 == 2 ? 1 : 1e-3;
+                assert_near(m->q[k], once->q[k], 1e-10 * unit);
+                assert_near(m->accel[k], once->accel[k], 1e-9 * unit * 1e6);
+            }
+        }
+        fw_arena_free(arena);
+    }
+}
+
+static const fw_motion *run_peaks(fw_arena *arena, const rig *r, double moved) {
+    fw_diags diags = fw_diags_new(arena);
+    fw_motion_options o = {.rtol = 1e-11,
+                           .samples = 2,
+                           .effects = {FW_EFFECTS_ALL, NULL},
+                           .reactions = true,
+                           .moved_m = moved};
+    const fw_motion *motion = NULL;
+    fw_status status = fw_simulate(arena, &r->m, &r->scene, &o, &diags, &motion);
+    if (status != FW_OK) fail_msg("%s", diags.count ? diags.item[0].message : "no diagnostic");
+    assert_near(motion->stats.assembly_moved_m, moved, 1e-15);
+    return motion;
+}
+
+static void near_peak(double value, double error, double expected) {
+    assert_near(value, expected, error + 1e-13 * expected);
+    assert_true(error < 1e-6 * expected);
+}
+
+/* extremes of what rods, slides, welds and drivers exert, and of travels, against closed forms */
+static void test_peaks_of_ties(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    rig r = rig_new(arena, 1, 0, 0); /* rod: 3 m g at the bottom, from rest at its level */
+    rig_body(&r, "bob", 2, 0.3, -1, 0, 0);
+    rig_tie(arena, &r, FW_TIE_DISTANCE, FW_GROUND, 0)->length_m = 1;
+    r.scene.gravity = true;
+    r.scene.gy_m_per_s2 = -9.81;
+    r.scene.duration_s = 1.5;
+    const fw_motion *m = run_peaks(arena, &r, 0);
+    near_peak(m->tie_peak[0].force_N, m->tie_peak[0].error_N, 6 * 9.81);
+    /* a quarter of the period: K(sin(pi/4)) sqrt(l/g), K = 1.8540746773013719 */
+    assert_near(m->tie_peak[0].t_s, 1.8540746773013719 / sqrt(9.81), 1e-5);
+    assert_near(m->tie_peak[0].torque_Nm, 0, 0);
+    assert_near(m->travel_peak[0].travel_m, 0, 0);
+
+    r = rig_new(arena, 1, 0, 0); /* a cart on a spring: amplitude v / omega, to the left first */
+    rig_body(&r, "cart", 2, 1, 0, 0, 0);
+    fw_tie *t = rig_tie(arena, &r, FW_TIE_PRISMATIC, FW_GROUND, 0);
+    t->stiffness_N_per_m = 50;
+    rig_velocity(&r, 0, -1.5, 0, 0);
+    r.scene.gravity = true;
+    r.scene.gy_m_per_s2 = -9.81;
+    r.scene.duration_s = 0.5; /* less than half a period: one extreme */
+    rig_torque(&r, 0, 0.7);
+    m = run_peaks(arena, &r, 3e-6);
+    near_peak(-m->travel_peak[0].travel_m, m->travel_peak[0].error_m, 0.3);
+    assert_near(m->travel_peak[0].t_s, acos(0.0) / 5, 1e-5);
+    near_peak(m->tie_peak[0].force_N, m->tie_peak[0].error_N, 2 * 9.81);
+    near_peak(m->tie_peak[0].torque_Nm, m->tie_peak[0].torque_error_Nm, 0.7);
+
+    r = rig_new(arena, 3, 1, 0); /* a weld that hangs on a driven cart, a wheel that is driven */
+    rig_body(&r, "cart", 2, 1, 0, 0, 0);
+    rig_body(&r, "load", 3, 1, 0, 0, 0);
+    rig_body(&r, "wheel", 3, 0.4, 5, 0, 0);
+    rig_pin(&r, "hub", FW_GROUND, 2, 5, 0, 0, 0);
+    rig_tie(arena, &r, FW_TIE_PRISMATIC, FW_GROUND, 0);
+    rig_tie(arena, &r, FW_TIE_WELD, 0, 1)->by_m = -0.25;
+    r.m.body[1].y_m = 0.25;
+    const fw_law sine = {.kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 2};
+    rig_driver(arena, &r, FW_NONE, 0, sine);
+    rig_driver(arena, &r, 0, FW_NONE, sine);
+    rig_velocity(&r, 0, 4 * acos(-1.0), 0, 0); /* as fast as the laws start */
+    rig_velocity(&r, 1, 4 * acos(-1.0), 0, 0);
+    rig_velocity(&r, 2, 0, 0, 4 * acos(-1.0));
+    r.scene.duration_s = 0.45;
+    m = run_peaks(arena, &r, 0);
+    double most = pow(4 * acos(-1.0), 2); /* of the acceleration: 1 m, 1 rad times omega^2 */
+    near_peak(m->tie_peak[1].force_N, m->tie_peak[1].error_N, 3 * most);
+    near_peak(m->tie_peak[1].torque_Nm, m->tie_peak[1].torque_error_Nm, 3 * most * 0.25);
+    near_peak(m->driver_peak[0].force_N, m->driver_peak[0].error_N, 5 * most);
+    assert_near(m->driver_peak[0].torque_Nm, 0, 0);
+    near_peak(m->driver_peak[1].torque_Nm, m->driver_peak[1].torque_error_Nm, 0.4 * most);
+    assert_near(m->driver_peak[1].force_N, 0, 0);
+    near_peak(fabs(m->travel_peak[0].travel_m), m->travel_peak[0].error_m, 1);
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_rod_is_the_pendulum), cmocka_unit_test(test_weld_is_one_body),
         cmocka_unit_test(test_driven_slider_crank), cmocka_unit_test(test_table_law),
-        cmocka_unit_test(test_ramped_driver),
+        cmocka_unit_test(test_ramped_driver),       cmocka_unit_test(test_peaks_of_ties),
+        cmocka_unit_test(test_half_redundant),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -84,7 +84,8 @@ static void test_absent_effects_cost_nothing(void **state) {
     fw_arena_free(arena);
 }
 
-/* the lever under a torque T: static angle T/k; weight at arm l: m g l / k. Bound = 2 m g l / T */
+/* the lever under a torque T: static angle T/k; weight at arm l: m g l / k, and it can take s = m g
+   l / k of the stiffness. Bound = 2 m g l / T + s / (1 - s) */
 static void test_gravity_bound(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
@@ -97,7 +98,8 @@ static void test_gravity_bound(void **state) {
     s.scene.gy_m_per_s2 = -9.81;
     s.torque[0] = (fw_torque){.body = 0, .value_Nm = 1e-7};
     s.scene.ntorque = 1;
-    double exact = 2 * 2e-8 * 9.81 * 1e-3 / 1e-7;
+    double soft = 2e-8 * 9.81 * 1e-3 / 1e-6,
+           exact = 2 * 2e-8 * 9.81 * 1e-3 / 1e-7 + soft / (1 - soft);
     assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1e-3, &diags, &ledger, &terms),
                      FW_OK);
     const fw_effect_entry *g = entry(&ledger, "gravity");
@@ -120,6 +122,31 @@ static void test_gravity_bound(void **state) {
     s.pin[0].stiffness_Nm_per_rad = 0;
     assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1, &diags, &ledger, &terms), FW_OK);
     assert_true(isinf(entry(&ledger, "gravity")->bound));
+    fw_arena_free(arena);
+}
+
+/* weight along a mast moves nothing by itself and takes m g l from its stiffness: the true change
+   of the deflection is within the bound, and where it could take all, weight is kept */
+static void test_weight_along_a_mast(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    fw_effect_ledger ledger;
+    fw_terms terms;
+    lever s;
+    lever_new(&s, 1e-6, 0); /* arm of 1 mm along x: gravity along -x presses on it */
+    s.torque[0] = (fw_torque){.body = 0, .value_Nm = 1e-9};
+    s.scene.ntorque = 1;
+    s.scene.gravity = true;
+    for (double share = 1e-4; share < 3; share *= 4) { /* m g l over k */
+        s.scene.gx_m_per_s2 = -share * 1e-6 / (2e-8 * 1e-3);
+        assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1e-3, &diags, &ledger, &terms),
+                         FW_OK);
+        const fw_effect_entry *g = entry(&ledger, "gravity");
+        double change = share < 1 ? share / (1 - share) : (double)INFINITY;
+        assert_true(g->bound >= change * (1 - 1e-12));
+        assert_int_equal(g->active, !(g->bound < 1e-3));
+    }
     fw_arena_free(arena);
 }
 
@@ -262,10 +289,10 @@ static void test_out_of_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_table),         cmocka_unit_test(test_absent_effects_cost_nothing),
-        cmocka_unit_test(test_gravity_bound), cmocka_unit_test(test_damping_bound),
-        cmocka_unit_test(test_choices),       cmocka_unit_test(test_static_response),
-        cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(test_table),           cmocka_unit_test(test_absent_effects_cost_nothing),
+        cmocka_unit_test(test_gravity_bound),   cmocka_unit_test(test_weight_along_a_mast),
+        cmocka_unit_test(test_damping_bound),   cmocka_unit_test(test_choices),
+        cmocka_unit_test(test_static_response), cmocka_unit_test(test_out_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -68,6 +68,72 @@ static void documents_and_their_stages(void **state) {
     assert_int_equal(fw_design_statics(NULL), FW_STATUS_USAGE);
 }
 
+/* a press: crank, rod, a ram on a slide whose pose is off by 5 mm, a plate welded to the ram, a
+ * stay */
+static const char press[] =
+    "<device xmlns=\"urn:flexwright:device:1\" name=\"press\"><mechanism>"
+    "<body id=\"crank\" mass=\"5 g\" inertia=\"0.2 g cm^2\" x=\"5 mm\" y=\"0 mm\"/>"
+    "<body id=\"rod\" mass=\"8 g\" inertia=\"6 g cm^2\" x=\"25 mm\" y=\"0 mm\"/>"
+    "<body id=\"ram\" mass=\"20 g\" inertia=\"3 g cm^2\" x=\"45 mm\" y=\"0 mm\"/>"
+    "<body id=\"plate\" mass=\"20 g\" inertia=\"3 g cm^2\" x=\"45 mm\" y=\"0 mm\"/>"
+    "<revolute id=\"main\" a=\"ground\" b=\"crank\" b-x=\"-5 mm\"/>"
+    "<revolute id=\"pin\" a=\"crank\" a-x=\"5 mm\" b=\"rod\" b-x=\"-15 mm\"/>"
+    "<revolute id=\"wrist\" a=\"rod\" a-x=\"15 mm\" b=\"ram\"/>"
+    "<prismatic id=\"bore\" a=\"ground\" b=\"ram\" axis=\"0 deg\" angle=\"0 deg\"/>"
+    "<weld id=\"seam\" a=\"ram\" b=\"plate\" angle=\"0 deg\"/>"
+    "<driver id=\"motor\" joint=\"main\" value=\"30 rad/s * t\"/>"
+    "</mechanism><scene name=\"turn\" duration=\"0.1 s\">"
+    "<force on=\"plate\" fx=\"-2 N\" fy=\"-1 N\"/></scene></device>";
+
+static void joints_of_every_kind_are_listed(void **state) {
+    (void)state;
+    fw_design *design = fresh(0, NULL);
+    assert_int_equal(fw_design_read_memory(design, "press.xml", press, sizeof press - 1),
+                     FW_STATUS_OK);
+    assert_int_equal(fw_design_statics(design), FW_STATUS_OK);
+    assert_non_null(
+        strstr(fw_design_diagnostic(design, 0)->message, "by up to 5000 um to close")); /* poses */
+    const char *json = text_of(design, FW_DOCUMENT_STATICS_JSON);
+    const double a = 3, tilt = asin(sin(a) / 3);
+    assert_near(number_of(strstr(json, "\"motor\""), "torque_Nm"),
+                2 * 0.01 * (-sin(a) - cos(a) * tan(tilt)), 1e-13);
+    assert_non_null(strstr(json, "\"kind\": \"prismatic\""));
+    assert_non_null(strstr(json, "\"kind\": \"weld\""));
+    assert_null(strstr(json, "-0.0,"));
+    const char *csv = text_of(design, FW_DOCUMENT_LOAD_PATH_CSV);
+    assert_non_null(strstr(csv, ",bore.fx_N,bore.fy_N,bore.torque_Nm,seam.fx_N,"));
+    assert_non_null(strstr(csv, ",motor.drive_Nm\n"));
+    int commas[2] = {0}, line = 0;
+    for (const char *c = csv; *c; c++) {
+        commas[line] += *c == ',';
+        line += *c == '\n' && line == 0;
+    }
+    assert_int_equal(commas[0], commas[1]);
+    const char *text = text_of(design, FW_DOCUMENT_STATICS_TEXT);
+    assert_non_null(strstr(text, "  seam "));
+    assert_non_null(strstr(text, "  motor "));
+    assert_int_equal(fw_design_simulate(design), FW_STATUS_OK);
+    json = text_of(design, FW_DOCUMENT_SIMULATE_JSON);
+    assert_near(number_of(json, "assembly_moved_m"), 5e-3, 1e-9);
+    assert_near(number_of(strstr(json, "\"travels\""), "travel_m"), 0.04, 1e-9);
+    const char *reactions = strstr(json, "\"reactions\"");
+    assert_non_null(reactions);
+    static const char *const joint[] = {"main", "pin", "wrist", "bore", "seam", "motor"};
+    for (int i = 0; i < 6; i++) {
+        char key[32];
+        snprintf(key, sizeof key, "\"joint\": \"%s\"", joint[i]);
+        const char *at = strstr(reactions, key);
+        assert_non_null(at);
+        assert_true((number_of(at, "force_N") > 0) == (i < 5));
+        if (i > 2) assert_true(number_of(at, "torque_Nm") >= (i == 5 ? 0.01 : 0));
+    }
+    text = text_of(design, FW_DOCUMENT_SIMULATE_TEXT);
+    assert_non_null(strstr(text, "bore     travel"));
+    assert_non_null(strstr(text, "seam     force"));
+    assert_non_null(strstr(text, "motor    torque"));
+    fw_design_free(design);
+}
+
 /* all three stages of one design, in any order, keep their documents; a failed one harms none */
 static void stages_side_by_side(void **state) {
     (void)state;
@@ -156,6 +222,7 @@ static void memory_runs_out(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(documents_and_their_stages),
+        cmocka_unit_test(joints_of_every_kind_are_listed),
         cmocka_unit_test(stages_side_by_side),
         cmocka_unit_test(wrong_options),
         cmocka_unit_test(memory_runs_out),

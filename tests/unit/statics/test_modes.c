@@ -3,6 +3,7 @@
 #include "statics/rest.h"
 #include "statics/tangent.h"
 #include "rest_rigs.h"
+#include <float.h>
 
 static const fw_modes *modes_at(fixture *f, const rig *r, bool equilibrium, int drawn) {
     const fw_modes *out = NULL;
@@ -235,6 +236,71 @@ static void free_motions_are_named(void **state) {
     fw_arena_free(f.arena);
 }
 
+/* motions of frequency 0 of bodies that know nothing of each other stay apart, whatever they weigh
+ */
+static void free_motions_stay_apart(void **state) {
+    (void)state;
+    fixture f = begin();
+    rig r = rig_new(f.arena, 2, 2, 0);
+    rig_body(&r, "heavy", 1, 1, 1, 0, 0);
+    rig_body(&r, "light", 1e-9, 1e-15, 1e-3, 5, 0);
+    rig_pin(&r, "A", FW_GROUND, 0, 0, 0, 0, 0);
+    rig_pin(&r, "B", FW_GROUND, 1, 0, 5, 0, 0);
+    r.scene.gravity = true; /* both level: no stiffness */
+    r.scene.gy_m_per_s2 = -9.81;
+    r.scene.duration_s = 1;
+    const fw_modes *m = modes_at(&f, &r, false, 0);
+    assert_int_equal(m->count, 2);
+    int heavy = strcmp(m->mode[0].bodies, "heavy") == 0 ? 0 : 1;
+    assert_string_equal(m->mode[heavy].bodies, "heavy");
+    assert_string_equal(m->mode[1 - heavy].bodies, "light");
+    /* round-off goes with the root of the ratio of the inertias */
+    assert_near(m->mode[heavy].shape[5], 0, 8 * DBL_EPSILON * sqrt(2 / 2e-15));
+    assert_near(m->mode[1 - heavy].shape[2], 0, 1e-12);
+    const fw_statics *s;
+    const fw_static_options o = {.path = false};
+    r.scene.gravity = false;
+    assert_int_equal(fw_static_equilibrium(f.arena, &r.m, &r.scene, &o, &f.diags, &s), FW_OK);
+    assert_non_null(strstr(s->loose, "heavy"));
+    assert_non_null(strstr(s->loose, "light"));
+    fw_arena_free(f.arena);
+}
+
+/* a spring without length whose ends coincide holds in both directions: k / m = 100, and as a beam
+   of 0.8 m about a pin with J + m r^2 = 1.25: k 0.64 / 1.25; damped by c / (2 sqrt(k m)) */
+static void spring_without_length(void **state) {
+    (void)state;
+    fixture f = begin();
+    rig r = rig_new(f.arena, 1, 1, 1);
+    rig_body(&r, "plate", 1, 1, 0, 0, 0);
+    rig_spring(&r, FW_GROUND, 0, 0, 0, 0, 0, 100, 0)->damping_Ns_per_m = 0.4;
+    r.scene.duration_s = 1;
+    for (int at = 0; at < 2; at++) {
+        const fw_modes *m = modes_at(&f, &r, at, 0);
+        assert_int_equal(m->count, 3);
+        assert_int_equal(m->mode[0].kind, FW_MODE_FREE); /* it turns about that point */
+        for (int k = 1; k < 3; k++) {
+            assert_relative(m->mode[k].omega_rad_per_s, 10, 1e-14);
+            assert_relative(m->mode[k].damping_ratio, 0.02, 1e-13);
+        }
+    }
+    fixture g = begin();
+    r = rig_new(g.arena, 1, 1, 1);
+    rig_body(&r, "beam", 1, 1, 0.3, 0, 0);
+    rig_pin(&r, "A", FW_GROUND, 0, 0.8, 0, 0, 0);
+    rig_spring(&r, FW_GROUND, 0, 0, 0, -0.3, 0, 100, 0);
+    r.scene.duration_s = 1;
+    const fw_modes *m = modes_at(&g, &r, false, 0);
+    assert_relative(m->mode[0].omega_rad_per_s, sqrt(100 * 0.64 / 1.25), 1e-13);
+    const fw_statics *s;
+    const fw_static_options o = {.path = false};
+    assert_int_equal(fw_static_equilibrium(g.arena, &r.m, &r.scene, &o, &g.diags, &s), FW_OK);
+    assert_int_equal(s->negative + s->neutral, 0);
+    assert_relative(s->eigenvalue_per_s2[0], 51.2, 1e-13);
+    fw_arena_free(f.arena);
+    fw_arena_free(g.arena);
+}
+
 /* a pose that a bent spring pulls away is no place of rest, and that is said */
 static void out_of_rest_is_said(void **state) {
     (void)state;
@@ -340,6 +406,8 @@ int main(void) {
         cmocka_unit_test(damping_of_one_wheel),
         cmocka_unit_test(light_links_and_stiff_springs),
         cmocka_unit_test(free_motions_are_named),
+        cmocka_unit_test(free_motions_stay_apart),
+        cmocka_unit_test(spring_without_length),
         cmocka_unit_test(out_of_rest_is_said),
         cmocka_unit_test(damped_pairs_satisfy_the_pencil),
         cmocka_unit_test(short_memory_is_said),

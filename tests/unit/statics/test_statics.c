@@ -308,6 +308,118 @@ static void laws_at_the_end_of_the_scene(void **state) {
     fw_arena_free(f.arena);
 }
 
+static fw_driver *rig_drive(fixture *f, rig *r, const char *id, int joint, double way) {
+    if (!r->m.driver) r->m.driver = fw_arena_array(f->arena, fw_driver, 4);
+    double *table = fw_arena_array(f->arena, double, 4);
+    table[1] = r->scene.duration_s, table[3] = way;
+    fw_driver *d = &r->m.driver[r->m.ndriver++];
+    *d = (fw_driver){.id = id, .joint = joint, .tie = FW_NONE, .law = {.kind = FW_LAW_TABLE}};
+    d->law.ntable = 2, d->law.table_t_s = table, d->law.table_value = table + 2;
+    return d;
+}
+
+/* a crank that goes round several times: x = r cos a + sqrt(l^2 - r^2 sin^2 a) on every way there
+ */
+static void driven_slider_crank(void **state) {
+    (void)state;
+    fixture f = begin();
+    rig r = rig_new(f.arena, 3, 3, 0);
+    rig_body(&r, "crank", 5, 0.2, 0.5, 0, 0);
+    rig_body(&r, "rod", 8, 6, 2.5, 0, 0);
+    rig_body(&r, "piston", 20, 3, 4, 0, 0);
+    rig_pin(&r, "main", FW_GROUND, 0, 0, 0, 0, 0);
+    rig_pin(&r, "pin", 0, 1, 1, 0, 0, 0);
+    rig_pin(&r, "wrist", 1, 2, 4, 0, 0, 0);
+    rig_guide(&f, &r, 2, 0, 0, 0);
+    r.scene.duration_s = 1;
+    rig_force(&r, 2, -7, -2);
+    const double way = 20;
+    rig_drive(&f, &r, "motor", 0, way);
+    for (int path = 0; path < 2; path++) {
+        const fw_statics *s = equilibrium(&f, &r, path);
+        assert_int_equal(s->dof, 0);
+        double tilt = asin(sin(way) / 3), slope = -sin(way) - cos(way) * tan(tilt);
+        assert_near(s->q[2], way, 1e-13);
+        assert_near(s->q[6], cos(way) + 3 * cos(tilt), 1e-12);
+        /* the motor holds against the piston, the guide carries what the rod pushes across */
+        assert_near(s->driver_N[0], 7 * slope, 1e-11);
+        assert_near(s->tie_N[0], 0, 1e-12);
+        assert_near(s->tie_N[1], 2 + 7 * tan(tilt), 1e-11);
+        assert_near(s->tie_N[2], 0, 1e-11);
+    }
+    fw_arena_free(f.arena);
+}
+
+/* a parallelogram that goes through flat positions stays one: its coupler does not turn */
+static void driven_parallelogram(void **state) {
+    (void)state;
+    for (int i = 0; i < 12; i++) {
+        fixture f = begin();
+        rig r = rig_new(f.arena, 3, 4, 0);
+        rig_body(&r, "a", 1, 0.1, 0, 0.5, 0);
+        rig_body(&r, "b", 1, 0.1, 1, 1, 0);
+        rig_body(&r, "c", 1, 0.1, 2, 0.5, 0);
+        rig_pin(&r, "A", FW_GROUND, 0, 0, 0, 0, 0);
+        rig_pin(&r, "B", 0, 1, 0, 1, 0, 0);
+        rig_pin(&r, "C", 1, 2, 2, 1, 0, 0);
+        rig_pin(&r, "D", FW_GROUND, 2, 2, 0, 0, 0);
+        r.scene.duration_s = 1;
+        double way = (i % 2 ? -1 : 1) * (2.1 + 0.7 * i);
+        if (i == 3) way = 8 * acos(0.0); /* steps of equal size end exactly in flat positions */
+        rig_drive(&f, &r, "motor", 0, way);
+        const fw_statics *s = equilibrium(&f, &r, false);
+        assert_near(s->q[2], way, 1e-12);
+        assert_near(s->q[5], 0, 1e-10);
+        assert_near(s->q[8], way, 1e-10);
+        fw_arena_free(f.arena);
+    }
+}
+
+/* drivers that contradict each other are named; one that goes too far has its joint named */
+static void impossible_drivers(void **state) {
+    (void)state;
+    fixture f = begin();
+    rig r = rig_new(f.arena, 2, 3, 0);
+    rig_body(&r, "p", 1, 1, 1, 0, 0);
+    rig_body(&r, "q", 1, 1, 3, 0, 0);
+    rig_pin(&r, "A", FW_GROUND, 0, 0, 0, 0, 0);
+    rig_pin(&r, "A2", FW_GROUND, 0, 0, 0, 0, 0);
+    rig_pin(&r, "B", 0, 1, 2, 0, 0, 0);
+    r.scene.duration_s = 3;
+    rig_drive(&f, &r, "first", 0, 3);
+    rig_drive(&f, &r, "second", 1, 3.003);
+    rig_drive(&f, &r, "innocent", 2, 1);
+    const fw_statics *s = (const fw_statics *)&r;
+    assert_int_equal(solve(&f, &r, false, &s), FW_SOLVER);
+    const char *text = f.diags.item[f.diags.count - 1].message;
+    assert_true(said(&f, 118));
+    assert_non_null(strstr(text, "contradict each other"));
+    assert_non_null(strstr(text, "first, second"));
+    assert_null(strstr(text, "innocent"));
+    fixture g = begin();
+    r = rig_new(g.arena, 3, 4, 0); /* ground 2, crank 1, coupler and rocker 0.9: 0.8 missing */
+    rig_body(&r, "crank", 1, 0.1, 0.5, 0, 0);
+    rig_body(&r, "coupler", 1, 0.1, 1.25, 0.4, 0);
+    rig_body(&r, "rocker", 1, 0.1, 1.75, 0.4, 0);
+    rig_pin(&r, "A", FW_GROUND, 0, 0, 0, 0, 0);
+    rig_pin(&r, "B", 0, 1, 1, 0, 0, 0);
+    rig_pin(&r, "C", 1, 2, 1.5, 0.75, 0, 0);
+    rig_pin(&r, "D", FW_GROUND, 2, 2, 0, 0, 0);
+    r.scene.duration_s = 1;
+    rig_drive(&g, &r, "motor", 0, 3);
+    assert_int_equal(solve(&g, &r, false, &s), FW_SOLVER);
+    assert_true(said(&g, 118));
+    text = g.diags.item[g.diags.count - 1].message;
+    /* the crank's end is 1.803 = 2 hypot(0.5, 0.75) away from D at the most */
+    double most = acos((5 - 4 * (0.25 + 0.5625)) / 4), said_at = 0;
+    const char *at = strstr(text, "beyond load factor ");
+    assert_non_null(at);
+    assert_int_equal(sscanf(at, "beyond load factor %lf", &said_at), 1);
+    assert_near(said_at, most / 3, 1e-4);
+    fw_arena_free(f.arena);
+    fw_arena_free(g.arena);
+}
+
 /* stable paths end where descent ends, on random chains and loops */
 static void paths_and_descent_agree(void **state) {
     (void)state;
@@ -393,6 +505,9 @@ int main(void) {
         cmocka_unit_test(stop_takes_over),
         cmocka_unit_test(runaway_is_an_error),
         cmocka_unit_test(laws_at_the_end_of_the_scene),
+        cmocka_unit_test(driven_slider_crank),
+        cmocka_unit_test(driven_parallelogram),
+        cmocka_unit_test(impossible_drivers),
         cmocka_unit_test(paths_and_descent_agree),
         cmocka_unit_test(nothing_to_move),
         cmocka_unit_test(bad_numbers_and_short_memory),

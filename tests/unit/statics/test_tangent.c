@@ -207,10 +207,57 @@ static void rest_is_symmetric(void **state) {
     }
 }
 
+/* points that coincide: a spring without length is k I and c I there, between turned bodies too */
+static void springs_without_length(void **state) {
+    (void)state;
+    for (uint64_t seed = 200; seed < 220; seed++) {
+        fw_arena *arena = fw_arena_new(0);
+        plant p;
+        plant_new(arena, seed, &p);
+        fw_terms *t = &p.terms;
+        t->ntorsion = t->nstop = t->nload = t->ntimed = t->nslide = 0;
+        for (int i = 0; i < 3; i++) {
+            fw_spring *s = &t->spring[i];
+            if (s->body_b == FW_GROUND) s->body_b = s->body_a, s->body_a = FW_GROUND;
+            const fw_mass *b = &p.r.m.body[s->body_b];
+            double x = s->ax_m, y = s->ay_m;
+            if (s->body_a != FW_GROUND) {
+                const fw_mass *a = &p.r.m.body[s->body_a];
+                x = a->x_m + cos(a->phi_rad) * s->ax_m - sin(a->phi_rad) * s->ay_m;
+                y = a->y_m + sin(a->phi_rad) * s->ax_m + cos(a->phi_rad) * s->ay_m;
+            }
+            s->bx_m = cos(b->phi_rad) * (x - b->x_m) + sin(b->phi_rad) * (y - b->y_m);
+            s->by_m = cos(b->phi_rad) * (y - b->y_m) - sin(b->phi_rad) * (x - b->x_m);
+            s->length_m = 0, s->cable = false;
+        }
+        double q[N], u[2 * N + 8] = {0}, lambda[64] = {0}, k[N * N], c[N * N];
+        for (int i = 0; i < N; i++) {
+            const fw_mass *b = &p.r.m.body[i / 3];
+            q[i] = i % 3 == 0 ? b->x_m : i % 3 == 1 ? b->y_m : b->phi_rad;
+        }
+        fw_diags diags = fw_diags_new(arena);
+        assert_int_equal(fw_model_new(arena, &p.r.m, t, q, 5, NULL, &diags, &p.m), FW_OK);
+        p.m->piece = 1;
+        fw_model_pose(p.m, u);
+        fw_tangent(p.m, 0, u, lambda, k, c);
+        double most = 0;
+        for (int j = 0; j < N; j++) {
+            double stiff = column_error(p.m, 0, u, lambda, j, k, j);
+            double damp = column_error(p.m, 0, u, lambda, N + j, c, j);
+            if (!(stiff < 1e-9 && damp < 1e-9))
+                fail_msg("seed %d, column %d: K off by %g, C by %g", (int)seed, j, stiff, damp);
+            most = fmax(most, fmin(k[j * N + j], c[j * N + j]));
+        }
+        assert_true(most > 0.01);
+        fw_arena_free(arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_joint_and_force),
         cmocka_unit_test(rest_is_symmetric),
+        cmocka_unit_test(springs_without_length),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

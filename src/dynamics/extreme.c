@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Extremes of joint forces, of the torques of ties and drivers, and of travels, along the dense
+   output. Each is one channel: forces of pins, then forces, torques and travels of ties, then
+   drivers. */
+#include "dynamics/run.h"
+#include "multibody/reactions.h"
+#include <float.h>
+#include <math.h>
+
+enum { GRID = 8 };
+typedef enum measure { FORCE, TORQUE, TRAVEL } measure;
+
+int fw_run_channels(const fw_run *r) {
+    const fw_mechanism *m = r->mechanism;
+    return m->npin + 3 * m->ntie + m->ndriver;
+}
+
+fw_status fw_run_extremes_new(fw_run *r) {
+    const fw_mechanism *from = r->mechanism;
+    size_t pins = (size_t)from->npin, ties = (size_t)from->ntie, drivers = (size_t)from->ndriver;
+    size_t channels = (size_t)fw_run_channels(r);
+    fw_motion *m = r->motion;
+    FW_NEED(r->channel_now = fw_arena_array(r->arena, double, channels));
+    FW_NEED(r->channel_grid = fw_arena_array(r->arena, double, (GRID + 1) * channels));
+    FW_NEED(r->pin_now = fw_arena_array(r->arena, double, 2 * pins));
+    FW_NEED(r->tie_now = fw_arena_array(r->arena, double, 3 * ties));
+    FW_NEED(m->force_peak = fw_arena_array(r->arena, fw_force_peak, pins));
+    FW_NEED(m->tie_peak = fw_arena_array(r->arena, fw_force_peak, ties));
+    FW_NEED(m->driver_peak = fw_arena_array(r->arena, fw_force_peak, drivers));
+    FW_NEED(m->travel_peak = fw_arena_array(r->arena, fw_travel_peak, ties));
+    return FW_OK;
+}
+
+/* ---- along a step ---- */
+
+/* all channels at theta; distances of prismatic joints are those of the state as integrated */
+static void channels_at(fw_run *r, fw_stepper *s, double theta) {
+    fw_model *m = r->model;
+    const fw_mechanism *from = r->mechanism;
+    fw_stepper_dense(s, theta, r->state);
+    fw_model_react(m, s->t_old + theta * s->h, r->state, r->rate);
+    double *force = r->channel_now, *torque = force + m->npin + m->ntie, *travel = torque + m->ntie;
+    fw_pin_forces(m, r->pin_now);
+    fw_tie_forces(m, from, r->tie_now, travel + m->ntie);
+    for (int i = 0; i < m->npin; i++)
+        force[i] = hypot(r->pin_now[2 * i], r->pin_now[2 * i + 1]);
+    for (int i = 0; i < m->ntie; i++) {
+        double d[2], e[2], n[2];
+        force[m->npin + i] = hypot(r->tie_now[3 * i], r->tie_now[3 * i + 1]);
+        torque[i] = from->tie[i].kind == FW_TIE_DISTANCE ? 0 : r->tie_now[3 * i + 2];
+        travel[i] = 0;
+        if (from->tie[i].kind != FW_TIE_PRISMATIC) continue;
+        fw_model_frame(m, m->tie_block[i], r->state, d, e, n);
+        travel[i] = (e[0] * d[0] + e[1] * d[1]) * m->scale.length_m - from->tie[i].free_length_m;
+    }
+}
+
+static void offer(fw_extreme *extreme, double value, double t) {
+    if (fabs(value) > fabs(extreme->value)) extreme->value = value, extreme->t = t;
+}
+
+/* Chebyshev-Lobatto points of [0, 1]: a polynomial through values there does not swing */
+static double place(int k) {
+    static const double PI = 3.14159265358979323846;
+    return 0.5 - 0.5 * cos(PI * k / GRID);
+}
+
+/* the polynomial of degree 8 through one channel at the nine places (a column of the grid), by the
+   barycentric formula; its error in a step of one radian is some 1e-10. Source: Berrut and
+   Trefethen 2004. */
+static double between(const double *column, int stride, double x) {
+    double above = 0, below = 0;
+    for (int k = 0; k <= GRID; k++) {
+        double distance = x - place(k), weight = (k % 2 ? -1.0 : 1.0) * (k % GRID ? 1 : 0.5);
+        if (distance == 0) return column[k * stride];
+        above += weight / distance * column[k * stride];
+        below += weight / distance;
+    }
+    return above / below;
+}
+
+/* extreme of that polynomial between two places, by golden section; evaluates nothing else */
+static double highest(const double *column, int stride, double a, double b, double *at) {
+    const double golden = 0.6180339887498949;
+    double x = b - golden * (b - a), y = a + golden * (b - a);
+    double fx = between(column, stride, x), fy = between(column, stride, y);
+    for (int i = 0; i < 40 && b - a > 1e-8; i++) {
+        if (fabs(fx) > fabs(fy)) {
+            b = y, y = x, fy = fx, x = b - golden * (b - a);
+            fx = between(column, stride, x);
+        } else {
+            a = x, x = y, fx = fy, y = a + golden * (b - a);
+            fy = between(column, stride, y);
+        }
+    }
+    bool first = fabs(fx) > fabs(fy);
+    *at = first ? x : y;
+    return first ? fx : fy;
+}
+
+/* grid cells [*low, *high] around the largest of the places, if they may hide a larger one: next to
+   an end of the step the polynomial must rise inwards. A parabola rises above the middle of three
+   places by less than its bend. */
+static bool worth_a_search(const double *grid, int count, int best, double so_far, int *low,
+                           int *high) {
+    int inwards = best == 0 ? 1 : best == GRID ? -1 : 0, middle = best + inwards;
+    double f[3], top = fabs(grid[best * count]);
+    for (int k = -1; k <= 1; k++)
+        f[k + 1] = fabs(grid[(middle + k) * count]);
+    double bend = fabs(f[0] - 2 * f[1] + f[2]), near = 0.75 * place(best) + 0.25 * place(middle);
+    *low = best > 0 ? best - 1 : 0, *high = best < GRID ? best + 1 : GRID;
+    if (!(bend > 0 && top + bend >= so_far)) return false;
+    return !inwards || fabs(between(grid, count, near)) > top;
+}
+
+/* every channel at nine places of the step; where the largest of them comes near the extreme so
+   far, its maximum is searched. Cost nine evaluations per step, whatever the number of joints. */
+void fw_run_extremes(fw_run *r, fw_stepper *s, double theta_end) {
+    if (!r->extreme) return;
+    int count = fw_run_channels(r), low, high;
+    double *grid = r->channel_grid, span = theta_end * s->h, at;
+    for (int k = 0; k <= GRID; k++) {
+        channels_at(r, s, theta_end * place(k));
+        for (int i = 0; i < count; i++)
+            grid[k * count + i] = r->channel_now[i];
+    }
+    for (int i = 0; i < count; i++) {
+        int best = 0;
+        for (int k = 1; k <= GRID; k++)
+            if (fabs(grid[k * count + i]) > fabs(grid[best * count + i])) best = k;
+        offer(&r->extreme[i], grid[best * count + i], s->t_old + place(best) * span);
+        if (worth_a_search(grid + i, count, best, fabs(r->extreme[i].value), &low, &high)) {
+            double top = highest(grid + i, count, place(low), place(high), &at);
+            offer(&r->extreme[i], top, s->t_old + at * span);
+        }
+        r->extreme[i].end = grid[GRID * count + i];
+    }
+}
+
+/* ---- results ---- */
+
+static measure measure_of(const fw_mechanism *m, int channel) {
+    if (channel < m->npin + m->ntie) return FORCE;
+    if (channel < m->npin + 2 * m->ntie) return TORQUE;
+    if (channel < m->npin + 3 * m->ntie) return TRAVEL;
+    return m->driver[channel - m->npin - 3 * m->ntie].joint != FW_NONE ? TORQUE : FORCE;
+}
+
+static void put_force(fw_force_peak *to, const fw_extreme *from, measure kind, double unit,
+                      double error) {
+    if (kind == FORCE)
+        to->force_N = fabs(from->value), to->t_s = from->t * unit, to->error_N = error;
+    else
+        to->torque_Nm = fabs(from->value), to->torque_t_s = from->t * unit,
+        to->torque_error_Nm = error;
+}
+
+/* error of each: the largest change of any of its kind from the looser run, at the end too, since
+   one number may agree by chance; what the energy balance is off by; and round-off. As for the
+   angles in simulate.c. */
+void fw_run_take_extremes(fw_run *r, const fw_extreme *fine, const fw_extreme *coarse, long steps) {
+    const fw_mechanism *m = r->mechanism;
+    fw_motion *out = r->motion;
+    double change[3] = {0}, unit = r->model->scale.time_s;
+    for (int i = 0; i < fw_run_channels(r); i++) {
+        double *most = &change[measure_of(m, i)];
+        *most = fmax(*most, fabs(fabs(fine[i].value) - fabs(coarse[i].value)));
+        *most = fmax(*most, fabs(fine[i].end - coarse[i].end));
+    }
+    for (int i = 0; i < fw_run_channels(r); i++) {
+        measure kind = measure_of(m, i);
+        double books = out->stats.energy_error + DBL_EPSILON * (double)(8 + steps);
+        double error = change[kind] + books * fabs(fine[i].value);
+        if (i < m->npin)
+            put_force(&out->force_peak[i], &fine[i], kind, unit, error);
+        else if (i >= m->npin + 3 * m->ntie)
+            put_force(&out->driver_peak[i - m->npin - 3 * m->ntie], &fine[i], kind, unit, error);
+        else if (kind != TRAVEL) {
+            bool none = kind == TORQUE && fine[i].value == 0;
+            put_force(&out->tie_peak[(i - m->npin) % m->ntie], &fine[i], kind, unit,
+                      none ? 0 : error);
+        } else if (m->tie[(i - m->npin) % m->ntie].kind == FW_TIE_PRISMATIC)
+            out->travel_peak[(i - m->npin) % m->ntie] =
+                (fw_travel_peak){fine[i].value, fine[i].t * unit, error};
+    }
+}
+
+static void widen(const fw_force_peak *p, int count, double most[3], double off[3]) {
+    for (int i = 0; i < count; i++) {
+        most[FORCE] = fmax(most[FORCE], p[i].force_N);
+        most[TORQUE] = fmax(most[TORQUE], p[i].torque_Nm);
+        off[FORCE] = fmax(off[FORCE], p[i].error_N);
+        off[TORQUE] = fmax(off[TORQUE], p[i].torque_error_Nm);
+    }
+}
+
+/* torques that are small beside force times the scene's length count with those, and the reverse */
+bool fw_run_extremes_good(const fw_run *r, double accuracy) {
+    const fw_motion *m = r->motion;
+    double most[3] = {0}, off[3] = {0}, length = r->model->scale.length_m;
+    widen(m->force_peak, m->npin, most, off);
+    widen(m->tie_peak, m->ntie, most, off);
+    widen(m->driver_peak, m->ndriver, most, off);
+    for (int i = 0; i < m->ntie; i++) {
+        most[TRAVEL] = fmax(most[TRAVEL], fabs(m->travel_peak[i].travel_m));
+        off[TRAVEL] = fmax(off[TRAVEL], m->travel_peak[i].error_m);
+    }
+    double force = fmax(most[FORCE], most[TORQUE] / length);
+    return off[FORCE] <= accuracy * force && off[TORQUE] <= accuracy * force * length &&
+           off[TRAVEL] <= accuracy * most[TRAVEL];
+}
