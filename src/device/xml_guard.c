@@ -95,6 +95,16 @@ static fw_status check_references(const guard *g, size_t from, size_t to) {
     }
 }
 
+/* names become texts on the mask and file names, numbers do not */
+static size_t longest(const guard *g, const fw_raw_attribute *a) {
+    static const char *const law[] = {"table", "factor", "value"};
+    for (size_t i = 0; i < sizeof law / sizeof law[0]; i++)
+        if (a->name_length == strlen(law[i]) &&
+            memcmp(g->xml.data + a->name, law[i], a->name_length) == 0)
+            return FW_XML_LAW_MOST;
+    return FW_XML_VALUE_MOST;
+}
+
 static fw_status check_value(const guard *g, const fw_raw_attribute *a) {
     const char *value = g->xml.data + a->value;
     const char *less = memchr(value, '<', a->value_length);
@@ -108,10 +118,10 @@ static fw_status check_value(const guard *g, const fw_raw_attribute *a) {
                              (int)(a->name_length < 64 ? a->name_length : 64),
                              g->xml.data + a->name);
     }
-    if (a->value_length > FW_XML_VALUE_MOST)
+    if (a->value_length > longest(g, a))
         return fw_diag_error(g->diags, 10, place(g, a->value),
-                             "the value has %zu bytes, the limit is %d; shorten it",
-                             a->value_length, FW_XML_VALUE_MOST);
+                             "the value has %zu bytes, the limit is %zu; shorten it",
+                             a->value_length, longest(g, a));
     return check_references(g, a->value, a->value + a->value_length);
 }
 

@@ -11,7 +11,8 @@ enum {
     FW_XML_ELEMENTS_MOST = 200000,
     FW_XML_ATTRIBUTES_MOST = 64,
     FW_XML_ALL_ATTRIBUTES_MOST = 1000000,
-    FW_XML_VALUE_MOST = 4096
+    FW_XML_VALUE_MOST = 4096,
+    FW_XML_LAW_MOST = 65536 /* of table, factor and value: laws in time and expressions */
 };
 
 typedef struct fw_bytes {

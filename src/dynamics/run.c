@@ -78,10 +78,14 @@ static fw_status too_long(const fw_run *r, const fw_stepper *s) {
 
 /* ---- steps that see all of the loads ---- */
 
-/* longer by half in the second run, so that the difference of the two tells the error where not the
-   tolerance but a law limits the steps */
+/* Longer by half in the second run, so that the difference of the two tells the error where not the
+   tolerance but a law limits the steps. Without error control a step may neither end on a flank
+   after a long rest nor be as long as the law bears: an eighth of the whole, and in the second run
+   longer like h_fixed, by 10^(1/2). */
 static void limit_step(const fw_run *r, fw_stepper *s, double t) {
-    if (r->nstride > 0) s->h_max = fw_run_stride(r, r->full ? 1 : 1.5, t);
+    if (r->nstride == 0) return;
+    s->h_max = s->row->fixed_step ? (r->full ? 0.125 : 0.395) * fw_run_stride(r, 1, t)
+                                  : fw_run_stride(r, r->full ? 1 : 1.5, t);
 }
 
 static void start_stepper(const fw_run *r, fw_stepper *s, double t, const double *y, double end) {

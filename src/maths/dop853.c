@@ -73,7 +73,7 @@ static double error(const dop853 *s, double h) {
     s->kernel->errors(b->padded, dop_row[LAST + 1] - dop_row[LAST], s->e, s->list + dop_row[LAST],
                       b->rtol, b->tolerance, b->y, s->y_new, sum);
     double both = sum[0] + 0.01 * sum[1];
-    if (both == 0) return 0; /* a NaN falls through */
+    if (both < 1e-290) return 0; /* its reciprocal would overflow; a NaN falls through */
     return h * sum[0] * sqrt(1 / (b->ode.controlled * both));
 }
 

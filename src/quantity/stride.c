@@ -3,11 +3,11 @@
 
    The law is looked at once per cell, LOOKS cells over the scene, with value, slope and bend. Cells
    are paired into blocks of 2, 4, 8, ...; a block of length h is quiet when the cubic through value
-   and slope at its ends meets what was seen inside to TOLERANCE of the law's size. Its miss e, in
-   units of that, grows with h^4, so the stride that the block bears is h e^(-1/4). Where the two
-   ends of one cell contradict each other (their f'' against that of the cubic, h^2/64 times the sum
-   of both), the cell is halved until they agree: so a pulse whose flanks, however faint, reach two
-   looks is found and followed up to its top.
+   and slope at its ends stays within value_tolerance of the law's size of those of its halves, and
+   so on down to the cells. Its miss e, in units of that, grows with h^4, so the stride that the
+   block bears is h e^(-1/4). Where the two ends of one cell contradict each other (their f''
+   against that of the cubic, h^2/64 times the sum of both), the cell is halved until they agree: so
+   a pulse whose flanks, however faint, reach two looks is found and followed up to its top.
 
    For coordinates of drivers the second derivative is what moves masses: the bend of the cubic must
    meet the true one to a share of its largest value; this miss grows with h^2.
@@ -28,7 +28,7 @@ enum {
     HALVINGS = 12,      /* of one cell */
     STRIDES_MOST = 1024 /* rows of the answer */
 };
-static const double value_tolerance = 0.05, bend_tolerance = 0.37, phase_rad = 2.1;
+static const double value_tolerance = 0.05, bend_tolerance = 0.3, phase_rad = 2.1;
 
 typedef struct look {
     double t_s, value[3];
@@ -67,18 +67,11 @@ static double share(const scan *s, double miss) {
     return whole > 0 ? miss / whole : 2;
 }
 
-/* the cubic through a and b at look l: its value or its bend, less the true one */
+/* what the bend of the cubic through a and b misses at look l */
 static double bend_miss(const look *a, const look *b, const look *l) {
     double h = b->t_s - a->t_s, x = (l->t_s - a->t_s) / h, rise = b->value[0] - a->value[0];
     double d0 = h * a->value[1] - rise, d1 = rise - h * b->value[1];
     return fabs(((6 * x - 4) * d0 + (2 - 6 * x) * d1) / (h * h) - l->value[2]);
-}
-
-static double value_miss(const look *a, const look *b, const look *l) {
-    double h = b->t_s - a->t_s, x = (l->t_s - a->t_s) / h, rise = b->value[0] - a->value[0];
-    double d0 = h * a->value[1] - rise, d1 = rise - h * b->value[1];
-    double cubic = a->value[0] + x * (rise + (1 - x) * ((1 - x) * d0 + x * d1));
-    return fabs(cubic - l->value[0]);
 }
 
 /* what the two ends of a cell know of its inside. Coordinates are held to their values as well: a
@@ -93,19 +86,17 @@ static double cell_miss(const scan *s, const look *a, const look *b) {
     return fmax(share(s, fmax(left, right)), whole > 0 && isfinite(value) ? value / whole : 0);
 }
 
-/* of a block of `cells` cells from a on, against three looks inside */
-static double block_miss(const scan *s, const look *a, int cells) {
-    const look *b = a + cells;
-    double most = 0;
-    if (cells == 1) return cell_miss(s, a, b);
-    if (!is_known(a) || !is_known(b)) return 2;
-    if (s->coordinate) most = fmax(bend_miss(a, b, a), bend_miss(a, b, b));
-    for (int quarter = 1; quarter <= 3; quarter++) {
-        const look *l = a + (size_t)cells * (size_t)quarter / 4;
-        if (!is_known(l)) return 2;
-        most = fmax(most, s->coordinate ? bend_miss(a, b, l) : value_miss(a, b, l));
-    }
-    return share(s, most);
+/* How far the cubic of a block a, b strays from those of its halves a, m and m, b: on each half of
+   length H the difference is a cubic that is flat at the outer end and has value dv, slope ds at m.
+   Its size is at most |dv| + 4/27 H |ds|, its bend 6 |dv|/H^2 + 4 |ds|/H. */
+static double joint_miss(const scan *s, const look *a, const look *m, const look *b) {
+    if (!is_known(a) || !is_known(m) || !is_known(b)) return 2;
+    double h = b->t_s - a->t_s, rise = b->value[0] - a->value[0], half = h / 2;
+    double value = a->value[0] + rise / 2 + h / 8 * (a->value[1] - b->value[1]);
+    double slope = 1.5 * rise / h - (a->value[1] + b->value[1]) / 4;
+    double dv = fabs(value - m->value[0]), ds = fabs(slope - m->value[1]);
+    return share(s, s->coordinate ? 6 * dv / (half * half) + 4 * ds / half
+                                  : dv + 4.0 / 27 * half * ds);
 }
 
 /* ---- strides ---- */
@@ -206,14 +197,19 @@ static void follow_all(scan *s, const piece *p) {
     p->found[p->cells] = s->nfound;
 }
 
-/* a block with a part that is not quiet is not quiet */
+/* the misses of every block: what its worse half misses and what joining them adds; a block with a
+   part that is not quiet is not quiet either */
 static void judge(const scan *s, const piece *p) {
-    for (int size = 1, first = p->cells; first >= 1; size *= 2, first /= 2)
+    for (int i = 0; i < p->cells; i++) {
+        bool agrees = p->found[i] == p->found[i + 1];
+        p->miss[p->cells + i] = agrees ? cell_miss(s, &p->seen[i], &p->seen[i + 1]) : 2;
+    }
+    for (int size = 2, first = p->cells / 2; first >= 1; size *= 2, first /= 2)
         for (int i = 0; i < first; i++) {
+            const look *a = &p->seen[i * size];
             int here = first + i;
-            bool parts = size == 1 ? p->found[i] == p->found[i + 1]
-                                   : p->miss[2 * here] <= 1 && p->miss[2 * here + 1] <= 1;
-            p->miss[here] = parts ? block_miss(s, p->seen + (size_t)i * (size_t)size, size) : 2;
+            double worse = fmax(p->miss[2 * here], p->miss[2 * here + 1]);
+            p->miss[here] = worse <= 1 ? worse + joint_miss(s, a, a + size / 2, a + size) : 2;
         }
 }
 

@@ -197,11 +197,33 @@ static void memory_runs_out(void **state) {
         }
 }
 
+/* measured loads have thousands of points */
+static void long_table(void **state) {
+    (void)state;
+    enum { POINTS = 2000 };
+    fw_arena *arena = fw_arena_new(0);
+    fw_text text = fw_text_new(arena);
+    fw_text_add(&text, "law=\"table\" table=\"");
+    for (int i = 0; i < POINTS; i++)
+        fw_text_printf(&text, "%.4f ms: %.6f; ", i * 5e-3, sin(i * 1e-2));
+    fw_text_add(&text, "\"");
+    assert_int_equal(fw_text_end(&text), FW_OK);
+    assert_true(text.length > 40000);
+    const fw_law *l = law_of(arena, text.data);
+    assert_int_equal(l->ntable, POINTS);
+    for (int i = 0; i < POINTS; i++) {
+        assert_near(l->table_t_s[i], i * 5e-6, 1e-15);
+        assert_near(l->table_value[i], sin(i * 1e-2), 5.1e-7);
+    }
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_joints),
         cmocka_unit_test(hinges_of_the_six_bar),
         cmocka_unit_test(laws),
+        cmocka_unit_test(long_table),
         cmocka_unit_test(sizes),
         cmocka_unit_test(sets),
         cmocka_unit_test(one_mistake_one_message),

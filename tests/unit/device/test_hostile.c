@@ -142,6 +142,13 @@ static void large_files(void **state) {
          "<a b='' c='' d='' e='' f='' g='' h='' i='' j='' k='' l='' m='' n='' o='' p=''/>", "</d>",
          100000},
         {"a value of 8 MB", 10, "<d a=\"", "xxxxxxxx", "\"/>", 1000000},
+        {"a value of 4104 bytes", 10, "<d a=\"", "xxxxxxxx", "\"/>", 513},
+        {"a name like a law's", 10, "<d tables=\"", "xxxxxxxx", "\"/>", 513},
+        {"a table of 65544 bytes", 10, "<d table=\"", "1 s: 1; ", "\"/>", 8193},
+        {"brackets, 64 KiB of them", 31,
+         ROOT ARM "<scene name=\"s\" duration=\"1 s\"><force on=\"arm\" law=\"expression\" "
+                  "factor=\"",
+         "((((((((", "\"/></scene></device>", 8192},
         {"a name of 8 MB", 0, "<", "aaaaaaaa", "/>", 1000000},
         {"an attribute's name of 8 MB", 0, "<d ", "aaaaaaaa", "=\"\"/>", 1000000},
         {"8 MB of entities", 5, "<d>", "&x;", "</d>", 2500000},
