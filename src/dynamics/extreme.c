@@ -170,7 +170,7 @@ void fw_run_take_extremes(fw_run *r, const fw_extreme *fine, const fw_extreme *c
     for (int i = 0; i < fw_run_channels(r); i++) {
         measure kind = measure_of(m, i);
         double books = out->stats.energy_error + DBL_EPSILON * (double)(8 + steps);
-        double error = change[kind] + books * fabs(fine[i].value);
+        double error = fw_run_margin(r) * change[kind] + books * fabs(fine[i].value);
         if (i < m->npin)
             put_force(&out->force_peak[i], &fine[i], kind, unit, error);
         else if (i >= m->npin + 3 * m->ntie)

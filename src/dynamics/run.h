@@ -69,6 +69,7 @@ typedef struct fw_run {
     fw_law_strides *stride; /* (nstride) of the laws that limit steps, s */
     int *stride_row;        /* (nstride) where each search stands */
     int nstride;
+    bool limited;         /* a stride, not the tolerance, has set the length of some step */
     int row;              /* next sample */
     bool full;            /* samples, observer and energy too */
     fw_extreme *extreme;  /* (channels) of this pass; NULL: not asked for */
@@ -82,6 +83,8 @@ fw_status fw_run_prepare(fw_run *r, const fw_terms *terms);
 /* longest scaled step from scaled time t on that leaps over nothing in any law, each of whose
    strides may be `factor` times as long */
 double fw_run_stride(const fw_run *r, double factor, double t);
+/* simulate.c: what differences of the two runs are multiplied with to be errors */
+double fw_run_margin(const fw_run *r);
 fw_status fw_run_arrays(fw_run *r);
 
 /* choose.c: by name, or by the masses; r->why says so where it is not the default */

@@ -118,10 +118,11 @@ static void differences(const pass *fine, const pass *coarse, double worst[FW_MA
         worst[k] = fmax(worst[k], worst[k - 1]);
 }
 
-/* Where a law limits the steps the two runs may agree by chance: of 12 000 short loads the error
-   was up to 3.7 times the difference in 5 cases; rk4, which knows no error, up to 11 times. */
-static double margin_of(const fw_run *r) {
-    return r->nstride == 0 ? 1 : r->integrator->fixed_step ? 16 : 4;
+/* After a rest the two runs may agree by chance on how they meet a load: of 12 000 short ones the
+   error was up to 3.7 times the difference in 5 cases; rk4, which knows no error, up to 11 times.
+ */
+double fw_run_margin(const fw_run *r) {
+    return !r->sudden ? 1 : r->integrator->fixed_step ? 16 : 4;
 }
 
 /* error of each peak from a second run at a hundred times the tolerance: its own change, and
@@ -142,7 +143,7 @@ static void estimate_errors(fw_run *r, const pass *fine, const pass *coarse) {
         double own = fabs(fabs(p->angle_rad) - fabs(other->angle_rad));
         p->t_s *= unit;
         p->error_rad =
-            margin_of(r) *
+            fw_run_margin(r) *
                 fmax(own, worst[fw_peaks_first_mark(&fine->peaks, &coarse->peaks, late)]) +
             DBL_EPSILON * (double)(8 + s->steps) * (1 + fabs(p->angle_rad)) +
             r->motion->stats.energy_error * fabs(p->angle_rad); /* never below the books */

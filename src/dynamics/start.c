@@ -36,6 +36,7 @@ static fw_status look_at_laws(fw_run *r, const fw_terms *terms, double *at, int 
         bool limits = false;
         for (int k = 0; k < own->n; k++)
             if (isfinite(own->most_s[k])) limits = true;
+        if (limits && law->kind == FW_LAW_EXPRESSION) r->sudden = true;
         if (limits) r->nstride++;
     }
     return FW_OK;
