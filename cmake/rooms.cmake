@@ -18,14 +18,18 @@ set(FW_EXTERN_process PkgConfig::XML2)
 set(FW_EXTERN_report PkgConfig::CAIRO)
 set(FW_EXTERN_base PkgConfig::JANSSON m)
 
-# the batch kernels are the same source compiled for each instruction set and chosen at run time; they
-# alone may contract products and sums
+# the kernels are the same source compiled for each instruction set and chosen at run time; those of
+# batches alone may contract products and sums
 set(kernels ${PROJECT_SOURCE_DIR}/src/multibody)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     set_source_files_properties(${kernels}/kernel_core_avx2.c ${kernels}/kernel_path_avx2.c PROPERTIES COMPILE_OPTIONS
                                 "-O3;-mavx2;-mfma;-ffp-contract=fast")
     set_source_files_properties(${kernels}/kernel_core_avx512.c ${kernels}/kernel_path_avx512.c PROPERTIES COMPILE_OPTIONS
                                 "-O3;-mavx512f;-mavx512dq;-mavx512vl;-mfma;-ffp-contract=fast")
+    set_source_files_properties(${kernels}/kernel_path_single_avx.c PROPERTIES COMPILE_OPTIONS
+                                "-mavx;-ffp-contract=off")
+    set_source_files_properties(${kernels}/kernel_path_single_avx512.c PROPERTIES COMPILE_OPTIONS
+                                "-mavx512f;-mavx512dq;-mavx512vl;-ffp-contract=off")
 endif()
 
 set(below)

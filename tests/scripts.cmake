@@ -22,6 +22,7 @@ fw_script_test(cli.program COMMAND ${Python3_EXECUTABLE} tests/cli/test_program.
 fw_script_test(cli.benchmarks COMMAND ${Python3_EXECUTABLE} tests/cli/test_benchmarks.py ${FW_PROGRAM})
 fw_script_test(cli.rest COMMAND ${Python3_EXECUTABLE} tests/cli/test_rest.py ${FW_PROGRAM})
 fw_script_test(cli.assemble COMMAND ${Python3_EXECUTABLE} tests/cli/test_assemble.py ${FW_PROGRAM})
+fw_script_test(cli.pictures COMMAND ${Python3_EXECUTABLE} tests/cli/test_pictures.py ${FW_PROGRAM})
 fw_script_test(cli.reproducible COMMAND ${Python3_EXECUTABLE} tests/cli/test_reproducible.py ${FW_PROGRAM})
 fw_script_test(fault.files COMMAND ${Python3_EXECUTABLE} tests/fault/test_faults.py ${FW_PROGRAM})
 fw_script_test(accept.masks COMMAND tests/accept/gallery.sh ${FW_PROGRAM} TIMEOUT 600)
@@ -29,6 +30,8 @@ fw_script_test(docs.readme COMMAND ${Python3_EXECUTABLE} tests/docs/readme.py ${
 fw_script_test(build.clang COMMAND tests/build/clang.sh TIMEOUT 600)
 fw_script_test(build.sanitized COMMAND tests/build/sanitized.sh TIMEOUT 900)
 fw_script_test(fuzz.device COMMAND tests/build/fuzz.sh TIMEOUT 600)
+fw_script_test(hard.valgrind LABEL hard COMMAND tests/build/valgrind.sh ${PROJECT_BINARY_DIR}/tests TIMEOUT 600)
+set_tests_properties(hard.valgrind PROPERTIES SKIP_RETURN_CODE 77)
 set_tests_properties(build.clang build.sanitized fuzz.device PROPERTIES RUN_SERIAL ON)
 
 add_executable(fault_memory fault/memory.c)

@@ -176,7 +176,7 @@ static bool tangent_step(fw_closure *c) {
         c->psi[i] -= c->lambda[i];
     fw_chain_assemble(m);
     if (!fw_chain_factor(&m->chain, fw_epsilon)) return false;
-    fw_chain_proximal(&m->chain, c->psi, c->lambda, m->more);
+    fw_chain_proximal(m, c->psi, c->lambda);
     memset(c->step, 0, (size_t)m->nq * sizeof(double));
     fw_model_apply(m, c->lambda, c->step);
     for (int i = 0; i < m->nq; i++)

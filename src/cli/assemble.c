@@ -27,9 +27,8 @@ static int run(fw_design *design, const fw_cli_options *options) {
     int saved = save_pictures(design, options, status == FW_STATUS_OK);
     if (status != FW_STATUS_OK || saved != FW_STATUS_OK)
         return status != FW_STATUS_OK ? status : saved;
-    bool svg_on_stdout = options->svg && options->svg[0] == '-' && !options->svg[1];
     if (options->json) return fw_session_print(design, options, FW_DOCUMENT_ASSEMBLE_JSON);
-    if (options->quiet || svg_on_stdout) return FW_STATUS_OK;
+    if (options->quiet || fw_session_file_on_stdout(options)) return FW_STATUS_OK;
     return fw_session_print(design, options, FW_DOCUMENT_ASSEMBLE_TEXT);
 }
 

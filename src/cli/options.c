@@ -137,10 +137,16 @@ static const char *take_scene(fw_cli_options *o, const char *v) {
     return *v ? NULL : "needs the name of a scene";
 }
 
+/* NULL, or a sentence that names all that are known */
 static const char *from_table(const char *v, fw_method_row (*at)(size_t)) {
-    for (size_t i = 0; at(i).name; i++)
+    static char known[600];
+    size_t n = (size_t)snprintf(known, sizeof known, "is not known; known are");
+    for (size_t i = 0; at(i).name; i++) {
         if (strcmp(v, at(i).name) == 0) return NULL;
-    return "is not known in this version; see --help for those that are";
+        if (n < sizeof known)
+            n += (size_t)snprintf(known + n, sizeof known - n, "%s %s", i ? "," : "", at(i).name);
+    }
+    return known;
 }
 
 static const char *take_method(fw_cli_options *o, const char *v) {
@@ -227,7 +233,11 @@ static const option_row table[] = {
      FW_OPT_PLAN, take_set},
     {"accuracy", 0, "REL", "relative error wanted on the peak hinge deflection; default 1e-3",
      FW_OPT_PLAN, take_accuracy},
-    {"effects", 0, "WHICH", "auto (what matters), all, none, or a list like gravity,joint-damping",
+    {"effects", 0, "WHICH",
+     "auto (what matters), all, none, or a list like gravity,joint-damping; whatever the choice, "
+     "loads, "
+     "initial velocities, stiffness, springs and stops stay, and weight where it is the motion: "
+     "without them there would be nothing to judge",
      FW_OPT_PLAN, take_effects},
     {"flow", 0, "NAME", "only this process flow", FW_OPT_PLAN, take_flow},
     {"hinge-model", 0, "MODEL", "auto or revolute", FW_OPT_PLAN, take_hinge_model},
@@ -248,11 +258,14 @@ static const option_row table[] = {
     {"integrator", 0, "NAME", "default auto", FW_OPT_SIMULATE, take_integrator},
     {"stabilise", 0, "HOW", "projection, baumgarte or none", FW_OPT_SIMULATE, take_stabilise},
     {"rtol", 0, "R",
-     "relative tolerance of the integrator, used between 1e-13 and 1e-5; default from --accuracy",
+     "relative tolerance of the integrator, used between 1e-13 and 1e-5 (a note says when it is "
+     "not "
+     "used as given); default from --accuracy",
      FW_OPT_SIMULATE, take_rtol},
     {"samples", 0, "N", "rows of the CSV, evenly over the scene; default 1001", FW_OPT_SIMULATE,
      take_samples},
-    {"forces", 0, "FILE", "accelerations of bodies, forces of joints and drivers, 17 digits",
+    {"forces", 0, "FILE",
+     "accelerations of bodies, forces of joints and drivers, 17 digits; - is standard output",
      FW_OPT_SIMULATE, take_forces},
     {"csv", 0, "FILE", "position and velocity of every body, 17 digits; - is standard output",
      FW_OPT_SIMULATE, take_csv},
@@ -260,7 +273,8 @@ static const option_row table[] = {
      "load factor, stability, poses, angles and joint forces, 17 digits, of the path "
      "or the equilibrium; - is standard output",
      FW_OPT_STATICS, take_csv},
-    {"animate", 0, "FILE", "an SVG that plays by itself", FW_OPT_SIMULATE, take_animate},
+    {"animate", 0, "FILE", "an SVG that plays by itself; - is standard output", FW_OPT_SIMULATE,
+     take_animate},
     {"independent", 0, "LIST",
      "independent coordinates like AB.phi,CD.x (BODY.x, BODY.y, BODY.phi); default by pivoting",
      FW_OPT_ASSEMBLE, take_independent},
@@ -325,6 +339,34 @@ static bool one_option(const fw_command *command, int argc, char **argv, int *i,
     return !wrong;
 }
 
+static bool is_stdout(const char *file) {
+    return file && strcmp(file, "-") == 0;
+}
+
+/* standard output holds one document */
+static bool one_document(const fw_command *command, const fw_cli_options *o) {
+    const struct {
+        const char *name;
+        bool wanted;
+    } use[] = {{"--json", o->json},
+               {"--csv -", is_stdout(o->csv)},
+               {"--forces -", is_stdout(o->forces)},
+               {"--animate -", is_stdout(o->animate)},
+               {"--svg -", is_stdout(o->svg)}};
+    const char *first = NULL;
+    for (size_t i = 0; i < sizeof use / sizeof use[0]; i++) {
+        if (!use[i].wanted) continue;
+        if (first) {
+            fw_cli_usage("%s: %s and %s both want standard output, which holds one document; give "
+                         "one of them a file",
+                         command->name, first, use[i].name);
+            return false;
+        }
+        first = use[i].name;
+    }
+    return true;
+}
+
 bool fw_cli_parse(const fw_command *command, int argc, char **argv, fw_cli_options *o) {
     bool only_names = false;
     for (int i = 2; i < argc; i++) {
@@ -345,7 +387,7 @@ bool fw_cli_parse(const fw_command *command, int argc, char **argv, fw_cli_optio
                      command->name);
         return false;
     }
-    return true;
+    return o->help || one_document(command, o);
 }
 
 /* ---- help ---- */

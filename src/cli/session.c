@@ -65,9 +65,11 @@ int fw_session_save(fw_design *design, const char *directory, const fw_session_f
     return FW_STATUS_OK;
 }
 
-bool fw_session_csv_on_stdout(const fw_cli_options *options) {
-    return (options->csv && strcmp(options->csv, "-") == 0) ||
-           (options->forces && strcmp(options->forces, "-") == 0);
+bool fw_session_file_on_stdout(const fw_cli_options *options) {
+    const char *const file[] = {options->csv, options->forces, options->animate, options->svg};
+    for (size_t i = 0; i < sizeof file / sizeof file[0]; i++)
+        if (file[i] && strcmp(file[i], "-") == 0) return true;
+    return false;
 }
 
 static bool error_was_said(fw_design *design) {

@@ -35,6 +35,6 @@ typedef struct fw_session_file {
 int fw_session_save(fw_design *design, const char *directory, const fw_session_file *file,
                     size_t count);
 /* --csv - : the table has standard output for itself */
-bool fw_session_csv_on_stdout(const fw_cli_options *options);
+bool fw_session_file_on_stdout(const fw_cli_options *options);
 
 #endif

@@ -16,7 +16,7 @@ static int run(fw_design *design, const fw_cli_options *options) {
         status = fw_session_save(design, options->output, file, 3);
     if (status != FW_STATUS_OK) return status;
     if (options->json) return fw_session_print(design, options, FW_DOCUMENT_SIMULATE_JSON);
-    if (options->quiet || fw_session_csv_on_stdout(options)) return FW_STATUS_OK;
+    if (options->quiet || fw_session_file_on_stdout(options)) return FW_STATUS_OK;
     return fw_session_print(design, options, FW_DOCUMENT_SIMULATE_TEXT);
 }
 

@@ -5,12 +5,16 @@
 #include <math.h>
 #include <string.h>
 
-/* a material is needed where stiffness or mass must be computed */
+/* a material is needed where stiffness or mass must be computed; a mass that is stated and could
+   not be read is no mass that must be computed */
 static void check_material(fw_reader *r) {
     const fw_device *d = r->device;
-    bool needed = d->nflexure > 0;
+    int without_mass = 0;
     for (int i = 0; i < d->nbody; i++)
-        needed |= !(d->body[i].mass_kg > 0.0);
+        without_mass += !(d->body[i].mass_kg > 0.0);
+    for (int i = 0; i < r->nrecord; i++)
+        without_mass -= fw_failed(&r->record[i], "mass");
+    bool needed = d->nflexure > 0 || without_mass > 0;
     if (needed && fw_count(r, "material") == 0 && !r->unknown_element)
         fw_diag_error(r->diags, 52, r->root->place,
                       "<device> has no <material>, and flexures or shapes need one; add <material "

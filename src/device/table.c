@@ -199,76 +199,93 @@ static const fw_attribute_row body_rows[] = {
     {"plate-angle", TURN, .fallback = "0 deg", .sentence = "Of the rectangle against the x axis."},
 };
 #define ENDS                                                                                       \
-    {"a", REF(FW_SPACE_BODY), .ground = true, REQUIRED, .sentence = "First body, or ground."},     \
+    {"a", REF(FW_SPACE_BODY), .ground = true, REQUIRED,                                            \
+     .sentence = "What it holds on to: a body, or ground."},                                       \
         {"a-x", PLACE, .fallback = "0 mm",                                                         \
-         .sentence = "Point in the frame of a, from its centre."},                                 \
+         .sentence =                                                                               \
+             "Point a: from the centre of mass, in the body's axes; on ground in the world."},     \
         {"a-y", PLACE, .fallback = "0 mm",                                                         \
-         .sentence = "Point in the frame of a, from its centre."},                                 \
+         .sentence =                                                                               \
+             "Point a: from the centre of mass, in the body's axes; on ground in the world."},     \
         {"b", REF(FW_SPACE_BODY), .ground = true, REQUIRED,                                        \
-         .sentence = "Second body, or ground."},                                                   \
+         .sentence = "What it holds: another body, or ground."},                                   \
         {"b-x", PLACE, .fallback = "0 mm",                                                         \
-         .sentence = "Point in the frame of b, from its centre."},                                 \
+         .sentence =                                                                               \
+             "Point b: from the centre of mass, in the body's axes; on ground in the world."},     \
     {                                                                                              \
-        "b-y", PLACE, .fallback = "0 mm", .sentence = "Point in the frame of b, from its centre."  \
+        "b-y", PLACE,                                                                              \
+            .fallback = "0 mm",                                                                    \
+            .sentence =                                                                            \
+                "Point b: from the centre of mass, in the body's axes; on ground in the world."    \
     }
 static const fw_attribute_row revolute_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id of the joint."},
     ENDS,
     {"stiffness", D_TURNING_K, ELASTIC, .fallback = "from the flexure, else 0",
-     .sentence = "Torque per angle."},
+     .sentence = "Of its spring: torque per angle."},
     {"damping", D_TURNING_C, ELASTIC, .fallback = "from the flexure's material, else 0",
      .sentence = "Torque per angular velocity."},
-    {"free-angle", TURNS, .fallback = "0 deg", .sentence = "Angle at which the spring is at rest."},
-    {"hinge", REF(FW_SPACE_FLEXURE), .fallback = "an ideal pivot", .sentence = "Its flexure."},
+    {"free-angle", TURNS, .fallback = "0 deg",
+     .sentence = "phi_b - phi_a at which the joint's angle is 0 and its spring at rest."},
+    {"hinge", REF(FW_SPACE_FLEXURE), .fallback = "an ideal pivot",
+     .sentence =
+         "The flexure that it is; stiffness, damping and limit then come from its geometry."},
     {"axis", TURN, .fallback = "chosen by the layout",
      .sentence = "Direction of the flexure's bulge, from the x axis."},
     {"stop-min", TURNS, .fallback = "no stop",
-     .sentence = "Below this angle the stop pushes back; with stop-stiffness."},
+     .sentence = "Below this angle of the joint a stop pushes back; needs stop-stiffness."},
     {"stop-max", TURNS, .fallback = "no stop",
-     .sentence = "Above this angle the stop pushes back; with stop-stiffness."},
+     .sentence = "Above this angle of the joint a stop pushes back; needs stop-stiffness."},
     {"stop-stiffness", D_TURNING_K, ELASTIC, .fallback = "no stop",
-     .sentence = "Torque per angle beyond a stop."},
+     .sentence = "Of the stops: torque per angle beyond stop-min or stop-max."},
     {"stop-damping", D_TURNING_C, ELASTIC, .fallback = "0 N m s/rad",
-     .sentence = "Torque per angular velocity while a stop is pressed."},
+     .sentence = "Of the stops: torque per angular velocity, only beyond stop-min or stop-max."},
 };
 static const fw_attribute_row prismatic_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id of the joint."},
     ENDS,
     {"axis", TURNS, REQUIRED,
-     .sentence = "Direction in the frame of a along which point b slides through point a."},
-    {"angle", TURNS, .fallback = "as drawn", .sentence = "phi_b - phi_a, which stays."},
-    {"stiffness", D_LINEAR_K, ELASTIC, .fallback = "0 N/m", .sentence = "Force per travel."},
+     .sentence =
+         "Direction of the line through point a on which point b slides, from the x axis of a."},
+    {"angle", TURNS, .fallback = "as drawn", .sentence = "phi_b - phi_a, which the joint keeps."},
+    {"stiffness", D_LINEAR_K, ELASTIC, .fallback = "0 N/m",
+     .sentence = "Of a spring along the line: force per travel."},
     {"damping", D_LINEAR_C, ELASTIC, .fallback = "0 N s/m", .sentence = "Force per speed."},
     {"free-length", PLACE, .fallback = "0 mm",
-     .sentence = "Way of b along the axis at which travel is 0 and the spring at rest."},
+     .sentence = "Distance of point b from point a along the line at which travel is 0 and the "
+                 "spring at rest."},
 };
 static const fw_attribute_row distance_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id of the joint."},
     ENDS,
     {"length", D_LENGTH, .unit = "mm",
      ABOVE(0, 1e7, "a rod without length has no direction and would be a revolute; " FAR),
-     .fallback = "as drawn", .sentence = "Of the rod; a driver of this joint takes its place."},
+     .fallback = "as drawn",
+     .sentence = "Between the two points; a driver of this joint gives the length instead."},
 };
 static const fw_attribute_row weld_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id of the joint."},
     ENDS,
-    {"angle", TURNS, .fallback = "as drawn", .sentence = "phi_b - phi_a, which stays."},
+    {"angle", TURNS, .fallback = "as drawn", .sentence = "phi_b - phi_a, which the joint keeps."},
 };
 static const fw_attribute_row driver_rows[] = {
     {"id", ID, .fallback = "the joint's", .sentence = "Id of the driver."},
     {"joint", REF(FW_SPACE_JOINT), REQUIRED,
-     .sentence = "A revolute, prismatic or distance joint, or a hinge of <six-bar>."},
+     .sentence = "What it moves: the angle of a revolute or of a hinge of <six-bar>, the travel of "
+                 "a prismatic, or the length of a distance."},
     {"value", .kind = FW_KIND_TIMED, .unit = "rad or m", REQUIRED,
-     .sentence = "Its angle, travel or length as an expression in time t."},
+     .sentence =
+         "That angle, travel or length at the time t, for example 30 deg * sin(2*pi*t/(1 s))."},
 };
 static const fw_attribute_row spring_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id of the spring."},
     ENDS,
-    {"stiffness", D_LINEAR_K, ELASTIC, REQUIRED, .sentence = "Force per elongation."},
+    {"stiffness", D_LINEAR_K, ELASTIC, REQUIRED,
+     .sentence = "Force per length by which it is longer than at rest."},
     {"damping", D_LINEAR_C, ELASTIC, .fallback = "0 N s/m", .sentence = "Force per speed."},
-    {"length", LENGTH, .fallback = "0 mm", .sentence = "Length at rest."},
+    {"length", LENGTH, .fallback = "0 mm", .sentence = "Length at which it is at rest."},
     {"cable", .kind = FW_KIND_WORD, .words = yes_no, .fallback = "no",
-     .sentence = "yes: it only pulls, and is slack while shorter than its length."},
+     .sentence = "yes: it only pulls, and hangs slack while shorter than its length."},
 };
 static const fw_attribute_row scene_rows[] = {
     {"name", ID, REQUIRED, .sentence = "Name of the scene."},
@@ -282,22 +299,25 @@ static const fw_attribute_row scene_rows[] = {
 /* how a load goes with time; which attribute belongs to which law: time_law.c */
 #define LAW                                                                                        \
     {"law", .kind = FW_KIND_WORD, .words = laws, .fallback = "step",                               \
-     .sentence = "How the load goes with time; see below."},                                       \
+     .sentence = "How the load goes with time: see Time, above."},                                 \
         {"start", D_TIME, WITHIN_TIME, .fallback = "0 ms",                                         \
-         .sentence = "step, ramp, sine: nothing before."},                                         \
+         .sentence = "step, ramp, sine: no load before."},                                         \
         {"end", D_TIME, WITHIN_TIME, .fallback = "never",                                          \
-         .sentence = "step, sine: nothing from then on."},                                         \
+         .sentence = "step, sine: no load from then on."},                                         \
         {"rise", D_TIME,                                                                           \
          ABOVE(0, 1e9, "a ramp that takes no time is a step; no scene takes longer than 1e9 s"),   \
-         .sentence = "ramp: how long it takes from nothing to all."},                              \
+         .sentence = "ramp: time that it takes from no load to the full one."},                    \
         {"frequency", D_RATE, ABOVE(0, 1e15, "without frequency nothing swings; beyond is light"), \
-         .sentence = "sine: of sin(2 pi frequency (t - start) + phase)."},                         \
-        {"phase", TURNS, .fallback = "0 deg", .sentence = "sine: at the start."},                  \
+         .sentence = "sine: periods per second."},                                                 \
+        {"phase", TURNS, .fallback = "0 deg",                                                      \
+         .sentence =                                                                               \
+             "sine: angle at the start; 0 deg begins without load, 90 deg with all of it."},       \
         {"table", .kind = FW_KIND_TABLE, .unit = "ms",                                             \
-         .sentence = "table: factors at rising times, linear between, constant outside."},         \
+         .sentence = "table: the factor at rising times; linear between them, constant before "    \
+                     "and behind."},                                                               \
     {                                                                                              \
         "factor", .kind = FW_KIND_TIMED, .unit = "1",                                              \
-                  .sentence = "expression: factor as an expression in time t."                     \
+                  .sentence = "expression: the factor at the time t."                              \
     }
 static const fw_attribute_row force_rows[] = {
     {"on", REF(FW_SPACE_BODY), REQUIRED, .sentence = "Body that it pulls."},
@@ -311,12 +331,13 @@ static const fw_attribute_row force_rows[] = {
 };
 static const fw_attribute_row torque_rows[] = {
     {"on", REF(FW_SPACE_BODY), REQUIRED, .sentence = "Body that it turns."},
-    {"value", D_TORQUE, REQUIRED, .sentence = "Positive from x to y."},
+    {"value", D_TORQUE, REQUIRED, .sentence = "Positive counter-clockwise, from x to y."},
     LAW,
 };
 static const fw_attribute_row gravity_rows[] = {
     {"gx", D_GRAVITY, .fallback = "0 m/s^2", .sentence = "Along the world's x axis."},
-    {"gy", D_GRAVITY, .fallback = "0 m/s^2", .sentence = "Along the world's y axis."},
+    {"gy", D_GRAVITY, .fallback = "0 m/s^2",
+     .sentence = "Along the world's y axis; -9.81 m/s^2 where y points up."},
 };
 static const fw_attribute_row initial_rows[] = {
     {"body", REF(FW_SPACE_BODY), REQUIRED, .sentence = "Body that moves at the start."},
@@ -371,24 +392,31 @@ static const fw_element_row table[] = {
     {"body", "mechanism", "id", FW_SPACE_BODY, .most = 50000, ROWS(body_rows),
      .sentence = "A rigid body; it needs mass and inertia, or a shape."},
     {"revolute", "mechanism", "id", FW_SPACE_JOINT, .most = 100000, ROWS(revolute_rows),
-     .sentence = "A turning joint with spring and damper; angle = phi_b - phi_a - free-angle."},
+     .sentence = "A pin on which b turns against a. Its angle is phi_b - phi_a - free-angle; a "
+                 "spring, a damper and stops may act on it."},
     {"spring", "mechanism", "id", FW_SPACE_SPRING, .most = 100000, ROWS(spring_rows),
-     .sentence = "A spring and damper from point to point."},
+     .sentence =
+         "A spring with a damper between point a and point b; cable=\"yes\" makes it a cable."},
     {"prismatic", "mechanism", "id", FW_SPACE_JOINT, .most = 100000, ROWS(prismatic_rows),
-     .sentence = "A sliding joint with spring and damper; travel = way of point b along the axis - "
-                 "free-length."},
+     .sentence = "A slide: point b stays on a line fixed to a, and b does not turn against a. Its "
+                 "travel is the distance from point a to point b along the line, less free-length; "
+                 "a spring and a damper may act on it."},
     {"distance", "mechanism", "id", FW_SPACE_JOINT, .most = 100000, ROWS(distance_rows),
-     .sentence = "A massless rod between two points."},
+     .sentence = "A massless rod with a pin at each end: point a and point b keep their distance."},
     {"weld", "mechanism", "id", FW_SPACE_JOINT, .most = 100000, ROWS(weld_rows),
-     .sentence = "A rigid connection: the points coincide, the angle stays."},
+     .sentence = "Two bodies made one: point b stays on point a, and b does not turn against a."},
     {"driver", "mechanism", "id", FW_SPACE_DRIVER, .most = 100000, ROWS(driver_rows),
-     .sentence = "Moves a joint: its angle, travel or length follows an expression in time."},
+     .sentence = "A motor: a joint follows an expression in time, whatever force that takes; "
+                 "simulate --forces says how much."},
     {"scene", "device", "name", FW_SPACE_SCENE, .most = 200, ROWS(scene_rows),
-     .sentence = "Loads to simulate; the verdict holds for all scenes."},
-    {"force", "scene", ROWS(force_rows), .sentence = "A force in world axes on a point of a body."},
+     .sentence = "What acts on the mechanism, and for how long; the verdict holds for all scenes."},
+    {"force", "scene", ROWS(force_rows),
+     .sentence = "A force on a point of a body; the point moves with it, the direction stays."},
     {"torque", "scene", ROWS(torque_rows), .sentence = "A torque on a body."},
     {"gravity", "scene", .once = true, ROWS(gravity_rows), .sentence = "Weight of all bodies."},
-    {"initial", "scene", ROWS(initial_rows), .sentence = "Velocity at the start."},
+    {"initial", "scene", ROWS(initial_rows),
+     .sentence = "Velocity of a body at the start; the others rest. What the joints do not allow "
+                 "is corrected, as little as possible."},
     LATER("tendon", "scene", "A cable that pulls."),
     LATER("comb-drive", "scene", "An electrostatic comb."),
     LATER("base-motion", "scene", "A moving base."),

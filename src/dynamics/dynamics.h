@@ -29,6 +29,7 @@ typedef struct fw_motion_options {
     fw_effect_choice effects;
     bool reactions;        /* peaks of the joint forces and of travels too */
     double moved_m;        /* how far assembly had moved bodies already; for the statistics */
+    long most_steps;       /* over all tries; FW-D108 beyond; 0: 10 million */
     double most_angle_rad; /* ends the run when a joint has turned further: the verdict needs no
                               more; 0: never */
     fw_observer observe;   /* NULL: nobody looks */

@@ -10,7 +10,11 @@ fw_status fw_peaks_new(fw_arena *arena, const fw_mechanism *mechanism, const dou
     FW_NEED(peaks->peak = fw_arena_array(arena, fw_peak, n));
     FW_NEED(peaks->a = fw_arena_array(arena, int, n));
     FW_NEED(peaks->b = fw_arena_array(arena, int, n));
+    FW_NEED(peaks->mark_t = fw_arena_array(arena, double, FW_MARKS));
+    FW_NEED(peaks->mark = fw_arena_array(arena, double, FW_MARKS *n));
     peaks->npin = mechanism->npin;
+    peaks->nmark = 0;
+    peaks->marked = NULL;
     for (size_t i = 0; i < n; i++) {
         const fw_pin *p = &mechanism->pin[i];
         peaks->a[i] = p->body_a == FW_GROUND ? -1 : 3 * p->body_a + 2;
@@ -101,4 +105,46 @@ void fw_peaks_step(fw_peaks *peaks, const fw_model *m, fw_stepper *s, double the
         if (theta_end < 1) along(&p, theta_end, &last, &slope), last += start;
         offer(&peaks->peak[i], last, s->t_old + theta_end * (s->t - s->t_old));
     }
+}
+
+/* ---- marks ---- */
+
+static void note(fw_peaks *peaks, double t, const double *y) {
+    double *to = peaks->mark + (size_t)peaks->nmark * (size_t)peaks->npin;
+    peaks->mark_t[peaks->nmark++] = t;
+    for (int i = 0; i < peaks->npin; i++)
+        to[i] = fw_peaks_angle(peaks, i, y);
+}
+
+/* The run that sets the marks takes ends of its steps, where angles cost nothing; the other one
+   reads them off its dense output. */
+void fw_peaks_mark(fw_peaks *peaks, fw_stepper *s, double theta_end, double final, double *y) {
+    const fw_peaks *set = peaks->marked;
+    double reached = theta_end < 1 ? s->t_old + theta_end * s->h : s->t;
+    if (!set) {
+        bool due = peaks->nmark < FW_MARKS && s->t >= final * (peaks->nmark + 1) / FW_MARKS;
+        if (due && theta_end == 1) note(peaks, s->t, s->y);
+        return;
+    }
+    while (peaks->nmark < set->nmark && set->mark_t[peaks->nmark] <= reached) {
+        double t = set->mark_t[peaks->nmark];
+        if (t < s->t) fw_stepper_dense(s, (t - s->t_old) / s->h, y);
+        note(peaks, t, t < s->t ? y : s->y);
+    }
+}
+
+int fw_peaks_first_mark(const fw_peaks *peaks, const fw_peaks *other, double t) {
+    int shared = peaks->nmark < other->nmark ? peaks->nmark : other->nmark, k = 0;
+    while (k < shared && peaks->mark_t[k] < t)
+        k++;
+    return k < shared ? k : FW_MARKS;
+}
+
+double fw_peaks_apart(const fw_peaks *peaks, const fw_peaks *other, int k) {
+    double worst = 0;
+    if (k >= peaks->nmark || k >= other->nmark) return 0;
+    size_t row = (size_t)k * (size_t)peaks->npin;
+    for (size_t i = row; i < row + (size_t)peaks->npin; i++)
+        worst = fmax(worst, fabs(peaks->mark[i] - other->mark[i]));
+    return worst;
 }

@@ -5,7 +5,11 @@
 #include <math.h>
 #include <string.h>
 
-static const long fw_most_steps = 2 * 1000 * 1000, fw_most_events = 100 * 1000;
+static const long fw_usual_steps = 10 * 1000 * 1000, fw_most_events = 1000 * 1000;
+
+static long most_steps(const fw_run *r) {
+    return r->options->most_steps > 0 ? r->options->most_steps : fw_usual_steps;
+}
 
 static const char *scene_name(const fw_run *r) {
     return r->scene->name ? r->scene->name : "(unnamed)";
@@ -57,22 +61,39 @@ static fw_status stopped(const fw_run *r, const fw_stepper *s, fw_ode_result why
 
 /* the step says which of the two it is: a few per period of the motion, or tiny ones */
 static fw_status too_long(const fw_run *r, const fw_stepper *s) {
-    char step[32], at[32];
+    char count[32], step[32], at[32];
     double unit = r->model->scale.time_s;
+    bool steps = r->steps > most_steps(r);
+    double limit = (double)(steps ? most_steps(r) : fw_most_events);
     fw_status status =
         fw_diag_error(r->diags, 108, r->scene->place,
-                      "scene %s needs more than 2 million steps (they are %s s, and %s s are "
+                      "scene %s needs more than %s %s (steps are %s s, and %s s are "
                       "reached): shorten it, or "
                       "look for a stiffness or damping that is extreme against the masses",
-                      scene_name(r), fw_number_text(step, sizeof step, s->h * unit, 2),
+                      scene_name(r), fw_number_text(count, sizeof count, limit, 9),
+                      steps ? "steps" : "events", fw_number_text(step, sizeof step, s->h * unit, 2),
                       fw_number_text(at, sizeof at, s->t * unit, 3));
     return status == FW_NOMEM ? FW_NOMEM : FW_LIMIT;
 }
 
+/* ---- steps that see all of the loads ---- */
+
+/* longer by half in the second run, so that the difference of the two tells the error where not the
+   tolerance but a law limits the steps */
+static void limit_step(const fw_run *r, fw_stepper *s, double t) {
+    if (r->nstride > 0) s->h_max = fw_run_stride(r, r->full ? 1 : 1.5, t);
+}
+
+static void start_stepper(const fw_run *r, fw_stepper *s, double t, const double *y, double end) {
+    limit_step(r, s, t);
+    fw_stepper_start(s, t, y, end);
+}
+
 /* ---- energy ---- */
 
+/* the energy of models that have a kernel needs no arms: no loads or springs at points */
 static void watch_energy(fw_run *r, const double *y) {
-    fw_model_pose(r->model, y);
+    if (!r->model->kernel) fw_model_pose(r->model, y);
     fw_energy e = fw_model_energy(r->model, y);
     double balance = e.kinetic + e.elastic + e.dissipated - e.work;
     double start = r->first.kinetic + r->first.elastic + r->first.dissipated - r->first.work;
@@ -133,7 +154,7 @@ static bool pass_event(fw_run *r, fw_stepper *s, int which, double theta) {
             !m->method->factor(m) || !fw_model_project_velocity(m, t, r->moved + m->nq))
             return false;
     }
-    fw_stepper_start(s, t, r->moved, s->t_end);
+    start_stepper(r, s, t, r->moved, s->t_end);
     return true;
 }
 
@@ -167,7 +188,7 @@ static fw_status next_piece(fw_run *r, fw_stepper *s, int piece) {
             return stopped(r, s, FW_ODE_SMALL);
         if (m->worked >= 0) y[m->worked] += kinetic(m, y + m->nq) - before;
     }
-    fw_stepper_start(s, t, y, r->end[piece]);
+    start_stepper(r, s, t, y, r->end[piece]);
     return FW_OK;
 }
 
@@ -180,6 +201,7 @@ static bool turned_too_far(const fw_run *r, const fw_peaks *peaks) {
 /* everything that looks at the step just made, up to theta_end */
 static bool look(fw_run *r, fw_stepper *s, fw_peaks *peaks, double theta_end) {
     fw_peaks_step(peaks, r->model, s, theta_end);
+    fw_peaks_mark(peaks, s, theta_end, r->end[r->npiece - 1], r->moved);
     fw_run_extremes(r, s, theta_end);
     if (!r->full) return true;
     if (theta_end == 1) watch_energy(r, s->y);
@@ -195,7 +217,7 @@ static fw_status begin(fw_run *r, fw_stepper *s) {
     m->stuck = -1;
     m->piece = 0.5 * r->end[0] * m->scale.time_s;
     fw_model_set_switches(m, r->start);
-    fw_stepper_start(s, 0, r->start, r->end[0]);
+    start_stepper(r, s, 0, r->start, r->end[0]);
     if (!r->full) return FW_OK;
     first_energy(r, s->y);
     fw_run_first_sample(r, s->y);
@@ -210,13 +232,14 @@ fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks) {
         if (piece > 0) FW_TRY(next_piece(r, s, piece));
         while (s->t < r->end[piece] && !ended) {
             if (fw_cancel_requested()) return FW_CANCELLED;
+            limit_step(r, s, s->t);
             fw_ode_result result = fw_stepper_step(s);
             if (result != FW_ODE_STEP) return stopped(r, s, result);
             int which;
             double theta = find_event(r, s, &which);
             if (!look(r, s, peaks, theta)) return stopped(r, s, FW_ODE_SMALL);
             if (which >= 0 && !pass_event(r, s, which, theta)) return stopped(r, s, FW_ODE_SMALL);
-            if (++r->steps > fw_most_steps || m->events > fw_most_events) return too_long(r, s);
+            if (++r->steps > most_steps(r) || m->events > fw_most_events) return too_long(r, s);
             ended = turned_too_far(r, peaks);
         }
     }

@@ -13,12 +13,23 @@ typedef struct fw_peaks {
     int *a, *b;    /* (npin) bodies */
     fw_peak *peak; /* (npin) time scaled */
     int npin;
+    double *mark_t; /* (nmark) instants at which two runs are compared, ascending, scaled */
+    double *mark;   /* (nmark x npin) angles there */
+    int nmark;
+    const struct fw_peaks *marked; /* the run that set the instants; NULL: this one sets them */
 } fw_peaks;
+enum { FW_MARKS = 16 };
 fw_status fw_peaks_new(fw_arena *arena, const fw_mechanism *mechanism, const double *q,
                        fw_peaks *peaks);
 double fw_peaks_angle(const fw_peaks *peaks, int pin, const double *y);
 /* the last step up to theta_end */
 void fw_peaks_step(fw_peaks *peaks, const fw_model *m, fw_stepper *s, double theta_end);
+/* notes all angles at the marks that the step reaches; final: scaled end of the scene */
+void fw_peaks_mark(fw_peaks *peaks, fw_stepper *s, double theta_end, double final, double *y);
+/* the first mark of both runs at or behind scaled time t; FW_MARKS: none */
+int fw_peaks_first_mark(const fw_peaks *peaks, const fw_peaks *other, double t);
+/* largest difference of any angle of two runs at mark k; 0 when one of them has none */
+double fw_peaks_apart(const fw_peaks *peaks, const fw_peaks *other, int k);
 
 /* check.c */
 fw_status fw_check_options(const fw_motion_options *options, fw_diags *diags);
@@ -40,6 +51,8 @@ typedef struct fw_run {
     fw_motion *motion;
     fw_model *model;
     const fw_stepper_row *integrator;
+    double uneven;    /* heaviest body over the lightest one between two joints */
+    const char *why;  /* this method though none was asked for; NULL: the default, or asked for */
     double *q0;       /* (3 nbody) assembled, SI */
     double *start;    /* (ny) */
     double *state;    /* (ny) a sample */
@@ -53,6 +66,9 @@ typedef struct fw_run {
     long steps;                               /* over all tries */
     double *end; /* (npiece) scaled times at which a smooth piece ends */
     int npiece;
+    fw_law_strides *stride; /* (nstride) of the laws that limit steps, s */
+    int *stride_row;        /* (nstride) where each search stands */
+    int nstride;
     int row;              /* next sample */
     bool full;            /* samples, observer and energy too */
     fw_extreme *extreme;  /* (channels) of this pass; NULL: not asked for */
@@ -63,9 +79,14 @@ typedef struct fw_run {
 
 /* start.c: pieces, assembled state with fitting velocities, size of the motion, output arrays */
 fw_status fw_run_prepare(fw_run *r, const fw_terms *terms);
+/* longest scaled step from scaled time t on that leaps over nothing in any law, each of whose
+   strides may be `factor` times as long */
+double fw_run_stride(const fw_run *r, double factor, double t);
 fw_status fw_run_arrays(fw_run *r);
 
-/* choose.c: by name, or by the scene; says why in motion->reason */
+/* choose.c: by name, or by the masses; r->why says so where it is not the default */
+fw_status fw_method_choose(fw_run *r);
+/* by name, or by the scene; says why in motion->reason */
 fw_status fw_integrator_choose(fw_run *r, const fw_terms *terms, const char *name);
 
 /* sample.c */

@@ -2,6 +2,7 @@
 /* One scene: tolerance, two runs (the answer, and a looser one that its error is estimated from),
    statistics. */
 #include "dynamics/run.h"
+#include "multibody/reactions.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -17,21 +18,23 @@ static double cpu_seconds(void) {
 }
 
 /* where m r^2/J is huge the accelerations carry round-off of 1e-16 m r^2/J; below some 1e-3 of that
-   the error estimate follows noise, and steps shrink for nothing */
-static double noise_floor(const fw_model *m) {
-    double ratio = 0;
+   the error estimate follows noise, and steps shrink for nothing. Likewise where a light body sits
+   between heavy ones, but for methods in independent coordinates. */
+static double noise_floor(const fw_run *r) {
+    const fw_model *m = r->model;
+    double ratio = 0, masses = m->method->independent ? 0 : 3e-17 * r->uneven;
     for (int i = 0; i < 2 * m->nblock; i++) {
         int b = m->body[i];
         double x = m->local[2 * i], y = m->local[2 * i + 1];
         if (b < m->nbody) ratio = fmax(ratio, m->jinv[b] / m->minv[b] * (x * x + y * y));
     }
-    return 3e-19 * ratio;
+    return fmax(3e-19 * ratio, masses);
 }
 
-static double chosen_rtol(const fw_motion_options *o, const fw_model *m) {
+static double chosen_rtol(const fw_motion_options *o, const fw_run *r) {
     double accuracy = o->accuracy > 0 ? o->accuracy : 1e-3;
     double rtol = o->rtol > 0 ? o->rtol : fmin(1e-6, 1e-4 * accuracy);
-    return fmin(fw_loosest, fmax(fmax(fw_tightest, noise_floor(m)), rtol));
+    return fmin(fw_loosest, fmax(fmax(fw_tightest, noise_floor(r)), rtol));
 }
 
 /* ---- the two runs ---- */
@@ -42,8 +45,9 @@ typedef struct pass {
     fw_extreme *extreme; /* (channels) or NULL */
 } pass;
 
-/* a fixed step has no tolerance: h = rtol^(1/4) scaled makes its error go with rtol, too */
-static fw_status run_once(fw_run *r, double rtol, bool full, pass *p) {
+/* fine: the run that this one is compared with, NULL: this is it. A fixed step has no tolerance: h
+ * = rtol^(1/4) scaled makes its error go with rtol, too */
+static fw_status run_once(fw_run *r, double rtol, const pass *fine, pass *p) {
     fw_model *m = r->model;
     const fw_ode ode = {.context = m,
                         .rhs = fw_model_rhs,
@@ -56,16 +60,26 @@ static fw_status run_once(fw_run *r, double rtol, bool full, pass *p) {
     for (int i = 0; i < m->ny; i++)
         atol[i] = fmax(rtol * r->amplitude, 2e-15);
     FW_TRY(fw_peaks_new(r->arena, r->mechanism, r->q0, &p->peaks));
+    p->peaks.marked = fine ? &fine->peaks : NULL;
     r->extreme = NULL;
     if (r->options->reactions)
         FW_NEED(r->extreme = fw_arena_array(r->arena, fw_extreme, (size_t)fw_run_channels(r)));
     FW_TRY(fw_stepper_new(r->arena, r->integrator, &ode, rtol, atol, &p->stepper));
     p->stepper->h_fixed = pow(rtol, 0.25);
     p->extreme = r->extreme;
-    r->full = full;
+    r->full = !fine;
     fw_status status = fw_run_pass(r, p->stepper, &p->peaks);
     fw_stepper_free(p->stepper); /* what a library holds for it; its results stay */
     return status;
+}
+
+/* the rounding of positions and velocities near 1 makes energies of DBL_EPSILON times the scaled
+   masses: against this floor, where nothing moves, that is a balance of 1e-6 */
+static double least_energy(const fw_model *m) {
+    double sum = 0;
+    for (int b = 0; b < m->nbody; b++)
+        sum += m->mass[b] + m->inertia[b];
+    return 1e6 * DBL_EPSILON * sum;
 }
 
 static void take_statistics(fw_run *r, const fw_stepper *s, double rtol, double cpu_s) {
@@ -80,63 +94,144 @@ static void take_statistics(fw_run *r, const fw_stepper *s, double rtol, double 
     stats->events = m->events;
     stats->max_constraint_norm = m->worst_position;
     stats->max_velocity_norm = m->worst_velocity;
-    stats->energy_error = r->largest > 0 ? r->drift / r->largest : 0;
+    stats->energy_error = r->drift / fmax(r->largest, least_energy(m));
     stats->largest_energy_J = r->largest * unit.mass_kg * speed * speed;
     stats->rtol = rtol;
 }
 
-/* error of each peak from a second run at a hundred times the tolerance: the largest change of any
-   pin's peak, and of any pin's angle at the end where errors of phase show too, because one number
-   may agree by chance; and round-off. Output rad. Never below the true error in 40 000 random cases
-   (at ten times the tolerance it was in 7 of 80 000), and about a thousand times above it in the
-   geometric mean. Source: tolerance proportionality, Hairer, Norsett and Wanner I, II.4. Test:
-   test_peak.c. */
-static void estimate_errors(fw_run *r, const pass *fine, const pass *coarse) {
-    const fw_stepper *s = fine->stepper, *check = coarse->stepper;
-    double worst = 0, unit = r->model->scale.time_s;
-    for (int i = 0; i < fine->peaks.npin; i++) {
+/* how far the two runs differ, up to each mark and (last) up to the end: any angle at the marks,
+   where errors of phase show too, because one number may agree by chance, and the sizes of the
+   peaks that lie before. What becomes of the motion later does not count: a chaotic one ends
+   anywhere. */
+static void differences(const pass *fine, const pass *coarse, double worst[FW_MARKS + 1]) {
+    const fw_peaks *a = &fine->peaks, *b = &coarse->peaks;
+    for (int k = 0; k <= FW_MARKS; k++)
+        worst[k] = fw_peaks_apart(a, b, k);
+    for (int i = 0; i < a->npin; i++) {
         double end =
-            fw_peaks_angle(&fine->peaks, i, s->y) - fw_peaks_angle(&coarse->peaks, i, check->y);
-        double change = fabs(fine->peaks.peak[i].angle_rad) - fabs(coarse->peaks.peak[i].angle_rad);
-        worst = fmax(worst, fmax(fabs(change), fabs(end)));
+            fw_peaks_angle(a, i, fine->stepper->y) - fw_peaks_angle(b, i, coarse->stepper->y);
+        double *up_to = &worst[fw_peaks_first_mark(a, b, a->peak[i].t_s)];
+        worst[FW_MARKS] = fmax(worst[FW_MARKS], fabs(end));
+        *up_to = fmax(*up_to, fabs(fabs(a->peak[i].angle_rad) - fabs(b->peak[i].angle_rad)));
     }
+    for (int k = 1; k <= FW_MARKS; k++)
+        worst[k] = fmax(worst[k], worst[k - 1]);
+}
+
+/* error of each peak from a second run at a hundred times the tolerance: its own change, and
+   whatever else changes until a quarter of its time and an eighth of the scene later (up to the
+   peak alone was too little twice in 60 000 cases); and round-off. Output rad. Never below the true
+   error in 60 000 random cases (at ten times the tolerance it was in 7 of 80 000), and about a
+   thousand times above it in the geometric mean. Source: tolerance proportionality, Hairer, Norsett
+   and Wanner I, II.4. Test: test_peak.c. */
+static void estimate_errors(fw_run *r, const pass *fine, const pass *coarse) {
+    const fw_stepper *s = fine->stepper;
+    double unit = r->model->scale.time_s, eighth = r->end[r->npiece - 1] / 8, worst[FW_MARKS + 1];
+    differences(fine, coarse, worst);
     for (int i = 0; i < fine->peaks.npin; i++) {
+        const fw_peak *other = &coarse->peaks.peak[i];
         fw_peak *p = &r->motion->peak[i];
         *p = fine->peaks.peak[i];
+        double late = 1.25 * p->t_s + eighth;
+        double own = fabs(fabs(p->angle_rad) - fabs(other->angle_rad));
         p->t_s *= unit;
         p->error_rad =
-            worst + DBL_EPSILON * (double)(8 + s->steps) * (1 + fabs(p->angle_rad)) +
+            fmax(own, worst[fw_peaks_first_mark(&fine->peaks, &coarse->peaks, late)]) +
+            DBL_EPSILON * (double)(8 + s->steps) * (1 + fabs(p->angle_rad)) +
             r->motion->stats.energy_error * fabs(p->angle_rad); /* never below the books */
     }
     if (fine->extreme) fw_run_take_extremes(r, fine->extreme, coarse->extreme, s->steps);
 }
 
-static bool good_enough(const fw_run *r) {
-    const fw_motion_options *o = r->options;
-    double accuracy = o->accuracy > 0 ? o->accuracy : 1e-3, most = 0, error = 0;
+typedef struct reached { /* largest values and errors of any pin; force 0 when not asked for */
+    double angle_rad, error_rad, force_N, error_N;
+} reached;
+
+static reached what_is_reached(const fw_run *r) {
+    reached x = {0};
     for (int i = 0; i < r->motion->npin; i++) {
-        most = fmax(most, fabs(r->motion->peak[i].angle_rad));
-        error = fmax(error, r->motion->peak[i].error_rad);
+        x.angle_rad = fmax(x.angle_rad, fabs(r->motion->peak[i].angle_rad));
+        x.error_rad = fmax(x.error_rad, r->motion->peak[i].error_rad);
+        if (!r->options->reactions) continue;
+        x.force_N = fmax(x.force_N, r->motion->force_peak[i].force_N);
+        x.error_N = fmax(x.error_N, r->motion->force_peak[i].error_N);
     }
-    return error <= accuracy * most && (!o->reactions || fw_run_extremes_good(r, accuracy));
+    return x;
+}
+
+static double accuracy_wanted(const fw_run *r) {
+    return r->options->accuracy > 0 ? r->options->accuracy : 1e-3;
+}
+
+static bool good_enough(const fw_run *r) {
+    const reached x = what_is_reached(r);
+    double accuracy = accuracy_wanted(r);
+    return x.error_rad <= accuracy * x.angle_rad &&
+           (!r->options->reactions || fw_run_extremes_good(r, accuracy));
+}
+
+/* an angle or a force that is round-off has no relative accuracy */
+static const double nothing = 1e-10;
+
+static void warn_inaccurate(const fw_run *r) {
+    const reached x = what_is_reached(r);
+    double accuracy = accuracy_wanted(r), degree = 57.29577951308232;
+    char a[32], b[32], c[32];
+    if (x.error_rad > fmax(nothing, accuracy * x.angle_rad))
+        fw_diag_warning(r->diags, 240, r->scene->place,
+                        "scene %s: peaks are uncertain by %s deg where the largest is %s deg, and "
+                        "an accuracy of %s is wanted; no tolerance is tight enough: shorten the "
+                        "scene, or judge by the stated errors",
+                        r->scene->name ? r->scene->name : "(unnamed)",
+                        fw_number_text(a, sizeof a, x.error_rad * degree, 3),
+                        fw_number_text(b, sizeof b, x.angle_rad * degree, 3),
+                        fw_number_text(c, sizeof c, accuracy, 3));
+    else if (x.error_N > fmax(nothing * fw_newton(r->model), accuracy * x.force_N))
+        fw_diag_warning(r->diags, 240, r->scene->place,
+                        "scene %s: joint forces are uncertain by %s N where the largest is %s N, "
+                        "and an accuracy of %s is wanted; no tolerance is tight enough: shorten "
+                        "the scene, or judge by the stated errors",
+                        r->scene->name ? r->scene->name : "(unnamed)",
+                        fw_number_text(a, sizeof a, x.error_N, 3),
+                        fw_number_text(b, sizeof b, x.force_N, 3),
+                        fw_number_text(c, sizeof c, accuracy, 3));
+}
+
+/* the balance is some ten to a hundred times the tolerance, which is 1e-5 at most */
+static void warn_energy(const fw_run *r) {
+    double off = r->motion->stats.energy_error;
+    char a[32], b[32];
+    if (!(off > 1e-3)) return;
+    fw_diag_warning(r->diags, 241, r->scene->place,
+                    "scene %s: the energies do not add up, by %s of the largest, far more than "
+                    "the tolerance %s explains; do not trust this motion, try another --method or "
+                    "--integrator",
+                    r->scene->name ? r->scene->name : "(unnamed)",
+                    fw_number_text(a, sizeof a, off, 2),
+                    fw_number_text(b, sizeof b, r->motion->stats.rtol, 2));
 }
 
 static fw_status solve(fw_run *r) {
     const fw_motion_options *o = r->options;
-    double rtol = chosen_rtol(o, r->model), tightest = fmax(fw_tightest, noise_floor(r->model));
+    double rtol = chosen_rtol(o, r), tightest = fmax(fw_tightest, noise_floor(r));
     int rows = r->motion->nsample;
     for (;;) {
         r->motion->nsample = rows;
         pass fine, coarse;
         double began = cpu_seconds();
-        FW_TRY(run_once(r, rtol, true, &fine));
+        FW_TRY(run_once(r, rtol, NULL, &fine));
         double between = cpu_seconds();
         take_statistics(r, fine.stepper, rtol, between - began);
-        FW_TRY(run_once(r, 100 * rtol, false, &coarse));
+        FW_TRY(run_once(r, 100 * rtol, &fine, &coarse));
         r->motion->stats.estimate_cpu_s = cpu_seconds() - between;
         estimate_errors(r, &fine, &coarse);
         /* a tolerance of our own choosing is tightened until the estimate is good enough */
-        if (o->rtol > 0 || r->motion->ended || good_enough(r) || rtol <= tightest) return FW_OK;
+        bool enough = o->rtol > 0 || r->motion->ended || good_enough(r);
+        if (enough || rtol <= tightest) {
+            if (!enough) warn_inaccurate(r);
+            warn_energy(r);
+            return FW_OK;
+        }
         rtol = fmax(tightest, rtol / 100);
     }
 }
@@ -167,8 +262,10 @@ static void set_stabilisation(fw_run *r) {
 
 static fw_status say_method(fw_run *r) {
     const fw_method *method = r->model->method;
+    r->motion->method_report = r->why;
     if (!method->report) return FW_OK;
     fw_text text = fw_text_new(r->arena);
+    if (r->why) fw_text_printf(&text, "%s; ", r->why);
     FW_TRY(method->report(r->model, r->mechanism, &text));
     FW_TRY(fw_text_end(&text));
     r->motion->method_report = text.data;
@@ -185,6 +282,7 @@ fw_status fw_simulate(fw_arena *arena, const fw_mechanism *mechanism, const fw_s
     FW_TRY(fw_check_motion(mechanism, scene, diags));
     FW_NEED(r.motion = fw_arena_one(arena, fw_motion));
     FW_TRY(fw_check_names(options, diags, r.motion));
+    FW_TRY(fw_method_choose(&r));
     double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
     FW_TRY(fw_effects_compile(arena, mechanism, scene, &options->effects, accuracy, diags,
                               &r.motion->ledger, &terms));

@@ -20,16 +20,42 @@ static const fw_law *law_of(const fw_run *r, const fw_terms *terms, int i) {
     return i < terms->ntimed ? terms->timed[i].law : &r->mechanism->driver[i - terms->ntimed].law;
 }
 
+/* the breaks of every law, one law after the other (at, counted), and the strides between them */
+static fw_status look_at_laws(fw_run *r, const fw_terms *terms, double *at, int count) {
+    int laws = terms->ntimed + r->mechanism->ndriver, have = 0;
+    double end = r->scene->duration_s;
+    FW_NEED(r->stride = fw_arena_array(r->arena, fw_law_strides, (size_t)laws));
+    FW_NEED(r->stride_row = fw_arena_array(r->arena, int, (size_t)laws));
+    for (int i = 0; i < laws; i++) {
+        const fw_law *law = law_of(r, terms, i);
+        fw_law_strides *own = &r->stride[r->nstride];
+        int breaks = fw_law_breaks(law, end, at + have, count - have);
+        qsort(at + have, (size_t)breaks, sizeof *at, by_size);
+        FW_TRY(fw_law_look(r->arena, law, i >= terms->ntimed, end, at + have, breaks, own));
+        have += breaks;
+        bool limits = false;
+        for (int k = 0; k < own->n; k++)
+            if (isfinite(own->most_s[k])) limits = true;
+        if (limits) r->nstride++;
+    }
+    return FW_OK;
+}
+
+double fw_run_stride(const fw_run *r, double factor, double t) {
+    double most = (double)INFINITY, unit = r->model->scale.time_s;
+    for (int i = 0; i < r->nstride; i++)
+        most = fmin(most, fw_law_stride(&r->stride[i], factor, t * unit, &r->stride_row[i]));
+    return most / unit;
+}
+
 static fw_status pieces(fw_run *r, const fw_terms *terms) {
-    int laws = terms->ntimed + r->mechanism->ndriver, count = 0;
+    int laws = terms->ntimed + r->mechanism->ndriver, have = 0;
     double end = r->scene->duration_s, unit = r->model->scale.time_s;
     for (int i = 0; i < laws; i++)
-        count += fw_law_breaks(law_of(r, terms, i), end, NULL, 0);
+        have += fw_law_breaks(law_of(r, terms, i), end, NULL, 0);
     double *at;
-    FW_NEED(at = fw_arena_array(r->arena, double, (size_t)count + 1));
-    int have = 0;
-    for (int i = 0; i < laws; i++)
-        have += fw_law_breaks(law_of(r, terms, i), end, at + have, count - have);
+    FW_NEED(at = fw_arena_array(r->arena, double, (size_t)have + 1));
+    FW_TRY(look_at_laws(r, terms, at, have));
     if (have > 1) qsort(at, (size_t)have, sizeof *at, by_size);
     int kept = 0;
     for (int i = 0; i < have; i++)

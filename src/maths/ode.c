@@ -248,17 +248,3 @@ void fw_ode_nested_dense(const fw_stepper *s, int rows, const double *row, doubl
         y[c] = sum;
     }
 }
-
-void fw_ode_nested_component(const fw_stepper *s, int rows, const double *row, int a, double wa,
-                             int b, double wb, double theta, double *value, double *slope) {
-    double p = 0, d = 0;
-    for (int i = rows - 1; i >= 0; i--) {
-        const double *at = row + i * s->padded;
-        double x = i % 2 ? 1 - theta : theta, dx = i % 2 ? -1 : 1;
-        double r = wa * at[a] + (b < 0 ? 0 : wb * at[b]);
-        d = dx * p + x * d;
-        p = r + x * p;
-    }
-    *value = p;
-    *slope = d;
-}

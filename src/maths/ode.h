@@ -130,7 +130,21 @@ void fw_ode_span_value(const fw_ode *ode, const fw_ode_span *span, int c, double
    coefficients one row of `padded` after the other; and a weighted pair of components with slope */
 enum { FW_ODE_NESTED_MOST = 8 }; /* rows */
 void fw_ode_nested_dense(const fw_stepper *s, int rows, const double *row, double theta, double *y);
-void fw_ode_nested_component(const fw_stepper *s, int rows, const double *row, int a, double wa,
-                             int b, double wb, double theta, double *value, double *slope);
+/* in the header, so that `rows` is a constant where it is called: peaks ask often */
+static inline void fw_ode_nested_component(const fw_stepper *s, int rows, const double *row, int a,
+                                           double wa, int b, double wb, double theta, double *value,
+                                           double *slope) {
+    const double rest = 1 - theta;
+    double p = 0, d = 0, r[FW_ODE_NESTED_MOST];
+    _Pragma("GCC unroll 8") for (int i = 0; i < rows; i++) r[i] = wa * row[i * s->padded + a];
+    if (b >= 0)
+        _Pragma("GCC unroll 8") for (int i = 0; i < rows; i++) r[i] += wb * row[i * s->padded + b];
+    _Pragma("GCC unroll 8") for (int i = rows - 1; i >= 0; i--) {
+        d = i % 2 ? rest * d - p : theta * d + p;
+        p = r[i] + (i % 2 ? rest : theta) * p;
+    }
+    *value = p;
+    *slope = d;
+}
 
 #endif

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The classical Runge-Kutta method of order 4 with equal steps: the baseline, which knows no error.
      y(t + h) = y + h/6 (k1 + 2 k2 + 2 k3 + k4)
-   h is (t_end - t)/N with the smallest N that keeps h <= h_fixed. Dense output by Hermite
-   interpolation. Source: Kutta 1901; Hairer, Norsett and Wanner I, II.1. Cost 4 evaluations.
-   Tests: test_ode_*.c */
+   h is (t_end - t)/N with the smallest N that keeps h <= min(h_fixed, h_max); where the caller
+   changes h_max on the way, the rest is divided anew. Dense output by Hermite interpolation.
+   Source: Kutta 1901; Hairer, Norsett and Wanner I, II.1. Cost 4 evaluations. Tests: test_ode_*.c
+ */
 #include "maths/ode.h"
 #include <math.h>
 
@@ -12,6 +13,8 @@ typedef struct rk4 {
     double *y_new, *f_new, *k; /* (padded), (padded), (3 padded) k2 to k4 */
     double t_start, count;     /* steps from t_start to t_end */
     double done;
+    double whole;  /* from start to t_end */
+    double wanted; /* step that the division is made for */
 } rk4;
 
 static fw_status create(fw_arena *arena, const fw_ode *ode, fw_stepper **stepper) {
@@ -24,18 +27,31 @@ static fw_status create(fw_arena *arena, const fw_ode *ode, fw_stepper **stepper
     return FW_OK;
 }
 
-static void start(fw_stepper *b) {
-    rk4 *s = (rk4 *)b;
-    double span = b->t_end - b->t, h = fmin(b->h_fixed > 0 ? b->h_fixed : span / 1000, b->h_max);
+static double wanted(const fw_stepper *b, double span) {
+    return fmin(b->h_fixed > 0 ? b->h_fixed : span / 1000, b->h_max);
+}
+
+/* the way from here to t_end in equal steps of at most h */
+static void divide(rk4 *s, double h) {
+    fw_stepper *b = &s->base;
+    double span = b->t_end - b->t;
     s->t_start = b->t;
+    s->wanted = h;
     s->count = fmax(1, ceil(span / h * (1 - 1e-12)));
     s->done = 0;
     b->h_next = span / s->count;
 }
 
+static void start(fw_stepper *b) {
+    rk4 *s = (rk4 *)b;
+    s->whole = b->t_end - b->t;
+    divide(s, wanted(b, s->whole));
+}
+
 static fw_ode_result step(fw_stepper *b) {
     rk4 *s = (rk4 *)b;
     int n = b->ode.n, width = b->padded;
+    if (wanted(b, s->whole) != s->wanted) divide(s, wanted(b, s->whole));
     double part = (s->done + 1) / s->count; /* from the start: rounding does not add up */
     double t_new = s->done + 1 >= s->count ? b->t_end : s->t_start + part * (b->t_end - s->t_start);
     double h = t_new - b->t, *k2 = s->k, *k3 = k2 + width, *k4 = k3 + width;

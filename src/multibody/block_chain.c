@@ -90,21 +90,22 @@ bool fw_chain_factor(fw_chain *c, double epsilon) {
     }
     bool positive = true;
     for (int k = 0; k < c->pins; k++) {
-        double xx = d[3 * k], xy = d[3 * k + 1], yy = d[3 * k + 2];
-        double determinant = xx * yy - xy * xy;
-        positive &= xx > 0 && determinant > 0;
-        double inverse = 1 / determinant;
-        double px = yy * inverse, pxy = -xy * inverse, py = xx * inverse;
-        c->pivot[3 * k] = px, c->pivot[3 * k + 1] = pxy, c->pivot[3 * k + 2] = py;
+        const int y = d[3 * k + 2] > d[3 * k], x = !y; /* rows of the block: the larger first */
+        double xx = d[3 * k + 2 * y], xy = d[3 * k + 1], yy = d[3 * k + 2 * x];
+        double ix = 1 / xx, slant = xy * ix, rest = yy - xy * slant, iy = 1 / rest;
+        positive &= xx > 0 && rest > 0;
+        c->first_row[k] = (unsigned char)y;
+        c->pivot[3 * k] = ix, c->pivot[3 * k + 1] = slant, c->pivot[3 * k + 2] = iy;
         for (int e = c->column[k]; e < c->column[k + 1]; e++) {
             const double *b = block + 4 * e;
             double *l = factor + 4 * e, *to = d + 3 * c->row[e];
-            double l0 = b[0] * px + b[1] * pxy, l1 = b[0] * pxy + b[1] * py;
-            double l2 = b[2] * px + b[3] * pxy, l3 = b[2] * pxy + b[3] * py;
-            l[0] = l0, l[1] = l1, l[2] = l2, l[3] = l3;
-            to[0] -= l0 * b[0] + l1 * b[1];
-            to[1] -= l0 * b[2] + l1 * b[3];
-            to[2] -= l2 * b[2] + l3 * b[3];
+            for (int row = 0; row < 4; row += 2) {
+                l[row + x] = (b[row + x] - slant * b[row + y]) * iy;
+                l[row + y] = b[row + y] * ix - slant * l[row + x];
+            }
+            to[0] -= l[0] * b[0] + l[1] * b[1];
+            to[1] -= l[0] * b[2] + l[1] * b[3];
+            to[2] -= l[2] * b[2] + l[3] * b[3];
         }
         for (int u = c->first[k]; u < c->first[k + 1]; u++) {
             const double *l = factor + 4 * c->update[u].left, *b = block + 4 * c->update[u].right;
@@ -131,8 +132,10 @@ void fw_chain_solve(const fw_chain *c, double *restrict x) {
     }
     for (int k = c->pins - 1; k >= 0; k--) {
         const double *p = c->pivot + 3 * k;
-        double x0 = p[0] * x[2 * k] + p[1] * x[2 * k + 1];
-        double x1 = p[1] * x[2 * k] + p[2] * x[2 * k + 1];
+        const int first = 2 * k + c->first_row[k], other = 4 * k + 1 - first;
+        x[other] = (x[other] - p[1] * x[first]) * p[2];
+        x[first] = x[first] * p[0] - p[1] * x[other];
+        double x0 = x[2 * k], x1 = x[2 * k + 1];
         for (int e = c->column[k]; e < c->column[k + 1]; e++) {
             const double *l = factor + 4 * e, *from = x + 2 * c->row[e];
             x0 -= l[0] * from[0] + l[2] * from[1];
@@ -142,28 +145,43 @@ void fw_chain_solve(const fw_chain *c, double *restrict x) {
     }
 }
 
-/* S x = right without a rank decision: x += (S + eps D)^-1 (right - S x). After a sweep with step d
-   the residual is exactly eps D d, so the next right-hand side costs nothing. Two sweeps always,
-   more while the residual exceeds 1e-14 |right|, at most six. The error in a mode with relative
-   eigenvalue s shrinks by eps/(s + eps) per sweep; modes with s = 0 are redundant rows and do not
-   move a body. Source: proximal point algorithm, Rockafellar 1976; Carpentier et al., RSS 2021.
-   Test: test_block_chain.c. */
-void fw_chain_proximal(const fw_chain *c, const double *right, double *x, double *more) {
-    int n = 2 * c->pins;
-    double size = 0;
+/* out = S p = G M^-1 G^T p at the pose, from the Jacobian and not from the blocks; an empty row
+   gives 0, as its right side is 0 */
+static void multiply(fw_model *m, const double *p, double *out) {
+    memset(m->product, 0, (size_t)m->nq * sizeof *m->product);
+    fw_model_apply(m, p, m->product);
+    fw_model_jacobian(m, m->product, out);
+    for (int i = 0; i < 2 * m->nblock; i++)
+        out[i] = -out[i];
+}
+
+/* S x = right without a rank decision: x += (S + eps D)^-1 (right - S x), the residual by products
+   with the Jacobian, so that digits which the blocks have lost (J small against m r^2) are found
+   again. Two sweeps always, more while the residual exceeds 1e-14 |right| and falls, at most six:
+   the error in a mode with relative eigenvalue s shrinks by eps/(s + eps) per sweep; modes with s =
+   0 are redundant rows and do not move a body, and weak ones near a singular position are damped.
+   Inputs right (2 nblock, kept), pose and factor; output x. Source: proximal point algorithm,
+   Rockafellar 1976; Carpentier et al., RSS 2021. Test: test_block_chain.c. */
+void fw_chain_proximal(fw_model *m, const double *right, double *x) {
+    int n = 2 * m->nblock;
+    double *more = m->more, *left = m->residual, size = 0, before = (double)INFINITY;
     for (int i = 0; i < n; i++) {
         size = fmax(size, fabs(right[i]));
         more[i] = right[i];
         x[i] = 0;
     }
     for (int sweep = 0; sweep < 6; sweep++) {
-        fw_chain_solve(c, more);
-        double residual = 0;
-        for (int i = 0; i < n; i++) {
+        double worst = 0;
+        fw_chain_solve(&m->chain, more);
+        for (int i = 0; i < n; i++)
             x[i] += more[i];
-            more[i] *= c->shift * c->isotropic[i];
-            residual = fmax(residual, fabs(more[i]));
+        if (sweep == 5) return;
+        multiply(m, x, left);
+        for (int i = 0; i < n; i++) {
+            more[i] = right[i] - left[i];
+            worst = fmax(worst, fabs(more[i]));
         }
-        if (sweep > 0 && !(residual > 1e-14 * size)) return;
+        if (sweep > 0 && (!(worst > 1e-14 * size) || worst > 0.5 * before)) return;
+        before = worst;
     }
 }

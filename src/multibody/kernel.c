@@ -5,8 +5,9 @@
 
 struct fw_kernel {
     fw_core core;
-    void *path; /* NULL: the flat schedule */
-    void *own;  /* what the model allows */
+    const fw_path_ops *ops; /* of the path */
+    void *path;             /* NULL: the flat schedule */
+    void *own;              /* what the model allows */
     int pins;
     double *lambda; /* (2 pins) */
 };
@@ -171,6 +172,27 @@ fw_status fw_core_examine(fw_arena *arena, fw_core *k) {
 
 /* ---- one design ---- */
 
+const fw_path_ops *fw_path_single(int i) {
+    static const fw_path_ops *const all[] = {
+#if defined(__x86_64__)
+        &fw_path_single_avx512,
+        &fw_path_single_avx,
+#endif
+        &fw_path_baseline,
+        NULL,
+    };
+    const fw_path_ops *const *row = all;
+#if defined(__x86_64__)
+    __builtin_cpu_init();
+    bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                __builtin_cpu_supports("avx512vl");
+    row += wide ? 0 : __builtin_cpu_supports("avx") ? 1 : 2;
+#endif
+    while (i > 0 && *row)
+        row++, i--;
+    return *row;
+}
+
 fw_status fw_kernel_new(fw_arena *arena, const fw_model *m, fw_kernel **kernel) {
     *kernel = NULL;
     if (!fw_core_plain(m)) return FW_OK;
@@ -184,7 +206,8 @@ fw_status fw_kernel_new(fw_arena *arena, const fw_model *m, fw_kernel **kernel) 
     fw_trail trail;
     bool found;
     FW_TRY(fw_trail_find(arena, m, &trail, &found));
-    if (found) FW_TRY(fw_path_single.create(arena, &m, &trail, &k->own));
+    k->ops = fw_path_single(0);
+    if (found) FW_TRY(k->ops->create(arena, &m, &trail, &k->own));
     k->path = k->own;
     k->pins = m->nblock;
     FW_NEED(k->lambda = fw_arena_array(arena, double, 2 * (size_t)m->nblock));
@@ -194,18 +217,18 @@ fw_status fw_kernel_new(fw_arena *arena, const fw_model *m, fw_kernel **kernel) 
 
 void fw_kernel_rhs(fw_kernel *k, const double *y, double *f) {
     if (k->path)
-        fw_path_single.rhs(k->path, y, f);
+        k->ops->rhs(k->path, y, f);
     else
         k->core.ops->rhs(&k->core, y, f);
 }
 
 bool fw_kernel_project(fw_kernel *k, double *y, double *f) {
-    return k->path ? fw_path_single.project(k->path, y, f) : k->core.ops->project(&k->core, y, f);
+    return k->path ? k->ops->project(k->path, y, f) : k->core.ops->project(&k->core, y, f);
 }
 
 const double *fw_kernel_lambda(fw_kernel *k) {
     if (k->path)
-        fw_path_single.lambda(k->path, 0, k->lambda);
+        k->ops->lambda(k->path, 0, k->lambda);
     else
         for (int i = 0; i < k->pins; i++)
             for (int c = 0; c < 2; c++)
@@ -214,7 +237,7 @@ const double *fw_kernel_lambda(fw_kernel *k) {
 }
 
 fw_kernel_norms fw_kernel_norms_of(const fw_kernel *k) {
-    return k->path ? fw_path_single.norms(k->path) : k->core.norms;
+    return k->path ? k->ops->norms(k->path) : k->core.norms;
 }
 
 bool fw_kernel_is_path(const fw_kernel *k) {
@@ -227,5 +250,5 @@ void fw_kernel_prefer(fw_kernel *k, bool path) {
 
 void fw_kernel_set_healthy(fw_kernel *k, double relative) {
     k->core.healthy = relative;
-    if (k->own) fw_path_single.set_healthy(k->own, relative);
+    if (k->own) k->ops->set_healthy(k->own, relative);
 }

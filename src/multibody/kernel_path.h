@@ -56,8 +56,10 @@ typedef struct path {
     record *r; /* (bodies x FW_SIDES) */
     corner last[FW_SIDES];
     real size, rate;
+    bool rated; /* rate is not 1 in some lane */
     double healthy;
-    real *keep; /* (4 records x FW_SIDES) */
+    struct loop *loop; /* NULL: kernel_loop.h does not know this path */
+    real *keep;        /* (4 records x FW_SIDES) */
     fw_kernel_norms norms;
 } path;
 
@@ -548,13 +550,28 @@ static inline __attribute__((always_inline)) void finish(path *p, bits broken, r
         if (broken[i % DESIGNS]) a[i] = (double)NAN;
 }
 
-static void path_rhs(path *p, const double *y, double *f) {
+/* by the 2 x 2 blocks of S */
+static void blocks_rhs(path *p, const double *y, double *f) {
     set_sines(p, y);
     real power = set_accelerations(p, y + p->nq * DESIGNS);
     bits sick = eliminate(p, 0, p->healthy, true, true), broken = {0};
     substitute_backward(p);
     if (bits_any(sick)) broken = solve_with_care(p, sick);
     finish(p, broken, power, y, f);
+}
+
+#if FW_SIDES == 2
+#include "multibody/kernel_loop.h"
+#endif
+
+static void path_rhs(path *p, const double *y, double *f) {
+#if FW_SIDES == 2
+    if (p->loop) {
+        loop_or_blocks(p, y, f);
+        return;
+    }
+#endif
+    blocks_rhs(p, y, f);
 }
 
 #include "multibody/kernel_path_project.h"

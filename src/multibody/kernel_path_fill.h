@@ -75,6 +75,9 @@ static fw_status create(fw_arena *arena, const fw_model *const *models, const fw
         }
     }
     p->rate = real_of(1);
+#if FW_SIDES == 2
+    FW_TRY(create_loop(arena, models, t, p));
+#endif
     *out = p;
     return FW_OK;
 }
@@ -115,8 +118,12 @@ static void row_set_healthy(void *p, double relative) {
     ((path *)p)->healthy = relative;
 }
 static void row_set_rate(void *p, const double *rate) {
-    for (int i = 0; i < DESIGNS && FW_SIDES == 2; i++)
-        ((path *)p)->rate[i] = rate[i];
+    path *of = p;
+    of->rated = false;
+    for (int i = 0; i < DESIGNS && FW_SIDES == 2; i++) {
+        of->rate[i] = rate[i];
+        of->rated |= rate[i] != 1;
+    }
 }
 
 const fw_path_ops FW_PATH = {FW_PATH_NAME, DESIGNS,   create,          row_rhs,     row_project,

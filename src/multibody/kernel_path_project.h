@@ -39,7 +39,8 @@ static bool project_position(path *p, double *u, double *norm) {
         if (!(*norm < (double)INFINITY)) return false;
         bool slow = relative > 0.25 * before;
         if (relative <= 2 * DBL_EPSILON || (slow && relative <= 1e-13 && *norm <= 1e-12)) break;
-        if (slow || i == 4) {
+        /* the loop's right-hand side leaves no factor of the blocks */
+        if (slow || i == 4 || (i == 0 && p->loop)) {
             factor(p, &broken);
             if (bits_any(broken)) return false;
         }

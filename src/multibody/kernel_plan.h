@@ -115,7 +115,10 @@ typedef struct fw_path_ops { /* one row per instruction set */
     void (*set_healthy)(void *path, double relative);
     void (*set_rate)(void *path, const double *rate); /* (width) y' is multiplied by it */
 } fw_path_ops;
-extern const fw_path_ops fw_path_single;
+/* one design: the i-th encoding that this processor has, best first, NULL after the last; all give
+   the same bits */
+const fw_path_ops *fw_path_single(int i);
+extern const fw_path_ops fw_path_baseline, fw_path_single_avx, fw_path_single_avx512;
 extern const fw_path_ops fw_path_sse2, fw_path_avx2, fw_path_avx512;
 
 #endif

@@ -7,9 +7,9 @@
    Input x in rad, any; output s, c. Valid for |x| <= fw_sincos_range; beyond it, and
    for NaN, the callers ask the C library. Error below 0.9 ulp (0.83 found)
    without FMA. Cost about 55 operations, no branch; FW_BRIEF 1
-   leaves out the second doubles: 30 operations with FMA, error below 1.6 ulp. Source: Cody and
-   Waite 1980, ch. 8; polynomials by the Remez exchange in 60 digits. Test: test_kernel.c (quad
-   precision). */
+   leaves out the second doubles: 25 operations with FMA (pi/2 in two parts), error below 1.6 ulp.
+   Source: Cody and Waite 1980, ch. 8; polynomials by the Remez exchange in 60 digits. Test:
+   test_kernel.c (quad precision). */
 #ifndef FW_MULTIBODY_KERNEL_SINCOS_H
 #define FW_MULTIBODY_KERNEL_SINCOS_H
 #include "multibody/kernel_vector.h"
@@ -22,6 +22,10 @@ static inline __attribute__((always_inline)) void real_sincos(real x, real *sine
     real t = x * 0x1.45f306dc9c883p-1 + shift;
     bits q = (bits)t;
     real n = t - shift;
+#if FW_FUSED
+    real a = real_less(x, n, real_of(0x1.921fb54442d18p+0)); /* exact: |n| < 2^17 */
+    real r = real_less(a, n, real_of(0x1.1a62633145c07p-54));
+#else
     real a = x - n * 0x1.921fb54400000p+0;
 #if FW_BRIEF
     real r = (a - n * 0x1.0b4611a600000p-34) - n * 0x1.3198a2e037073p-69;
@@ -29,6 +33,7 @@ static inline __attribute__((always_inline)) void real_sincos(real x, real *sine
     real w = n * 0x1.0b4611a600000p-34, b = a - w;
     real v = n * 0x1.3198a2e037073p-69 - ((a - b) - w);
     real r = b - v, tail = (b - r) - v;
+#endif
 #endif
     real z = r * r, z2 = z * z, half = 0.5 * z, one = 1 - half;
     real ps = (-0x1.5555555555548p-3 + z * 0x1.111111110f7cap-7) +

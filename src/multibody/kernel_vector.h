@@ -5,11 +5,20 @@
 #ifndef FW_BRIEF
 #define FW_BRIEF 0
 #endif
+/* products and sums rounded once, by name: never where the bits must be those of every processor */
+#if FW_BRIEF && FW_W > 2 && defined(__FMA__)
+#define FW_FUSED 1
+#else
+#define FW_FUSED 0
+#endif
 
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
 
 #if FW_W == 1
 typedef double real;
@@ -51,12 +60,28 @@ static inline real real_of(double x) {
 static inline real real_select(bits mask, real a, real b) {
     return (real)((mask & (bits)a) | (~mask & (bits)b));
 }
+/* of masks: every lane is all ones or all zeros */
 static inline bool bits_any(bits mask) {
+#if defined(__AVX512DQ__) && FW_W == 8
+    return _mm512_movepi64_mask((__m512i)mask) != 0;
+#elif defined(__AVX2__) && FW_W == 4
+    return _mm256_movemask_pd((__m256d)mask) != 0;
+#else
     int64_t all = 0;
     for (int i = 0; i < FW_W; i++)
         all |= mask[i];
     return all != 0;
+#endif
 }
+#if FW_FUSED
+static inline real real_less(real c, real a, real b) { /* c - a b, rounded once */
+#if FW_W == 8
+    return (real)_mm512_fnmadd_pd((__m512d)a, (__m512d)b, (__m512d)c);
+#else
+    return (real)_mm256_fnmadd_pd((__m256d)a, (__m256d)b, (__m256d)c);
+#endif
+}
+#endif
 /* the largest; NaN when one is NaN */
 static inline double real_most(real a) {
     double most = a[0];

@@ -17,7 +17,7 @@ static void accelerate(fw_model *m, const double *gamma, double *a, double *lamb
     fw_model_jacobian(m, a, m->drift);
     for (int i = 0; i < 2 * m->nblock; i++)
         m->drift[i] += gamma[i];
-    fw_chain_proximal(&m->chain, m->drift, lambda, m->more);
+    fw_chain_proximal(m, m->drift, lambda);
     fw_model_apply(m, lambda, a);
 }
 
@@ -29,9 +29,27 @@ static void correct(fw_model *m, const double *r, double *d) {
     fw_model_apply(m, m->more, d);
 }
 
+/* do rows repeat each other in the assembled pose? Some pivot of S then vanishes against 1/m_a +
+   1/m_b (here: below a millionth of it); the smaller eigenvalue of L diag(d, e) L^T is about e/(1 +
+   l^2) */
+static bool redundant_as_assembled(fw_model *m) {
+    const fw_chain *c = &m->chain;
+    memset(m->correction, 0, (size_t)m->nq * sizeof *m->correction);
+    fw_model_pose(m, m->correction);
+    fw_chain_assemble(m);
+    if (!fw_chain_factor(&m->chain, 0)) return true;
+    for (int i = 0; i < c->pins; i++) {
+        double slant = c->pivot[3 * i + 1], least = 1 / c->pivot[3 * i + 2] / (1 + slant * slant);
+        if (!(least > 1e-6 * c->isotropic[2 * i])) return true;
+    }
+    return false;
+}
+
 static fw_status prepare(fw_arena *arena, fw_model *m, const fw_mechanism *mechanism,
                          fw_diags *diags, void **work) {
     (void)mechanism, (void)diags, (void)work;
+    /* the kernel's 2 x 2 inverses lose digits where joints repeat each other */
+    if (!m->plain || redundant_as_assembled(m)) return FW_OK;
     return fw_kernel_new(arena, m, &m->kernel);
 }
 

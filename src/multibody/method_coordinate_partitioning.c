@@ -327,6 +327,7 @@ static fw_status report(const fw_model *m, const fw_mechanism *mechanism, fw_tex
 
 const fw_method fw_method_coordinate_partitioning = {
     .name = "coordinate-partitioning",
+    .independent = true,
     .summary =
         "independent coordinates chosen by complete pivoting, changed when the pivots degrade",
     .source = "Wehage and Haug 1982",

@@ -405,6 +405,7 @@ static fw_status report(const fw_model *m, const fw_mechanism *mechanism, fw_tex
 
 const fw_method fw_method_minimal = {
     .name = "minimal",
+    .independent = true,
     .summary =
         "independent angles, loops closed dyad by dyad; only for pins, and not at flat dyads",
     .source = "Kecskemethy, Krupp and Hiller 1997; Garcia de Jalon and Bayo 1994",

@@ -95,12 +95,13 @@ typedef struct fw_chain {
     int *row;                    /* (blocks) */
     int *first;                  /* (pins + 1) first update of each column */
     fw_update *update;
-    fw_coupling *coupling;  /* (ncoupling) */
-    double *diagonal;       /* (3 pins) xx, xy, yy of S */
-    double *isotropic;      /* (2 pins) D of the proximal term: 1/m_a + 1/m_b of a pin's rows */
-    double shift;           /* eps of the last factorisation */
-    double *pivot;          /* (3 pins) inverse of the pivot blocks */
-    double *block, *factor; /* (4 blocks) S below the diagonal, then L */
+    fw_coupling *coupling;    /* (ncoupling) */
+    double *diagonal;         /* (3 pins) xx, xy, yy of S */
+    double *isotropic;        /* (2 pins) D of the proximal term: 1/m_a + 1/m_b of a pin's rows */
+    double shift;             /* eps of the last factorisation */
+    double *pivot;            /* (3 pins) of the pivot blocks: 1/d, l, 1/d, the larger row first */
+    unsigned char *first_row; /* (pins) which row that is */
+    double *block, *factor;   /* (4 blocks) S below the diagonal, then L */
 } fw_chain;
 
 typedef struct fw_model {
@@ -138,16 +139,16 @@ typedef struct fw_model {
     bool projecting; /* stabilise by projection */
     double epsilon;  /* of the chain's factor: fw_epsilon, less inside a projection */
     /* work */
-    double *cosine, *sine;                 /* (nbody + 1) */
-    double *arm;                           /* (4 nblock) arms in world axes */
-    double *jac;                           /* (12 nblock) 2 x 3 of body a, then of b; not plain */
-    double *accel;                         /* (3 (nbody + 1)) */
-    double *lambda, *right, *more, *drift; /* (2 nblock) */
-    double *correction;                    /* (3 (nbody + 1)) */
-    const double *posed;                   /* (3 nbody) the u of the last fw_model_pose */
-    double *stage;                         /* (ny) a closed state, for methods that want one */
-    double piece;                          /* s: a time inside the smooth piece of the laws */
-    bool broken;                           /* no factor: the state is not usable */
+    double *cosine, *sine; /* (nbody + 1) */
+    double *arm;           /* (4 nblock) arms in world axes */
+    double *jac;           /* (12 nblock) 2 x 3 of body a, then of b; not plain */
+    double *accel;         /* (3 (nbody + 1)) */
+    double *lambda, *right, *more, *drift, *residual; /* (2 nblock) */
+    double *correction, *product;                     /* (3 (nbody + 1)) */
+    const double *posed; /* (3 nbody) the u of the last fw_model_pose */
+    double *stage;       /* (ny) a closed state, for methods that want one */
+    double piece;        /* s: a time inside the smooth piece of the laws */
+    bool broken;         /* no factor: the state is not usable */
     /* kept over a run */
     long projections, events;
     double worst_position, worst_velocity;
@@ -161,6 +162,8 @@ typedef struct fw_model {
    lambda, gamma, r (2 nblock, empty rows are 0 and stay 0). */
 typedef struct fw_method {
     const char *name, *summary, *source;
+    bool independent; /* solves for independent coordinates, not for forces: very different masses
+                         cost it no digits */
     /* memory; FW_SOLVER with a diagnostic when it cannot treat this mechanism. NULL: none */
     fw_status (*prepare)(fw_arena *arena, fw_model *m, const fw_mechanism *mechanism,
                          fw_diags *diags, void **work);
@@ -202,8 +205,8 @@ fw_status fw_chain_compile(fw_arena *arena, fw_model *model);
 void fw_chain_assemble(fw_model *m);               /* S from the arms, or from jac */
 bool fw_chain_factor(fw_chain *c, double epsilon); /* false: not positive */
 void fw_chain_solve(const fw_chain *c, double *x); /* (S + eps D) x = x, in place; D = isotropic */
-/* S x = right by the proximal iteration; right is kept, x (2 pins) */
-void fw_chain_proximal(const fw_chain *c, const double *right, double *x, double *more);
+/* S x = right at the pose whose S + eps D is factored; right is kept, x (2 nblock) */
+void fw_chain_proximal(fw_model *m, const double *right, double *x);
 
 /* constraints.c */
 void fw_model_pose(fw_model *m, const double *u); /* sines, arms and, unless plain, jac */

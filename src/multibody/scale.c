@@ -80,6 +80,7 @@ fw_status fw_model_body_arrays(fw_arena *arena, fw_model *m) {
     FW_NEED(m->sine = fw_arena_array(arena, double, n + 1));
     FW_NEED(m->accel = fw_arena_array(arena, double, 3 * (n + 1)));
     FW_NEED(m->correction = fw_arena_array(arena, double, 3 * (n + 1)));
+    FW_NEED(m->product = fw_arena_array(arena, double, 3 * (n + 1)));
     FW_NEED(m->pin_block = fw_arena_array(arena, int, (size_t)m->npin));
     FW_NEED(m->tie_block = fw_arena_array(arena, int, (size_t)m->ntie));
     FW_NEED(m->driver_block = fw_arena_array(arena, int, (size_t)m->ndriver));
@@ -99,5 +100,6 @@ fw_status fw_model_block_arrays(fw_arena *arena, fw_model *m, int nblock) {
     FW_NEED(m->right = fw_arena_array(arena, double, 2 * p));
     FW_NEED(m->more = fw_arena_array(arena, double, 2 * p));
     FW_NEED(m->drift = fw_arena_array(arena, double, 2 * p));
+    FW_NEED(m->residual = fw_arena_array(arena, double, 2 * p));
     return FW_OK;
 }

@@ -226,6 +226,7 @@ fw_status fw_chain_compile(fw_arena *arena, fw_model *m) {
     for (int i = 0; i < m->nblock; i++)
         proximal_weights(m, i, c->isotropic + 2 * i);
     FW_NEED(c->pivot = fw_arena_array(arena, double, 3 * p));
+    FW_NEED(c->first_row = fw_arena_array(arena, unsigned char, p));
     FW_NEED(c->block = fw_arena_array(arena, double, 4 * (size_t)c->blocks));
     FW_NEED(c->factor = fw_arena_array(arena, double, 4 * (size_t)c->blocks));
     return FW_OK;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assembly/assembly.h"
 #include "plan/stages.h"
+#include <math.h>
 #include <string.h>
 
 fw_status fw_plan_judge(fw_plan *plan) {
@@ -77,11 +78,27 @@ fw_status fw_plan_start(fw_plan *plan, const fw_mechanism **mechanism, const fw_
     return fw_assembled(plan->arena, *mechanism, &plan->diags, mechanism, moved_m);
 }
 
+/* a tolerance that was asked for and not used */
+static void note_tolerance(fw_plan *plan, double asked, double used) {
+    if (!(asked > 0) || fabs(used - asked) <= 1e-9 * asked) return;
+    char a[32], u[32];
+    fw_number_text(a, sizeof a, asked, 3);
+    fw_number_text(u, sizeof u, used, 3);
+    if (used < asked)
+        fw_diag_note(&plan->diags, 232, (fw_place){0},
+                     "rtol %s: %s is used, the loosest at which error estimates hold", a, u);
+    else
+        fw_diag_warning(&plan->diags, 232, (fw_place){0},
+                        "rtol %s: %s is used, the tightest that round-off leaves room for", a, u);
+}
+
 fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mechanism **mechanism,
                            const fw_scene **scene) {
     *scene = NULL;
     fw_motion_options options = plan->options.verdict.motion;
     FW_TRY(fw_plan_start(plan, mechanism, scene, &options.moved_m));
     options.reactions = true;
-    return fw_simulate(plan->arena, *mechanism, *scene, &options, &plan->diags, motion);
+    FW_TRY(fw_simulate(plan->arena, *mechanism, *scene, &options, &plan->diags, motion));
+    note_tolerance(plan, options.rtol, (*motion)->stats.rtol);
+    return FW_OK;
 }

@@ -55,4 +55,21 @@ bool fw_law_is_constant(const fw_law *law);
    where a sample is not finite. 1 without a law (NULL). */
 double fw_law_largest(const fw_law *law, double end_s);
 
+/* ---- steps that see all of it (stride.c) ---- */
+
+typedef struct fw_law_strides { /* from t_s[i] on a step longer than most_s[i] may miss something */
+    double *t_s, *most_s;       /* (n) ascending; most_s may be infinite */
+    int n;                      /* 0: any step sees all of it */
+} fw_law_strides;
+/* Looks at the law once over [0, end_s], which sines, steps, ramps and tables do not need.
+   `break_s` (breaks), ascending: its fw_law_breaks, at which steps end anyway. coordinate: the law
+   drives a joint, so that its second derivative counts. FW_OK or FW_NOMEM. Not seen is what is zero
+   to the last bit at 2049 looks (a bell exp(-(t/w)^2) with w below some 1e-5 end_s), and what is
+   shorter than a look beside larger things. */
+fw_status fw_law_look(fw_arena *arena, const fw_law *law, bool coordinate, double end_s,
+                      const double *break_s, int breaks, fw_law_strides *strides);
+/* longest step from t_s on that does not leap over anything, with every stride `factor` times as
+   long; *row (0 at first) remembers where the search stood */
+double fw_law_stride(const fw_law_strides *strides, double factor, double t_s, int *row);
+
 #endif

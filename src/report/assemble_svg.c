@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Guess and assembled position side by side: every body in its own colour in both, open joints in
-   red with their size. Bodies are their outlines where they are drawn, else lines between their
-   joints. */
+   red with their size. Bodies are their outlines where they are drawn, else as in figure.h. */
 #include "report/assembly.h"
-#include "report/page.h"
+#include "report/figure.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { PANEL = 470, GUTTER = 20, HEAD = 44, FOOT = 64, MOST_LABELS = 40 };
@@ -19,6 +17,7 @@ typedef struct label_list { /* centres of the labels so far: later ones keep cle
 
 typedef struct panel {
     const fw_report_assembly *in;
+    const fw_figure *figure;
     const double *q; /* (3 nbody) pose shown */
     fw_report_view view;
     bool guess;
@@ -35,58 +34,7 @@ static fw_vec2 place(const double *q, int body, double x, double y) {
     return (fw_vec2){q[3 * body] + c * x - s * y, q[3 * body + 1] + s * x + c * y};
 }
 
-/* ---- joints of a body ---- */
-
-typedef struct joint_point {
-    fw_vec2 local;
-    double angle; /* about their middle: outlines run round */
-} joint_point;
-
-static int by_angle(const void *a, const void *b) {
-    double x = ((const joint_point *)a)->angle, y = ((const joint_point *)b)->angle;
-    return (x > y) - (x < y);
-}
-
-static void add_point(joint_point *point, int *count, int body, int owner, double x, double y) {
-    if (owner == body) point[(*count)++] = (joint_point){{x, y}, 0};
-}
-
-static int points_of(const fw_mechanism *m, int body, joint_point *point) {
-    int n = 0;
-    for (int i = 0; i < m->npin; i++) {
-        const fw_pin *p = &m->pin[i];
-        add_point(point, &n, body, p->body_a, p->ax_m, p->ay_m);
-        add_point(point, &n, body, p->body_b, p->bx_m, p->by_m);
-    }
-    for (int i = 0; i < m->ntie; i++) {
-        const fw_tie *t = &m->tie[i];
-        if (t->kind != FW_TIE_PRISMATIC) add_point(point, &n, body, t->body_a, t->ax_m, t->ay_m);
-        add_point(point, &n, body, t->body_b, t->bx_m, t->by_m);
-    }
-    fw_vec2 middle = {0, 0};
-    for (int i = 0; i < n; i++)
-        middle.x += point[i].local.x / n, middle.y += point[i].local.y / n;
-    for (int i = 0; i < n; i++)
-        point[i].angle = atan2(point[i].local.y - middle.y, point[i].local.x - middle.x);
-    if (n > 2) qsort(point, (size_t)n, sizeof *point, by_angle);
-    return n;
-}
-
-/* one point: a line from the centre of mass; two: the line between them; more: an outline */
-static void lines(const panel *p, const double *q, int body, joint_point *point, fw_text *out) {
-    int n = points_of(p->in->mechanism, body, point);
-    if (n < 2) {
-        fw_report_markup(out, "M{c} {c}", fw_report_x(&p->view, q[3 * body]),
-                         fw_report_y(&p->view, q[3 * body + 1]));
-        if (n == 0) fw_text_add(out, "h0");
-    }
-    for (int i = 0; i < n; i++) {
-        fw_vec2 w = place(q, body, point[i].local.x, point[i].local.y);
-        fw_report_markup(out, n > 1 && i == 0 ? "M{c} {c}" : "L{c} {c}", fw_report_x(&p->view, w.x),
-                         fw_report_y(&p->view, w.y));
-    }
-    if (n > 2) fw_text_add(out, "Z");
-}
+/* ---- bodies and joints ---- */
 
 /* the outlines are those of the guess; they move as rigid bodies, in picture coordinates */
 static void outline(const panel *p, const double *q, int body, fw_text *out) {
@@ -102,91 +50,39 @@ static void outline(const panel *p, const double *q, int body, fw_text *out) {
     fw_text_add(out, "\"/></g>\n");
 }
 
-static bool has_outline(const fw_report_assembly *in, int body) {
-    return fw_report_drawn(in->layout) && in->layout->body && in->layout->body[body].area_m2 > 0.0;
-}
-
-static void draw_bodies(const panel *p, joint_point *point, fw_text *out) {
-    const fw_mechanism *m = p->in->mechanism;
-    for (int b = 0; b < m->nbody; b++) {
-        const char *colour = fw_report_layer_colour(NULL, b);
-        if (has_outline(p->in, b)) {
-            fw_report_markup(out,
-                             "<g fill=\"{r}\" fill-opacity=\"0.35\" stroke=\"{r}\" "
-                             "stroke-width=\"1\">",
-                             colour, colour);
-            outline(p, p->q, b, out);
-            fw_text_add(out, "</g>\n");
-            continue;
-        }
-        fw_report_markup(out,
-                         "<path fill=\"{r}\" fill-opacity=\"0.2\" stroke=\"{r}\" "
-                         "stroke-width=\"{c}\" stroke-linecap=\"round\" "
-                         "stroke-linejoin=\"round\" d=\"",
-                         colour, colour, 1.1 * p->mark);
-        lines(p, p->q, b, point, out);
-        fw_text_add(out, "\"/>\n");
-    }
-}
-
 /* where the bodies were, behind where they are */
-static void draw_ghosts(const panel *p, joint_point *point, fw_text *out) {
+static void draw_ghosts(const panel *p, const fw_figure_pen *pen, fw_text *out) {
     const fw_report_assembly *in = p->in;
     if (in->assembly->most_moved_m == 0.0 && in->assembly->most_turned_rad == 0.0) return;
     fw_text_add(out, "<g fill=\"none\" stroke=\"#aab2ba\" stroke-width=\"1\" "
                      "stroke-dasharray=\"4 3\">\n");
-    for (int b = 0; b < in->mechanism->nbody; b++) {
-        if (has_outline(in, b)) {
-            outline(p, in->assembly->before, b, out);
-            continue;
-        }
-        fw_text_add(out, "<path d=\"");
-        lines(p, in->assembly->before, b, point, out);
-        fw_text_add(out, "\"/>\n");
-    }
+    for (int b = 0; b < in->mechanism->nbody; b++)
+        if (fw_report_outlined(in->layout, b)) outline(p, in->assembly->before, b, out);
+    for (int i = 0; i < p->figure->count; i++)
+        if (!fw_report_outlined(in->layout, p->figure->part[i].of))
+            fw_figure_ghost(&p->figure->part[i], in->assembly->before, pen);
     fw_text_add(out, "</g>\n");
 }
 
-/* ---- joints ---- */
-
-/* a pin on the ground stands on a foot */
-static void foot(const panel *p, double x, double y, fw_text *out) {
-    double s = 1.9 * p->mark;
-    fw_report_markup(out,
-                     "<path d=\"M{c} {c}l{c} {c}h{c}Zm{c} {c}h{c}\" fill=\"#eceff2\" "
-                     "stroke=\"#57606a\" stroke-width=\"1\"/>\n",
-                     x, y, -0.6 * s, s, 1.2 * s, -0.95 * s, s, 1.9 * s);
+static void draw_outlines(const panel *p, fw_text *out) {
+    for (int b = 0; b < p->in->mechanism->nbody; b++) {
+        if (!fw_report_outlined(p->in->layout, b)) continue;
+        fw_report_markup(out,
+                         "<g fill=\"{r}\" fill-opacity=\"0.35\" stroke=\"{r}\" "
+                         "stroke-width=\"1\">",
+                         fw_figure_colour(b), fw_figure_colour(b));
+        outline(p, p->q, b, out);
+        fw_text_add(out, "</g>\n");
+    }
 }
 
-static void draw_tie(const panel *p, const fw_tie *t, fw_text *out) {
-    fw_vec2 a = place(p->q, t->body_a, t->ax_m, t->ay_m),
-            b = place(p->q, t->body_b, t->bx_m, t->by_m);
-    double ax = fw_report_x(&p->view, a.x), ay = fw_report_y(&p->view, a.y);
-    double bx = fw_report_x(&p->view, b.x), by = fw_report_y(&p->view, b.y), s = 1.6 * p->mark;
-    if (t->kind == FW_TIE_DISTANCE) {
-        fw_report_markup(out,
-                         "<path d=\"M{c} {c}L{c} {c}\" stroke=\"#57606a\" stroke-width=\"1.4\" "
-                         "fill=\"none\"/>\n",
-                         ax, ay, bx, by);
-        return;
+static void draw_figure(const panel *p, const fw_figure_pen *pen) {
+    for (int i = 0; i < p->figure->count; i++) {
+        const fw_figure_part *part = &p->figure->part[i];
+        bool body = part->role == FW_FIGURE_BODY || part->role == FW_FIGURE_PLATE;
+        if (part->role == FW_FIGURE_PIN) continue; /* open ones look different: draw_pins */
+        if (!body || !fw_report_outlined(p->in->layout, part->of)) fw_figure_draw(part, pen);
     }
-    double angle = t->body_a == FW_GROUND ? 0 : p->q[3 * t->body_a + 2];
-    if (t->kind == FW_TIE_PRISMATIC) {
-        double axis = angle + t->axis_rad, c = cos(axis), d = -sin(axis), far = 3000;
-        double turn = -axis * 180.0 / acos(-1.0);
-        fw_report_markup(out,
-                         "<path d=\"M{c} {c}L{c} {c}\" stroke=\"#57606a\" stroke-width=\"1\" "
-                         "stroke-dasharray=\"10 3 2 3\" fill=\"none\"/>\n"
-                         "<rect x=\"{c}\" y=\"{c}\" width=\"{c}\" height=\"{c}\" fill=\"#fff\" "
-                         "fill-opacity=\"0.85\" stroke=\"#1f2328\" transform=\"rotate({c} {c} "
-                         "{c})\"/>\n",
-                         ax - far * c, ay - far * d, ax + far * c, ay + far * d, bx - 1.6 * s,
-                         by - s, 3.2 * s, 2 * s, turn, bx, by);
-        return;
-    }
-    fw_report_markup(out,
-                     "<rect x=\"{c}\" y=\"{c}\" width=\"{c}\" height=\"{c}\" fill=\"#1f2328\"/>\n",
-                     bx - 0.5 * s, by - 0.5 * s, s, s);
 }
 
 static void dot(const panel *p, double x, double y, bool open, fw_text *out) {
@@ -196,10 +92,8 @@ static void dot(const panel *p, double x, double y, bool open, fw_text *out) {
                      x, y, 0.75 * p->mark, open ? open_colour : "#1f2328");
 }
 
-static void draw_joints(const panel *p, fw_text *out) {
+static void draw_pins(const panel *p, fw_text *out) {
     const fw_mechanism *m = p->in->mechanism;
-    for (int i = 0; i < m->ntie; i++)
-        draw_tie(p, &m->tie[i], out);
     for (int i = 0; i < m->npin; i++) {
         const fw_pin *pin = &m->pin[i];
         fw_vec2 a = place(p->q, pin->body_a, pin->ax_m, pin->ay_m);
@@ -207,8 +101,6 @@ static void draw_joints(const panel *p, fw_text *out) {
         double ax = fw_report_x(&p->view, a.x), ay = fw_report_y(&p->view, a.y);
         double bx = fw_report_x(&p->view, b.x), by = fw_report_y(&p->view, b.y);
         bool open = hypot(ax - bx, ay - by) > 0.5;
-        if (pin->body_a == FW_GROUND) foot(p, ax, ay, out);
-        if (pin->body_b == FW_GROUND) foot(p, bx, by, out);
         dot(p, ax, ay, open, out);
         if (open) dot(p, bx, by, true, out);
     }
@@ -344,18 +236,40 @@ static void joint_labels(const panel *p, fw_vec2 middle, fw_text *out) {
     }
 }
 
-static void draw_labels(const panel *p, joint_point *point, fw_text *out) {
+/* on the line or outline rather than at the centre of mass */
+static fw_vec2 label_place(const panel *p, int body) {
+    fw_vec2 at = {p->q[3 * body], p->q[3 * body + 1]};
+    for (int i = 0; i < p->figure->count; i++) {
+        const fw_figure_part *f = &p->figure->part[i];
+        if (f->role != FW_FIGURE_BODY || f->of != body || fw_report_outlined(p->in->layout, body))
+            continue;
+        at = (fw_vec2){0, 0};
+        for (int k = 0; k < f->noutline; k++) {
+            fw_vec2 w = place(p->q, body, f->outline[k].x, f->outline[k].y);
+            double share = f->noutline > 2 ? 1.0 / f->noutline : k ? 0.35 : 0.65;
+            at.x += share * w.x, at.y += share * w.y; /* the middle of a line may be a joint */
+        }
+    }
+    return at;
+}
+
+static bool on_joint(const panel *p, fw_vec2 at) {
+    const char *id;
+    for (int i = 0; i < p->in->mechanism->npin + p->in->mechanism->ntie; i++) {
+        fw_vec2 joint = joint_at(p, i, &id);
+        if (hypot(joint.x - at.x, joint.y - at.y) < 2 * p->mark) return true;
+    }
+    return false;
+}
+
+static void draw_labels(const panel *p, fw_text *out) {
     const fw_mechanism *m = p->in->mechanism;
     if (m->nbody + m->npin > MOST_LABELS) return;
     for (int b = 0; b < m->nbody; b++) {
-        fw_vec2 at = {p->q[3 * b], p->q[3 * b + 1]};
-        int n = has_outline(p->in, b) ? 0 : points_of(m, b, point);
-        for (int i = 0; i < n && n > 1; i++) { /* on the line rather than at the centre of mass */
-            fw_vec2 w = place(p->q, b, point[i].local.x, point[i].local.y);
-            at.x = (i ? at.x : 0) + w.x / n, at.y = (i ? at.y : 0) + w.y / n;
-        }
-        halo_text(out, fw_report_x(&p->view, at.x), fw_report_y(&p->view, at.y) + 4, 11, "#424a53",
-                  "400", "middle");
+        fw_vec2 at = label_place(p, b);
+        double x = fw_report_x(&p->view, at.x), y = fw_report_y(&p->view, at.y) + 4;
+        if (on_joint(p, (fw_vec2){x, y - 4})) y += 4 * p->mark;
+        halo_text(out, x, y, 11, "#424a53", "400", "middle");
         fw_report_markup(out, "{s}</text>\n", name_of(m->body[b].id));
     }
     joint_labels(p, middle_of(p), out);
@@ -363,30 +277,17 @@ static void draw_labels(const panel *p, joint_point *point, fw_text *out) {
 
 /* ---- the picture ---- */
 
-static fw_box reach(const fw_report_assembly *in, const double *q) {
-    const fw_mechanism *m = in->mechanism;
+static fw_box reach(const panel *p) {
+    const fw_mechanism *m = p->in->mechanism;
     fw_box box = fw_report_box_empty();
-    for (int b = 0; b < m->nbody; b++)
-        fw_report_box_add(&box, q[3 * b], q[3 * b + 1]);
-    for (int i = 0; i < m->npin; i++) {
-        const fw_pin *p = &m->pin[i];
-        fw_vec2 a = place(q, p->body_a, p->ax_m, p->ay_m),
-                b = place(q, p->body_b, p->bx_m, p->by_m);
-        fw_report_box_add(&box, a.x, a.y);
-        fw_report_box_add(&box, b.x, b.y);
-    }
-    for (int i = 0; i < m->ntie; i++) {
-        const fw_tie *t = &m->tie[i];
-        fw_vec2 b = place(q, t->body_b, t->bx_m, t->by_m);
+    for (int i = 0; i < p->figure->count; i++)
+        fw_figure_reach(&box, &p->figure->part[i], p->q, 1, m->nbody);
+    for (int i = 0; i < m->npin; i++) { /* both ends: they may be apart */
+        fw_vec2 b = place(p->q, m->pin[i].body_b, m->pin[i].bx_m, m->pin[i].by_m);
         fw_report_box_add(&box, b.x, b.y);
     }
     double size = fmax(box.x1 - box.x0, box.y1 - box.y0), pad = 0.13 * size;
     return (fw_box){box.x0 - pad, box.y0 - pad, box.x1 + pad, box.y1 + pad};
-}
-
-static double size_of(const fw_report_assembly *in) {
-    fw_box box = reach(in, in->assembly->after);
-    return fmax(box.x1 - box.x0, box.y1 - box.y0);
 }
 
 static double wide(fw_box b) {
@@ -399,13 +300,13 @@ static double high(fw_box b) {
 
 /* the same frame for both where they are of like size and near each other; a guess strewn far and
    wide, or collapsed, gets its own. Both panels are equally high. */
-static void choose_views(const fw_report_assembly *in, panel *p) {
-    fw_box box[2] = {reach(in, p[0].q), reach(in, p[1].q)}, both = box[0];
+static void choose_views(panel *p) {
+    fw_box box[2] = {reach(&p[0]), reach(&p[1])}, both = box[0];
     fw_report_box_add(&both, box[1].x0, box[1].y0);
     fw_report_box_add(&both, box[1].x1, box[1].y1);
     double size = fmax(wide(box[1]), high(box[1]));
     if (fmax(wide(both), high(both)) < 2.5 * size) box[0] = box[1] = both;
-    double tall = 0;
+    double tall = 0.35 * PANEL;
     for (int i = 0; i < 2; i++) {
         p[i].view = fw_report_view_fit(box[i], PANEL, 0.0);
         tall = fmax(tall, p[i].view.height);
@@ -416,26 +317,32 @@ static void choose_views(const fw_report_assembly *in, panel *p) {
     }
 }
 
-static void draw_panel(const panel *p, joint_point *point, const char *letter, const char *title,
-                       double x, fw_text *out) {
+static void draw_panel(const panel *p, const char *letter, const char *title, double x,
+                       fw_text *out) {
     fw_report_markup(out,
                      "<text x=\"{c}\" y=\"28\" font-size=\"15\" font-weight=\"700\" "
                      "fill=\"#1f2328\">{r} <tspan font-weight=\"400\">{r}</tspan></text>\n"
                      "<svg x=\"{c}\" y=\"{i}\" width=\"{i}\" height=\"{c}\">\n"
                      "<rect width=\"100%\" height=\"100%\" fill=\"#fff\" stroke=\"#d0d7de\"/>\n",
                      x, letter, title, x, HEAD, PANEL, p->view.height);
-    if (!p->guess) draw_ghosts(p, point, out);
-    draw_bodies(p, point, out);
-    draw_joints(p, out);
+    const fw_figure_pen pen = {.view = &p->view,
+                               .out = out,
+                               .still = p->q,
+                               .nbody = p->in->mechanism->nbody,
+                               .mark = p->mark};
+    if (!p->guess) draw_ghosts(p, &pen, out);
+    draw_outlines(p, out);
+    draw_figure(p, &pen);
+    draw_pins(p, out);
     draw_gaps(p, out);
-    draw_labels(p, point, out);
+    draw_labels(p, out);
     fw_report_scale_bar_svg(out, &p->view);
     fw_text_add(out, "</svg>\n");
 }
 
-static void caption(const fw_report_assembly *in, double y, fw_text *out) {
+static void caption(const fw_report_assembly *in, double size_m, double y, fw_text *out) {
     const fw_assembly *a = in->assembly;
-    bool tight = a->gap_after_m <= 1e-11 * (a->gap_before_m + size_of(in));
+    bool tight = a->gap_after_m <= 1e-11 * (a->gap_before_m + size_m);
     fw_report_markup(out, "<g font-size=\"12.5\" fill=\"#424a53\"><text x=\"{i}\" y=\"{c}\">",
                      GUTTER, y);
     if (in->closed && a->iterations == 0)
@@ -449,8 +356,8 @@ static void caption(const fw_report_assembly *in, double y, fw_text *out) {
             fw_report_markup(out, "{u} after", a->gap_after_m, "m");
         fw_report_markup(out, "; {i} iterations", a->iterations);
         if (a->restarts) fw_report_markup(out, ", {i} restarts", a->restarts);
-        fw_report_markup(out, "; largest movement {u}, {d}", a->most_moved_m, "m",
-                         a->most_turned_rad);
+        fw_report_markup(out, "; largest movement {u}", a->most_moved_m, "m");
+        if (a->most_turned_rad > 1e-12) fw_report_markup(out, ", {d}", a->most_turned_rad);
     }
     fw_report_markup(out, "</text>\n<text x=\"{i}\" y=\"{c}\">", GUTTER, y + 18);
     if (!in->closed)
@@ -472,12 +379,13 @@ static void caption(const fw_report_assembly *in, double y, fw_text *out) {
 
 fw_status fw_report_assemble_svg(fw_arena *arena, const fw_report_assembly *in, fw_text *out) {
     const fw_mechanism *m = in->mechanism;
-    size_t most = 2 * ((size_t)m->npin + (size_t)m->ntie) + 1;
-    joint_point *point = fw_arena_array(arena, joint_point, most);
-    FW_NEED(point);
-    panel p[2] = {{.in = in, .q = in->assembly->before, .guess = true},
-                  {.in = in, .q = in->assembly->after}};
-    choose_views(in, p);
+    fw_figure figure[2];
+    for (int i = 0; i < 2; i++)
+        FW_TRY(fw_figure_make(arena, m, i ? in->assembly->after : in->assembly->before, 1,
+                              &figure[i]));
+    panel p[2] = {{.in = in, .figure = &figure[0], .q = in->assembly->before, .guess = true},
+                  {.in = in, .figure = &figure[1], .q = in->assembly->after}};
+    choose_views(p);
     p[0].mark = p[1].mark = m->nbody > 30 ? 2.5 : m->nbody > 12 ? 4 : 5.5;
     double width = 2 * PANEL + 3 * GUTTER, height = HEAD + p[0].view.height + FOOT;
     fw_report_markup(out,
@@ -487,10 +395,9 @@ fw_status fw_report_assemble_svg(fw_arena *arena, const fw_report_assembly *in, 
                      "sans-serif\">\n<title>{s}: guess and assembled position</title>\n"
                      "<rect width=\"100%\" height=\"100%\" fill=\"#f6f8fa\"/>\n",
                      width, height, width, height, in->device->name);
-    draw_panel(&p[0], point, "(a)", "guess: as the description states it", GUTTER, out);
-    draw_panel(&p[1], point, "(b)", in->closed ? "assembled" : "least mismatch", 2 * GUTTER + PANEL,
-               out);
-    caption(in, HEAD + p[0].view.height + 24, out);
+    draw_panel(&p[0], "(a)", "guess: as the description states it", GUTTER, out);
+    draw_panel(&p[1], "(b)", in->closed ? "assembled" : "least mismatch", 2 * GUTTER + PANEL, out);
+    caption(in, figure[1].size_m, HEAD + p[0].view.height + 24, out);
     fw_text_add(out, "</svg>\n");
     return fw_text_end(out);
 }

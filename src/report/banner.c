@@ -104,7 +104,7 @@ fw_status fw_report_section_device(fw_page *page) {
                      "xmlns=\"http://www.w3.org/2000/svg\" class=\"drawing\" role=\"img\" "
                      "viewBox=\"0 0 {c} {c}\"><title>{s}: hinges coloured by utilisation</title>\n",
                      page->view.width, page->view.height + 30.0, device->name);
-    fw_report_drawing(device, page->in->layout, verdict, &page->view, true, out);
+    FW_TRY(fw_report_drawing(device, page->in->layout, verdict, &page->view, true, out));
     fw_text_add(out, "</svg>\n");
     if (!fw_report_drawn(page->in->layout))
         fw_report_markup(out, "<figcaption class=\"soft\">Schematic. {s}</figcaption>\n",

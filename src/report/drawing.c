@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "report/page.h"
+#include "report/figure.h"
 #include <math.h>
 
 enum { WIDTH = 640, LEGEND_HEIGHT = 30, MOST_LABELS = 40 };
@@ -16,49 +16,6 @@ void fw_report_body_path(const fw_layout *layout, int body, const fw_report_view
     for (int i = 0; i < layout->npiece; i++) {
         const fw_piece *p = &layout->piece[i];
         if (p->body == body && p->role == FW_ROLE_STRUCTURE) fw_report_path(out, view, &p->contour);
-    }
-}
-
-/* from the centre of a body to its local point (x, y) */
-static void stick_to(const fw_body *b, double x, double y, const fw_report_view *view,
-                     fw_text *out) {
-    double c = cos(b->phi_rad), s = sin(b->phi_rad);
-    if (!isfinite(x) || !isfinite(y) || (x == 0.0 && y == 0.0)) return;
-    fw_report_markup(out, "M{c} {c}L{c} {c}", fw_report_x(view, b->x_m), fw_report_y(view, b->y_m),
-                     fw_report_x(view, b->x_m + c * x - s * y),
-                     fw_report_y(view, b->y_m + s * x + c * y));
-}
-
-void fw_report_body_sticks(const fw_device *device, int body, const fw_report_view *view,
-                           fw_text *out) {
-    double x = 0.0, y = 0.0;
-    int n = 0;
-    for (int j = 0; j < device->njoint; j++)
-        if (device->joint[j].body_a == body || device->joint[j].body_b == body) {
-            x += device->joint[j].x_m;
-            y += device->joint[j].y_m;
-            n++;
-        }
-    const fw_body *b = &device->body[body];
-    x = isfinite(b->x_m) ? b->x_m : n ? x / n : 0.0;
-    y = isfinite(b->y_m) ? b->y_m : n ? y / n : 0.0;
-    for (int j = 0; j < device->njoint; j++)
-        if (device->joint[j].body_a == body || device->joint[j].body_b == body)
-            fw_report_markup(out, "M{c} {c}L{c} {c}", fw_report_x(view, x), fw_report_y(view, y),
-                             fw_report_x(view, device->joint[j].x_m),
-                             fw_report_y(view, device->joint[j].y_m));
-    fw_report_markup(out, "M{c} {c}h0", fw_report_x(view, x), fw_report_y(view, y));
-    if (!isfinite(b->x_m) || !isfinite(b->y_m)) return;
-    for (int i = 0; i < device->nspring; i++) {
-        const fw_spring *s = &device->spring[i];
-        if (s->body_a == body) stick_to(b, s->ax_m, s->ay_m, view, out);
-        if (s->body_b == body) stick_to(b, s->bx_m, s->by_m, view, out);
-    }
-    for (int i = 0; i < device->ntie; i++) {
-        const fw_tie *t = &device->tie[i];
-        if (t->body_a == body && t->kind != FW_TIE_PRISMATIC)
-            stick_to(b, t->ax_m, t->ay_m, view, out);
-        if (t->body_b == body) stick_to(b, t->bx_m, t->by_m, view, out);
     }
 }
 
@@ -92,25 +49,51 @@ static void tethers(const fw_layout *layout, const fw_report_view *view, fw_text
 
 static void bodies(const fw_device *device, const fw_layout *layout, const fw_report_view *view,
                    bool ids, fw_text *out) {
-    bool drawn = fw_report_drawn(layout);
     for (int b = 0; b < device->nbody; b++) {
-        const char *fill = device->body[b].platform ? "#bcd0e3" : "#d5dbe1";
-        if (drawn)
-            fw_report_markup(out, "<g fill=\"{r}\" stroke=\"#57606a\" stroke-width=\"0.7\"><path",
-                             fill);
-        else
-            fw_report_markup(out,
-                             "<g fill=\"none\" stroke=\"{r}\" stroke-width=\"7\" "
-                             "stroke-linecap=\"round\"><path",
-                             device->body[b].platform ? "#7f9fbd" : "#9aa4ae");
+        fw_report_markup(out, "<g fill=\"{r}\" stroke=\"#57606a\" stroke-width=\"0.7\"><path",
+                         device->body[b].platform ? "#bcd0e3" : "#d5dbe1");
         if (ids) fw_report_markup(out, " id=\"fw-b{i}\"", b);
         fw_text_add(out, " d=\"");
-        if (drawn)
-            fw_report_body_path(layout, b, view, out);
-        else
-            fw_report_body_sticks(device, b, view, out);
+        fw_report_body_path(layout, b, view, out);
         fw_text_add(out, "\"/></g>\n");
     }
+}
+
+/* nothing is drawn: everything as in figure.h but the joints, which hinges() colours. Bodies are
+   paths of their own, without a look, so that figures that move may <use> them; grey, because
+   colours stand for utilisation here. */
+static fw_status schematic(const fw_device *device, const fw_verdict *verdict,
+                           const fw_report_view *view, bool ids, fw_text *out) {
+    fw_figure figure = {0};
+    double *q;
+    FW_TRY(fw_figure_of_verdict(out->arena, verdict, &figure, &q));
+    const fw_figure_pen pen = {
+        .view = view, .out = out, .still = q, .nbody = device->nbody, .mark = 5.5};
+    for (int b = 0; q && b < device->nbody; b++) {
+        const fw_figure_part *body = NULL;
+        for (int i = 0; i < figure.count; i++)
+            if (figure.part[i].role == FW_FIGURE_BODY && figure.part[i].of == b)
+                body = &figure.part[i];
+        fw_report_markup(out,
+                         "<g fill=\"#8c959f\" fill-opacity=\"0.25\" stroke=\"{r}\" "
+                         "stroke-width=\"5\" stroke-linecap=\"round\" "
+                         "stroke-linejoin=\"round\"><path",
+                         device->body[b].platform ? "#7f9fbd" : "#8c959f");
+        if (ids) fw_report_markup(out, " id=\"fw-b{i}\"", b);
+        fw_text_add(out, " d=\"");
+        if (body)
+            fw_figure_path(body, &pen, q);
+        else
+            fw_report_markup(out, "M{c} {c}h14v8h-14Z", fw_report_x(view, q[3 * b]) - 7.0,
+                             fw_report_y(view, q[3 * b + 1]) - 4.0);
+        fw_text_add(out, "\"/></g>\n");
+    }
+    for (int i = 0; i < figure.count; i++) {
+        fw_figure_role role = figure.part[i].role;
+        if (role != FW_FIGURE_BODY && role != FW_FIGURE_PLATE && role != FW_FIGURE_PIN)
+            fw_figure_draw(&figure.part[i], &pen);
+    }
+    return FW_OK;
 }
 
 static void hinges(const fw_device *device, const fw_layout *layout, const fw_verdict *verdict,
@@ -191,13 +174,15 @@ static void body_labels(const fw_device *device, const fw_layout *layout,
     }
 }
 
-void fw_report_drawing(const fw_device *device, const fw_layout *layout, const fw_verdict *verdict,
-                       const fw_report_view *view, bool ids, fw_text *out) {
+fw_status fw_report_drawing(const fw_device *device, const fw_layout *layout,
+                            const fw_verdict *verdict, const fw_report_view *view, bool ids,
+                            fw_text *out) {
     if (fw_report_drawn(layout)) {
         fixed_parts(layout, view, ids, out);
         tethers(layout, view, out);
-    }
-    bodies(device, layout, view, ids, out);
+        bodies(device, layout, view, ids, out);
+    } else
+        FW_TRY(schematic(device, verdict, view, ids, out));
     hinges(device, layout, verdict, view, out);
     body_labels(device, layout, view, out);
     hinge_labels(device, layout, verdict, view, out);
@@ -215,12 +200,17 @@ void fw_report_drawing(const fw_device *device, const fw_layout *layout, const f
                          place[i] * size, view->height + 10.0, fw_report_classes[i].colour,
                          place[i] * size + 18.0, view->height + 20.0, fw_report_classes[i].label);
     fw_text_add(out, "</g>\n");
+    return FW_OK;
 }
 
 fw_status fw_report_device_svg(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                                const fw_verdict *verdict, fw_text *out) {
-    (void)arena; /* `out` brings its own; kept so that all writers are called alike */
     fw_report_view view = fw_report_device_view(device, layout, NULL, WIDTH);
+    if (!fw_report_drawn(layout)) {
+        fw_box box = fw_report_box_empty();
+        FW_TRY(fw_figure_rest_reach(arena, verdict, &box));
+        if (box.x1 >= box.x0) view = fw_figure_view(&box, WIDTH);
+    }
     fw_report_markup(
         out,
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -230,7 +220,7 @@ fw_status fw_report_device_svg(fw_arena *arena, const fw_device *device, const f
         "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
         view.width, view.height + LEGEND_HEIGHT, view.width, view.height + LEGEND_HEIGHT,
         fw_report_rejected(verdict), device->name);
-    fw_report_drawing(device, layout, verdict, &view, false, out);
+    FW_TRY(fw_report_drawing(device, layout, verdict, &view, false, out));
     if (*fw_report_rejected(verdict))
         fw_report_markup(out,
                          "<text x=\"{c}\" y=\"22\" font-size=\"18\" font-weight=\"700\" "

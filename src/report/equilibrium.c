@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { WIDTH = 720, FRAMES = 120, SECONDS = 8, ARROW = 70 };
+enum { WIDTH = 720, HEAD = 38, FRAMES = 120, SECONDS = 8, ARROW = 70 };
 
 typedef struct picture {
     const fw_mechanism *mechanism;
@@ -38,15 +38,45 @@ static void label(const picture *p, double x, double y, double value, const char
                      x, fmax(12.0, y), value, unit);
 }
 
-/* the arrow ends at the point of the force */
-static void arrow(const picture *p, const fw_force *f, double largest) {
+/* the arrow ends at the point of the force; false: there is none */
+static bool arrow_ends(const picture *p, const fw_force *f, double largest, fw_vec2 *tail,
+                       fw_vec2 *tip) {
     double factor = at_end(p, f->law), fx = factor * f->fx_N, fy = factor * f->fy_N;
-    double size = hypot(fx, fy);
-    if (!(size > 0.0)) return;
-    fw_vec2 tip = place(p, f->body, f->x_m, f->y_m);
-    double long_ = ARROW * (0.35 + 0.65 * size / largest), ex = fx / size, ey = -fy / size;
-    double x = tip.x - long_ * ex, y = tip.y - long_ * ey, bx = tip.x - 11.0 * ex,
-           by = tip.y - 11.0 * ey;
+    double size = hypot(fx, fy), far = ARROW * (0.35 + 0.65 * size / largest);
+    if (f->body == FW_GROUND || !(size > 0.0)) return false;
+    *tip = place(p, f->body, f->x_m, f->y_m);
+    *tail = (fw_vec2){tip->x - far * fx / size, tip->y + far * fy / size};
+    return true;
+}
+
+static double largest_force(const picture *p) {
+    double largest = 0.0;
+    for (int i = 0; i < p->scene->nforce; i++) {
+        const fw_force *f = &p->scene->force[i];
+        largest = fmax(largest, fabs(at_end(p, f->law)) * hypot(f->fx_N, f->fy_N));
+    }
+    return largest;
+}
+
+/* adds the tails of the arrows as a view places them, and room for their labels */
+static void arrows_reach(const picture *p, fw_box *box) {
+    double largest = largest_force(p);
+    for (int i = 0; i < p->scene->nforce; i++) {
+        fw_vec2 tail, tip;
+        if (!arrow_ends(p, &p->scene->force[i], largest, &tail, &tip)) continue;
+        for (int k = 0; k < 2; k++)
+            fw_report_box_add(box, p->view->x0_m + (tail.x + (k ? 40.0 : 0.0)) / p->view->scale,
+                              p->view->y1_m - (tail.y - (k ? 8.0 : 0.0)) / p->view->scale);
+    }
+}
+
+static void arrow(const picture *p, const fw_force *f, double largest) {
+    fw_vec2 tail, tip;
+    if (!arrow_ends(p, f, largest, &tail, &tip)) return;
+    double far = hypot(tip.x - tail.x, tip.y - tail.y);
+    double ex = (tip.x - tail.x) / far, ey = (tip.y - tail.y) / far, x = tail.x, y = tail.y;
+    double bx = tip.x - 11.0 * ex, by = tip.y - 11.0 * ey;
+    double size = fabs(at_end(p, f->law)) * hypot(f->fx_N, f->fy_N);
     fw_report_markup(p->out,
                      "<path d=\"M{c} {c}L{c} {c}\" stroke=\"#D55E00\" stroke-width=\"2.5\"/><path "
                      "d=\"M{c} {c}L{c} {c}L{c} {c}Z\" fill=\"#D55E00\"/>\n",
@@ -72,12 +102,9 @@ static void torque(const picture *p, const fw_torque *t) {
 
 static void loads(const picture *p) {
     const fw_scene *s = p->scene;
-    double largest = 0.0;
+    double largest = largest_force(p);
     for (int i = 0; i < s->nforce; i++)
-        largest = fmax(largest, fabs(at_end(p, s->force[i].law)) *
-                                    hypot(s->force[i].fx_N, s->force[i].fy_N));
-    for (int i = 0; i < s->nforce; i++)
-        if (s->force[i].body != FW_GROUND) arrow(p, &s->force[i], largest);
+        arrow(p, &s->force[i], largest);
     for (int i = 0; i < s->ntorque; i++)
         if (s->torque[i].body != FW_GROUND) torque(p, &s->torque[i]);
 }
@@ -102,8 +129,13 @@ fw_status fw_report_statics_svg(fw_arena *arena, const fw_device *device, const 
     bool moves = statics->path && statics->path->complete;
     FW_TRY(poses(arena, mechanism, statics, &motion));
     fw_box box = fw_report_box_empty();
-    fw_report_poses_reach(&box, mechanism, &motion);
+    FW_TRY(fw_report_poses_reach(arena, &box, layout, mechanism, &motion));
     fw_report_view view = fw_report_poses_view(device, layout, &box, WIDTH);
+    const picture p = {mechanism, scene, &motion, &view, out};
+    if (!moves) {
+        arrows_reach(&p, &box);
+        view = fw_report_poses_view(device, layout, &box, WIDTH);
+    }
     const fw_report_film film = {.device = device,
                                  .layout = layout,
                                  .mechanism = mechanism,
@@ -114,28 +146,29 @@ fw_status fw_report_statics_svg(fw_arena *arena, const fw_device *device, const 
                                  .seconds = SECONDS,
                                  .still_s = 1.0,
                                  .ghost = true};
+    double height = HEAD + view.height + 26.0;
     fw_report_markup(
         out,
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
         "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 {c} {c}\" "
         "width=\"{c}\" height=\"{c}\" font-family=\"system-ui,'DejaVu Sans',"
         "sans-serif\">\n<title>{s}, scene {s}: equilibrium</title>\n"
-        "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
-        view.width, view.height + 26.0, view.width, view.height + 26.0, device->name, scene->name);
+        "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
+        "<text x=\"14\" y=\"25\" font-size=\"14\" fill=\"#1f2328\">{s}, scene {s}: {r}</text>\n"
+        "<svg y=\"{i}\" width=\"{c}\" height=\"{c}\">\n",
+        view.width, height, view.width, height, device->name, scene->name, device->name,
+        scene->name,
+        statics->negative > 0  ? "unstable equilibrium"
+        : statics->neutral > 0 ? "indifferent equilibrium"
+                               : "stable equilibrium",
+        HEAD, view.width, view.height);
     FW_TRY(fw_report_film_draw(arena, &film));
-    const picture p = {mechanism, scene, &motion, &view, out};
     if (!moves) loads(&p);
     fw_report_scale_bar_svg(out, &view);
     fw_report_markup(out,
-                     "<text x=\"14\" y=\"24\" font-size=\"14\" fill=\"#1f2328\" stroke=\"#fff\" "
-                     "stroke-width=\"3\" paint-order=\"stroke\">{s}, scene {s}: {r}</text>\n"
-                     "<rect y=\"{c}\" width=\"100%\" height=\"26\" fill=\"#fff\"/><text x=\"14\" "
-                     "y=\"{c}\" font-size=\"11\" fill=\"#57606a\">{r}</text>\n</svg>\n",
-                     device->name, scene->name,
-                     statics->negative > 0  ? "unstable equilibrium"
-                     : statics->neutral > 0 ? "indifferent equilibrium"
-                                            : "stable equilibrium",
-                     view.height, view.height + 16.0,
+                     "</svg>\n<text x=\"14\" y=\"{c}\" font-size=\"11\" fill=\"#57606a\">{r}"
+                     "</text>\n</svg>\n",
+                     height - 10.0,
                      moves ? "From rest (dashed) along the load path to the full load."
                            : "Dashed: at rest. Arrows: the loads at the end of the scene.");
     return fw_text_end(out);

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A mechanism that moves, as SVG elements that play by themselves: SMIL, which browsers run even
-   inside <img>. Bodies by nested transforms, flexures by their outline, springs and rods by their
-   end points, all linear between key frames. With 0 frames: a still picture. */
-#include "report/page.h"
+   inside <img>. Drawn bodies by nested transforms, flexures by their outline, everything else as in
+   figure.h, all linear between key frames. With 0 frames: a still picture. */
+#include "report/figure.h"
 #include <math.h>
 
 static const double DEGREES = 57.29577951308232;
 
-enum { NUMBERS = 100000 };
+enum { NUMBERS = 100000, MOST_FRAMES = 480, REACH = 200 };
 
 typedef fw_report_film film;
 
@@ -73,39 +73,25 @@ static void body_motion(const film *f, int body) {
                      -fw_report_x(f->view, m->x_m), -fw_report_y(f->view, m->y_m));
 }
 
-static void body_shape(const film *f, int body) {
-    if (fw_report_drawn(f->layout))
-        fw_report_body_path(f->layout, body, f->view, f->out);
-    else
-        fw_report_body_sticks(f->device, body, f->view, f->out);
-}
-
 static void bodies(const film *f) {
-    bool drawn = fw_report_drawn(f->layout);
     for (int b = 0; b < f->motion->nbody; b++) {
-        bool platform = f->device->body[b].platform;
+        if (!fw_report_outlined(f->layout, b)) continue;
         body_motion(f, b);
-        if (drawn)
-            fw_report_markup(f->out,
-                             "<path fill=\"{r}\" stroke=\"#57606a\" stroke-width=\"0.7\" d=\"",
-                             platform ? "#bcd0e3" : "#d5dbe1");
-        else
-            fw_report_markup(f->out,
-                             "<path fill=\"none\" stroke=\"{r}\" stroke-width=\"{i}\" "
-                             "stroke-linecap=\"round\" d=\"",
-                             platform ? "#7f9fbd" : "#9aa4ae", f->small ? 5 : 7);
-        body_shape(f, b);
+        fw_report_markup(f->out, "<path fill=\"{r}\" stroke=\"#57606a\" stroke-width=\"0.7\" d=\"",
+                         f->device->body[b].platform ? "#bcd0e3" : "#d5dbe1");
+        fw_report_body_path(f->layout, b, f->view, f->out);
         fw_text_add(f->out, "\"/></g></g></g>\n");
     }
 }
 
-/* where the mechanism is at the first sample, dashed */
+/* where drawn bodies are at the first sample, dashed */
 static void ghost(const film *f) {
     for (int b = 0; f->ghost && b < f->motion->nbody; b++) {
+        if (!fw_report_outlined(f->layout, b)) continue;
         body_at(f, b, 0.0);
         fw_text_add(f->out, "<path fill=\"none\" stroke=\"#8c959f\" stroke-width=\"1\" "
                             "stroke-dasharray=\"4 3\" d=\"");
-        body_shape(f, b);
+        fw_report_body_path(f->layout, b, f->view, f->out);
         fw_text_add(f->out, "\"/></g></g></g>\n");
     }
 }
@@ -151,112 +137,38 @@ static void flexures(const film *f, const fw_report_bends *bends) {
     }
 }
 
-/* ---- joints, springs, rods ---- */
+/* ---- everything else: figure.c ---- */
 
-/* where the local point (x, y) of a body is; points of the ground are in the world already */
-static fw_vec2 place(const film *f, int body, double x, double y, double t_s) {
-    double pose[3];
-    fw_report_pose_at(f->motion, body, t_s, pose);
-    double c = cos(pose[2]), s = sin(pose[2]);
-    return (fw_vec2){pose[0] + c * x - s * y, pose[1] + s * x + c * y};
+/* drawn already, as an outline or as a flexure */
+static bool shown(const fw_layout *layout, const fw_figure_part *part) {
+    if (part->pin != FW_NONE)
+        return fw_report_drawn(layout) && layout->hinge && layout->hinge[part->pin].drawn;
+    bool body = part->role == FW_FIGURE_BODY || part->role == FW_FIGURE_PLATE;
+    return body && fw_report_outlined(layout, part->of);
 }
 
-static void pins(const film *f) {
-    for (int k = 0; k < f->motion->npin; k++) {
-        if (fw_report_drawn(f->layout) && f->layout->hinge && f->layout->hinge[k].drawn) continue;
-        const fw_pin *pin = &f->mechanism->pin[k];
-        fw_vec2 p = place(f, pin->body_a, pin->ax_m, pin->ay_m, f->still_s);
-        fw_report_markup(f->out,
-                         "<circle r=\"{c}\" fill=\"#fff\" stroke=\"#1f2328\" stroke-width=\"1.5\" "
-                         "transform=\"translate({c} {c})\"",
-                         f->small ? 3.2 : 4.5, fw_report_x(f->view, p.x),
-                         fw_report_y(f->view, p.y));
-        if (f->frames == 0) {
-            fw_text_add(f->out, "/>\n");
-            continue;
-        }
-        fw_text_add(f->out, "><animateTransform attributeName=\"transform\" type=\"translate\" ");
-        timing(f);
-        fw_text_add(f->out, " values=\"");
-        for (int i = 0; i < f->frames; i++) {
-            p = place(f, pin->body_a, pin->ax_m, pin->ay_m, instant(f, i));
-            fw_report_markup(f->out, "{r}{c} {c}", i ? ";" : "", fw_report_x(f->view, p.x),
-                             fw_report_y(f->view, p.y));
-        }
-        fw_text_add(f->out, "\"/></circle>\n");
+static fw_status all_poses(fw_arena *arena, const film *f, fw_figure_pen *pen) {
+    int n = f->motion->nbody, frames = f->frames;
+    double *still, *frame;
+    FW_NEED(still = fw_arena_array(arena, double, 3 * (size_t)n));
+    FW_NEED(frame = fw_arena_array(arena, double, 3 * (size_t)n * (size_t)(frames + 1)));
+    for (int b = 0; b < n; b++) {
+        fw_report_pose_at(f->motion, b, f->still_s, still + 3 * b);
+        for (int i = 0; i < frames; i++)
+            fw_report_pose_at(f->motion, b, instant(f, i),
+                              frame + 3 * ((size_t)i * (size_t)n + (size_t)b));
     }
+    pen->still = still, pen->frame = frame;
+    return FW_OK;
 }
 
-typedef struct link_line {
-    int a, b;
-    double ax, ay, bx, by;
-} link_line;
-
-static void line_at(const film *f, const link_line *l, double t_s) {
-    fw_vec2 p = place(f, l->a, l->ax, l->ay, t_s), q = place(f, l->b, l->bx, l->by, t_s);
-    fw_report_markup(f->out, "M{c} {c}L{c} {c}", fw_report_x(f->view, p.x),
-                     fw_report_y(f->view, p.y), fw_report_x(f->view, q.x),
-                     fw_report_y(f->view, q.y));
-}
-
-/* where a spring or rod is held by the ground */
-static void anchor(const film *f, int body, double x, double y) {
-    if (body != FW_GROUND) return;
-    fw_report_markup(f->out, "<path d=\"M{c} {c}m-4-4h8v8h-8z\" fill=\"#57606a\"/>\n",
-                     fw_report_x(f->view, x), fw_report_y(f->view, y));
-}
-
-static void moving_line(const film *f, const link_line *l, const char *look) {
-    fw_report_markup(f->out, "<path fill=\"none\" {r} d=\"", look);
-    line_at(f, l, f->still_s);
-    if (f->frames == 0) {
-        fw_text_add(f->out, "\"/>\n");
-        return;
-    }
-    fw_text_add(f->out, "\"><animate attributeName=\"d\" ");
-    timing(f);
-    fw_text_add(f->out, " values=\"");
-    for (int i = 0; i < f->frames; i++) {
-        fw_text_add(f->out, i ? ";" : "");
-        line_at(f, l, instant(f, i));
-    }
-    fw_text_add(f->out, "\"/></path>\n");
-}
-
-static void links(const film *f) {
-    for (int i = 0; i < f->mechanism->nspring; i++) {
-        const fw_spring *s = &f->mechanism->spring[i];
-        const link_line l = {s->body_a, s->body_b, s->ax_m, s->ay_m, s->bx_m, s->by_m};
-        moving_line(f, &l,
-                    s->cable ? "stroke=\"#424a53\" stroke-width=\"1.2\""
-                             : "stroke=\"#8250df\" stroke-width=\"2\" stroke-dasharray=\"2 2\"");
-        anchor(f, s->body_a, s->ax_m, s->ay_m);
-        anchor(f, s->body_b, s->bx_m, s->by_m);
-    }
-    for (int i = 0; i < f->mechanism->ntie; i++) {
-        const fw_tie *t = &f->mechanism->tie[i];
-        link_line l = {t->body_a, t->body_b, t->ax_m, t->ay_m, t->bx_m, t->by_m};
-        if (t->kind == FW_TIE_WELD) continue;
-        if (t->kind == FW_TIE_PRISMATIC) { /* the guide, a piece of it to both sides */
-            double reach = 0.07 * f->view->width / f->view->scale;
-            fw_vec2 p = place(f, t->body_a, 0, 0, f->still_s);
-            fw_vec2 q = place(f, t->body_b, t->bx_m, t->by_m, f->still_s);
-            double pose[3], c = cos(t->axis_rad), s = sin(t->axis_rad);
-            fw_report_pose_at(f->motion, t->body_a, f->still_s, pose);
-            double dx = q.x - p.x, dy = q.y - p.y, ca = cos(pose[2]), sa = sin(pose[2]);
-            double along = (ca * dx + sa * dy - t->ax_m) * c + (ca * dy - sa * dx - t->ay_m) * s;
-            double x = t->ax_m + along * c, y = t->ay_m + along * s;
-            l = (link_line){t->body_a,     t->body_a,     x - reach * c,
-                            y - reach * s, x + reach * c, y + reach * s};
-        }
-        moving_line(f, &l,
-                    t->kind == FW_TIE_PRISMATIC
-                        ? "stroke=\"#57606a\" stroke-width=\"2\" stroke-linecap=\"round\""
-                        : "stroke=\"#1f2328\" stroke-width=\"2.5\" stroke-linecap=\"round\"");
-        if (t->kind == FW_TIE_PRISMATIC) continue;
-        anchor(f, t->body_a, t->ax_m, t->ay_m);
-        anchor(f, t->body_b, t->bx_m, t->by_m);
-    }
+static void figure_ghost(const film *f, const fw_figure *figure, const fw_figure_pen *pen) {
+    if (!f->ghost) return;
+    fw_text_add(f->out, "<g fill=\"none\" stroke=\"#8c959f\" stroke-dasharray=\"4 3\">\n");
+    for (int i = 0; i < figure->count; i++)
+        if (!shown(f->layout, &figure->part[i]))
+            fw_figure_ghost(&figure->part[i], f->motion->q, pen);
+    fw_text_add(f->out, "</g>\n");
 }
 
 static void still_parts(const film *f) {
@@ -270,19 +182,49 @@ static void still_parts(const film *f) {
     fw_text_add(f->out, "\"/>\n");
 }
 
+/* enough key frames for smooth turns: a straight way between two of them cuts a corner */
+static int frames_for(const film *f) {
+    double most = 0.0;
+    for (int b = 0; b < f->motion->nbody; b++) {
+        double turned = 0.0;
+        for (int k = 1; k < f->motion->nsample; k++) {
+            const double *q = f->motion->q + 3 * ((size_t)k * (size_t)f->motion->nbody + (size_t)b);
+            turned += fabs(q[2] - q[2 - 3 * f->motion->nbody]);
+        }
+        most = fmax(most, turned);
+    }
+    double wanted = most / 0.25;
+    return wanted > MOST_FRAMES ? MOST_FRAMES : wanted > f->frames ? (int)wanted : f->frames;
+}
+
 fw_status fw_report_film_draw(fw_arena *arena, const fw_report_film *from) {
     film f = *from;
-    while (f.frames > 16 && (long)f.frames * f.motion->nbody * 3 > NUMBERS)
-        f.frames = f.frames * 3 / 4;
+    fw_figure figure;
     fw_report_bends bends;
+    FW_TRY(fw_figure_make(arena, f.mechanism, f.motion->q, f.motion->nsample, &figure));
     FW_TRY(fw_report_bends_make(arena, f.device, f.layout, &bends));
+    long numbers = 1;
+    for (int i = 0; i < figure.count; i++)
+        numbers += shown(f.layout, &figure.part[i]) ? 0 : fw_figure_numbers(&figure.part[i]);
+    for (int b = 0; b < f.motion->nbody; b++)
+        numbers += fw_report_outlined(f.layout, b) ? 3 : 0;
+    if (f.frames) f.frames = frames_for(&f);
+    while (f.frames > 16 && f.frames * numbers > NUMBERS)
+        f.frames = f.frames * 3 / 4;
+    fw_figure_pen pen = {.view = f.view,
+                         .out = f.out,
+                         .nbody = f.motion->nbody,
+                         .frames = f.frames,
+                         .seconds = f.seconds,
+                         .mark = f.small || f.motion->nbody > 30 ? 3.5 : 5.5};
+    FW_TRY(all_poses(arena, &f, &pen));
     still_parts(&f);
-    if (fw_report_drawn(f.layout)) ghost(&f);
+    ghost(&f);
     bodies(&f);
-    if (!fw_report_drawn(f.layout)) ghost(&f); /* sticks would hide it */
     flexures(&f, &bends);
-    links(&f);
-    pins(&f);
+    for (int i = 0; i < figure.count; i++)
+        if (!shown(f.layout, &figure.part[i])) fw_figure_draw(&figure.part[i], &pen);
+    figure_ghost(&f, &figure, &pen);
     return fw_text_end(f.out);
 }
 
@@ -301,36 +243,37 @@ fw_status fw_report_poses(fw_arena *arena, const fw_mechanism *mechanism, int co
     return FW_OK;
 }
 
-static void add_point(fw_box *box, const film *f, int body, double x, double y, double t) {
-    fw_vec2 p = place(f, body, x, y, t);
-    fw_report_box_add(box, p.x, p.y);
+/* corners of what is drawn of a body */
+static void outline_reach(fw_box *box, const fw_layout *layout, const fw_mechanism *m, int body,
+                          const fw_motion *motion) {
+    int step = 1 + motion->nsample / REACH;
+    for (int i = 0; i < layout->npiece; i++) {
+        const fw_piece *p = &layout->piece[i];
+        if (p->body != body || p->role != FW_ROLE_STRUCTURE) continue;
+        fw_box b = fw_contour_box(&p->contour);
+        for (int k = motion->nsample - 1; k >= 0; k -= step)
+            for (int c = 0; c < 4; c++) {
+                fw_vec2 at = {c & 1 ? b.x1 : b.x0, c & 2 ? b.y1 : b.y0};
+                at = fw_report_moved(m, motion, body, motion->t_s[k], at);
+                fw_report_box_add(box, at.x, at.y);
+            }
+    }
 }
 
-void fw_report_poses_reach(fw_box *box, const fw_mechanism *mechanism, const fw_motion *motion) {
-    const film f = {.mechanism = mechanism, .motion = motion};
-    for (int k = 0; k < motion->nsample; k++) {
-        double t = motion->t_s[k];
-        for (int b = 0; b < mechanism->nbody; b++)
-            add_point(box, &f, b, 0, 0, t);
-        for (int i = 0; i < mechanism->npin; i++)
-            add_point(box, &f, mechanism->pin[i].body_a, mechanism->pin[i].ax_m,
-                      mechanism->pin[i].ay_m, t);
-        for (int i = 0; i < mechanism->nspring; i++) {
-            const fw_spring *s = &mechanism->spring[i];
-            add_point(box, &f, s->body_a, s->ax_m, s->ay_m, t);
-            add_point(box, &f, s->body_b, s->bx_m, s->by_m, t);
-        }
-        for (int i = 0; i < mechanism->ntie; i++) {
-            const fw_tie *s = &mechanism->tie[i];
-            if (s->kind != FW_TIE_PRISMATIC) add_point(box, &f, s->body_a, s->ax_m, s->ay_m, t);
-            add_point(box, &f, s->body_b, s->bx_m, s->by_m, t);
-        }
-    }
+fw_status fw_report_poses_reach(fw_arena *arena, fw_box *box, const fw_layout *layout,
+                                const fw_mechanism *mechanism, const fw_motion *motion) {
+    fw_figure figure;
+    FW_TRY(fw_figure_make(arena, mechanism, motion->q, motion->nsample, &figure));
+    for (int i = 0; i < figure.count; i++)
+        if (!shown(layout, &figure.part[i]))
+            fw_figure_reach(box, &figure.part[i], motion->q, motion->nsample, motion->nbody);
+    for (int b = 0; b < motion->nbody; b++)
+        if (fw_report_outlined(layout, b)) outline_reach(box, layout, mechanism, b, motion);
+    return FW_OK;
 }
 
 fw_report_view fw_report_poses_view(const fw_device *device, const fw_layout *layout,
                                     const fw_box *reach, double width) {
     if (fw_report_drawn(layout)) return fw_report_device_view(device, layout, reach, width);
-    double size = fmax(reach->x1 - reach->x0, reach->y1 - reach->y0);
-    return fw_report_view_fit(*reach, width, size > 0.0 && isfinite(size) ? 0.12 * size : 1e-3);
+    return fw_figure_view(reach, width);
 }

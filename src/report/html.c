@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The page is HTML and well-formed XML at once, needs no network (its content policy forbids it)
    and reads without script. */
-#include "report/page.h"
+#include "report/figure.h"
 
 static const struct {
     const char *id, *title;
@@ -44,23 +44,32 @@ static void navigation(fw_page *page) {
 }
 
 /* one view for the drawing and all scenes, so that their shapes are shared */
-static void survey(fw_page *page) {
+static fw_status survey(fw_page *page) {
     const fw_report_input *in = page->in;
+    bool drawn = fw_report_drawn(in->layout);
     fw_box reach = fw_report_box_empty();
     for (int i = 0; i < in->verdict->nvariant; i++) {
         const fw_variant_verdict *v = &in->verdict->variant[i];
         for (int k = 0; v->motion && k < in->device->nscene; k++)
             if (v->motion[k]) {
                 page->nmotion++;
-                fw_report_reach_add(&reach, in->device, in->layout, v->mechanism, v->motion[k]);
+                if (drawn)
+                    fw_report_reach_add(&reach, in->device, in->layout, v->mechanism, v->motion[k]);
+                else
+                    FW_TRY(fw_report_poses_reach(page->arena, &reach, NULL, v->mechanism,
+                                                 v->motion[k]));
             }
     }
-    page->view = fw_report_device_view(in->device, in->layout, &reach, DRAWING_WIDTH);
+    if (!drawn) FW_TRY(fw_figure_rest_reach(page->arena, in->verdict, &reach));
+    page->view = !drawn && reach.x1 >= reach.x0
+                     ? fw_figure_view(&reach, DRAWING_WIDTH)
+                     : fw_report_device_view(in->device, in->layout, &reach, DRAWING_WIDTH);
+    return FW_OK;
 }
 
 fw_status fw_report_write_html(fw_arena *arena, const fw_report_input *input, fw_text *out) {
     fw_page page = {.arena = arena, .out = out, .in = input};
-    survey(&page);
+    FW_TRY(survey(&page));
     head(&page);
     fw_report_banner(&page);
     navigation(&page);

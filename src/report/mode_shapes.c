@@ -77,7 +77,7 @@ static fw_status reach(sheet *s, int count) {
         fw_motion motion;
         FW_TRY(fw_report_poses(s->arena, s->mechanism, FW_MODE_FRAMES, s->modes->mode[k].frame,
                                &motion));
-        fw_report_poses_reach(&box, s->mechanism, &motion);
+        FW_TRY(fw_report_poses_reach(s->arena, &box, s->layout, s->mechanism, &motion));
     }
     s->view = fw_report_poses_view(s->device, s->layout, &box, PANEL);
     return FW_OK;
@@ -113,10 +113,10 @@ fw_status fw_report_modes_svg(fw_arena *arena, const fw_device *device, const fw
     for (int k = 0; k < count; k++)
         FW_TRY(
             panel(&s, k, GAP + (k % columns) * (PANEL + GAP), HEAD + (k / columns) * (high + GAP)));
-    fw_report_markup(out,
-                     "<text x=\"{i}\" y=\"{c}\" font-size=\"11\" fill=\"#57606a\">Amplitudes are "
-                     "enlarged; dashed: the pose of rest.",
-                     GAP, height - 8.0);
+    fw_report_markup(out, "<text x=\"{i}\" y=\"{c}\" font-size=\"11\" fill=\"#57606a\">{r}", GAP,
+                     height - 8.0,
+                     count ? "Amplitudes are enlarged; dashed: the pose of rest."
+                           : "Joints and drivers leave nothing free to oscillate.");
     if (count < modes->count)
         fw_report_markup(out, " The first {i} of {i} modes.", count, modes->count);
     fw_text_add(out, "</text>\n</svg>\n");

@@ -53,6 +53,7 @@ fw_report_view fw_report_device_view(const fw_device *device, const fw_layout *l
 /* hinge point of a joint in the drawn position */
 fw_vec2 fw_report_hinge_point(const fw_device *device, const fw_layout *layout, int joint);
 bool fw_report_drawn(const fw_layout *layout);
+bool fw_report_outlined(const fw_layout *layout, int body); /* the body has a shape of its own */
 /* length of a scale bar that fills about a fifth of the view: 1, 2 or 5 times a power of ten */
 double fw_report_scale_bar(const fw_report_view *view);
 void fw_report_scale_bar_svg(fw_text *out, const fw_report_view *view);
@@ -103,7 +104,8 @@ typedef struct fw_report_film {
     const fw_motion *motion; /* from its first to its last sample */
     const fw_report_view *view;
     fw_text *out;
-    int frames, seconds; /* key frames, time to play; 0 frames: a still picture */
+    int frames, seconds; /* key frames (more, where bodies turn far), time to play; 0 frames: a
+                            still picture */
     double still_s;      /* instant that viewers without animation show */
     bool ghost;          /* the first sample too, dashed */
     bool small;          /* for small pictures */
@@ -113,8 +115,9 @@ fw_status fw_report_film_draw(fw_arena *arena, const fw_report_film *film);
 /* `count` poses q (count x 3 nbody) as a motion from t = 0 to 1 */
 fw_status fw_report_poses(fw_arena *arena, const fw_mechanism *mechanism, int count, double *q,
                           fw_motion *motion);
-/* adds where bodies, joints, springs and rods get to */
-void fw_report_poses_reach(fw_box *box, const fw_mechanism *mechanism, const fw_motion *motion);
+/* adds where everything gets to */
+fw_status fw_report_poses_reach(fw_arena *arena, fw_box *box, const fw_layout *layout,
+                                const fw_mechanism *mechanism, const fw_motion *motion);
 /* a view of that; where the device is drawn, of the whole of it too */
 fw_report_view fw_report_poses_view(const fw_device *device, const fw_layout *layout,
                                     const fw_box *reach, double width);
@@ -136,14 +139,12 @@ fw_status fw_report_panels(fw_arena *arena, const fw_mechanism *mechanism, const
 
 /* ---- drawing.c ---- */
 /* everything inside the <svg> of the device drawing; `ids` adds ids that figures may <use> */
-void fw_report_drawing(const fw_device *device, const fw_layout *layout, const fw_verdict *verdict,
-                       const fw_report_view *view, bool ids, fw_text *out);
+fw_status fw_report_drawing(const fw_device *device, const fw_layout *layout,
+                            const fw_verdict *verdict, const fw_report_view *view, bool ids,
+                            fw_text *out);
 /* path of all rigid pieces of a body */
 void fw_report_body_path(const fw_layout *layout, int body, const fw_report_view *view,
                          fw_text *out);
-/* stick figure of body `body` for mechanisms without shapes */
-void fw_report_body_sticks(const fw_device *device, int body, const fw_report_view *view,
-                           fw_text *out);
 double fw_report_joint_utilisation(const fw_verdict *verdict, int joint); /* NaN: none */
 
 /* ---- sections of the page ---- */

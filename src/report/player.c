@@ -38,9 +38,10 @@ static void moving_bodies(const fw_page *page, const fw_mechanism *mechanism,
                              platform ? "#bcd0e3" : "#d5dbe1", b);
         else
             fw_report_markup(out,
-                             "\" fill=\"none\" stroke=\"{r}\" stroke-width=\"7\" "
-                             "stroke-linecap=\"round\"><use href=\"#fw-b{i}\"/></g>\n",
-                             platform ? "#7f9fbd" : "#9aa4ae", b);
+                             "\" fill=\"#8c959f\" fill-opacity=\"0.25\" stroke=\"{r}\" "
+                             "stroke-width=\"5\" stroke-linecap=\"round\" "
+                             "stroke-linejoin=\"round\"><use href=\"#fw-b{i}\"/></g>\n",
+                             platform ? "#7f9fbd" : "#8c959f", b);
     }
 }
 

@@ -8,6 +8,10 @@ bool fw_report_drawn(const fw_layout *layout) {
     return layout && layout->drawn && layout->npiece;
 }
 
+bool fw_report_outlined(const fw_layout *layout, int body) {
+    return body >= 0 && fw_report_drawn(layout) && layout->body && layout->body[body].area_m2 > 0.0;
+}
+
 fw_box fw_report_box_empty(void) {
     return (fw_box){HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 }

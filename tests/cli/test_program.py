@@ -325,6 +325,64 @@ class Usage(InTemporary):
         self.assertIn("did you mean plan", run("pln", "x").stderr)
         self.assertIn("did you mean --accuracy", run("check", "--acuracy", "1", "x").stderr)
 
+    def test_standard_output_holds_one_document(self):
+        crank, toggle = (ROOT / f"docs/mechanisms/{name}.xml" for name in ("slider-crank", "toggle"))
+        for arguments in (("simulate", crank, "--csv", "-", "--json"),
+                          ("simulate", crank, "--csv", "-", "--forces", "-"),
+                          ("simulate", crank, "--forces", "-", "--json"),
+                          ("simulate", crank, "--animate", "-", "--csv", "-"),
+                          ("statics", toggle, "--csv", "-", "--json"),
+                          ("assemble", crank, "--svg", "-", "--json")):
+            result = self.expect(run(*arguments), 2)
+            self.assertEqual(result.stdout, "")
+            self.assertRegex(result.stderr, r"(--json|--csv -) and --\w+ - both want standard output")
+            self.assertIn("one document", result.stderr)
+        for option in ("--csv", "--forces"):
+            rows = self.expect(run("simulate", crank, option, "-", "--samples", "2"), 0).stdout.splitlines()
+            self.assertEqual([r.split(",")[0] for r in rows], ["t_s", "0", "0.20000000000000001"])
+        import xml.etree.ElementTree as tree
+        tree.fromstring(self.expect(run("simulate", crank, "--animate", "-"), 0).stdout)
+
+    def test_unknown_names_list_the_known_ones(self):
+        for option, known in (("--method", "chain, minimal"), ("--integrator", "dop853, dopri5, radau5"),
+                              ("--stabilise", "projection, baumgarte, none")):
+            result = self.expect(run("simulate", GALLERY, option, "magic"), 2)
+            self.assertIn(f"{option} magic is not known; known are", result.stderr)
+            self.assertIn(known, result.stderr)
+
+    def test_tolerance_that_is_not_used(self):
+        crank = ROOT / "docs/mechanisms/slider-crank.xml"
+        for asked, used, word in (("1e-3", "1e-05", "note"), ("1e-14", "1e-13", "warning")):
+            result = self.expect(run("simulate", crank, "--rtol", asked, "-v"), 0)
+            self.assertRegex(result.stderr, rf"{word}: rtol \S+: {used} is used.*\[FW-D232\]")
+        self.assertNotIn("FW-D232", self.expect(run("simulate", crank, "--rtol", "1e-5", "-v"), 0).stderr)
+
+    def test_help_says_what_no_effects_leaves(self):
+        text = run("simulate", "--help").stdout
+        self.assertRegex(text, r"--effects .*loads, initial velocities, stiffness, springs and stops stay")
+
+    def test_wrong_mass_is_one_mistake(self):
+        squeezer = ROOT / "docs/mechanisms/squeezer.xml"
+        for value in ("3 mm", "3", "mass", "-1 g"):
+            result = self.expect(run("simulate", squeezer, "--set", f"body[K1]/@mass={value}"), 3)
+            self.assertEqual(result.stderr.count("error:"), 1, result.stderr)
+            self.assertNotIn("<material>", result.stderr)
+        text = squeezer.read_text().replace('mass="0.04325 kg"', 'mass="0.04325 m"')
+        result = self.expect(run("simulate", self.device(text)), 3)
+        self.assertEqual(result.stderr.count("error:"), 1, result.stderr)
+        text = squeezer.read_text().replace('mass="0.04325 kg" inertia="2.194e-6 kg m^2"', "")
+        self.assertIn("<material>", self.expect(run("simulate", self.device(text)), 3).stderr)
+
+    def test_json_numbers_are_finite_and_zero_has_no_sign(self):
+        def strict(word):
+            raise ValueError(word)  # NaN and the infinities are no JSON
+        for device in sorted((ROOT / "tests/data/figures").glob("*.xml")) + \
+                sorted((ROOT / "docs/mechanisms").glob("*.xml")):
+            for command in ("simulate", "assemble"):
+                text = self.expect(run(command, device, "--json"), 0).stdout
+                json.loads(text, parse_constant=strict)
+                self.assertNotRegex(text, r"-0\.0+(?![0-9])(e\S+)?[,\s\]}]", (command, device))
+
     def test_exit_status_5(self):
         self.expect(run("check", self.here / "none.xml"), 5)
         self.expect(run("plan", GALLERY, "-o", "/proc/none"), 5)

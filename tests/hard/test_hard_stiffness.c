@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Two hinges a million times stiffer than the rest. Hard because the slow motion that is wanted lasts
-   a thousand times longer than the fast oscillation that limits explicit steps; an implicit method
-   may pass over it, but must not change the answer. */
+/* Two hinges a million times stiffer than the rest. Hard because the slow motion that is wanted
+   lasts a thousand times longer than the fast oscillation that limits explicit steps; an implicit
+   method may pass over it, but must not change the answer. */
 #include "hard.h"
 
 enum { ROWS = 11 };
@@ -30,14 +30,13 @@ static void test_two_stiff_hinges(void **state) {
     double factor = hard_quick() ? 1e4 : 1e6;
     fw_arena *arena = fw_arena_new(0);
     rig r = stiff(arena, factor);
-    const fw_motion *fine =
-        hard_run(arena, &r, (fw_motion_options){.rtol = 1e-11, .samples = ROWS, .integrator = "dop853"});
+    const fw_motion *fine = hard_run(
+        arena, &r, (fw_motion_options){.rtol = 1e-11, .samples = ROWS, .integrator = "dop853"});
     for (size_t i = 0; i < sizeof name / sizeof name[0]; i++) {
         if (strcmp(name[i], "auto") != 0 && !fw_stepper_find(name[i])) continue;
         double rtol = strcmp(name[i], "generalised-alpha") == 0 ? 1e-4 : 1e-8;
         outcome out = hard_try(
-            arena, &r,
-            (fw_motion_options){.rtol = rtol, .samples = ROWS, .integrator = name[i]});
+            arena, &r, (fw_motion_options){.rtol = rtol, .samples = ROWS, .integrator = name[i]});
         if (out.status != FW_OK) {
             print_message("stiffness ratio %.0e, %s: %s\n", factor, name[i], out.message);
             fail_msg("%s", name[i]);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The same mechanism from nanometres to kilometres. Hard because numbers of 1e-27 and 1e12 meet in
-   one set of equations, every fixed threshold is wrong somewhere, and far from the origin the digits
-   of a coordinate are used up by where the mechanism stands. */
+   one set of equations, every fixed threshold is wrong somewhere, and far from the origin the
+   digits of a coordinate are used up by where the mechanism stands. */
 #include "hard.h"
 
 enum { ROWS = 21, N = 15 };
@@ -48,9 +48,9 @@ static void test_sizes(void **state) {
                     off = fmax(off, fabs(m->q[i] / u - one->q[i] / (i % 3 == 2 ? 1 : 1e-3)));
                     /* 1000 rad/s or 2 m/s are usual rates */
                     double rate = i % 3 == 2 ? 1000 : 2;
-                    off = fmax(off, fabs(m->v[i] * time[c] / (i % 3 == 2 ? 1 : length[a]) -
-                                         one->v[i]) /
-                                        rate);
+                    off = fmax(off,
+                               fabs(m->v[i] * time[c] / (i % 3 == 2 ? 1 : length[a]) - one->v[i]) /
+                                   rate);
                 }
                 double newton = mass[b] * length[a] / (time[c] * time[c]);
                 for (int i = 0; i < ROWS * 12; i++) /* of 0.8 mN */
@@ -62,14 +62,15 @@ static void test_sizes(void **state) {
                 worst = fmax(worst, off);
                 fw_arena_rewind(arena, mark);
             }
-    print_message("units: %d scalings from 3 nm to 3 km, 1e-20 to 1e4 kg, 10 ns to 10 ks: positions, "
-                  "rates and forces agree to %.1e, energy error changes by %.1e\n",
-                  count, worst, energy);
+    print_message(
+        "units: %d scalings from 3 nm to 3 km, 1e-20 to 1e4 kg, 10 ns to 10 ks: positions, "
+        "rates and forces agree to %.1e, energy error changes by %.1e\n",
+        count, worst, energy);
     fw_arena_free(arena);
 }
 
-/* 2^20 sizes from the origin: coordinates on a grid that both places hold exactly (1e-9 mm would not
-   be), so that only the arithmetic can differ */
+/* 2^20 sizes from the origin: coordinates on a grid that both places hold exactly (1e-9 mm would
+   not be), so that only the arithmetic can differ */
 static void test_far_away(void **state) {
     (void)state;
     const double cell = 0x1p-20; /* m */

@@ -87,6 +87,168 @@ static void test_each_lane(void **state) {
             }
 }
 
+/* one closed loop of n bodies in any pose: pins written from either side and in any order, loads,
+   masses over `decades` */
+static rig closed_loop(fw_arena *arena, int n, double decades, uint64_t design) {
+    uint64_t shape = (uint64_t)n, seed = 50 + design;
+    rig r = rig_new(arena, n, n + 1, 0);
+    for (int i = 0; i < n; i++) {
+        double mass = pow(10, decades * (rig_random(&seed) - 0.5));
+        double arm = 0.3 + rig_random(&seed);
+        rig_body(&r, "link", mass, mass * 0.2 * arm * arm, i + rig_random(&seed),
+                 rig_random(&seed) - 0.5, 3 * rig_random(&seed));
+    }
+    for (int i = 0; i <= n; i++) {
+        int at = n % 2 ? n - i : i, a = at - 1, b = at == n ? FW_GROUND : at;
+        bool turned = rig_random(&shape) < 0.5;
+        double x = at + 0.3 * rig_random(&seed), y = 0.8 * sin(2.1 * at) * rig_random(&seed);
+        rig_pin(&r, "pin", turned ? b : a, turned ? a : b, x, y, 3 * rig_random(&seed),
+                rig_random(&seed));
+    }
+    for (int i = 0; i < n; i++) {
+        rig_force(&r, i, 5 * rig_random(&seed), -5 * rig_random(&seed));
+        rig_torque(&r, i, rig_random(&seed));
+    }
+    r.scene.duration_s = 1;
+    return r;
+}
+
+enum { UNKNOWNS = 8 * 3 + 9 * 2 };
+
+/* x of A x = r (n), by Gaussian elimination with partial pivoting in 64 bits */
+static void eliminate(int n, long double A[UNKNOWNS][UNKNOWNS + 1]) {
+    for (int k = 0; k < n; k++) {
+        int best = k;
+        for (int i = k; i < n; i++)
+            if (fabsl(A[i][k]) > fabsl(A[best][k])) best = i;
+        for (int j = 0; j <= n; j++) {
+            long double keep = A[k][j];
+            A[k][j] = A[best][j], A[best][j] = keep;
+        }
+        for (int i = 0; i < n; i++) {
+            long double factor = i == k ? 0 : A[i][k] / A[k][k];
+            for (int j = k; j <= n && i != k; j++)
+                A[i][j] -= factor * A[k][j];
+        }
+    }
+    for (int k = 0; k < n; k++)
+        A[k][n] /= A[k][k];
+}
+
+/* one pin into M a + G^T lambda = Q, G a = -G' v */
+static void add_pin(const fw_model *m, const double *y, int pin, int row, int n,
+                    long double A[UNKNOWNS][UNKNOWNS + 1]) {
+    for (int side = 0; side < 2; side++) {
+        int b = m->body[2 * pin + side];
+        if (b == m->nbody) continue;
+        const double *l = m->local + 4 * pin + 2 * side;
+        long double sign = side ? -1 : 1;
+        long double angle = (long double)m->origin[3 * b + 2] + y[3 * b + 2],
+                    w = y[m->nq + 3 * b + 2];
+        long double x = cosl(angle) * l[0] - sinl(angle) * l[1];
+        long double up = sinl(angle) * l[0] + cosl(angle) * l[1];
+        A[row][3 * b] = A[3 * b][row] = A[row + 1][3 * b + 1] = A[3 * b + 1][row + 1] = sign;
+        A[row][3 * b + 2] = A[3 * b + 2][row] = -sign * up;
+        A[row + 1][3 * b + 2] = A[3 * b + 2][row + 1] = sign * x;
+        A[row][n] += sign * w * w * x, A[row + 1][n] += sign * w * w * up;
+    }
+}
+
+/* accelerations (3 bodies) and joint forces (2 pins) from the equations themselves */
+static void reference(const fw_model *m, const double *y, double *a, double *lambda) {
+    static long double A[UNKNOWNS][UNKNOWNS + 1];
+    const int n = m->nq + 2 * m->nblock;
+    memset(A, 0, sizeof A);
+    for (int i = 0; i < m->nq; i++) {
+        A[i][i] = 1 / (long double)(i % 3 == 2 ? m->jinv[i / 3] : m->minv[i / 3]);
+        A[i][n] = A[i][i] * m->constant[i];
+    }
+    for (int i = 0; i < m->ntorsion; i++) {
+        const fw_model_torsion *t = &m->torsion[i];
+        const double *v = y + m->nq;
+        long double turn = -t->angle0, rate = 0;
+        if (t->a < m->nbody) turn += y[3 * t->a + 2], rate += v[3 * t->a + 2];
+        if (t->b < m->nbody) turn -= y[3 * t->b + 2], rate -= v[3 * t->b + 2];
+        long double torque = t->k * turn + t->c * rate;
+        if (t->a < m->nbody) A[3 * t->a + 2][n] -= torque;
+        if (t->b < m->nbody) A[3 * t->b + 2][n] += torque;
+    }
+    for (int i = 0; i < m->nblock; i++)
+        add_pin(m, y, i, m->nq + 2 * i, n, A);
+    eliminate(n, A);
+    for (int i = 0; i < m->nq; i++)
+        a[i] = (double)A[i][n];
+    for (int i = 0; i < 2 * m->nblock; i++)
+        lambda[i] = (double)A[m->nq + i][n];
+}
+
+/* loops of all lengths: up to 6 bodies in their own form, longer ones in that of the blocks, which
+   loses ten times as much; equal masses, and masses over two and four decades */
+static void test_loops(void **state) {
+    (void)state;
+    static const double tolerance[3] = {2e-14, 2e-13, 2e-11};
+    for (int n = 3; n <= 8; n++)
+        for (int decades = 0; decades <= 4; decades += 2)
+            for (int s = 0; fw_lanes_set(s); s++) {
+                batch b = {.arena = fw_arena_new(0), .count = MOST};
+                for (int d = 0; d < MOST; d++) {
+                    rig r = closed_loop(b.arena, n, decades, (uint64_t)d);
+                    fw_model *m = rig_model(b.arena, &r);
+                    b.model[d] = m, b.ny = m->ny;
+                    assert_int_equal(fw_kernel_new(b.arena, m, &b.kernel[d]), FW_OK);
+                    assert_true(fw_kernel_is_path(b.kernel[d]));
+                    b.y[d] = rig_state(b.arena, m, 1, (uint64_t)(100 * n + d));
+                }
+                double *y, *f, got[64], want[64], lambda[64], forces[64];
+                fw_lanes *l = lanes_of(&b, fw_lanes_set(s), &y, &f);
+                fw_lanes_rhs(l, y, f);
+                for (int d = 0; d < MOST; d++) {
+                    const int nq = b.model[d]->nq;
+                    const double most = (n <= 6 ? 1 : 10) * tolerance[decades / 2];
+                    reference(b.model[d], b.y[d], want, forces);
+                    fw_lanes_get(l, d, f, got);
+                    fw_lanes_lambda(l, d, lambda);
+                    expect(got + nq, want, nq, most);
+                    expect(lambda, forces, 2 * b.model[d]->nblock, most);
+                    assert_memory_equal(got, b.y[d] + nq, sizeof(double) * (size_t)nq);
+                    fw_kernel_rhs(b.kernel[d], b.y[d], want);
+                    if (b.ny > 2 * nq) assert_near(got[2 * nq], want[2 * nq], 1e-14 * want[2 * nq]);
+                }
+                fw_arena_free(b.arena);
+            }
+}
+
+/* a four-bar at the angle p from the pose where all bars lie on one line: its condition grows as
+   1/p^2. Above 1e-2 the lanes solve in the form of loops, below by the blocks, and where those give
+   up by the careful solve of the single kernel */
+static void test_loops_near_singular(void **state) {
+    (void)state;
+    static const double flat[MOST] = {0.3,  0.1,  3e-2, 2e-2,  1e-2,  5e-3,  2e-3, 1e-3, 3e-4, 1e-4,
+                                      1e-6, 1e-9, -0.1, -1e-2, -3e-3, -1e-5, 0.2,  1,    -0.5};
+    for (int s = 0; fw_lanes_set(s); s++) {
+        batch b = {.arena = fw_arena_new(0), .count = MOST};
+        rig r = rig_windows(b.arena, 1);
+        fw_model *m = rig_model(b.arena, &r);
+        for (int d = 0; d < MOST; d++) {
+            b.model[d] = m, b.ny = m->ny;
+            b.y[d] = rig_state(b.arena, m, 0.1, (uint64_t)d);
+            for (int i = 0; i < 3; i++)
+                b.y[d][3 * i + 2] = i < 2 ? -1.57079632679489661923 + flat[d] : 0;
+        }
+        fw_kernel *k;
+        assert_int_equal(fw_kernel_new(b.arena, m, &k), FW_OK);
+        double *y, *f, got[64], want[64];
+        fw_lanes *l = lanes_of(&b, fw_lanes_set(s), &y, &f);
+        fw_lanes_rhs(l, y, f);
+        for (int d = 0; d < MOST; d++) {
+            fw_kernel_rhs(k, b.y[d], want);
+            fw_lanes_get(l, d, f, got);
+            expect(got, want, b.ny, fmin(1e-7, 1e-13 / (flat[d] * flat[d])));
+        }
+        fw_arena_free(b.arena);
+    }
+}
+
 static void test_projection(void **state) {
     (void)state;
     for (int kind = 0; kind < 4; kind++)
@@ -237,9 +399,14 @@ static void test_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_each_lane),       cmocka_unit_test(test_projection),
-        cmocka_unit_test(test_lanes_are_alone), cmocka_unit_test(test_integrate),
-        cmocka_unit_test(test_refused),         cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_each_lane),
+        cmocka_unit_test(test_loops),
+        cmocka_unit_test(test_loops_near_singular),
+        cmocka_unit_test(test_projection),
+        cmocka_unit_test(test_lanes_are_alone),
+        cmocka_unit_test(test_integrate),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,321 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How long steps may be so that nothing in a law falls between them.
+
+   The law is looked at once per cell, LOOKS cells over the scene, with value, slope and bend. Cells
+   are paired into blocks of 2, 4, 8, ...; a block of length h is quiet when the cubic through value
+   and slope at its ends meets what was seen inside to TOLERANCE of the law's size. Its miss e, in
+   units of that, grows with h^4, so the stride that the block bears is h e^(-1/4). Where the two
+   ends of one cell contradict each other (their f'' against that of the cubic, h^2/64 times the sum
+   of both), the cell is halved until they agree: so a pulse whose flanks, however faint, reach two
+   looks is found and followed up to its top.
+
+   For coordinates of drivers the second derivative is what moves masses: the bend of the cubic must
+   meet the true one to a share of its largest value; this miss grows with h^2.
+
+   Sines and cosines get 2.1 rad of their phase, a bell exp(-(t/w)^2) about 1.1 w.
+   Cost LOOKS evaluations and at most as many again where halving is needed.
+   Source: error of cubic Hermite interpolation h^4 f''''/384, for instance Stoer and Bulirsch, 2.1.
+   Test: test_stride.c */
+#include "quantity/program.h"
+#include <math.h>
+
+#define PI 3.14159265358979323846
+
+enum {
+    LOOKS = 2048,       /* cells over the scene */
+    FEWEST = 4,         /* cells of a smooth piece */
+    FOLLOWED = 512,     /* looks for halving, in each of two passes */
+    HALVINGS = 12,      /* of one cell */
+    STRIDES_MOST = 1024 /* rows of the answer */
+};
+static const double value_tolerance = 0.05, bend_tolerance = 0.37, phase_rad = 2.1;
+
+typedef struct look {
+    double t_s, value[3];
+} look;
+
+typedef struct scan {
+    const fw_law *law;
+    bool coordinate;
+    double piece_s;          /* a time in the piece at hand */
+    double first, deviation; /* value at 0, largest distance from it */
+    double size, least;      /* of what counts: deviation, or second derivative; its floor */
+    int left;                /* looks */
+    look *found;             /* (FOLLOWED) those of the first pass, by time */
+    int nfound;
+    fw_law_strides *out;
+} scan;
+
+/* ---- what was seen ---- */
+
+static bool is_known(const look *l) {
+    return isfinite(l->value[0]) && isfinite(l->value[1]) && isfinite(l->value[2]);
+}
+
+static void see(scan *s, double t_s, look *l) {
+    l->t_s = t_s;
+    fw_law_value(s->law, t_s, s->piece_s, l->value);
+    if (!is_known(l)) return;
+    s->deviation = fmax(s->deviation, fabs(l->value[0] - s->first));
+    s->size = fmax(s->size, s->coordinate ? fabs(l->value[2]) : fabs(l->value[0] - s->first));
+}
+
+/* miss in units of what is allowed; changes that are all round-off do not count */
+static double share(const scan *s, double miss) {
+    double whole = (s->coordinate ? bend_tolerance : value_tolerance) * fmax(s->size, s->least);
+    if (!isfinite(miss) || miss == 0) return 0;
+    return whole > 0 ? miss / whole : 2;
+}
+
+/* the cubic through a and b at look l: its value or its bend, less the true one */
+static double bend_miss(const look *a, const look *b, const look *l) {
+    double h = b->t_s - a->t_s, x = (l->t_s - a->t_s) / h, rise = b->value[0] - a->value[0];
+    double d0 = h * a->value[1] - rise, d1 = rise - h * b->value[1];
+    return fabs(((6 * x - 4) * d0 + (2 - 6 * x) * d1) / (h * h) - l->value[2]);
+}
+
+static double value_miss(const look *a, const look *b, const look *l) {
+    double h = b->t_s - a->t_s, x = (l->t_s - a->t_s) / h, rise = b->value[0] - a->value[0];
+    double d0 = h * a->value[1] - rise, d1 = rise - h * b->value[1];
+    double cubic = a->value[0] + x * (rise + (1 - x) * ((1 - x) * d0 + x * d1));
+    return fabs(cubic - l->value[0]);
+}
+
+/* what the two ends of a cell know of its inside. Coordinates are held to their values as well: a
+   wave seen at its nodes shows no bend */
+static double cell_miss(const scan *s, const look *a, const look *b) {
+    double h = b->t_s - a->t_s;
+    if (!is_known(a) || !is_known(b)) return 0;
+    double left = bend_miss(a, b, a), right = bend_miss(a, b, b),
+           value = h * h / 64 * (left + right);
+    if (!s->coordinate) return share(s, value);
+    double whole = value_tolerance * fmax(s->deviation, 1e-12 * fabs(s->first));
+    return fmax(share(s, fmax(left, right)), whole > 0 && isfinite(value) ? value / whole : 0);
+}
+
+/* of a block of `cells` cells from a on, against three looks inside */
+static double block_miss(const scan *s, const look *a, int cells) {
+    const look *b = a + cells;
+    double most = 0;
+    if (cells == 1) return cell_miss(s, a, b);
+    if (!is_known(a) || !is_known(b)) return 2;
+    if (s->coordinate) most = fmax(bend_miss(a, b, a), bend_miss(a, b, b));
+    for (int quarter = 1; quarter <= 3; quarter++) {
+        const look *l = a + (size_t)cells * (size_t)quarter / 4;
+        if (!is_known(l)) return 2;
+        most = fmax(most, s->coordinate ? bend_miss(a, b, l) : value_miss(a, b, l));
+    }
+    return share(s, most);
+}
+
+/* ---- strides ---- */
+
+/* from t_s on; rows of about the same stride become one */
+static void emit(scan *s, double t_s, double most_s) {
+    fw_law_strides *out = s->out;
+    double *last = out->n ? &out->most_s[out->n - 1] : NULL;
+    bool same = last && (*last == most_s || (most_s > 0.7 * *last && most_s < 1.5 * *last));
+    if (same || out->n == STRIDES_MOST) {
+        *last = fmin(*last, most_s);
+        return;
+    }
+    out->t_s[out->n] = t_s;
+    out->most_s[out->n++] = most_s;
+}
+
+static double stride(const scan *s, double h, double miss) {
+    return h / fmax(s->coordinate ? sqrt(miss) : sqrt(sqrt(miss)), 1e-30);
+}
+
+/* no looks left: as if the law went on like sin here */
+static double local_stride(const scan *s, const look *a, const look *b) {
+    double rate = 0, h = b->t_s - a->t_s, size = s->coordinate ? s->deviation : s->size;
+    const look *end[2] = {a, b};
+    for (int i = 0; i < 2; i++) {
+        const double *v = end[i]->value;
+        rate = fmax(rate, fmax(sqrt(fabs(v[2]) / size), fabs(v[1]) / size));
+    }
+    return fmax(h / 4096, fmin(h, phase_rad / rate));
+}
+
+/* Two passes: how large the law becomes is known only after it has been followed everywhere; what
+   seems quiet beside a pulse may hold its flank. */
+
+/* first pass: halves a cell until its ends agree and keeps the looks that takes */
+static void follow(scan *s, const look *a, const look *b, int halvings) {
+    if (halvings == 0 || s->left == 0 || cell_miss(s, a, b) <= 1) return;
+    look middle;
+    s->left--;
+    see(s, a->t_s + (b->t_s - a->t_s) / 2, &middle);
+    follow(s, a, &middle, halvings - 1);
+    s->found[s->nfound++] = middle;
+    follow(s, &middle, b, halvings - 1);
+}
+
+/* second pass: strides of the parts of a cell that agree in themselves */
+static void write_part(scan *s, const look *a, const look *b, int halvings) {
+    double miss = cell_miss(s, a, b), h = b->t_s - a->t_s;
+    if (miss <= 1 || halvings == 0 || s->left == 0) {
+        double most = miss <= 1 ? stride(s, h, miss) : halvings > 0 ? local_stride(s, a, b) : h;
+        emit(s, a->t_s, most);
+        return;
+    }
+    look middle;
+    s->left--;
+    see(s, a->t_s + h / 2, &middle);
+    write_part(s, a, &middle, halvings - 1);
+    write_part(s, &middle, b, halvings - 1);
+}
+
+static int halvings_left(const look *cell, double h) {
+    return HALVINGS - (int)lround(log2((cell[1].t_s - cell[0].t_s) / h));
+}
+
+/* ---- a smooth piece ---- */
+
+typedef struct piece {
+    double start_s, end_s;
+    int cells;  /* a power of two */
+    look *seen; /* (cells + 1) */
+    int *found; /* (cells + 1) first look inside each cell, in scan.found */
+    double
+        *miss; /* (2 cells) of blocks, in heap order: 1, its halves 2 and 3, theirs 4 to 7, ... */
+} piece;
+
+static fw_status look_over(fw_arena *arena, scan *s, piece *p, double wanted) {
+    p->cells = FEWEST;
+    while (2 * p->cells <= wanted)
+        p->cells *= 2;
+    size_t cells = (size_t)p->cells;
+    FW_NEED(p->seen = fw_arena_array(arena, look, cells + 1));
+    FW_NEED(p->found = fw_arena_array(arena, int, cells + 1));
+    FW_NEED(p->miss = fw_arena_array(arena, double, 2 * cells));
+    s->piece_s = p->start_s + (p->end_s - p->start_s) / 2;
+    for (int i = 0; i <= p->cells; i++)
+        see(s, i == p->cells ? p->end_s : p->start_s + (p->end_s - p->start_s) * i / p->cells,
+            &p->seen[i]);
+    return FW_OK;
+}
+
+static void follow_all(scan *s, const piece *p) {
+    s->piece_s = p->start_s + (p->end_s - p->start_s) / 2;
+    for (int i = 0; i < p->cells; i++) {
+        p->found[i] = s->nfound;
+        follow(s, &p->seen[i], &p->seen[i + 1], HALVINGS);
+    }
+    p->found[p->cells] = s->nfound;
+}
+
+/* a block with a part that is not quiet is not quiet */
+static void judge(const scan *s, const piece *p) {
+    for (int size = 1, first = p->cells; first >= 1; size *= 2, first /= 2)
+        for (int i = 0; i < first; i++) {
+            int here = first + i;
+            bool parts = size == 1 ? p->found[i] == p->found[i + 1]
+                                   : p->miss[2 * here] <= 1 && p->miss[2 * here + 1] <= 1;
+            p->miss[here] = parts ? block_miss(s, p->seen + (size_t)i * (size_t)size, size) : 2;
+        }
+}
+
+static void write_cell(scan *s, const piece *p, int i) {
+    const look *a = &p->seen[i], *end = &p->seen[i + 1];
+    for (int k = p->found[i]; k <= p->found[i + 1]; k++) {
+        const look *b = k < p->found[i + 1] ? &s->found[k] : end;
+        write_part(s, a, b, halvings_left(&p->seen[i], b->t_s - a->t_s));
+        a = b;
+    }
+}
+
+static void write_block(scan *s, const piece *p, int here, int from, int size) {
+    const look *a = p->seen + from;
+    if (p->miss[here] <= 1) {
+        /* a whole piece that is quiet needs no limit: steps end where it ends */
+        double most = stride(s, a[size].t_s - a->t_s, p->miss[here]);
+        emit(s, a->t_s, here == 1 ? (double)INFINITY : most);
+    } else if (size == 1) {
+        write_cell(s, p, from);
+    } else {
+        write_block(s, p, 2 * here, from, size / 2);
+        write_block(s, p, 2 * here + 1, from + size / 2, size / 2);
+    }
+}
+
+/* ---- the law ---- */
+
+static fw_status scan_pieces(fw_arena *arena, scan *s, piece *list, int count) {
+    double value[3], end_s = list[count - 1].end_s;
+    fw_law_value(s->law, 0, list[0].end_s / 2, value);
+    s->first = isfinite(value[0]) ? value[0] : 0;
+    FW_NEED(s->found = fw_arena_array(arena, look, FOLLOWED));
+    for (int i = 0; i < count; i++)
+        FW_TRY(look_over(arena, s, &list[i], LOOKS * (list[i].end_s - list[i].start_s) / end_s));
+    /* floors: round-off at first; then a thousandth of the law's size, because smaller changes
+       matter as little as the accuracy wanted. Accelerations too slow to move anything never count
+     */
+    double slow = (1e-3 * s->deviation + 1e-6 * fabs(s->first)) / (end_s * end_s);
+    s->least = s->coordinate ? slow : 1e-12 * fabs(s->first);
+    s->left = FOLLOWED;
+    for (int i = 0; i < count; i++)
+        follow_all(s, &list[i]);
+    s->least = s->coordinate ? slow : 1e-3 * fabs(s->first);
+    s->left = FOLLOWED;
+    for (int i = 0; i < count; i++) {
+        s->piece_s = list[i].start_s + (list[i].end_s - list[i].start_s) / 2;
+        judge(s, &list[i]);
+        write_block(s, &list[i], 1, 0, list[i].cells);
+    }
+    return FW_OK;
+}
+
+static fw_status scan_expression(fw_arena *arena, scan *s, double end_s, const double *break_s,
+                                 int breaks) {
+    fw_mark mark = fw_arena_mark(arena);
+    piece *list;
+    int count = 0;
+    double from = 0;
+    FW_NEED(list = fw_arena_array(arena, piece, (size_t)breaks + 1));
+    for (int i = 0; i <= breaks; i++) {
+        double to = i < breaks ? break_s[i] : end_s;
+        if (!(to > from)) continue;
+        list[count++] = (piece){.start_s = from, .end_s = to};
+        from = to;
+    }
+    fw_status status = count > 0 ? scan_pieces(arena, s, list, count) : FW_OK;
+    fw_arena_rewind(arena, mark);
+    return status;
+}
+
+static bool varies(const fw_program *program) {
+    for (int i = 0; i < program->count; i++)
+        if (program->step[i].op == FW_OP_TIME) return true;
+    return false;
+}
+
+fw_status fw_law_look(fw_arena *arena, const fw_law *law, bool coordinate, double end_s,
+                      const double *break_s, int breaks, fw_law_strides *out) {
+    *out = (fw_law_strides){0};
+    bool expression = law && law->kind == FW_LAW_EXPRESSION;
+    if (!law || !(end_s > 0) || !isfinite(end_s)) return FW_OK;
+    if (!expression && law->kind != FW_LAW_SINE) return FW_OK; /* straight between its breaks */
+    if (expression && !varies(law->program)) return FW_OK;
+    size_t rows = expression ? STRIDES_MOST : 2;
+    FW_NEED(out->t_s = fw_arena_array(arena, double, rows));
+    FW_NEED(out->most_s = fw_arena_array(arena, double, rows));
+    scan s = {.law = law, .coordinate = coordinate, .out = out};
+    if (expression) return scan_expression(arena, &s, end_s, break_s, breaks);
+    emit(&s, law->start_s, phase_rad / (2 * PI * law->frequency_Hz));
+    if (law->end_s < end_s) emit(&s, law->end_s, (double)INFINITY);
+    return FW_OK;
+}
+
+double fw_law_stride(const fw_law_strides *strides, double factor, double t_s, int *row) {
+    double most = (double)INFINITY;
+    int i = *row < strides->n ? *row : 0;
+    if (i > 0 && strides->t_s[i] > t_s) i = 0;
+    while (i + 1 < strides->n && strides->t_s[i + 1] <= t_s)
+        i++;
+    *row = i;
+    for (; i < strides->n && strides->t_s[i] - t_s < most; i++)
+        most = fmin(most, fmax(0, strides->t_s[i] - t_s) + factor * strides->most_s[i]);
+    return most;
+}
