@@ -36,6 +36,8 @@ static void add_initial(fw_reader *r, fw_scene *s, const fw_record *record, int 
                     .vx_m_per_s = fw_number_or(record, "vx", 0.0),
                     .vy_m_per_s = fw_number_or(record, "vy", 0.0),
                     .omega_rad_per_s = fw_number_or(record, "omega", 0.0),
+                    .moves_free = !fw_given(record, "vx") && !fw_given(record, "vy"),
+                    .turns_free = !fw_given(record, "omega"),
                     .place = record->element->place};
     if (v.body >= 0 && moved[v.body])
         fw_diag_error(r->diags, 45, fw_place_of(record, "body"),

@@ -126,6 +126,7 @@ typedef struct fw_torque { /* <torque on value/> */
 typedef struct fw_initial { /* <initial body vx vy omega/> */
     int body;
     double vx_m_per_s, vy_m_per_s, omega_rad_per_s;
+    bool moves_free, turns_free; /* neither vx nor vy, no omega given: as the joints ask */
     fw_place place;
 } fw_initial;
 

@@ -415,8 +415,9 @@ static const fw_element_row table[] = {
     {"torque", "scene", ROWS(torque_rows), .sentence = "A torque on a body."},
     {"gravity", "scene", .once = true, ROWS(gravity_rows), .sentence = "Weight of all bodies."},
     {"initial", "scene", ROWS(initial_rows),
-     .sentence = "Velocity of a body at the start; the others rest. What the joints do not allow "
-                 "is corrected, as little as possible."},
+     .sentence = "Velocity of a body at the start. What is not given, of this body or of others, "
+                 "follows through the joints; what they do not allow is corrected, as little as "
+                 "possible."},
     LATER("tendon", "scene", "A cable that pulls."),
     LATER("comb-drive", "scene", "An electrostatic comb."),
     LATER("base-motion", "scene", "A moving base."),

@@ -2,6 +2,7 @@
 /* The loop over steps, smooth pieces and events. */
 #include "base/cancel.h"
 #include "dynamics/run.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -114,11 +115,13 @@ static void first_energy(fw_run *r, const double *y) {
 
 /* ---- events ---- */
 
-/* does switch i no longer fit its flag at theta? */
-static bool unfit(fw_run *r, fw_stepper *s, int i, double theta) {
+/* how well switch i fits its flag at theta: >= 0 fits, its value with the sign of the flag */
+static double fitness(fw_run *r, fw_stepper *s, int i, double theta) {
     fw_stepper_dense(s, theta, r->moved);
     fw_model_pose(r->model, r->moved);
-    return (fw_model_switch_value(r->model, i, r->moved) > 0) != fw_model_switch_on(r->model, i);
+    double value = fw_model_switch_value(r->model, i, r->moved);
+    if (fw_model_switch_on(r->model, i)) return value > 0 ? value : fmin(value, -DBL_MIN);
+    return value > 0 ? -value : fabs(value);
 }
 
 /* first place in (low, high] where switch i does not fit, given that it does at low and not at
@@ -126,23 +129,58 @@ static bool unfit(fw_run *r, fw_stepper *s, int i, double theta) {
 static double bisect(fw_run *r, fw_stepper *s, int i, double low, double high) {
     for (int k = 0; k < 52 && high - low > 1e-15; k++) {
         double middle = 0.5 * (low + high);
-        *(unfit(r, s, i, middle) ? &high : &low) = middle;
+        *(fitness(r, s, i, middle) < 0 ? &high : &low) = middle;
     }
     return high;
 }
 
-/* the earliest event of the last step: its theta, and which switch; 1 and -1 when there is none.
-   Flags are compared at 16 places: a touch that is shorter than that is not seen. */
+/* a place in (low, high) where switch i does not fit, though it does at both ends: the least fit
+   one, by golden section; NaN when it fits there too. Finds a touch shorter than the spacing. */
+static double dip(fw_run *r, fw_stepper *s, int i, double low, double high) {
+    const double golden = 0.6180339887498949;
+    double x = high - golden * (high - low), y = low + golden * (high - low);
+    double fx = fitness(r, s, i, x), fy = fitness(r, s, i, y);
+    for (int k = 0; k < 60 && fx >= 0 && fy >= 0 && high - low > 1e-12; k++) {
+        if (fx < fy) {
+            high = y, y = x, fy = fx, x = high - golden * (high - low);
+            fx = fitness(r, s, i, x);
+        } else {
+            low = x, x = y, fx = fy, y = low + golden * (high - low);
+            fy = fitness(r, s, i, y);
+        }
+    }
+    return fx < 0 ? x : fy < 0 ? y : (double)NAN;
+}
+
+/* first place of the step where switch i does not fit, 1 with *found false when there is none: its
+   fitness at 17 places, and between any three of which the middle one is least and so small that a
+   parabola through them may reach below 0 */
+static double first_unfit(fw_run *r, fw_stepper *s, int i, bool *found) {
+    double f[17];
+    *found = true;
+    for (int k = 0; k <= 16; k++) {
+        f[k] = fitness(r, s, i, k / 16.0);
+        if (k > 1 && f[k - 1] <= f[k - 2] && f[k - 1] <= f[k] && f[k - 1] >= 0 && f[k] >= 0 &&
+            f[k - 1] <= f[k - 2] - 2 * f[k - 1] + f[k]) {
+            double low = (k - 2) / 16.0, at = dip(r, s, i, low, k / 16.0);
+            if (!isnan(at)) return bisect(r, s, i, low, at);
+        }
+        if (k > 0 && f[k] < 0) return bisect(r, s, i, (k - 1) / 16.0, k / 16.0);
+    }
+    *found = false;
+    return 1;
+}
+
+/* the earliest event of the last step: its theta, and which switch; 1 and -1 when there is none */
 static double find_event(fw_run *r, fw_stepper *s, int *which) {
     int count = fw_model_switches(r->model);
     double first = 1;
     *which = -1;
-    for (int k = 1; k <= 16 && *which < 0 && count > 0; k++)
-        for (int i = 0; i < count; i++)
-            if (unfit(r, s, i, k / 16.0)) {
-                double at = bisect(r, s, i, (k - 1) / 16.0, k / 16.0);
-                if (*which < 0 || at < first) first = at, *which = i;
-            }
+    for (int i = 0; i < count; i++) {
+        bool found;
+        double at = first_unfit(r, s, i, &found);
+        if (found && (*which < 0 || at < first)) first = at, *which = i;
+    }
     return first;
 }
 

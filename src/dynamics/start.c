@@ -4,6 +4,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const char *scene_name(const fw_run *r) {
     return r->scene->name ? r->scene->name : "(unnamed)";
@@ -101,41 +102,102 @@ static fw_status motion_size(fw_run *r, const fw_terms *terms) {
 
 /* ---- start values ---- */
 
+static double kinetic(const fw_model *m, const double *v) {
+    double sum = 0;
+    for (int i = 0; i < m->nq; i++)
+        sum += 0.5 * (i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]) * v[i] * v[i];
+    return sum;
+}
+
+/* does the scene state component c (x, y, turn) of a body's velocity? */
+static bool stated(const fw_run *r, int body, int c) {
+    for (int i = 0; i < r->scene->ninitial; i++) {
+        const fw_initial *v = &r->scene->initial[i];
+        if (v->body == body) return !(c < 2 ? v->moves_free : v->turns_free);
+    }
+    return false;
+}
+
+/* one correction v += M^-1 G^T lambda onto G v = -Psi_t with the masses as they are now */
+static bool correct_velocity(fw_run *r, double *v) {
+    fw_model *m = r->model;
+    fw_chain_assemble(m);
+    if (!fw_chain_factor(&m->chain, fw_epsilon)) return false;
+    fw_model_jacobian(m, v, m->right);
+    fw_model_drift(m, 0, m->drift);
+    for (int i = 0; i < 2 * m->nblock; i++)
+        m->right[i] += m->drift[i];
+    fw_chain_proximal(m, m->right, m->lambda);
+    fw_model_apply(m, m->lambda, v);
+    return true;
+}
+
+/* What <initial> does not state follows what it does: the correction is found with masses and
+   inertias a million times smaller there, thrice, each time from the velocities that were stated,
+   so that what is stated and fits stays to 1e-18. Posed model; v (3 nbody). */
+static bool follow_stated(fw_run *r, const double *given, double *v) {
+    fw_model *m = r->model;
+    double *minv = r->rate, *jinv = r->rate + m->nbody;
+    int count = 0;
+    bool good = true;
+    for (int i = 0; i < m->nq; i++)
+        count += stated(r, i / 3, i % 3);
+    if (count == 0 || count == m->nq) return true;
+    memcpy(minv, m->minv, (size_t)m->nbody * sizeof *minv);
+    memcpy(jinv, m->jinv, (size_t)m->nbody * sizeof *jinv);
+    for (int b = 0; b < m->nbody; b++) {
+        if (!stated(r, b, 0)) m->minv[b] *= 1e6;
+        if (!stated(r, b, 2)) m->jinv[b] *= 1e6;
+    }
+    for (int pass = 0; pass < 3 && good; pass++) {
+        for (int i = 0; i < m->nq; i++)
+            if (stated(r, i / 3, i % 3)) v[i] = given[i];
+        good = correct_velocity(r, v);
+    }
+    memcpy(m->minv, minv, (size_t)m->nbody * sizeof *minv);
+    memcpy(m->jinv, jinv, (size_t)m->nbody * sizeof *jinv);
+    return good;
+}
+
+static void warn_velocities(fw_run *r, const double *given, const double *v) {
+    double size = 0, moved = 0;
+    for (int i = 0; i < r->model->nq; i++) {
+        size = fmax(size, fabs(given[i]));
+        if (stated(r, i / 3, i % 3)) moved = fmax(moved, fabs(v[i] - given[i]));
+    }
+    r->motion->stats.velocity_moved = size > 0 ? moved / size : 0;
+    if (!(size > 0 && moved > 1e-6 * size)) return;
+    double before = kinetic(r->model, given), after = kinetic(r->model, v);
+    char most[32], energy[32];
+    fw_diag_warning(r->diags, 106, r->scene->place,
+                    "initial velocities of scene %s contradict the joints; they were changed by up "
+                    "to %s %% to fit, the kinetic energy by %s %%",
+                    scene_name(r), fw_number_text(most, sizeof most, 100 * moved / size, 3),
+                    fw_number_text(energy, sizeof energy, 100 * (after - before) / before, 3));
+}
+
 /* assembled pose, initial velocities moved onto G v = -Psi_t; says so when they contradicted the
    joints */
 static fw_status start_values(fw_run *r, const fw_terms *terms) {
     fw_model *m = r->model;
     const fw_scale s = m->scale;
-    double *v = r->start + m->nq, size = 0, moved = 0, before = 0, after = 0;
-    for (int i = 0; i < m->nq; i++) {
-        v[i] = terms->velocity[i] * s.time_s / (i % 3 == 2 ? 1 : s.length_m);
-        r->state[i] = v[i];
-        size = fmax(size, fabs(v[i]));
-        before += 0.5 * (i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]) * v[i] * v[i];
-    }
+    double *v = r->start + m->nq, *given = r->state;
+    for (int i = 0; i < m->nq; i++)
+        v[i] = given[i] = terms->velocity[i] * s.time_s / (i % 3 == 2 ? 1 : s.length_m);
     fw_model_pose(m, r->start);
-    if (!m->method->factor(m) || !fw_model_project_position(m, 0, r->start) ||
-        !m->method->factor(m) || !fw_model_impact(m, 0, v))
+    bool good = m->method->factor(m) && fw_model_project_position(m, 0, r->start);
+    if (good) {
+        fw_model_pose(m, r->start);
+        good = follow_stated(r, given, v) && m->method->factor(m) && fw_model_impact(m, 0, v);
+    }
+    if (!good)
         return fw_diag_error(r->diags, 109, r->scene->place,
                              "method %s cannot start scene %s: its equations are singular in the "
                              "assembled position; use --method chain",
                              m->method->name, scene_name(r)) == FW_NOMEM
                    ? FW_NOMEM
                    : FW_SOLVER;
-    for (int i = 0; i < m->nq; i++) {
-        moved = fmax(moved, fabs(v[i] - r->state[i]));
-        after += 0.5 * (i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]) * v[i] * v[i];
-    }
-    r->motion->stats.velocity_moved = size > 0 ? moved / size : 0;
-    if (size > 0 && moved > 1e-6 * size) {
-        char most[32], energy[32];
-        fw_diag_warning(
-            r->diags, 106, r->scene->place,
-            "initial velocities of scene %s contradict the joints; they were changed by up "
-            "to %s %% to fit, the kinetic energy by %s %%",
-            scene_name(r), fw_number_text(most, sizeof most, 100 * moved / size, 3),
-            fw_number_text(energy, sizeof energy, 100 * (after - before) / before, 3));
-    }
+    warn_velocities(r, given, v);
     fw_model_set_switches(m, r->start);
     return FW_OK;
 }

@@ -94,9 +94,10 @@ static void test_cables(void **state) {
     }
 }
 
-/* a bar dropped on a stop, with the damping that lets it rest: touches end, and it lies still */
-static void test_comes_to_rest(void **state) {
-    (void)state;
+/* a bar dropped on a stop, with the damping that lets it rest: touches end, and it lies still but
+   for what an explicit step at the limit of its stability leaves: some rtol per unit of the scene's
+   time, sqrt((J + m l^2) / (m g l)) here */
+static void at_rest(double rtol) {
     fw_arena *arena = fw_arena_new(0);
     rig r = rig_new(arena, 1, 1, 0);
     rig_body(&r, "bar", 1, 1.0 / 12, 0.5, 0, 0);
@@ -105,21 +106,29 @@ static void test_comes_to_rest(void **state) {
     p->stop_stiffness_Nm_per_rad = 1e6, p->stop_damping_Nms_per_rad = 30;
     r.scene.gravity = true, r.scene.gy_m_per_s2 = -9.81;
     r.scene.duration_s = 10;
-    const fw_motion *m = hard_run(arena, &r, (fw_motion_options){.rtol = 1e-8, .samples = 11});
+    const fw_motion *m = hard_run(arena, &r, (fw_motion_options){.rtol = rtol, .samples = 11});
     double low = 0.5, high = 0.50001; /* m g l cos(angle) = k (angle - 0.5) */
     for (int i = 0; i < 100; i++) {
         double middle = 0.5 * (low + high);
         *(9.81 * 0.5 * cos(middle) > 1e6 * (middle - 0.5) ? &low : &high) = middle;
     }
+    double noise = 10 * rtol / sqrt((1.0 / 12 + 1) / 9.81);
+    double place = fabs(hard_q(m, 10)[2] + low), rate = fabs(hard_v(m, 10)[2]);
     print_message(
-        "impacts: bar dropped on a stop: %ld events, rests at %.3e from the balance, energy "
-        "%.1e, by %s in %ld steps\n",
-        m->stats.events, fabs(hard_q(m, 10)[2] + low), m->stats.energy_error, m->integrator,
-        m->stats.steps);
-    assert_near(hard_q(m, 10)[2], -low, 1e-9);
-    assert_near(hard_v(m, 10)[2], 0, 1.7e3 * 1e-9); /* omega of the contact times that */
-    assert_true(m->stats.energy_error < 1e-6);
+        "impacts: bar dropped on a stop, rtol %.0e: %ld events, rests %.1e from the balance "
+        "at %.1e rad/s, energy %.1e, by %s in %ld steps\n",
+        rtol, m->stats.events, place, rate, m->stats.energy_error, m->integrator, m->stats.steps);
+    assert_true(place < noise / 100); /* the stop's own time is 500 times shorter */
+    assert_true(rate < noise);
+    assert_true(m->stats.energy_error < 100 * rtol);
     fw_arena_free(arena);
+}
+
+static void test_comes_to_rest(void **state) {
+    (void)state;
+    at_rest(1e-7);
+    at_rest(1e-8);
+    at_rest(1e-10);
 }
 
 /* a driver whose speed jumps a hundred times: every jump is an impact without rebound, and what it

@@ -38,7 +38,8 @@ static void test_steps_allocate_nothing(void **state) {
             }
             print_message("memory, %-23s: %ld allocations in %ld steps, %ld in %ld%s\n", name,
                           count[0], steps[0], count[1], steps[1], refused ? "; refused" : "");
-            if (!refused) assert_int_equal(count[0], count[1]);
+            /* the words of two warnings, at most, whatever the number of steps */
+            if (!refused) assert_in_range(count[1], count[0], count[0] + 6);
         }
     fw_arena_free(arena);
 }
