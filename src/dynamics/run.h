@@ -69,7 +69,7 @@ typedef struct fw_run {
     fw_law_strides *stride; /* (nstride) of the laws that limit steps, s */
     int *stride_row;        /* (nstride) where each search stands */
     int nstride;
-    bool limited;         /* a stride, not the tolerance, has set the length of some step */
+    bool sudden;          /* a load or driver may begin at any time: an expression limits steps */
     int row;              /* next sample */
     bool full;            /* samples, observer and energy too */
     fw_extreme *extreme;  /* (channels) of this pass; NULL: not asked for */

@@ -119,10 +119,10 @@ static void differences(const pass *fine, const pass *coarse, double worst[FW_MA
 }
 
 /* After a rest the two runs may agree by chance on how they meet a load: of 12 000 short ones the
-   error was up to 3.7 times the difference in 5 cases; rk4, which knows no error, up to 11 times.
- */
+   error was up to 4.6 times their difference in 5 cases; rk4, which knows no error, up to 34 times
+   in a few. Test: test_pulse.c. */
 double fw_run_margin(const fw_run *r) {
-    return !r->sudden ? 1 : r->integrator->fixed_step ? 16 : 4;
+    return !r->sudden ? 1 : r->integrator->fixed_step ? 32 : 8;
 }
 
 /* error of each peak from a second run at a hundred times the tolerance: its own change, and
