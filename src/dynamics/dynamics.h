@@ -56,7 +56,7 @@ typedef struct fw_travel_peak { /* per prismatic joint: extreme of |distance alo
 
 typedef struct fw_motion_stats {
     long steps, rejected, rhs, projections;
-    long events;                    /* stops and cables that took hold or let go */
+    long events; /* stops and cables that took hold or let go, blows of drivers */
     long jacobians, factorisations; /* of implicit integrators */
     double cpu_s;                   /* of the integration */
     double max_constraint_norm;     /* |Psi| over the scene's length, after projection, all steps */

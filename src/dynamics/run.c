@@ -228,7 +228,9 @@ static fw_status next_piece(fw_run *r, fw_stepper *s, int piece) {
         }
         if (!m->method->factor(m) || !fw_model_impact(m, t, y + m->nq))
             return stopped(r, s, FW_ODE_SMALL);
-        if (m->worked >= 0) y[m->worked] += kinetic(m, y + m->nq) - before;
+        double after = kinetic(m, y + m->nq);
+        if (m->worked >= 0) y[m->worked] += after - before;
+        m->events += fabs(after - before) > 1e-9 * fmax(after, before); /* a blow */
     }
     start_stepper(r, s, t, y, r->end[piece]);
     return FW_OK;

@@ -107,7 +107,8 @@ static void statistics(fw_text *out, const fw_motion_stats *s) {
     fw_text_add(out, "), energy balance ");
     fw_text_number(out, s->energy_error, 2);
     fw_text_add(out, "\n");
-    if (s->events > 0) fw_text_printf(out, "%ld events of stops and cables\n", s->events);
+    if (s->events > 0)
+        fw_text_printf(out, "%ld events: stops, cables, jumps of a driver's speed\n", s->events);
     if (s->jacobians > 0)
         fw_text_printf(out, "%ld Jacobians, %ld factorisations\n", s->jacobians, s->factorisations);
     fw_text_add(out, "\n");
