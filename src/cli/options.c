@@ -253,8 +253,10 @@ static const option_row table[] = {
      FW_OPT_MODES, take_at},
     {"path", 0, NULL, "follow the load path from rest to the full load, through limit points",
      FW_OPT_STATICS, take_path},
-    {"method", 0, "NAME", "how the constraint forces are found; default chain", FW_OPT_SIMULATE,
-     take_method},
+    {"method", 0, "NAME",
+     "how the constraint forces are found; default chain, or coordinate-partitioning where a body "
+     "between its joints is a thousand times lighter than another",
+     FW_OPT_SIMULATE, take_method},
     {"integrator", 0, "NAME", "default auto", FW_OPT_SIMULATE, take_integrator},
     {"stabilise", 0, "HOW", "projection, baumgarte or none", FW_OPT_SIMULATE, take_stabilise},
     {"rtol", 0, "R",
