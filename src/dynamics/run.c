@@ -202,13 +202,6 @@ static bool pass_event(fw_run *r, fw_stepper *s, int which, double theta) {
 
 /* ---- pieces ---- */
 
-static double kinetic(const fw_model *m, const double *v) {
-    double sum = 0;
-    for (int i = 0; i < m->nq; i++)
-        sum += 0.5 * (i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]) * v[i] * v[i];
-    return sum;
-}
-
 /* a driver whose speed jumps moves the velocities at once (an impact without rebound); the energy
    that brings or takes is the driver's work */
 static fw_status next_piece(fw_run *r, fw_stepper *s, int piece) {
@@ -217,7 +210,7 @@ static fw_status next_piece(fw_run *r, fw_stepper *s, int piece) {
     memcpy(y, s->y, (size_t)m->ny * sizeof *y);
     m->piece = 0.5 * (r->end[piece - 1] + r->end[piece]) * m->scale.time_s;
     if (m->driven) {
-        double before = kinetic(m, y + m->nq), psi;
+        double before = fw_model_kinetic(m, y + m->nq), psi;
         psi = fw_model_residual(m, t, y, m->right);
         if (psi > 1e-9 * m->size) {
             char at[32];
@@ -228,7 +221,7 @@ static fw_status next_piece(fw_run *r, fw_stepper *s, int piece) {
         }
         if (!m->method->factor(m) || !fw_model_impact(m, t, y + m->nq))
             return stopped(r, s, FW_ODE_SMALL);
-        double after = kinetic(m, y + m->nq);
+        double after = fw_model_kinetic(m, y + m->nq);
         if (m->worked >= 0) y[m->worked] += after - before;
         m->events += fabs(after - before) > 1e-9 * fmax(after, before); /* a blow */
     }

@@ -102,13 +102,6 @@ static fw_status motion_size(fw_run *r, const fw_terms *terms) {
 
 /* ---- start values ---- */
 
-static double kinetic(const fw_model *m, const double *v) {
-    double sum = 0;
-    for (int i = 0; i < m->nq; i++)
-        sum += 0.5 * (i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]) * v[i] * v[i];
-    return sum;
-}
-
 /* does the scene state component c (x, y, turn) of a body's velocity? */
 static bool stated(const fw_run *r, int body, int c) {
     for (int i = 0; i < r->scene->ninitial; i++) {
@@ -167,7 +160,7 @@ static void warn_velocities(fw_run *r, const double *given, const double *v) {
     }
     r->motion->stats.velocity_moved = size > 0 ? moved / size : 0;
     if (!(size > 0 && moved > 1e-6 * size)) return;
-    double before = kinetic(r->model, given), after = kinetic(r->model, v);
+    double before = fw_model_kinetic(r->model, given), after = fw_model_kinetic(r->model, v);
     char most[32], energy[32];
     fw_diag_warning(r->diags, 106, r->scene->place,
                     "initial velocities of scene %s contradict the joints; they were changed by up "

@@ -43,6 +43,14 @@ static double stored(const fw_model *m, const double *y) {
     return energy;
 }
 
+double fw_model_kinetic(const fw_model *m, const double *v) {
+    double sum = 0;
+    for (int b = 0; b < m->nbody; b++)
+        sum += 0.5 * (m->mass[b] * (v[3 * b] * v[3 * b] + v[3 * b + 1] * v[3 * b + 1]) +
+                      m->inertia[b] * v[3 * b + 2] * v[3 * b + 2]);
+    return sum;
+}
+
 /* T = v^T M v / 2; V of torsion springs, stops, point springs and slides, k x^2 / 2 each; W = work
    of constant loads from the assembled pose, and of drivers and timed loads as carried with the
    state; D = what dampers took, carried with the state. T + V + D - W is constant. Scaled units.
@@ -50,9 +58,7 @@ static double stored(const fw_model *m, const double *y) {
 fw_energy fw_model_energy(fw_model *m, const double *y) {
     const double *u = y, *v = y + m->nq;
     fw_energy e = {.dissipated = m->dissipated >= 0 ? y[m->dissipated] : 0};
-    for (int b = 0; b < m->nbody; b++)
-        e.kinetic += 0.5 * (m->mass[b] * (v[3 * b] * v[3 * b] + v[3 * b + 1] * v[3 * b + 1]) +
-                            m->inertia[b] * v[3 * b + 2] * v[3 * b + 2]);
+    e.kinetic = fw_model_kinetic(m, v);
     e.elastic = stored(m, y);
     e.work = work_of_loads(m, u) + (m->worked >= 0 ? y[m->worked] : 0);
     return e;

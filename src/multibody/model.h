@@ -261,6 +261,7 @@ bool fw_model_impact(fw_model *m, double t,
 typedef struct fw_energy {
     double kinetic, elastic, work, dissipated;
 } fw_energy;
+double fw_model_kinetic(const fw_model *m, const double *v); /* v^T M v / 2 */
 fw_energy fw_model_energy(fw_model *m, const double *y);
 
 /* events.c: what holds only on one side (stops, cables) */
