@@ -23,10 +23,12 @@ typedef struct fw_parameter {
     fw_place place;
 } fw_parameter;
 
-typedef struct fw_flow_use { /* <flow ref material thickness/> */
+typedef struct fw_flow_use { /* <flow ref material thickness carrier/> */
     const char *ref;
-    const char *material; /* id of the material in this flow; NULL: the device's own */
-    double thickness_m;   /* NaN: the device's own */
+    bool insulating_carrier; /* carrier="insulating": what is not joined in the layer is insulated;
+                                default "none": the layer is one conducting sheet */
+    const char *material;    /* id of the material in this flow; NULL: the device's own */
+    double thickness_m;      /* NaN: the device's own */
     fw_place place, material_place;
 } fw_flow_use;
 
@@ -130,6 +132,116 @@ typedef struct fw_initial { /* <initial body vx vy omega/> */
     fw_place place;
 } fw_initial;
 
+typedef struct fw_eyelet { /* point of a tendon: local to the body; of the ground: world */
+    int body;
+    double x_m, y_m;
+    fw_place place;
+} fw_eyelet;
+
+/* <tendon><eyelet/>...</tendon>: a cable without mass or friction from the first eyelet, where it
+   is fixed, through the others to a remote actuator behind the last. Pulled: its tension is pull
+   times the law. Drawn: it is elastic and only pulls; of its path, draw times the law is taken in:
+     T = max(0, stiffness (path + draw law - (path as drawn + slack)) + damping path') */
+typedef struct fw_tendon {
+    const char *id;
+    fw_eyelet *eyelet; /* (neyelet) at least 2 */
+    int neyelet;
+    double pull_N;                                       /* NaN: drawn */
+    double draw_m;                                       /* NaN: pulled */
+    double stiffness_N_per_m, damping_Ns_per_m, slack_m; /* drawn; slack below 0: pretension */
+    const fw_law *law;
+    fw_place place;
+} fw_tendon;
+
+typedef enum fw_electrodes { FW_ELECTRODES_COMB, FW_ELECTRODES_PLATE } fw_electrodes;
+
+/* <comb-drive on against x y direction ...>: electrodes of a rotor (body_b) and a stator (body_a,
+   usually the ground), voltage times the law between them. comb: `fingers` of the rotor between
+   those of the stator, `gap` on either side, engaged by `overlap`; `direction` is where the rotor
+   is pulled to. plate: one face of `length` along the wafer opposite another at `gap`; `direction`
+   is from rotor to stator. Point: the middle of the overlap, or of the rotor's face. */
+typedef struct fw_comb {
+    const char *id;
+    fw_electrodes kind;
+    int body_a, body_b;
+    double bx_m, by_m;    /* local to the rotor */
+    double direction_rad; /* in the frame of the stator */
+    int fingers;
+    double gap_m, overlap_m,
+        length_m;   /* length: of the fingers (NaN: twice the overlap), or plate */
+    double depth_m; /* NaN: the device layer's thickness */
+    double voltage_V;
+    const fw_law *law;
+    fw_place place;
+} fw_comb;
+
+typedef struct fw_base_motion { /* <base-motion ax ay>: acceleration of the base times the law */
+    double ax_m_per_s2, ay_m_per_s2;
+    const fw_law *law;
+    fw_place place;
+} fw_base_motion;
+
+typedef struct fw_friction_use { /* <friction on coefficient>: Coulomb friction of a joint */
+    int joint, tie;              /* one of them, the other FW_NONE */
+    double coefficient, static_coefficient; /* static: NaN: the same */
+    double radius_m;  /* of what slides; NaN: of the hinge's conjugate surfaces. Revolutes only */
+    double preload_N; /* presses besides the joint's own force */
+    fw_place place;
+} fw_friction_use;
+
+typedef enum fw_contact_side { FW_CONTACT_INSIDE, FW_CONTACT_OUTSIDE } fw_contact_side;
+
+/* <contact on>: the conjugate surfaces of a hinge touch where its gap closes. <contact a b ...>:
+   two round things about point a and point b: a disc inside a hole (their centres stay within
+   `distance`), or side by side (not nearer than `distance`). */
+typedef struct fw_contact_use {
+    const char *id;
+    int joint; /* FW_NONE: points */
+    fw_contact_side side;
+    int body_a, body_b;
+    double ax_m, ay_m, bx_m, by_m;
+    double distance_m;        /* NaN, of a hinge: its gap */
+    double stiffness_N_per_m; /* NaN, of a hinge: of the line contact of its surfaces */
+    double damping_Ns_per_m;
+    fw_place place;
+} fw_contact_use;
+
+typedef struct fw_material_damping { /* <material-damping loss-factor frequency> */
+    double loss_factor;              /* NaN: the material's */
+    double frequency_Hz;             /* where c = eta k/omega holds; NaN: the lowest mode */
+    fw_place place;
+} fw_material_damping;
+
+typedef struct fw_temperature { /* <temperature change>: of device and substrate, from where it was
+                                   made; times the law */
+    double change_K;
+    double expansion_per_K, substrate_expansion_per_K; /* of length; NaN: the material's */
+    double modulus_change_per_K;                       /* relative; NaN: the material's */
+    const fw_law *law;
+    fw_place place;
+} fw_temperature;
+
+typedef struct fw_residual_stress { /* <residual-stress mean gradient>: of the layer as deposited,
+                                       tension positive; gradient along the thickness */
+    double mean_Pa, gradient_Pa_per_m;
+    fw_place place;
+} fw_residual_stress;
+
+typedef enum fw_air_kind { FW_AIR_SLIDE, FW_AIR_SQUEEZE, FW_AIR_DRAG } fw_air_kind;
+
+/* <air kind on ...>: slide: film of `gap` between the face of a body and a plane below it; drag: of
+   the open air around its outline; squeeze: film between a wall of the body (middle x, y; `length`;
+   `direction` outward in its frame) and one of `against` at `gap`. */
+typedef struct fw_air {
+    fw_air_kind kind;
+    int body;              /* FW_NONE (== FW_GROUND): all bodies (slide, drag) */
+    int against;           /* squeeze */
+    double gap_m, area_m2; /* area NaN: of the drawn shape */
+    double x_m, y_m, direction_rad, length_m, depth_m; /* squeeze; depth NaN: the thickness */
+    double pressure_Pa, temperature_K, viscosity_Pas;  /* NaN: dry air at that temperature */
+    fw_place place;
+} fw_air;
+
 typedef struct fw_scene {
     const char *name;
     const char *flow; /* only in this flow; NULL: in all */
@@ -139,7 +251,17 @@ typedef struct fw_scene {
     fw_force *force;     /* (nforce) */
     fw_torque *torque;   /* (ntorque) */
     fw_initial *initial; /* (ninitial) */
+    fw_tendon *tendon;   /* (ntendon) and so on */
+    fw_comb *comb;
+    fw_base_motion *base;
+    fw_friction_use *friction;
+    fw_contact_use *contact;
+    fw_material_damping *damping;
+    fw_temperature *temperature;
+    fw_residual_stress *stress;
+    fw_air *air;
     int nforce, ntorque, ninitial;
+    int ntendon, ncomb, nbase, nfriction, ncontact, ndamping, ntemperature, nstress, nair;
     fw_place place;
 } fw_scene;
 

@@ -12,6 +12,8 @@ typedef struct fw_material {
     fw_quantity strength;  /* Pa: stress that the safety factor divides */
     const char *criterion; /* "fracture", "proportional limit", "yield" */
     fw_quantity loss;      /* 1: loss factor eta of the material damping, for c = eta k/omega */
+    fw_quantity expansion; /* 1/K, thermal, of length */
+    fw_quantity modulus_change; /* 1/K: (dE/dT)/E */
 } fw_material;
 
 typedef struct fw_material_override { /* attributes of <material>; unknown where absent */

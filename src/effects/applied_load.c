@@ -31,7 +31,7 @@ static void add_force(const fw_force *f, fw_terms *terms) {
 
 /* what a law changes with time goes to `timed`; of the rest, forces at the centre of mass and
    torques are constants, and a force elsewhere turns its arm */
-static void add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     for (int i = 0; i < c->scene->nforce; i++)
         add_force(&c->scene->force[i], terms);
     for (int i = 0; i < c->scene->ntorque; i++) {
@@ -43,8 +43,13 @@ static void add(const fw_effect_case *c, fw_terms *terms) {
             terms->timed[terms->ntimed++] =
                 (fw_timed_load){.body = t->body, .torque_Nm = t->value_Nm, .law = t->law};
     }
+    return FW_OK;
 }
 
 const fw_effect_row fw_effect_applied_load = {
-    "applied-load", "forces and torques of the scene with their laws in time", called_for, bound,
-    add};
+    .id = "applied-load",
+    .summary = "forces and torques of the scene with their laws in time",
+    .called_for = called_for,
+    .bound = bound,
+    .add = add,
+    .kept = true};

@@ -6,7 +6,14 @@
 
 extern const fw_effect_row fw_effect_joint_elasticity, fw_effect_joint_damping,
     fw_effect_joint_stop, fw_effect_point_spring, fw_effect_applied_load, fw_effect_gravity,
-    fw_effect_initial_velocity;
+    fw_effect_initial_velocity, fw_effect_nonlinear_hinge, fw_effect_contact, fw_effect_friction,
+    fw_effect_material_damping, fw_effect_inertia, fw_effect_base_motion, fw_effect_temperature,
+    fw_effect_residual_stress, fw_effect_air, fw_effect_tendon, fw_effect_comb_drive;
+
+/* a new element of the terms, zeroed, with memory for its ports; NULL without memory */
+fw_force_element *fw_terms_add_element(fw_arena *arena, fw_terms *terms,
+                                       const fw_element_class *class_, int ports);
+fw_friction *fw_terms_add_friction(fw_arena *arena, fw_terms *terms);
 
 /* the entry of a pin, made on first use */
 fw_torsion *fw_terms_torsion(const fw_mechanism *mechanism, fw_terms *terms, int pin);

@@ -5,6 +5,7 @@
 #ifndef FW_EFFECTS_EFFECTS_H
 #define FW_EFFECTS_EFFECTS_H
 #include "device/device.h"
+#include "effects/element.h"
 #include "mechanism/mechanism.h"
 
 typedef enum fw_effect_mode {
@@ -23,6 +24,8 @@ typedef struct fw_effect_entry { /* a line of the ledger */
     bool called_for, active;
     double bound; /* on the relative change of the peak hinge deflection when left out; inf when
                      the effect is the motion itself; 0 when it is not called for */
+    double cost;  /* instructions per right-hand side that it takes when it is on, as measured once
+                     (docs/theory/effects/README.md); 0 when it is not called for */
     const char *reason;
 } fw_effect_entry;
 typedef struct fw_effect_ledger {
@@ -57,6 +60,24 @@ typedef struct fw_slide { /* spring and damper along a prismatic joint */
     double stiffness_N_per_m, damping_Ns_per_m;
 } fw_slide;
 
+/* Coulomb friction along one coordinate: the angle of a pin or the travel of a prismatic joint. It
+   sticks while |Q| <= mu_s N r at rest and slides with Q = -mu_k N r sign(rate), r: radius (travel:
+   1). N = preload + the force of what presses: a contact element, or else the joint's own force. */
+typedef struct fw_friction {
+    int pin, tie; /* one of them, the other FW_NONE */
+    int element;  /* index of the contact that presses, or FW_NONE: the joint's reaction */
+    double static_coefficient, kinetic_coefficient, radius_m, preload_N;
+    const char *id;
+    fw_place place;
+} fw_friction;
+
+/* The ground that stretches with time: its points stand at p + strain law(t) (p - centre). */
+typedef struct fw_stretch {
+    double strain;
+    fw_vec2 centre_m;
+    const fw_law *law; /* NULL: nothing of the kind */
+} fw_stretch;
+
 typedef struct fw_terms {
     int nbody;
     double *constant;     /* (3 nbody) force on the centre of mass, torque */
@@ -70,12 +91,24 @@ typedef struct fw_terms {
     int *slide_of;        /* (ntie) likewise in slide */
     fw_spring *spring;    /* (nspring) */
     int ntorsion, nload, ntimed, nstop, nslide, nspring;
+    fw_force_element *element; /* (nelement) see element.h */
+    bool *released;            /* (npin) the pin is not a constraint: an element stands for it */
+    fw_friction *friction;     /* (nfriction) */
+    int nelement, nfriction, nreleased;
+    /* free strains, from fabrication or temperature, that act from the start on: arms of every body
+       and, last, of the ground are longer by it (fw_mechanism_strained) */
+    double *strain; /* (nbody + 1) */
+    bool strained;
+    fw_stretch stretch;
+    bool quasi_static; /* inertia is left out: the motion is a row of equilibria */
 } fw_terms;
 
+struct fw_envelope;
 typedef struct fw_effect_case { /* what an effect is asked about */
     fw_arena *arena;
     const fw_mechanism *mechanism;
     const fw_scene *scene;
+    const struct fw_envelope *envelope; /* envelope.h: how large the motion can become */
 } fw_effect_case;
 
 typedef struct fw_effect_row { /* one row per effect: adding one is one file and one row */
@@ -83,8 +116,11 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
     bool (*called_for)(const fw_effect_case *c);
     /* conservative bound on the relative change when left out; *reason says how it was found */
     fw_status (*bound)(const fw_effect_case *c, double *bound, const char **reason);
-    /* adds to the terms; sizes were reserved */
-    void (*add)(const fw_effect_case *c, fw_terms *terms);
+    /* adds to the terms; sizes of the plain arrays were reserved */
+    fw_status (*add)(const fw_effect_case *c, fw_terms *terms);
+    double cost; /* instructions per right-hand side and instance (callgrind, gcc -O2) */
+    int (*count)(const fw_effect_case *c); /* instances; NULL: 1 */
+    bool kept; /* never left out, whatever was asked for: without it there is nothing to judge */
 } fw_effect_row;
 const fw_effect_row *const *fw_effect_rows(size_t *count);
 

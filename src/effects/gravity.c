@@ -6,11 +6,12 @@ static bool called_for(const fw_effect_case *c) {
     return c->scene->gravity && (c->scene->gx_m_per_s2 != 0 || c->scene->gy_m_per_s2 != 0);
 }
 
-static void add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     for (int b = 0; b < c->mechanism->nbody; b++) {
         terms->constant[3 * b] += c->mechanism->body[b].mass_kg * c->scene->gx_m_per_s2;
         terms->constant[3 * b + 1] += c->mechanism->body[b].mass_kg * c->scene->gy_m_per_s2;
     }
+    return FW_OK;
 }
 
 static double largest(const double *value, int count) {
@@ -78,10 +79,10 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     FW_NEED(force = fw_arena_array(c->arena, double, n));
     FW_NEED(displacement = fw_arena_array(c->arena, double, n));
     FW_NEED(rotation = fw_arena_array(c->arena, double, (size_t)m->npin));
-    fw_effect_joint_elasticity.add(c, &rest);
-    fw_effect_point_spring.add(c, &rest);
-    fw_effect_applied_load.add(c, &rest);
-    add(c, &weight);
+    FW_TRY(fw_effect_joint_elasticity.add(c, &rest));
+    FW_TRY(fw_effect_point_spring.add(c, &rest));
+    FW_TRY(fw_effect_applied_load.add(c, &rest));
+    FW_TRY(add(c, &weight));
     bool valid = false;
     FW_TRY(fw_static_response(c->arena, m, &rest, weight.constant, displacement, rotation, &valid));
     double moved = largest(rotation, m->npin), others = 0;
@@ -101,4 +102,8 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
-const fw_effect_row fw_effect_gravity = {"gravity", "weight of the bodies", called_for, bound, add};
+const fw_effect_row fw_effect_gravity = {.id = "gravity",
+                                         .summary = "weight of the bodies",
+                                         .called_for = called_for,
+                                         .bound = bound,
+                                         .add = add};

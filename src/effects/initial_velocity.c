@@ -17,7 +17,7 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
-static void add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     for (int i = 0; i < c->scene->ninitial; i++) {
         const fw_initial *v = &c->scene->initial[i];
         if (v->body == FW_GROUND) continue;
@@ -25,7 +25,12 @@ static void add(const fw_effect_case *c, fw_terms *terms) {
         terms->velocity[3 * v->body + 1] += v->vy_m_per_s;
         terms->velocity[3 * v->body + 2] += v->omega_rad_per_s;
     }
+    return FW_OK;
 }
 
-const fw_effect_row fw_effect_initial_velocity = {"initial-velocity", "velocities at the start",
-                                                  called_for, bound, add};
+const fw_effect_row fw_effect_initial_velocity = {.id = "initial-velocity",
+                                                  .summary = "velocities at the start",
+                                                  .called_for = called_for,
+                                                  .bound = bound,
+                                                  .add = add,
+                                                  .kept = true};

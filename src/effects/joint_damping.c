@@ -53,7 +53,7 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
-static void add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     for (int i = 0; i < c->mechanism->npin; i++)
         if (c->mechanism->pin[i].damping_Nms_per_rad > 0)
             fw_terms_torsion(c->mechanism, terms, i)->damping_Nms_per_rad =
@@ -61,8 +61,12 @@ static void add(const fw_effect_case *c, fw_terms *terms) {
     for (int i = 0; i < c->mechanism->ntie; i++)
         if (c->mechanism->tie[i].damping_Ns_per_m > 0)
             fw_terms_slide(terms, i)->damping_Ns_per_m = c->mechanism->tie[i].damping_Ns_per_m;
+    return FW_OK;
 }
 
 const fw_effect_row fw_effect_joint_damping = {
-    "joint-damping", "viscous torque of hinges and force of sliding joints, c times rate",
-    called_for, bound, add};
+    .id = "joint-damping",
+    .summary = "viscous torque of hinges and force of sliding joints, c times rate",
+    .called_for = called_for,
+    .bound = bound,
+    .add = add};

@@ -19,7 +19,7 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
 
 /* turning: torque -k (phi_b - phi_a - free angle) on b, the opposite on a; sliding: force -k travel
    along the axis on b, the opposite on a */
-static void add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     for (int i = 0; i < c->mechanism->npin; i++)
         if (c->mechanism->pin[i].stiffness_Nm_per_rad > 0)
             fw_terms_torsion(c->mechanism, terms, i)->stiffness_Nm_per_rad =
@@ -27,9 +27,13 @@ static void add(const fw_effect_case *c, fw_terms *terms) {
     for (int i = 0; i < c->mechanism->ntie; i++)
         if (c->mechanism->tie[i].stiffness_N_per_m > 0)
             fw_terms_slide(terms, i)->stiffness_N_per_m = c->mechanism->tie[i].stiffness_N_per_m;
+    return FW_OK;
 }
 
 const fw_effect_row fw_effect_joint_elasticity = {
-    "joint-elasticity",
-    "elastic torque of hinges and force of sliding joints, k times angle or travel", called_for,
-    bound, add};
+    .id = "joint-elasticity",
+    .summary = "elastic torque of hinges and force of sliding joints, k times angle or travel",
+    .called_for = called_for,
+    .bound = bound,
+    .add = add,
+    .kept = true};

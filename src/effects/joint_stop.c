@@ -34,14 +34,19 @@ static void add_side(const fw_pin *p, int pin, double side, double at_rad, fw_te
 }
 
 /* torque -side k side (angle - at) on b while the stop is pressed, the opposite on a */
-static void add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     for (int i = 0; i < c->mechanism->npin; i++) {
         const fw_pin *p = &c->mechanism->pin[i];
         if (!has_stop(p)) continue;
         add_side(p, i, -1, p->stop_min_rad, terms);
         add_side(p, i, 1, p->stop_max_rad, terms);
     }
+    return FW_OK;
 }
 
 const fw_effect_row fw_effect_joint_stop = {
-    "joint-stop", "springs and dampers at the ends of a joint's range", called_for, bound, add};
+    .id = "joint-stop",
+    .summary = "springs and dampers at the ends of a joint's range",
+    .called_for = called_for,
+    .bound = bound,
+    .add = add};

@@ -18,13 +18,19 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
 }
 
 /* force k (l - l0) + c l' along the line between the two points; a cable only pulls */
-static void add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     for (int i = 0; i < c->mechanism->nspring; i++) {
         const fw_spring *s = &c->mechanism->spring[i];
         if (s->stiffness_N_per_m > 0 || s->damping_Ns_per_m > 0)
             terms->spring[terms->nspring++] = *s;
     }
+    return FW_OK;
 }
 
-const fw_effect_row fw_effect_point_spring = {
-    "point-spring", "springs, dampers and cables between two points", called_for, bound, add};
+const fw_effect_row fw_effect_point_spring = {.id = "point-spring",
+                                              .summary =
+                                                  "springs, dampers and cables between two points",
+                                              .called_for = called_for,
+                                              .bound = bound,
+                                              .add = add,
+                                              .kept = true};

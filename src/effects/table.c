@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "effects/effect.h"
+#include "effects/envelope.h"
 #include <math.h>
 #include <string.h>
 
@@ -97,14 +98,16 @@ static fw_status decide(const fw_effect_case *c, const fw_effect_row *row,
 fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                              const fw_effect_choice *choice, double accuracy, fw_diags *diags,
                              fw_effect_ledger *ledger, fw_terms *terms) {
-    const fw_effect_case c = {arena, mechanism, scene};
+    fw_envelope envelope;
+    FW_TRY(fw_envelope_find(arena, mechanism, scene, &envelope));
+    const fw_effect_case c = {arena, mechanism, scene, &envelope};
     if (choice->mode == FW_EFFECTS_LIST) FW_TRY(check_list(arena, choice->list, diags));
     FW_NEED(ledger->item = fw_arena_array(arena, fw_effect_entry, ROWS));
     ledger->count = ROWS;
     FW_TRY(fw_terms_new(arena, mechanism, scene, terms));
     for (size_t i = 0; i < ROWS; i++) {
         FW_TRY(decide(&c, rows[i], choice, accuracy, &ledger->item[i]));
-        if (ledger->item[i].active) rows[i]->add(&c, terms);
+        if (ledger->item[i].active) FW_TRY(rows[i]->add(&c, terms));
     }
     return FW_OK;
 }

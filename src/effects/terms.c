@@ -2,6 +2,7 @@
 #include "effects/effect.h"
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 fw_status fw_terms_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                        fw_terms *terms) {
@@ -12,13 +13,45 @@ fw_status fw_terms_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_
     FW_NEED(terms->torsion = fw_arena_array(arena, fw_torsion, (size_t)mechanism->npin));
     FW_NEED(terms->torsion_of = fw_arena_array(arena, int, (size_t)mechanism->npin));
     FW_NEED(terms->load = fw_arena_array(arena, fw_point_load, (size_t)scene->nforce));
-    FW_NEED(terms->timed = fw_arena_array(arena, fw_timed_load,
-                                          (size_t)scene->nforce + (size_t)scene->ntorque));
+    size_t timed = (size_t)scene->nforce + (size_t)scene->ntorque;
+    timed += (size_t)scene->nbase * (size_t)mechanism->nbody; /* the base pushes every body */
+    FW_NEED(terms->timed = fw_arena_array(arena, fw_timed_load, timed));
     FW_NEED(terms->stop = fw_arena_array(arena, fw_stop, 2 * (size_t)mechanism->npin));
     FW_NEED(terms->slide = fw_arena_array(arena, fw_slide, (size_t)mechanism->ntie));
     FW_NEED(terms->slide_of = fw_arena_array(arena, int, (size_t)mechanism->ntie));
     FW_NEED(terms->spring = fw_arena_array(arena, fw_spring, (size_t)mechanism->nspring));
+    FW_NEED(terms->released = fw_arena_array(arena, bool, (size_t)mechanism->npin));
+    FW_NEED(terms->strain = fw_arena_array(arena, double, (size_t)mechanism->nbody + 1));
     return FW_OK;
+}
+
+/* an array that has `have` entries, with room for one more: it doubles where it is full */
+static void *grown(fw_arena *arena, void *old, int have, size_t size) {
+    if (have > 0 && (have & (have - 1)) != 0) return old;
+    size_t room = have > 0 ? 2 * (size_t)have : 1;
+    char *more = fw_arena_alloc(arena, room, size);
+    if (more && have > 0) memcpy(more, old, (size_t)have * size);
+    return more;
+}
+
+fw_force_element *fw_terms_add_element(fw_arena *arena, fw_terms *terms,
+                                       const fw_element_class *class_, int ports) {
+    fw_force_element *all = grown(arena, terms->element, terms->nelement, sizeof *all);
+    fw_port *port = fw_arena_array(arena, fw_port, (size_t)ports);
+    if (!all || !port) return NULL;
+    terms->element = all;
+    fw_force_element *e = &all[terms->nelement++];
+    *e = (fw_force_element){.class_ = class_, .id = class_->effect, .ports = ports, .pin = FW_NONE};
+    e->port = port;
+    return e;
+}
+
+fw_friction *fw_terms_add_friction(fw_arena *arena, fw_terms *terms) {
+    fw_friction *all = grown(arena, terms->friction, terms->nfriction, sizeof *all);
+    if (!all) return NULL;
+    terms->friction = all;
+    all[terms->nfriction] = (fw_friction){.pin = FW_NONE, .tie = FW_NONE, .element = FW_NONE};
+    return &all[terms->nfriction++];
 }
 
 fw_torsion *fw_terms_torsion(const fw_mechanism *mechanism, fw_terms *terms, int pin) {

@@ -39,12 +39,15 @@ static fw_status build_body(const fw_builder *b, int i) {
                                       : NULL;
     const fw_variant *v = b->variant;
     fw_mass *to = &b->mechanism->body[i];
-    *to = (fw_mass){from->id,
-                    from->mass_kg * v->explicit_mass_scale,
-                    from->inertia_kg_m2 * v->explicit_mass_scale,
-                    from->x_m,
-                    from->y_m,
-                    from->phi_rad};
+    *to = (fw_mass){.id = from->id,
+                    .mass_kg = from->mass_kg * v->explicit_mass_scale,
+                    .inertia_kg_m2 = from->inertia_kg_m2 * v->explicit_mass_scale,
+                    .x_m = from->x_m,
+                    .y_m = from->y_m,
+                    .phi_rad = from->phi_rad};
+    b->mechanism->shape[i] =
+        (fw_shape){shape ? shape->area_m2 : (double)NAN, shape ? shape->polar_m4 : (double)NAN,
+                   shape ? shape->perimeter_m : (double)NAN};
     bool needs = isnan(to->mass_kg) || isnan(to->inertia_kg_m2) || isnan(to->x_m) || isnan(to->y_m);
     if (needs && !shape)
         return fw_diag_error(b->diags, 82, from->place,
@@ -192,6 +195,19 @@ static void build_stops(const fw_builder *b, const fw_joint *from, fw_pin *to) {
     to->stop_damping_Nms_per_rad = any && !isnan(c) ? c * b->variant->explicit_damping_scale : 0;
 }
 
+/* what the layout drew of the flexure; without a drawing its axis and surfaces are not known */
+static void set_hinge_shape(const fw_builder *b, int j, const fw_joint *from, fw_hinge *to) {
+    to->stated = !isnan(from->stiffness_Nm_per_rad);
+    to->axis_rad = from->axis_rad;
+    to->first_is_a = true;
+    to->cover_from_rad = to->cover_to_rad = (double)NAN;
+    if (!b->layout || !b->layout->drawn || !b->layout->hinge[j].drawn) return;
+    const fw_hinge_layout *h = &b->layout->hinge[j];
+    to->axis_rad = h->axis_rad;
+    to->first_is_a = h->lower == from->body_a;
+    to->surface_radius_m = h->surface_radius_m;
+}
+
 static fw_status build_pin(const fw_builder *b, int j) {
     const fw_joint *from = &b->device->joint[j];
     const fw_variant *v = b->variant;
@@ -208,6 +224,7 @@ static fw_status build_pin(const fw_builder *b, int j) {
         fw_hinge *hinge = &b->mechanism->hinge[b->mechanism->nhinge];
         *hinge = (fw_hinge){.pin = j, .flexure = from->flexure};
         FW_TRY(flexure_result(b, j, from, &hinge->closed_form));
+        set_hinge_shape(b, j, from, hinge);
         to->hinge = b->mechanism->nhinge++;
         double own = hinge->closed_form.stiffness_Nm_per_rad;
         if (isnan(to->stiffness_Nm_per_rad))
@@ -245,6 +262,7 @@ fw_status fw_mechanism_build(fw_arena *arena, const fw_device *device, const fw_
     m->device = device;
     m->variant = variant;
     FW_NEED(m->body = fw_arena_array(arena, fw_mass, (size_t)device->nbody));
+    FW_NEED(m->shape = fw_arena_array(arena, fw_shape, (size_t)device->nbody));
     FW_NEED(m->pin = fw_arena_array(arena, fw_pin, (size_t)device->njoint));
     FW_NEED(m->spring = fw_arena_array(arena, fw_spring, (size_t)device->nspring));
     FW_NEED(m->hinge = fw_arena_array(arena, fw_hinge, (size_t)device->njoint));

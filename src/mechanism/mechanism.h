@@ -25,6 +25,11 @@ typedef struct fw_mass { /* per body */
     double x_m, y_m, phi_rad; /* initial pose of the centre of mass */
 } fw_mass;
 
+typedef struct fw_shape { /* per body, as drawn: area, its polar second moment about the centre of
+                             mass, perimeter; NaN where it is not drawn */
+    double area_m2, polar_m4, perimeter_m;
+} fw_shape;
+
 typedef struct fw_pin { /* per revolute joint; local points in the body frames (ground: world) */
     const char *id;
     int body_a, body_b;
@@ -38,15 +43,25 @@ typedef struct fw_pin { /* per revolute joint; local points in the body frames (
 typedef struct fw_hinge { /* a pin that is a flexure */
     int pin, flexure;
     fw_flexure_result closed_form;
+    /* the arc as drawn: direction, in the world, from the arc's centre to the middle of the arc
+       (leaf: across it); `first` is the body at polar angle -a from there (element frame of
+       flexure.h) */
+    double axis_rad;
+    bool first_is_a;
+    double surface_radius_m; /* of the convex conjugate surface; 0: none */
+    double cover_from_rad,
+        cover_to_rad; /* directions, in body a's frame, in which they can touch */
+    bool stated;      /* the file states the stiffness: the flexure's own law is not asked for */
 } fw_hinge;
 
 typedef struct fw_mechanism {
     const fw_device *device;
     const fw_variant *variant;
-    fw_mass *body; /* (nbody) */
-    fw_pin *pin;   /* (npin) */
-    fw_tie *tie;   /* (ntie) all values known (angle, length: as drawn where the file leaves them
-                      open; 0 where they mean nothing); local points refer to centres of mass */
+    fw_mass *body;   /* (nbody) */
+    fw_shape *shape; /* (nbody) or NULL: nothing is drawn */
+    fw_pin *pin;     /* (npin) */
+    fw_tie *tie;     /* (ntie) all values known (angle, length: as drawn where the file leaves them
+                        open; 0 where they mean nothing); local points refer to centres of mass */
     fw_driver *driver; /* (ndriver) joint is an index of pin, tie of tie */
     fw_spring *spring; /* (nspring) local points refer to centres of mass */
     fw_hinge *hinge;   /* (nhinge) */
@@ -58,6 +73,12 @@ fw_vec2 fw_pin_place(const fw_mechanism *mechanism, const fw_pin *pin, int side)
 
 /* the same of any local point (ground: world) */
 fw_vec2 fw_local_place(const fw_mechanism *mechanism, int body, double x_m, double y_m);
+
+/* the same with every local arm of body b longer by strain[b], points of the ground (strain[nbody])
+   away from their mean; springs stay at rest where they were. Initial poses are not closed again.
+ */
+fw_status fw_mechanism_strained(fw_arena *arena, const fw_mechanism *mechanism,
+                                const double *strain, const fw_mechanism **strained);
 
 fw_status fw_mechanism_build(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_variant *variant, fw_diags *diags,

@@ -31,7 +31,10 @@ typedef enum fw_law_kind {
     FW_LAW_RAMP,  /* 0 before start, rises linearly over `rise`, then 1 */
     FW_LAW_SINE,  /* 0 before start, then sin(2 pi frequency (t - start) + phase), 0 from end on */
     FW_LAW_TABLE, /* linear between points, constant outside */
-    FW_LAW_EXPRESSION
+    FW_LAW_EXPRESSION,
+    FW_LAW_HALF_SINE, /* sin(pi (t - start) / rise) for start < t < start + rise, else 0: a shock */
+    FW_LAW_RANDOM     /* sqrt(2/n) sum over n lines of cos(2 pi f_k t + phase_k), f_k evenly from
+                         frequency to frequency_most, phases from the seed: rms 1 */
 } fw_law_kind;
 
 typedef struct fw_law {
@@ -40,6 +43,9 @@ typedef struct fw_law {
     const double *table_t_s, *table_value; /* (ntable) times rise strictly */
     int ntable;
     const fw_program *program;
+    double frequency_most_Hz; /* random */
+    int lines;
+    unsigned seed;
 } fw_law;
 
 const char *fw_law_kind_text(fw_law_kind kind); /* "ramp" */

@@ -262,13 +262,26 @@ static const fw_motion *fixture_motion(fw_arena *arena, double size) {
                                  .assembly_moved_m = 2.3e-12};
     m->ledger.count = 4;
     m->ledger.item = FIXTURE_ARRAY(arena, fw_effect_entry, 4);
-    m->ledger.item[0] = (fw_effect_entry){"applied-load", true, true, HUGE_VAL, "it is the motion"};
-    m->ledger.item[1] =
-        (fw_effect_entry){"joint-elasticity", true, true, 0.83, "hinges have springs"};
-    m->ledger.item[2] =
-        (fw_effect_entry){"joint-damping", true, true, 0.041, "bound exceeds 0.001"};
-    m->ledger.item[3] =
-        (fw_effect_entry){"gravity", false, false, 0.0, "the scene has no <gravity>"};
+    m->ledger.item[0] = (fw_effect_entry){.id = "applied-load",
+                                          .called_for = true,
+                                          .active = true,
+                                          .bound = HUGE_VAL,
+                                          .reason = "it is the motion"};
+    m->ledger.item[1] = (fw_effect_entry){.id = "joint-elasticity",
+                                          .called_for = true,
+                                          .active = true,
+                                          .bound = 0.83,
+                                          .reason = "hinges have springs"};
+    m->ledger.item[2] = (fw_effect_entry){.id = "joint-damping",
+                                          .called_for = true,
+                                          .active = true,
+                                          .bound = 0.041,
+                                          .reason = "bound exceeds 0.001"};
+    m->ledger.item[3] = (fw_effect_entry){.id = "gravity",
+                                          .called_for = false,
+                                          .active = false,
+                                          .bound = 0.0,
+                                          .reason = "the scene has no <gravity>"};
     return m;
 }
 
@@ -319,11 +332,11 @@ static void fixture_mechanism(fw_arena *arena, fixture *f, int i, double limit) 
         int a = m->pin[j].body_a;
         m->pin[j].ax_m = fixture_hinge[j].x - (a >= 0 ? q[3 * a] : 0.0);
         m->pin[j].ay_m = fixture_hinge[j].y - (a >= 0 ? q[3 * a + 1] : 0.0);
-        m->hinge[j] = (fw_hinge){j,
-                                 j,
-                                 {.limit_angle_rad = limit * (1.0 + 0.15 * j),
-                                  .limit_uncertainty = 0.03,
-                                  .strain_per_rad = 0.11}};
+        m->hinge[j] = (fw_hinge){.pin = j,
+                                 .flexure = j,
+                                 .closed_form = {.limit_angle_rad = limit * (1.0 + 0.15 * j),
+                                                 .limit_uncertainty = 0.03,
+                                                 .strain_per_rad = 0.11}};
     }
 }
 

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How large the motion of a scene can become, and what a further force of known size can change in
+   it: what the bounds of the effects are made of. Linear theory about the initial pose with the
+   effects that are never left out, in modes; where that theory has nothing to say (free motions,
+   drivers, stops, cables, large angles, redundant joints), `valid` is false and every effect stays.
+   Theory: docs/theory/effects/README.md. */
+#ifndef FW_EFFECTS_ENVELOPE_H
+#define FW_EFFECTS_ENVELOPE_H
+#include "effects/effects.h"
+
+typedef struct fw_envelope {
+    bool valid;
+    const char *why_not; /* where it is not */
+    int n, modes;        /* 3 nbody; degrees of freedom */
+    double *omega;       /* (modes) rad/s, ascending */
+    double *shape;       /* (modes x n) mass-normalised: shape^T M shape = 1 */
+    double *turn;        /* (modes x npin) rotation of every pin in the mode */
+    /* upper bounds over the scene, SI */
+    double *reach; /* (n) |displacement| of every coordinate */
+    double *speed; /* (n) |velocity| */
+    double *angle; /* (npin) |rotation| */
+    double *rate;  /* (npin) |angular velocity| */
+    double *force; /* (npin) N: on the joint's force */
+    double floor;  /* rad: the largest hinge deflection of the scene is at least this */
+    double most;   /* rad: and at most this */
+} fw_envelope;
+
+fw_status fw_envelope_find(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                           fw_envelope *envelope);
+
+/* A further force on the mechanism whose every component stays below `force` (n) in size for the
+   whole scene: how much any hinge can turn further, relative to `floor`. `variation`: total
+   variation over time in units of that size; a constant put on at once has 1, one that changes sign
+   with the motion INFINITY (resonance: it is then bounded by the scene's duration). Infinite where
+   the envelope is not valid. Cost modes x n. */
+double fw_envelope_answer(const fw_effect_case *c, const double *force, double variation);
+/* A relative change of the generalised stiffness, |dK| <= part K in the sense of quadratic forms:
+   how much any hinge can turn further, relative to `floor`: frequencies shift and phases run apart
+   over the scene. */
+double fw_envelope_stiffness(const fw_effect_case *c, double part);
+
+#endif
