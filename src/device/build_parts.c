@@ -42,7 +42,9 @@ static fw_status build_material(fw_reader *r, const fw_record *record) {
 }
 
 static fw_flow_use flow_of(const fw_record *record) {
+    const char *carrier = fw_text_of(record, "carrier");
     return (fw_flow_use){.ref = fw_text_of(record, "ref"),
+                         .insulating_carrier = carrier && strcmp(carrier, "insulating") == 0,
                          .material = fw_text_of(record, "material"),
                          .thickness_m = fw_number_of(record, "thickness"),
                          .place = fw_place_of(record, "ref"),

@@ -1,79 +1,94 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* <scene>: loads and initial velocities. */
-#include "device/reader.h"
+/* <scene>: which of its elements goes where. */
+#include "device/scene_parts.h"
 
-static int count_children(const fw_reader *r, int scene, const char *element) {
-    int count = 0;
-    for (int i = scene + 1; i < r->nrecord && r->record[i].parent >= scene; i++)
-        count += fw_is(&r->record[i], element);
-    return count;
+/* a kind of element: how it is read, and where its array is; scenes with one hold it themselves */
+#define ARRAY(type, array)                                                                         \
+    static bool room_for_##array(fw_arena *arena, fw_scene *s, int n) {                            \
+        return (s->array = fw_arena_array(arena, type, (size_t)n)) != NULL;                        \
+    }
+ARRAY(fw_force, force)
+ARRAY(fw_torque, torque)
+ARRAY(fw_initial, initial)
+ARRAY(fw_tendon, tendon)
+ARRAY(fw_comb, comb)
+ARRAY(fw_base_motion, base)
+ARRAY(fw_friction_use, friction)
+ARRAY(fw_contact_use, contact)
+ARRAY(fw_material_damping, damping)
+ARRAY(fw_temperature, temperature)
+ARRAY(fw_residual_stress, stress)
+ARRAY(fw_air, air)
+
+static const struct {
+    const char *element;
+    fw_status (*build)(fw_scene_reader *s, int at);
+    bool (*room)(fw_arena *arena, fw_scene *s, int n);
+} kinds[] = {
+    {"force", fw_build_force, room_for_force},
+    {"torque", fw_build_torque, room_for_torque},
+    {"gravity", fw_build_gravity, NULL},
+    {"initial", fw_build_initial, room_for_initial},
+    {"tendon", fw_build_tendon, room_for_tendon},
+    {"comb-drive", fw_build_comb, room_for_comb},
+    {"base-motion", fw_build_base_motion, room_for_base},
+    {"friction", fw_build_friction, room_for_friction},
+    {"contact", fw_build_contact, room_for_contact},
+    {"material-damping", fw_build_material_damping, room_for_damping},
+    {"temperature", fw_build_temperature, room_for_temperature},
+    {"residual-stress", fw_build_residual_stress, room_for_stress},
+    {"air", fw_build_air, room_for_air},
+};
+enum { KINDS = sizeof kinds / sizeof kinds[0] };
+
+static int kind_of(const fw_record *record) {
+    for (int k = 0; k < KINDS; k++)
+        if (fw_is(record, kinds[k].element)) return k;
+    return -1;
 }
 
-static fw_status add_force(fw_reader *r, fw_scene *s, const fw_record *record) {
-    fw_force f = {.body = fw_reference(r, record, "on"),
-                  .x_m = fw_number_or(record, "x", 0.0),
-                  .y_m = fw_number_or(record, "y", 0.0),
-                  .fx_N = fw_number_or(record, "fx", 0.0),
-                  .fy_N = fw_number_or(record, "fy", 0.0),
-                  .place = record->element->place};
-    FW_TRY(fw_time_law(r, record, &f.law));
-    s->force[s->nforce++] = f;
-    return FW_OK;
+bool fw_refused(fw_reader *r, const fw_record *record, int number, const char *const *names, int n,
+                const char *why) {
+    char label[FW_LABEL];
+    for (int i = 0; i < n; i++)
+        if (fw_given(record, names[i])) {
+            fw_diag_error(r->diags, number, fw_place_of(record, names[i]), "%s: %s %s",
+                          fw_label(record, label), names[i], why);
+            return true;
+        }
+    return false;
 }
 
-static fw_status add_torque(fw_reader *r, fw_scene *s, const fw_record *record) {
-    fw_torque t = {.body = fw_reference(r, record, "on"),
-                   .value_Nm = fw_number_of(record, "value"),
-                   .place = record->element->place};
-    FW_TRY(fw_time_law(r, record, &t.law));
-    s->torque[s->ntorque++] = t;
-    return FW_OK;
-}
-
-/* `moved`, per body: 1 + index of its <initial> in this scene, 0: none yet */
-static void add_initial(fw_reader *r, fw_scene *s, const fw_record *record, int *moved) {
-    fw_initial v = {.body = fw_reference(r, record, "body"),
-                    .vx_m_per_s = fw_number_or(record, "vx", 0.0),
-                    .vy_m_per_s = fw_number_or(record, "vy", 0.0),
-                    .omega_rad_per_s = fw_number_or(record, "omega", 0.0),
-                    .moves_free = !fw_given(record, "vx") && !fw_given(record, "vy"),
-                    .turns_free = !fw_given(record, "omega"),
-                    .place = record->element->place};
-    if (v.body >= 0 && moved[v.body])
-        fw_diag_error(r->diags, 45, fw_place_of(record, "body"),
-                      "body '%s' has two <initial> in this scene (first at line %d); remove one",
-                      fw_text_of(record, "body"), s->initial[moved[v.body] - 1].place.line);
-    else if (v.body >= 0)
-        moved[v.body] = s->ninitial + 1;
-    s->initial[s->ninitial++] = v;
-}
-
-static fw_status add_child(fw_reader *r, fw_scene *s, const fw_record *record, int *moved) {
-    if (fw_is(record, "force")) return add_force(r, s, record);
-    if (fw_is(record, "torque")) return add_torque(r, s, record);
-    if (fw_is(record, "gravity")) {
-        s->gravity = true;
-        s->gx_m_per_s2 = fw_number_or(record, "gx", 0.0);
-        s->gy_m_per_s2 = fw_number_or(record, "gy", 0.0);
-    } else if (fw_is(record, "initial"))
-        add_initial(r, s, record, moved);
-    return FW_OK;
+bool fw_needed(fw_reader *r, const fw_record *record, int number, const char *const *names, int n,
+               const char *why) {
+    char label[FW_LABEL];
+    for (int i = 0; i < n; i++)
+        if (!fw_given(record, names[i])) {
+            fw_diag_error(r->diags, number, record->element->place, "%s needs %s=\"...\": %s",
+                          fw_label(record, label), names[i], why);
+            return true;
+        }
+    return false;
 }
 
 static fw_status build_scene(fw_reader *r, int at, fw_scene *s, int *moved) {
     const fw_record *record = &r->record[at];
+    int count[KINDS] = {0};
     *s = (fw_scene){.name = fw_text_of(record, "name"),
                     .duration_s = fw_number_of(record, "duration"),
                     .place = record->element->place};
     if (fw_reference(r, record, "flow") >= 0) s->flow = fw_text_of(record, "flow");
-    size_t forces = (size_t)count_children(r, at, "force");
-    size_t torques = (size_t)count_children(r, at, "torque");
-    size_t initials = (size_t)count_children(r, at, "initial");
-    FW_NEED(s->force = fw_arena_array(r->arena, fw_force, forces));
-    FW_NEED(s->torque = fw_arena_array(r->arena, fw_torque, torques));
-    FW_NEED(s->initial = fw_arena_array(r->arena, fw_initial, initials));
-    for (int i = at + 1; i < r->nrecord && r->record[i].parent >= at; i++)
-        FW_TRY(add_child(r, s, &r->record[i], moved));
+    fw_scene_reader reader = {r, s, s->duration_s, moved};
+    for (int i = at + 1; i < r->nrecord && r->record[i].parent >= at; i++) {
+        int k = kind_of(&r->record[i]);
+        if (k >= 0) count[k]++;
+    }
+    for (int k = 0; k < KINDS; k++)
+        if (kinds[k].room) FW_NEED(kinds[k].room(r->arena, s, count[k]));
+    for (int i = at + 1; i < r->nrecord && r->record[i].parent >= at; i++) {
+        int k = kind_of(&r->record[i]);
+        if (k >= 0) FW_TRY(kinds[k].build(&reader, i));
+    }
     for (int i = 0; i < s->ninitial; i++)
         if (s->initial[i].body >= 0) moved[s->initial[i].body] = 0; /* for the next scene */
     return FW_OK;

@@ -2,6 +2,7 @@
 /* Values of attributes: words, ids, references and expressions with their ranges. */
 #include "base/text.h"
 #include "device/reader.h"
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -151,11 +152,43 @@ static void say_range(fw_reader *r, const fw_record *record, const fw_attribute_
                   fw_in_unit(high, row->max, row->unit), row->reason);
 }
 
+/* how often a unit is written in the text */
+static int count_unit(const char *text, const char *unit) {
+    size_t n = strlen(unit);
+    int count = 0;
+    for (const char *at = strstr(text, unit); at; at = strstr(at + n, unit)) {
+        bool whole = (at == text || !isalpha((unsigned char)at[-1])) &&
+                     !isalnum((unsigned char)at[n]) && at[n] != '_';
+        count += whole;
+    }
+    return count;
+}
+
+/* "20 Cel" is 293.15 K, which as a difference nobody means; "80 Cel - 20 Cel" is 60 K */
+static void check_difference(fw_reader *r, const fw_record *record, const fw_attribute_row *row,
+                             fw_cell *cell) {
+    const fw_device *d = r->device;
+    const char *text = cell->given->value;
+    int points = count_unit(text, "Cel");
+    for (int i = 0; i < d->nparameter; i++)
+        points += strcmp(d->parameter[i].unit, "Cel") == 0 &&
+                  fw_expression_uses(text, strlen(text), &d->parameter[i].name, 1);
+    if (points % 2 == 0) return;
+    char label[FW_LABEL];
+    cell->ok = false;
+    fw_diag_error(
+        r->diags, 94, cell->given->place,
+        "%s: %s is a difference of temperatures, and Cel counts from 273.15 K; write it in "
+        "K, or as a difference such as 80 Cel - 20 Cel",
+        fw_label(record, label), row->name);
+}
+
 static fw_status read_number(fw_reader *r, const fw_record *record, const fw_attribute_row *row,
                              fw_cell *cell) {
     fw_dimension found;
     FW_TRY(fw_attribute_evaluate(r, cell->given, row->name, &row->dimension, &found, &cell->number,
                                  &cell->ok));
+    if (cell->ok && row->difference) check_difference(r, record, row, cell);
     /* a hair beyond a bound is rounding: "330 deg" must pass */
     if (cell->ok && row->ranged &&
         ((row->open ? cell->number <= row->min
@@ -163,6 +196,13 @@ static fw_status read_number(fw_reader *r, const fw_record *record, const fw_att
          cell->number > row->max + 1e-12 * fabs(row->max))) {
         cell->ok = false;
         say_range(r, record, row, cell);
+    }
+    char label[FW_LABEL], value[FW_LABEL];
+    if (cell->ok && row->whole && cell->number != rint(cell->number)) {
+        cell->ok = false;
+        fw_diag_error(r->diags, 96, cell->given->place, "%s: %s is %s; it must be a whole number",
+                      fw_label(record, label), row->name,
+                      fw_in_unit(value, cell->number, row->unit));
     }
     return FW_OK;
 }
@@ -184,12 +224,6 @@ static void read_word(fw_reader *r, const fw_record *record, const fw_attribute_
             return;
         }
     list_words(list, sizeof list, row->words);
-    for (int i = 0; row->later && row->later[i]; i++)
-        if (strcmp(row->later[i], a->value) == 0) {
-            fw_diag_error(r->diags, 50, a->place, "%s=\"%s\" is not in this version; it knows: %s",
-                          row->name, a->value, list);
-            return;
-        }
     fw_diag_error(r->diags, 48, a->place, "<%s> %s=\"%.64s\" is not one of: %s", record->row->name,
                   row->name, a->value, list);
 }

@@ -134,6 +134,7 @@ int fw_reference(fw_reader *r, const fw_record *record, const char *name) {
 
 typedef struct entry {
     fw_space space;
+    int within; /* record whose own ids these are, -1: of the whole file */
     const fw_attribute *id;
     int order;
 } entry;
@@ -141,6 +142,7 @@ typedef struct entry {
 static int compare(const void *left, const void *right) {
     const entry *a = left, *b = right;
     if (a->space != b->space) return a->space < b->space ? -1 : 1;
+    if (a->within != b->within) return a->within < b->within ? -1 : 1;
     int c = strcmp(a->id->value, b->id->value);
     return c ? c : a->order - b->order;
 }
@@ -153,12 +155,14 @@ fw_status fw_ids_check(fw_reader *r) {
         const fw_record *record = &r->record[i];
         const char *key = record->row->key;
         if (record->row->space == FW_SPACE_NONE || !fw_text_of(record, key)) continue;
-        entries[n++] = (entry){record->row->space, fw_cell_of(record, key)->given, i};
+        entries[n++] = (entry){record->row->space, record->row->within ? record->parent : -1,
+                               fw_cell_of(record, key)->given, i};
     }
     qsort(entries, n, sizeof *entries, compare);
     for (size_t i = 1, first = 0; i < n; i++) {
         const entry *a = &entries[first], *b = &entries[i];
-        if (a->space != b->space || strcmp(a->id->value, b->id->value) != 0) {
+        if (a->space != b->space || a->within != b->within ||
+            strcmp(a->id->value, b->id->value) != 0) {
             first = i;
             continue;
         }

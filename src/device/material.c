@@ -2,16 +2,22 @@
 #include "device/material.h"
 #include "base/text.h"
 #include "device/quantity_xml.h"
+#include <math.h>
 #include <string.h>
 
-static const char *const ids[] = {"youngs", "poisson", "density", "strength", "loss"};
-enum { IDS = 5 };
+enum { YOUNGS, POISSON, DENSITY, STRENGTH, LOSS, EXPANSION, MODULUS_CHANGE, IDS };
+static const char *const ids[IDS] = {"youngs", "poisson",   "density",       "strength",
+                                     "loss",   "expansion", "modulus-change"};
 
-static const fw_dimension dimension_of[IDS] = {
-    {-1, 1, -2, 0, 0, 0, 0}, {0}, {.m = -3, .kg = 1}, {-1, 1, -2, 0, 0, 0, 0}, {0}};
+static const fw_dimension dimension_of[IDS] = {[YOUNGS] = {-1, 1, -2, 0, 0, 0, 0},
+                                               [DENSITY] = {.m = -3, .kg = 1},
+                                               [STRENGTH] = {-1, 1, -2, 0, 0, 0, 0},
+                                               [EXPANSION] = {.K = -1},
+                                               [MODULUS_CHANGE] = {.K = -1}};
 
 static fw_quantity *slot(fw_material *m, int k) {
-    fw_quantity *const all[IDS] = {&m->youngs, &m->poisson, &m->density, &m->strength, &m->loss};
+    fw_quantity *const all[IDS] = {&m->youngs, &m->poisson,   &m->density,       &m->strength,
+                                   &m->loss,   &m->expansion, &m->modulus_change};
     return all[k];
 }
 
@@ -36,14 +42,28 @@ static void check_value(fw_arena *arena, const fw_element *e, int k, const fw_qu
                       fw_dimension_text(arena, q->dimension));
         return;
     }
-    int wrong = k == 1   ? !(q->value > -1.0 && q->value <= 0.5)
-                : k == 4 ? !(q->value >= 0.0)
-                         : !(q->value > 0.0);
+    bool wrong = false;
+    const char *range = NULL;
+    switch (k) {
+    case POISSON:
+        wrong = !(q->value > -1.0 && q->value <= 0.5);
+        range = "above -1 and at most 0.5 (elastic stability)";
+        break;
+    case LOSS:
+        wrong = !(q->value >= 0.0);
+        range = "at least 0 (a negative one would feed energy in)";
+        break;
+    case EXPANSION: /* some shrink when they warm up, but none by as much as this */
+    case MODULUS_CHANGE:
+        wrong = !(fabs(q->value) <= 0.01);
+        range = "between -10000 and 10000 ppm/K (no solid changes by 1 % per kelvin)";
+        break;
+    default:
+        wrong = !(q->value > 0.0);
+        range = "above 0";
+    }
     if (!q->unknown && wrong)
-        fw_diag_error(diags, 47, place_of(e, "value"), "%s must be %s", ids[k],
-                      k == 1   ? "above -1 and at most 0.5 (elastic stability)"
-                      : k == 4 ? "at least 0 (a negative one would feed energy in)"
-                               : "above 0");
+        fw_diag_error(diags, 47, place_of(e, "value"), "%s must be %s", ids[k], range);
 }
 
 static fw_status read_child(fw_arena *arena, const fw_element *e, const fw_source_text *source,

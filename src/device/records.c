@@ -7,12 +7,11 @@
 #include <string.h>
 
 static void unknown_element(fw_reader *r, const fw_element *e, const char *parent) {
-    int count;
-    const fw_element_row *table = fw_device_table(&count);
-    const char *names[64];
+    const char *names[FW_ELEMENTS_MOST];
     size_t n = 0;
-    for (int i = 0; i < count && n < 64; i++)
-        if (strcmp(table[i].parent, parent) == 0) names[n++] = table[i].name;
+    const fw_element_row *row;
+    for (int i = 0; (row = fw_element_row_at(i)) != NULL && n < FW_ELEMENTS_MOST; i++)
+        if (strcmp(row->parent, parent) == 0) names[n++] = row->name;
     const char *better = fw_full(r) ? NULL : fw_did_you_mean(e->name, names, n);
     r->unknown_element = true;
     if (better) { /* what it would have declared is not missed again */
@@ -33,7 +32,7 @@ static void unknown_element(fw_reader *r, const fw_element *e, const char *paren
  */
 static void unknown_attribute(fw_reader *r, fw_record *record, const fw_attribute *a) {
     const fw_element_row *row = record->row;
-    char list[256] = "it has none";
+    char list[512] = "it has none";
     size_t used = 0;
     int best = -1, least = 3;
     for (int i = 0; i < row->nattribute; i++) {
@@ -85,8 +84,9 @@ static void read_attributes(fw_reader *r, fw_record *record) {
 
 typedef struct walk {
     fw_reader *r;
-    int seen[64];               /* per row of the table */
-    const fw_element *once[64]; /* the last one of a row that may stand once in its parent */
+    int seen[FW_ELEMENTS_MOST]; /* per row of the table */
+    const fw_element
+        *once[FW_ELEMENTS_MOST]; /* the last one of a row that may stand once in its parent */
     int capacity;
 } walk;
 
@@ -136,9 +136,8 @@ static fw_status add_record(walk *w, fw_element *e, const fw_element_row *row, i
 static fw_status read_element(walk *w, fw_element *e, int parent) {
     fw_reader *r = w->r;
     const char *inside = parent < 0 ? "" : r->record[parent].row->name;
-    const fw_element_row *row = fw_element_row_find(e->name);
-    int count;
-    const fw_element_row *table = fw_device_table(&count);
+    int index = fw_element_index(e->name);
+    const fw_element_row *row = fw_element_row_at(index);
     if (!row) {
         unknown_element(r, e, inside);
         return FW_OK;
@@ -150,16 +149,7 @@ static fw_status read_element(walk *w, fw_element *e, int parent) {
         r->broken[row->space] = true;
         return FW_OK;
     }
-    if (row->later) {
-        fw_diag_error(
-            r->diags, 50, e->place,
-            "<%s> is not in this version: it would be left out silently, so it is refused; "
-            "remove it to compute without",
-            e->name);
-        r->unknown_element = true;
-        return FW_OK;
-    }
-    if (too_often(w, e, row, (size_t)(row - table))) return FW_OK;
+    if (too_often(w, e, row, (size_t)index)) return FW_OK;
     if (e->text[0])
         fw_diag_error(r->diags, 49, e->text_place,
                       "text is not expected inside <%s>; values stand in attributes, remarks in "

@@ -35,12 +35,10 @@ static void add_value(fw_text *out, const fw_attribute_row *a) {
     case FW_KIND_WORD:
         for (int i = 0; a->words[i]; i++)
             fw_text_printf(out, "%s`%s`", i ? ", " : "", a->words[i]);
-        for (int i = 0; a->later && a->later[i]; i++)
-            fw_text_printf(out, "%s`%s`", i ? ", " : "; not in this version: ", a->later[i]);
         break;
     case FW_KIND_NUMBER:
         if (strcmp(a->unit, "1") == 0)
-            fw_text_add(out, "pure number");
+            fw_text_add(out, a->whole ? "whole number" : "pure number");
         else
             fw_text_printf(out, "%s, e.g. in `%s`", fw_dimension_text(out->arena, a->dimension),
                            a->unit);
@@ -57,27 +55,48 @@ static void add_range(fw_text *out, const fw_attribute_row *a) {
     fw_text_printf(out, " (%s).", a->reason);
 }
 
+static void add_attribute(fw_text *out, const fw_attribute_row *a) {
+    fw_text_printf(out, "| `%s` | ", a->name);
+    add_value(out, a);
+    fw_text_printf(out, " | %s | %s",
+                   a->required   ? "**required**"
+                   : a->fallback ? a->fallback
+                                 : "",
+                   a->sentence);
+    add_range(out, a);
+    fw_text_add(out, " |\n");
+}
+
+#define TABLE_HEAD "\n| attribute | value | when absent | meaning |\n|---|---|---|---|\n"
+
+/* the attributes of laws are the same everywhere and come last: written once, under Time */
+static bool begins_law(const fw_attribute_row *a) {
+    return strcmp(a->name, "law") == 0;
+}
+
+static void add_law(fw_text *out) {
+    const fw_element_row *e = fw_element_row_find("force");
+    bool law = false;
+    fw_text_add(out, TABLE_HEAD);
+    for (int i = 0; i < e->nattribute; i++) {
+        law = law || begins_law(&e->attribute[i]);
+        if (law) add_attribute(out, &e->attribute[i]);
+    }
+}
+
 static void add_element(fw_text *out, const fw_element_row *e) {
     fw_text_printf(out, "\n### `<%s>`\n\n%s", e->name, e->sentence);
     if (e->parent[0])
         fw_text_printf(out, " Inside `<%s>`%s.", e->parent, e->once ? ", at most once" : "");
-    if (e->later)
-        fw_text_add(out, " **Not in this version**: refused, because leaving it out silently would "
-                         "change the answer.");
     fw_text_add(out, "\n");
-    if (e->nattribute > 0)
-        fw_text_add(out, "\n| attribute | value | when absent | meaning |\n|---|---|---|---|\n");
+    if (e->nattribute > 0) fw_text_add(out, TABLE_HEAD);
     for (int i = 0; i < e->nattribute; i++) {
-        const fw_attribute_row *a = &e->attribute[i];
-        fw_text_printf(out, "| `%s` | ", a->name);
-        add_value(out, a);
-        fw_text_printf(out, " | %s | %s",
-                       a->required   ? "**required**"
-                       : a->fallback ? a->fallback
-                                     : "",
-                       a->sentence);
-        add_range(out, a);
-        fw_text_add(out, " |\n");
+        if (begins_law(&e->attribute[i])) {
+            fw_text_add(out, "| `law` and its attributes | see [Time](#time) | step | How it goes "
+                             "with time. |\n");
+            break;
+        }
+        add_attribute(out, &e->attribute[i]);
     }
 }
 
@@ -95,10 +114,9 @@ static void add_units(fw_text *out) {
 }
 
 fw_status fw_device_reference_markdown(fw_text *out) {
-    int count;
-    const fw_element_row *table = fw_device_table(&count);
+    const fw_element_row *row;
     fw_text_add(
-        out, "<!-- generated from src/device/table.c; do not edit -->\n"
+        out, "<!-- generated from src/device/table_*.c; do not edit -->\n"
              "# Device files\n\n"
              "A device file is XML in UTF-8, at most 8 MiB, without DOCTYPE, entities of its "
              "own or processing instructions. The schema for editors is "
@@ -124,13 +142,21 @@ fw_status fw_device_reference_markdown(fw_text *out) {
              "`start`) + `phase`) between `start` and `end`, else 0 |\n"
              "| `table` | **`table`** | `0 ms: 0; 1 ms: 0.5; 2 ms: 1`, linear between the points, "
              "constant outside |\n"
-             "| `expression` | **`factor`** | an expression in time, a pure number |\n\n"
-             "In an expression in time `t` or `time` is the time in s, to be used with its unit: "
+             "| `expression` | **`factor`** | an expression in time, a pure number |\n"
+             "| `half-sine` | `start`, **`rise`** | sin(pi (t - `start`) / `rise`) for the time "
+             "`rise` from `start` on, else 0: a shock |\n"
+             "| `random` | **`frequency`**, **`frequency-most`**, `lines`, `seed` | noise from the "
+             "start on, of root mean square 1: the sum of `lines` cosines of equal size at "
+             "frequencies from `frequency` to `frequency-most`, with phases from `seed`; its peaks "
+             "are some 3 to 4 times as high |\n");
+    add_law(out);
+    fw_text_add(
+        out, "\nIn an expression in time `t` or `time` is the time in s, to be used with its unit: "
              "`sin(2*pi*t/(10 ms))`, `3 rad/s * t`, `min(1, t/(5 ms))`. Where a parameter is "
              "called `t`, `time` must be written.\n\n"
              "## Elements\n");
-    for (int i = 0; i < count; i++)
-        add_element(out, &table[i]);
+    for (int i = 0; (row = fw_element_row_at(i)) != NULL; i++)
+        add_element(out, row);
     add_units(out);
     return fw_text_end(out);
 }

@@ -31,34 +31,32 @@ static void add_attribute(fw_text *out, const fw_attribute_row *a) {
     fw_text_printf(out, "</attribute>%s\n", close);
 }
 
-static void add_children(fw_text *out, const fw_element_row *table, int count, const char *parent) {
+static void add_children(fw_text *out, const char *parent) {
+    const fw_element_row *row;
     int found = 0;
-    for (int i = 0; i < count; i++) {
-        if (strcmp(table[i].parent, parent) != 0 || table[i].later) continue;
+    for (int i = 0; (row = fw_element_row_at(i)) != NULL; i++) {
+        if (strcmp(row->parent, parent) != 0) continue;
         fw_text_add(out, found++ ? "" : "      <zeroOrMore><choice>\n");
-        fw_text_printf(out, "        <ref name=\"%s\"/>\n", table[i].name);
+        fw_text_printf(out, "        <ref name=\"%s\"/>\n", row->name);
     }
     if (found) fw_text_add(out, "      </choice></zeroOrMore>\n");
 }
 
 fw_status fw_device_relax_ng(fw_text *out) {
-    int count;
-    const fw_element_row *table = fw_device_table(&count);
+    const fw_element_row *e;
     fw_text_add(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-                     "<!-- generated from src/device/table.c; do not edit -->\n"
+                     "<!-- generated from src/device/table_*.c; do not edit -->\n"
                      "<grammar xmlns=\"http://relaxng.org/ns/structure/1.0\" "
                      "ns=\"urn:flexwright:device:1\"\n"
                      "         datatypeLibrary=\"http://www.w3.org/2001/XMLSchema-datatypes\">\n"
                      "  <start><ref name=\"device\"/></start>\n");
-    for (int i = 0; i < count; i++) {
-        const fw_element_row *e = &table[i];
-        if (e->later) continue;
+    for (int i = 0; (e = fw_element_row_at(i)) != NULL; i++) {
         fw_text_printf(out, "  <define name=\"%s\">\n    <element name=\"%s\">\n", e->name,
                        e->name);
         for (int k = 0; k < e->nattribute; k++)
             add_attribute(out, &e->attribute[k]);
         int before = (int)out->length;
-        add_children(out, table, count, e->name);
+        add_children(out, e->name);
         if ((int)out->length == before && e->nattribute == 0) fw_text_add(out, "      <empty/>\n");
         fw_text_add(out, "    </element>\n  </define>\n");
     }

@@ -67,9 +67,9 @@ static fw_status set_parameter(fw_reader *r, const edit *set) {
 
 static fw_status replace(fw_reader *r, const edit *set, fw_element *e, const fw_element_row *row,
                          const char *attribute) {
-    const char *names[16];
+    const char *names[FW_ATTRIBUTES_MOST];
     size_t n = 0;
-    for (int i = 0; i < row->nattribute && n < 16; i++)
+    for (int i = 0; i < row->nattribute && n < FW_ATTRIBUTES_MOST; i++)
         names[n++] = row->attribute[i].name;
     size_t k = 0;
     while (k < n && strcmp(names[k], attribute) != 0)
@@ -121,14 +121,12 @@ static fw_status set_attribute(fw_reader *r, const edit *set) {
     }
     const char *element = p.element, *id = p.id, *attribute = p.attribute;
     const fw_element_row *row = fw_element_row_find(element);
-    if (!row || row->later) {
-        int count;
-        const fw_element_row *table = fw_device_table(&count);
-        const char *names[64];
+    if (!row) {
+        const char *names[FW_ELEMENTS_MOST];
         size_t n = 0;
-        for (int i = 0; i < count && n < 64; i++)
-            names[n++] = table[i].name;
-        unknown_path(r, set, "no such element in this version", element, names, n);
+        for (int i = 0; n < FW_ELEMENTS_MOST && (row = fw_element_row_at(i)) != NULL; i++)
+            names[n++] = row->name;
+        unknown_path(r, set, "there is no such element", element, names, n);
         return FW_OK;
     }
     size_t most = count_named(r->root, element);
@@ -136,12 +134,25 @@ static fw_status set_attribute(fw_reader *r, const edit *set) {
     const char **names = fw_arena_array(r->arena, const char *, most);
     FW_NEED(found && names);
     size_t n = collect(r->root, element, row->key, found, names, most, 0);
+    size_t first = n, same = 0;
     for (size_t i = 0; i < n; i++)
-        if (id ? row->key && strcmp(names[i], id) == 0 : n == 1)
-            return replace(r, set, found[i], row, attribute);
+        if (id ? row->key && strcmp(names[i], id) == 0 : n == 1) {
+            first = first < n ? first : i;
+            same++;
+        }
+    if (same > 1 && row->within) { /* ids of a scene: another scene may have the same */
+        unknown_path(r, set,
+                     "several scenes have an element with this id; give the attribute of each a "
+                     "parameter and set that",
+                     NULL, NULL, 0);
+        return FW_OK;
+    }
+    if (first < n) return replace(r, set, found[first], row, attribute);
     unknown_path(r, set,
                  id  ? "no such element has this id"
-                 : n ? "several such elements; name one"
+                 : n ? row->key ? "several such elements; name one"
+                                : "several such elements, which have no names; give the attribute "
+                                  "of each a parameter and set that"
                      : "there is no such element",
                  id, names, row->key ? n : 0);
     return FW_OK;

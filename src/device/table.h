@@ -27,6 +27,9 @@ typedef enum fw_space { /* ids are unique within one of these */
                         FW_SPACE_SPRING,
                         FW_SPACE_DRIVER,
                         FW_SPACE_SCENE,
+                        FW_SPACE_TENDON,
+                        FW_SPACE_COMB,
+                        FW_SPACE_CONTACT,
                         FW_SPACE_COUNT
 } fw_space;
 
@@ -35,12 +38,14 @@ typedef struct fw_attribute_row {
     fw_kind kind;
     bool required;
     fw_dimension dimension;
-    const char *unit;     /* in messages and on the reference page */
-    bool ranged, open;    /* open: the lower bound itself is excluded */
-    double min, max;      /* SI */
-    const char *reason;   /* where the range comes from */
-    const char *fallback; /* what holds when it is absent, for the page; NULL: nothing */
-    const char *const *words, *const *later; /* NULL-terminated; later: not in this version */
+    const char *unit;         /* in messages and on the reference page */
+    bool ranged, open;        /* open: the lower bound itself is excluded */
+    bool whole;               /* a whole number */
+    bool difference;          /* of temperatures: not counted from the zero of a scale */
+    double min, max;          /* SI */
+    const char *reason;       /* where the range comes from */
+    const char *fallback;     /* what holds when it is absent, for the page; NULL: nothing */
+    const char *const *words; /* NULL-terminated */
     fw_space space;
     bool ground; /* a reference may be "ground" */
     const char *sentence;
@@ -50,15 +55,22 @@ typedef struct fw_element_row {
     const char *name, *parent;         /* parent "" for the root */
     const char *key;                   /* the attribute that names it in --set, or NULL */
     fw_space space;                    /* where the key must be unique */
+    bool within;                       /* ... among those of its parent only */
     bool once;                         /* at most one in its parent */
-    bool later;                        /* not in this version */
     int most;                          /* of them in a file; 0: no limit of its own */
     const fw_attribute_row *attribute; /* (nattribute) */
     int nattribute;
     const char *sentence;
 } fw_element_row;
 
-const fw_element_row *fw_device_table(int *count);
+/* a new element is one row in one of the parts, table_*.c */
+extern const fw_element_row fw_table_device[], fw_table_mechanism[], fw_table_scene[],
+    fw_table_effects[];
+extern const int fw_table_device_count, fw_table_mechanism_count, fw_table_scene_count,
+    fw_table_effects_count;
+enum { FW_ELEMENTS_MOST = 64, FW_ATTRIBUTES_MOST = 32 };     /* in the table; of an element */
+const fw_element_row *fw_element_row_at(int i);              /* NULL behind the last */
+int fw_element_index(const char *name);                      /* or -1 */
 const fw_element_row *fw_element_row_find(const char *name); /* or NULL */
 const char *fw_space_text(fw_space space);                   /* "flexure" */
 bool fw_kind_is_expression(fw_kind kind);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How loads and drivers go with time: step, ramp, sine, table, expression. */
+/* How loads and drivers go with time: which law, and which attributes it has. */
 #include "device/reader.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const fw_dimension seconds = {.s = 1}, pure = {0};
@@ -9,16 +10,22 @@ static const fw_dimension seconds = {.s = 1}, pure = {0};
 /* which attributes a law has; `needed` must be there */
 typedef struct law_row {
     fw_law_kind kind;
-    const char *needed, *own[4];
+    const char *needed[2], *own[4];
 } law_row;
 static const law_row laws[] = {
-    {FW_LAW_STEP, NULL, {"start", "end"}},
-    {FW_LAW_RAMP, "rise", {"start", "rise"}},
-    {FW_LAW_SINE, "frequency", {"start", "end", "frequency", "phase"}},
-    {FW_LAW_TABLE, "table", {"table"}},
-    {FW_LAW_EXPRESSION, "factor", {"factor"}},
+    {FW_LAW_STEP, {NULL}, {"start", "end"}},
+    {FW_LAW_RAMP, {"rise"}, {"start", "rise"}},
+    {FW_LAW_SINE, {"frequency"}, {"start", "end", "frequency", "phase"}},
+    {FW_LAW_TABLE, {"table"}, {"table"}},
+    {FW_LAW_EXPRESSION, {"factor"}, {"factor"}},
+    {FW_LAW_HALF_SINE, {"rise"}, {"start", "rise"}},
+    {FW_LAW_RANDOM,
+     {"frequency", "frequency-most"},
+     {"frequency", "frequency-most", "lines", "seed"}},
 };
-static const char *const all[] = {"start", "end", "rise", "frequency", "phase", "table", "factor"};
+enum { LAWS = sizeof laws / sizeof laws[0] };
+static const char *const all[] = {"start", "end",    "rise",           "frequency", "phase",
+                                  "table", "factor", "frequency-most", "lines",     "seed"};
 
 static bool owns(const law_row *law, const char *attribute) {
     for (int i = 0; i < 4 && law->own[i]; i++)
@@ -31,18 +38,20 @@ static bool check_attributes(fw_reader *r, const fw_record *record, const law_ro
     size_t before = r->diags->errors;
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         if (!fw_cell_of(record, all[i])->given || owns(law, all[i])) continue;
-        const law_row *other = laws;
-        while (!owns(other, all[i]))
-            other++;
+        char owners[FW_LABEL] = "";
+        for (int k = 0; k < LAWS; k++)
+            if (owns(&laws[k], all[i]))
+                snprintf(owners + strlen(owners), sizeof owners - strlen(owners), "%s\"%s\"",
+                         owners[0] ? " or " : "", fw_law_kind_text(laws[k].kind));
         fw_diag_error(r->diags, 67, fw_place_of(record, all[i]),
-                      "<%s>: %s does not belong to law=\"%s\"; remove it, or write law=\"%s\"%s",
-                      record->row->name, all[i], fw_law_kind_text(law->kind),
-                      fw_law_kind_text(other->kind),
-                      strcmp(all[i], "end") == 0 ? " or \"sine\"" : "");
+                      "<%s>: %s does not belong to law=\"%s\"; remove it, or write law=%s",
+                      record->row->name, all[i], fw_law_kind_text(law->kind), owners);
     }
-    if (law->needed && !fw_given(record, law->needed))
-        fw_diag_error(r->diags, 67, fw_place_of(record, "law"), "<%s>: law=\"%s\" needs %s=\"...\"",
-                      record->row->name, fw_law_kind_text(law->kind), law->needed);
+    for (int i = 0; i < 2 && law->needed[i]; i++)
+        if (!fw_given(record, law->needed[i]))
+            fw_diag_error(r->diags, 67, fw_place_of(record, "law"),
+                          "<%s>: law=\"%s\" needs %s=\"...\"", record->row->name,
+                          fw_law_kind_text(law->kind), law->needed[i]);
     return r->diags->errors == before;
 }
 
@@ -164,6 +173,22 @@ void fw_finite_check(fw_reader *r, const fw_record *record, const char *name, co
 
 /* ---- laws ---- */
 
+/* lines and seed are whole numbers in their ranges (table_rows.h) */
+static bool read_noise(fw_reader *r, const fw_record *record, fw_law *law) {
+    char low[FW_LABEL], high[FW_LABEL];
+    law->lines = (int)fw_number_or(record, "lines", 32.0);
+    law->seed = (unsigned)fw_number_or(record, "seed", 1.0);
+    if (law->lines > 1 && !(law->frequency_Hz < law->frequency_most_Hz)) {
+        fw_diag_error(r->diags, 95, fw_place_of(record, "frequency-most"),
+                      "<%s>: frequency-most %s is not above frequency %s; exchange them, or make "
+                      "them differ: the lines lie between",
+                      record->row->name, fw_in_unit(high, law->frequency_most_Hz, "Hz"),
+                      fw_in_unit(low, law->frequency_Hz, "Hz"));
+        return false;
+    }
+    return true;
+}
+
 static fw_status read_law(fw_reader *r, const fw_record *record, const law_row *row, fw_law *law,
                           bool *ok) {
     *law = (fw_law){.kind = row->kind,
@@ -171,7 +196,8 @@ static fw_status read_law(fw_reader *r, const fw_record *record, const law_row *
                     .end_s = fw_number_or(record, "end", (double)INFINITY),
                     .rise_s = fw_number_of(record, "rise"),
                     .frequency_Hz = fw_number_of(record, "frequency"),
-                    .phase_rad = fw_number_or(record, "phase", 0.0)};
+                    .phase_rad = fw_number_or(record, "phase", 0.0),
+                    .frequency_most_Hz = fw_number_of(record, "frequency-most")};
     for (int i = 0; i < 4 && row->own[i]; i++)
         if (fw_failed(record, row->own[i])) *ok = false;
     char start[FW_LABEL], end[FW_LABEL];
@@ -181,6 +207,7 @@ static fw_status read_law(fw_reader *r, const fw_record *record, const law_row *
                       "<%s>: end %s is not behind start %s; exchange them", record->row->name,
                       fw_in_unit(end, law->end_s, "ms"), fw_in_unit(start, law->start_s, "ms"));
     }
+    if (*ok && row->kind == FW_LAW_RANDOM) *ok = read_noise(r, record, law);
     if (*ok && row->kind == FW_LAW_TABLE) FW_TRY(read_table(r, record, law, ok));
     if (*ok && row->kind == FW_LAW_EXPRESSION) {
         FW_TRY(fw_time_program(r, record, "factor", pure, &law->program));

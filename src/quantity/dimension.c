@@ -47,7 +47,9 @@ static const named known[] = {
     {{2, 1, -2, 0, 0, -1, 0}, "molar energy", "kJ/mol"},
     {{2, 0, -1, 0, 0, 0, 0}, "diffusivity", "cm2/s"},
     {{0, 1, -3, 0, 0, 0, 0}, "power density", "mW/cm2"},
-    {{0, 0, 0, 0, -1, 0, 0}, "thermal expansion", "K^-1"},
+    {{0, 0, 0, 0, -1, 0, 0}, "change per temperature", "K^-1"},
+    {{-1, 1, -1, 0, 0, 0, 0}, "viscosity", "uPa s"},
+    {{-2, 1, -2, 0, 0, 0, 0}, "stress gradient", "MPa/um"},
 };
 
 static const named *find(fw_dimension d) {

@@ -297,7 +297,12 @@ static bool parse_signed(parser *p, fw_value *v) {
                     "the expression is nested more than 64 deep; split it with a <parameter>");
     bool minus = is_mark(p, '-'), ok;
     if (minus || is_mark(p, '+')) {
-        ok = advance(p) && parse_signed(p, v);
+        ok = advance(p);
+        if (ok && minus && p->token.kind == FW_TOKEN_NUMBER && p->token.zero != 0) {
+            p->token.value = 2 * p->token.zero - p->token.value; /* -40 Cel is 40 below zero */
+            minus = false;
+        }
+        ok = ok && parse_signed(p, v);
         if (ok && minus) v->value = -v->value;
         if (ok && minus && v->varies)
             fw_program_emit(p->program, FW_OP_NEGATE, FW_BOTH_ON_STACK, 0);

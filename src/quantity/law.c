@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "quantity/law.h"
+#include "quantity/law_lines.h"
 #include "quantity/program.h"
 #include <math.h>
 
@@ -10,7 +11,9 @@ const char *fw_law_kind_text(fw_law_kind kind) {
                                        [FW_LAW_RAMP] = "ramp",
                                        [FW_LAW_SINE] = "sine",
                                        [FW_LAW_TABLE] = "table",
-                                       [FW_LAW_EXPRESSION] = "expression"};
+                                       [FW_LAW_EXPRESSION] = "expression",
+                                       [FW_LAW_HALF_SINE] = "half-sine",
+                                       [FW_LAW_RANDOM] = "random"};
     return text[kind];
 }
 
@@ -50,6 +53,18 @@ static void table_value(const fw_law *law, double t_s, double piece_s, double va
     value[2] = 0;
 }
 
+/* sin(pi (t - start)/rise), at its end from there, so that it is 0 to the last bit */
+static void half_sine_value(const fw_law *law, double t_s, double piece_s, double value[3]) {
+    double w = PI / law->rise_s, end_s = law->start_s + law->rise_s;
+    constant(value, 0);
+    if (piece_s < law->start_s || piece_s >= end_s) return;
+    bool late = t_s - law->start_s > end_s - t_s;
+    double angle = w * (late ? end_s - t_s : t_s - law->start_s);
+    value[0] = sin(angle);
+    value[1] = (late ? -w : w) * cos(angle);
+    value[2] = -w * w * value[0];
+}
+
 void fw_law_value(const fw_law *law, double t_s, double piece_s, double value[3]) {
     double w, angle;
     switch (law->kind) {
@@ -73,6 +88,12 @@ void fw_law_value(const fw_law *law, double t_s, double piece_s, double value[3]
         return;
     case FW_LAW_TABLE:
         table_value(law, t_s, piece_s, value);
+        return;
+    case FW_LAW_HALF_SINE:
+        half_sine_value(law, t_s, piece_s, value);
+        return;
+    case FW_LAW_RANDOM:
+        fw_lines_value(law, t_s, value);
         return;
     case FW_LAW_EXPRESSION:
     default:
@@ -132,12 +153,15 @@ int fw_law_breaks(const fw_law *law, double end_s, double *t_s, int most) {
         add(&b, law->end_s);
         break;
     case FW_LAW_RAMP:
+    case FW_LAW_HALF_SINE:
         add(&b, law->start_s);
         add(&b, law->start_s + law->rise_s);
         break;
     case FW_LAW_TABLE:
         for (int i = 0; i < law->ntable; i++)
             add(&b, law->table_t_s[i]);
+        break;
+    case FW_LAW_RANDOM:
         break;
     case FW_LAW_EXPRESSION:
     default:
@@ -164,7 +188,15 @@ static double largest_sampled(const fw_law *law, double end_s) {
     return most;
 }
 
-/* exact for step, ramp, sine and table */
+/* the pulse within [0, end_s]: its top, or the nearer end of what is seen of it */
+static double half_sine_largest(const fw_law *law, double end_s) {
+    double first = fmax(0, -law->start_s), last = fmin(law->rise_s, end_s - law->start_s);
+    if (!(first < last)) return 0;
+    if (first <= law->rise_s / 2 && last >= law->rise_s / 2) return 1;
+    return fmax(sin(PI * first / law->rise_s), sin(PI * last / law->rise_s));
+}
+
+/* exact for step, ramp, sine, half-sine and table */
 double fw_law_largest(const fw_law *law, double end_s) {
     double value[3], most = 0, first, last;
     if (!law) return 1;
@@ -191,6 +223,10 @@ double fw_law_largest(const fw_law *law, double end_s) {
             if (law->table_t_s[i] >= 0 && law->table_t_s[i] <= end_s)
                 most = fmax(most, fabs(law->table_value[i]));
         return most;
+    case FW_LAW_HALF_SINE:
+        return half_sine_largest(law, end_s);
+    case FW_LAW_RANDOM:
+        return fw_lines_largest(law, end_s);
     case FW_LAW_EXPRESSION:
     default:
         return largest_sampled(law, end_s);

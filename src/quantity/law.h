@@ -57,7 +57,8 @@ void fw_law_value(const fw_law *law, double t_s, double piece_s, double value[3]
 int fw_law_breaks(const fw_law *law, double end_s, double *t_s, int most);
 /* constant 1 from the start on: what a load without a law (NULL) has */
 bool fw_law_is_constant(const fw_law *law);
-/* largest |value| in [0, end_s]: exact, but for expressions the largest of 2001 samples; infinite
+/* largest |value| in [0, end_s]: exact, but for random an upper bound (within 2 % in short scenes,
+   the top of the envelope in long ones) and for expressions the largest of 2001 samples; infinite
    where a sample is not finite. 1 without a law (NULL). */
 double fw_law_largest(const fw_law *law, double end_s);
 

@@ -74,6 +74,7 @@ static fw_token unit_after(fw_lexer *lexer, fw_token token) {
     if (symbol && wrong_n > 0 && symbol == text + next && is_letter(text[next]))
         return unknown_unit(lexer, symbol, wrong_n);
     token.value = fw_unit_to_si(&unit, token.value);
+    token.zero = unit.offset;
     token.dimension = unit.dimension;
     token.unit_start = at;
     token.unit_length = used;

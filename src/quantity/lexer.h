@@ -18,6 +18,7 @@ typedef struct fw_token {
     size_t start, length;
     char mark;
     double value;
+    double zero; /* SI value of 0 in this unit: 273.15 for Cel, else 0 */
     fw_dimension dimension;
     size_t unit_start, unit_length; /* length 0: a number without unit */
 } fw_token;

@@ -12,10 +12,10 @@
    For coordinates of drivers the second derivative is what moves masses: the bend of the cubic must
    meet the true one to a share of its largest value; this miss grows with h^2.
 
-   Sines and cosines get 2.1 rad of their phase, a bell exp(-(t/w)^2) about 1.1 w.
-   Cost LOOKS evaluations and at most as many again where halving is needed.
-   Source: error of cubic Hermite interpolation h^4 f''''/384, for instance Stoer and Bulirsch, 2.1.
-   Test: test_stride.c */
+   Sines and cosines get 2.1 rad of their phase, half sines too, random ones of their fastest line,
+   a bell exp(-(t/w)^2) about 1.1 w. Cost LOOKS evaluations and at most as many again where halving
+   is needed. Source: error of cubic Hermite interpolation h^4 f''''/384, for instance Stoer and
+   Bulirsch, 2.1. Test: test_stride.c */
 #include "quantity/program.h"
 #include <math.h>
 
@@ -287,20 +287,30 @@ static bool varies(const fw_program *program) {
     return false;
 }
 
+/* of a law that is made of sines */
+static double fastest_Hz(const fw_law *law) {
+    if (law->kind == FW_LAW_HALF_SINE) return 0.5 / law->rise_s;
+    return law->kind == FW_LAW_RANDOM ? fmax(law->frequency_Hz, law->frequency_most_Hz)
+                                      : law->frequency_Hz;
+}
+
 fw_status fw_law_look(fw_arena *arena, const fw_law *law, bool coordinate, double end_s,
                       const double *break_s, int breaks, fw_law_strides *out) {
     *out = (fw_law_strides){0};
     bool expression = law && law->kind == FW_LAW_EXPRESSION;
     if (!law || !(end_s > 0) || !isfinite(end_s)) return FW_OK;
-    if (!expression && law->kind != FW_LAW_SINE) return FW_OK; /* straight between its breaks */
+    if (law->kind <= FW_LAW_TABLE && law->kind != FW_LAW_SINE)
+        return FW_OK; /* straight between its breaks */
     if (expression && !varies(law->program)) return FW_OK;
     size_t rows = expression ? STRIDES_MOST : 2;
     FW_NEED(out->t_s = fw_arena_array(arena, double, rows));
     FW_NEED(out->most_s = fw_arena_array(arena, double, rows));
     scan s = {.law = law, .coordinate = coordinate, .out = out};
     if (expression) return scan_expression(arena, &s, end_s, break_s, breaks);
-    emit(&s, law->start_s, phase_rad / (2 * PI * law->frequency_Hz));
-    if (law->end_s < end_s) emit(&s, law->end_s, (double)INFINITY);
+    bool pulse = law->kind == FW_LAW_HALF_SINE;
+    double stop_s = pulse ? law->start_s + law->rise_s : law->end_s;
+    emit(&s, law->kind == FW_LAW_RANDOM ? 0 : law->start_s, phase_rad / (2 * PI * fastest_Hz(law)));
+    if (law->kind != FW_LAW_RANDOM && stop_s < end_s) emit(&s, stop_s, (double)INFINITY);
     return FW_OK;
 }
 

@@ -85,6 +85,7 @@
     X("pN", 1e-12, 0.0, FORCE)                                                                     \
     X("Pa", 1.0, 0.0, PRESSURE)                                                                    \
     X("mPa", 1e-3, 0.0, PRESSURE)                                                                  \
+    X("uPa", 1e-6, 0.0, PRESSURE)                                                                  \
     X("hPa", 1e2, 0.0, PRESSURE)                                                                   \
     X("kPa", 1e3, 0.0, PRESSURE)                                                                   \
     X("MPa", 1e6, 0.0, PRESSURE)                                                                   \

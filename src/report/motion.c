@@ -8,11 +8,67 @@ static void law(fw_text *out, const fw_law *law) {
     if (!law) return;
     fw_report_markup(out, " times a {s}", fw_law_kind_text(law->kind));
     if (law->kind == FW_LAW_SINE) fw_report_markup(out, " of {u}", law->frequency_Hz, "Hz");
-    if (law->kind == FW_LAW_RAMP) fw_report_markup(out, " over {u}", law->rise_s, "s");
-    bool starts = law->kind <= FW_LAW_SINE;
+    if (law->kind == FW_LAW_RAMP || law->kind == FW_LAW_HALF_SINE)
+        fw_report_markup(out, " over {u}", law->rise_s, "s");
+    if (law->kind == FW_LAW_RANDOM)
+        fw_report_markup(out, " of {i} lines from {u} to {u} (seed {n})", law->lines,
+                         law->frequency_Hz, "Hz", law->frequency_most_Hz, "Hz", (double)law->seed);
+    bool starts = law->kind <= FW_LAW_SINE || law->kind == FW_LAW_HALF_SINE;
     if (starts && law->start_s > 0) fw_report_markup(out, " from {u} on", law->start_s, "s");
-    if (starts && isfinite(law->end_s)) fw_report_markup(out, " until {u}", law->end_s, "s");
-    if (law->kind >= FW_LAW_TABLE) fw_text_add(out, " in time");
+    if (law->kind <= FW_LAW_SINE && isfinite(law->end_s))
+        fw_report_markup(out, " until {u}", law->end_s, "s");
+    if (law->kind == FW_LAW_TABLE || law->kind == FW_LAW_EXPRESSION) fw_text_add(out, " in time");
+}
+
+static const char *body_text(const fw_device *device, int body) {
+    return body < 0 ? "ground" : device->body[body].id;
+}
+
+static void actuators(fw_text *out, const fw_device *device, const fw_scene *s) {
+    for (int i = 0; i < s->ntendon; i++) {
+        const fw_tendon *t = &s->tendon[i];
+        bool pulled = !isnan(t->pull_N);
+        fw_report_markup(out, "; cable {s} {s} {u}", t->id, pulled ? "pulls with" : "taken in by",
+                         pulled ? t->pull_N : t->draw_m, pulled ? "N" : "m");
+        law(out, t->law);
+    }
+    for (int i = 0; i < s->ncomb; i++) {
+        const fw_comb *c = &s->comb[i];
+        fw_report_markup(out, "; {s} {s} between {s} and {s} at {u}",
+                         c->kind == FW_ELECTRODES_COMB ? "comb" : "plates", c->id,
+                         body_text(device, c->body_b), body_text(device, c->body_a), c->voltage_V,
+                         "V");
+        law(out, c->law);
+    }
+    for (int i = 0; i < s->nbase; i++) {
+        fw_report_markup(out, "; base shaken with ({n}, {n}) m/s\u00b2", s->base[i].ax_m_per_s2,
+                         s->base[i].ay_m_per_s2);
+        law(out, s->base[i].law);
+    }
+}
+
+static void surroundings(fw_text *out, const fw_device *device, const fw_scene *s) {
+    static const char *const air[] = {[FW_AIR_SLIDE] = "sliding film",
+                                      [FW_AIR_SQUEEZE] = "squeezed film",
+                                      [FW_AIR_DRAG] = "drag"};
+    for (int i = 0; i < s->nfriction; i++)
+        fw_report_markup(out, "; friction in {s}, coefficient {n}",
+                         s->friction[i].joint != FW_NONE ? device->joint[s->friction[i].joint].id
+                                                         : device->tie[s->friction[i].tie].id,
+                         s->friction[i].coefficient);
+    for (int i = 0; i < s->ncontact; i++)
+        fw_report_markup(out, "; contact {s}", s->contact[i].id);
+    if (s->ndamping) fw_text_add(out, "; damping by the material");
+    for (int i = 0; i < s->ntemperature; i++) {
+        fw_report_markup(out, "; temperature changed by {n} K", s->temperature[i].change_K);
+        law(out, s->temperature[i].law);
+    }
+    for (int i = 0; i < s->nstress; i++)
+        fw_report_markup(out, "; residual stress {u}", s->stress[i].mean_Pa, "Pa");
+    for (int i = 0; i < s->nair; i++)
+        fw_report_markup(out, "; air: {s} on {s}, {u}", air[s->air[i].kind],
+                         s->air[i].body < 0 ? "all bodies" : device->body[s->air[i].body].id,
+                         s->air[i].pressure_Pa, "Pa");
 }
 
 static void loads(fw_text *out, const fw_device *device, const fw_scene *s) {
@@ -31,6 +87,8 @@ static void loads(fw_text *out, const fw_device *device, const fw_scene *s) {
         fw_report_markup(out, "; joint {s} driven in time", device->driver[i].id);
     if (s->gravity)
         fw_report_markup(out, "; gravity ({n}, {n}) m/s\u00b2", s->gx_m_per_s2, s->gy_m_per_s2);
+    actuators(out, device, s);
+    surroundings(out, device, s);
     if (s->ninitial) fw_text_add(out, "; bodies start with a velocity");
     fw_text_add(out,
                 ". Dashed: as drawn. Blue trace: centre of the platform. The still picture shows "

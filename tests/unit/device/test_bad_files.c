@@ -18,7 +18,7 @@ typedef struct expectation {
     int nset;
 } expectation;
 
-static int used[80];
+static int used[100];
 
 static void read_expectation(fw_arena *arena, const char *name, expectation *e) {
     char path[300];
@@ -46,7 +46,7 @@ static void check_message(const char *name, const fw_diag *d) {
     if (!fw_diag_find(d->number))
         fail_msg("%s: FW-D%03d has no row in diagnostics.def", name, d->number);
     if (strlen(d->message) < 12) fail_msg("%s: message '%s'", name, d->message);
-    used[d->number % 80]++;
+    used[d->number % 100]++;
 }
 
 static void compare(const char *name, const fw_diags *diags, expectation *e) {
@@ -111,8 +111,8 @@ static void every_diagnostic_has_a_file(void **state) {
     static const int generated[] = {1, 2, 8}; /* test_hostile.c: too large for a file, or binary */
     size_t count;
     const fw_diag_entry *table = fw_diag_table(&count);
-    for (size_t i = 0; i < count && table[i].number < 80; i++) {
-        int skip = 0;
+    for (size_t i = 0; i < count && table[i].number < 100; i++) {
+        int skip = table[i].number >= 80 && table[i].number < 93; /* of later rooms */
         for (size_t k = 0; k < sizeof generated / sizeof generated[0]; k++)
             skip |= generated[k] == table[i].number;
         if (!skip && !used[table[i].number])

@@ -21,6 +21,22 @@ static void the_pack_is_sound(void **state) {
     assert_string_equal(si->criterion, "fracture");
     assert_true(si->youngs.uncertainty > 0 && si->youngs.source[0]);
     assert_null(fw_material_find(&m, "unobtainium"));
+    const struct {
+        const char *id;
+        double expansion, change;
+    } warm[] = {{"silicon-100", 2.57e-6, -60e-6},
+                {"copper-plated", 16.7e-6, -390e-6},
+                {"aluminium", 23.1e-6, -540e-6},
+                {"silicon-substrate", 2.57e-6, 0},
+                {"glass-carrier", 3.3e-6, 0}};
+    for (size_t i = 0; i < sizeof warm / sizeof warm[0]; i++) {
+        const fw_material *w = fw_material_find(&m, warm[i].id);
+        assert_non_null(w);
+        assert_relative(w->expansion.value, warm[i].expansion, 1e-14);
+        assert_true(w->expansion.uncertainty > 0 && w->expansion.status == FW_TYPICAL);
+        assert_int_equal(w->modulus_change.unknown, warm[i].change == 0);
+        if (warm[i].change != 0) assert_relative(w->modulus_change.value, warm[i].change, 1e-14);
+    }
     assert_null(fw_material_find(&m, NULL));
     fw_arena_free(arena);
 }
@@ -34,8 +50,38 @@ static void what_is_absent_is_unknown(void **state) {
     assert_int_equal(fw_materials_read(arena, "t", xml, strlen(xml), &diags, &m), FW_OK);
     const fw_material *w = fw_material_find(&m, "w");
     assert_true(w->youngs.unknown && w->poisson.unknown && w->density.unknown &&
-                w->strength.unknown && w->loss.unknown);
+                w->strength.unknown && w->loss.unknown && w->expansion.unknown &&
+                w->modulus_change.unknown);
+    assert_string_equal(w->modulus_change.id, "modulus-change");
     assert_string_equal(w->strength.id, "strength");
+    fw_arena_free(arena);
+}
+
+/* expansion may be negative, as that of silicon below 120 K; 1 % per kelvin is a
+   slip of the unit */
+static void changes_with_temperature(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+#define WARM(what)                                                                                 \
+    PACK("<material id='w'><q id='expansion' " what " u='0' status='typical' "                     \
+         "src='s'/></material>")
+    static const struct {
+        const char *xml;
+        int number;
+        double value;
+    } pack[] = {{WARM("value='-0.4' unit='ppm/K'"), 0, -0.4e-6},
+                {WARM("value='2.6e-6' unit='1/K'"), 0, 2.6e-6},
+                {WARM("value='2.6e-6' unit='K^-1'"), 0, 2.6e-6},
+                {WARM("value='2.6' unit='1/K'"), 47, 2.6},
+                {WARM("value='2.6e-6' unit='1'"), 25, 2.6e-6}};
+    for (size_t i = 0; i < sizeof pack / sizeof pack[0]; i++) {
+        fw_diags diags = fw_diags_new(arena);
+        fw_materials m;
+        fw_status s = fw_materials_read(arena, "t", pack[i].xml, strlen(pack[i].xml), &diags, &m);
+        assert_int_equal(s, pack[i].number ? FW_INPUT : FW_OK);
+        if (pack[i].number) assert_int_equal(diags.item[0].number, pack[i].number);
+        assert_relative(m.item[0].expansion.value, pack[i].value, 1e-14);
+    }
     fw_arena_free(arena);
 }
 
@@ -79,9 +125,8 @@ static void memory_runs_out(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_pack_is_sound),
-        cmocka_unit_test(what_is_absent_is_unknown),
-        cmocka_unit_test(overrides_replace),
+        cmocka_unit_test(the_pack_is_sound),        cmocka_unit_test(what_is_absent_is_unknown),
+        cmocka_unit_test(changes_with_temperature), cmocka_unit_test(overrides_replace),
         cmocka_unit_test(memory_runs_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

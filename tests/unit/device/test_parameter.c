@@ -81,7 +81,7 @@ static void set_replaces_attributes(void **state) {
         {{"scene[step-laod]/@duration", "1 s"}, 55, "'step-load'"},
         {{"flexure/@length", "1 um"}, 55, "several"},
         {{"mechanism/@x", "1 um"}, 55, "no such element"},
-        {{"air[a]/@x", "1 um"}, 55, "in this version"},
+        {{"air[a]/@x", "1 um"}, 55, "no such element"},
         {{"flexure[A]", "1 um"}, 55, "no path"},
         {{"flexure[A/@length", "1 um"}, 55, "no path"},
         {{"[A]/@length", "1 um"}, 55, "no such element"},

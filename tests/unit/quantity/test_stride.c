@@ -162,6 +162,28 @@ static void waves(void **state) {
     assert_near(fw_law_stride(&strides, 1, 1, &row), 1 + h, 1e-12); /* back again */
 }
 
+/* a half sine gets a step inside and none around it; random loads some three per period of their
+   fastest line */
+static void shocks_and_noise(void **state) {
+    (void)state;
+    const fw_law shock = {.kind = FW_LAW_HALF_SINE, .start_s = 2, .rise_s = 1e-3};
+    const fw_law_strides strides = look_at(&shock, false);
+    int row = 0;
+    double h = 2.1 / pi * 1e-3;
+    assert_near(fw_law_stride(&strides, 1, 0, &row), 2 + h, 1e-12);
+    assert_near(fw_law_stride(&strides, 1, 2, &row), h, 1e-12);
+    assert_true(isinf(fw_law_stride(&strides, 1, 2.001, &row)));
+    const fw_law noise = {.kind = FW_LAW_RANDOM,
+                          .frequency_Hz = 20,
+                          .frequency_most_Hz = 200,
+                          .lines = 32,
+                          .seed = 1};
+    const fw_law_strides fine = look_at(&noise, false);
+    row = 0;
+    for (double t = 0; t < scene_s; t += 0.37)
+        assert_near(fw_law_stride(&fine, 1, t, &row), 2.1 / (2 * pi * 200), 1e-15);
+}
+
 /* steps, ramps and tables are straight between their breaks */
 static void straight_laws(void **state) {
     (void)state;
@@ -222,8 +244,13 @@ static void memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bells),  cmocka_unit_test(beside_a_ramp), cmocka_unit_test(slow_laws),
-        cmocka_unit_test(waves),  cmocka_unit_test(straight_laws), cmocka_unit_test(wild_laws),
+        cmocka_unit_test(shocks_and_noise),
+        cmocka_unit_test(bells),
+        cmocka_unit_test(beside_a_ramp),
+        cmocka_unit_test(slow_laws),
+        cmocka_unit_test(waves),
+        cmocka_unit_test(straight_laws),
+        cmocka_unit_test(wild_laws),
         cmocka_unit_test(memory),
     };
     return cmocka_run_group_tests(tests, setup, teardown);

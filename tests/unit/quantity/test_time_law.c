@@ -87,6 +87,35 @@ static void sine(void **state) {
     assert_near(fw_law_largest(&early, 0.5), sin(2 * pi * 0.125 * 1.5), 1e-12);
 }
 
+static void half_sine(void **state) {
+    (void)state;
+    const fw_law law = {.kind = FW_LAW_HALF_SINE, .start_s = 1, .rise_s = 0.5};
+    double w = pi / 0.5;
+    assert_string_equal(fw_law_kind_text(law.kind), "half-sine");
+    expect(&law, 0.5, 0.5, 0, 0, 0);
+    expect(&law, 1, 0.9, 0, 0, 0);
+    expect(&law, 1, 1.1, 0, w, 0);
+    expect(&law, 1.1, 1.1, sin(0.1 * w), w * cos(0.1 * w), -w * w * sin(0.1 * w));
+    expect(&law, 1.4, 1.4, sin(0.4 * w), w * cos(0.4 * w), -w * w * sin(0.4 * w));
+    expect(&law, 1.5, 1.4, 0, -w, 0);
+    expect(&law, 1.5, 1.5, 0, 0, 0);
+    expect_breaks(&law, 10, 2, (const double[]){1, 1.5}, 0);
+    expect_breaks(&law, 1.2, 1, (const double[]){1}, 0);
+    assert_false(fw_law_is_constant(&law));
+    assert_near(fw_law_largest(&law, 10), 1, 0);
+    assert_near(fw_law_largest(&law, 1.25), 1, 0);
+    assert_near(fw_law_largest(&law, 1.2), sin(0.2 * w), 1e-15);
+    assert_near(fw_law_largest(&law, 1), 0, 0);
+    /* a pulse carries the momentum 2/pi of its peak times its length */
+    double sum = 0, v[3];
+    for (int i = 0; i < 1000; i++) {
+        double t = 1 + 0.5 * (i + 0.5) / 1000;
+        fw_law_value(&law, t, t, v);
+        sum += v[0] * 0.5 / 1000;
+    }
+    assert_near(sum, 2 / pi * 0.5, 1e-6);
+}
+
 static void table(void **state) {
     (void)state;
     static const double t[] = {0, 1, 2, 4}, v[] = {0, 0.5, -2, -2};
@@ -138,8 +167,8 @@ static void expressions(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(step),  cmocka_unit_test(ramp),        cmocka_unit_test(sine),
-        cmocka_unit_test(table), cmocka_unit_test(expressions),
+        cmocka_unit_test(step),      cmocka_unit_test(ramp),  cmocka_unit_test(sine),
+        cmocka_unit_test(half_sine), cmocka_unit_test(table), cmocka_unit_test(expressions),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

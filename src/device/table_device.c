@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rows of the table: what a device is made of and what is asked of it. */
+#include "device/table_rows.h"
+
+static const char *const flexure_kinds[] = {"csfh", "leaf", NULL};
+static const char *const carriers[] = {"none", "insulating", NULL};
+static const char *const yes_no[] = {"yes", "no", NULL};
+
+static const fw_attribute_row device_rows[] = {
+    {"name", ID, REQUIRED, .sentence = "Name of the device; it names outputs and the GDSII cell."},
+};
+static const fw_attribute_row parameter_rows[] = {
+    {"name", .kind = FW_KIND_NAME, REQUIRED,
+     .sentence = "Name for expressions; not a unit symbol and not a function."},
+    {"value", .kind = FW_KIND_ANY, REQUIRED,
+     .sentence = "Number with unit or an expression; it may use other parameters."},
+    {"min", .kind = FW_KIND_ANY, .fallback = "no limit",
+     .sentence = "Least value that --set, the page and studies may give."},
+    {"max", .kind = FW_KIND_ANY, .fallback = "no limit",
+     .sentence = "Greatest value that --set, the page and studies may give."},
+    {"doc", TEXT, .sentence = "One sentence for the page."},
+};
+static const fw_attribute_row material_rows[] = {
+    {"ref", ID, REQUIRED, .sentence = "Id of a material in processes/base.xml."},
+    {"youngs-modulus", D_PRESSURE,
+     RANGE(1e6, 2e12, "below 1 MPa are gels and foams; no material is stiffer than 2 TPa"),
+     .fallback = "the material's", .sentence = "Young's modulus for bending in the wafer plane."},
+    {"poisson", D_PURE, ABOVE(-1, 0.5, "elastic stability of an isotropic body"),
+     .fallback = "the material's", .sentence = "Poisson's ratio."},
+    {"density", D_DENSITY,
+     RANGE(1, 3e4, "no solid to build of is lighter than 1 kg/m3 or denser than 30000 kg/m3"),
+     .fallback = "the material's", .sentence = "Density."},
+    {"strength", D_PRESSURE,
+     RANGE(1e3, 2e11,
+           "what is weaker than 1 kPa cannot be handled; no material is stronger than 200 GPa"),
+     .fallback = "the material's", .sentence = "Stress that the safety factor divides."},
+    {"thickness", THICKNESS, .fallback = "the flow's",
+     .sentence = "Thickness of the device layer."},
+};
+static const fw_attribute_row limits_rows[] = {
+    {"safety-factor", D_PURE, RANGE(1, 100, "below 1 the limit itself would be exceeded"),
+     .fallback = "1.5", .sentence = "Strength divided by the stress that is allowed."},
+};
+static const fw_attribute_row flow_rows[] = {
+    {"ref", ID, REQUIRED, .sentence = "Name of a process pack, e.g. al-masked-rie."},
+    {"material", ID, .fallback = "the device's", .sentence = "Id of the material in this flow."},
+    {"thickness", THICKNESS, .fallback = "the device's",
+     .sentence = "Thickness of the device layer in this flow."},
+    {"carrier", .kind = FW_KIND_WORD, .words = carriers, .fallback = "none",
+     .sentence = "What the layer stands on: none, so that all that is anchored is one conductor; "
+                 "insulating, so that only what is joined in the layer is."},
+};
+static const fw_attribute_row flexure_rows[] = {
+    {"id", ID, REQUIRED, .sentence = "Id for hinges to refer to."},
+    {"kind", .kind = FW_KIND_WORD, REQUIRED, .words = flexure_kinds,
+     .sentence = "csfh: a thin arc between conjugate surfaces; leaf: a thin straight strip."},
+    {"length", SIZE,
+     .sentence = "Along the centre line, from face to face. csfh: exactly two of "
+                 "length, radius and angle."},
+    {"radius", SIZE, .sentence = "Of the arc's centre line (csfh only)."},
+    {"angle", D_ANGLE, .unit = "deg",
+     ABOVE(0, 330 * PI / 180, "beyond 330 deg the ends of the arc meet"),
+     .sentence = "Subtended by the arc (csfh only)."},
+    {"width", THIN, REQUIRED, .sentence = "Of the thin part, in the wafer plane."},
+    {"gap", GAP, .fallback = "0 um", .sentence = "Of the conjugate surfaces; 0: none."},
+    {"fillet", GAP, .fallback = "chosen by the layout", .sentence = "Radius at the roots."},
+};
+static const fw_attribute_row workspace_rows[] = {
+    {"flow", REF(FW_SPACE_FLOW), .fallback = "all flows", .sentence = "Only in this flow."},
+    {"x-min", POSITION, REQUIRED, .sentence = "Platform displacement from the drawn pose."},
+    {"x-max", POSITION, REQUIRED, .sentence = "Platform displacement from the drawn pose."},
+    {"y-min", POSITION, REQUIRED, .sentence = "Platform displacement from the drawn pose."},
+    {"y-max", POSITION, REQUIRED, .sentence = "Platform displacement from the drawn pose."},
+    {"phi-min", TURN, REQUIRED, .sentence = "Platform rotation from the drawn pose."},
+    {"phi-max", TURN, REQUIRED, .sentence = "Platform rotation from the drawn pose."},
+};
+static const fw_attribute_row die_rows[] = {
+    {"width", SIZE, .fallback = "from the drawn mechanism", .sentence = "Of the chip."},
+    {"height", SIZE, .fallback = "from the drawn mechanism", .sentence = "Of the chip."},
+    {"frame", GAP, .fallback = "chosen by the layout", .sentence = "Width of the frame."},
+    {"lane", GAP, .fallback = "chosen by the layout", .sentence = "Width of the dicing lane."},
+    {"clearance", GAP, .fallback = "chosen by the layout",
+     .sentence = "Between moving parts and the frame."},
+    {"title", TEXT, .fallback = "the device's name", .sentence = "Written on the die."},
+    {"tethers", .kind = FW_KIND_WORD, .words = yes_no, .fallback = "yes",
+     .sentence = "Thin bridges that hold the mechanism until they are broken."},
+};
+
+const fw_element_row fw_table_device[] = {
+    {"device", "", "name", ROWS(device_rows), .once = true,
+     .sentence = "One planar compliant mechanism; xmlns=\"urn:flexwright:device:1\"."},
+    {"parameter", "device", "name", FW_SPACE_PARAMETER, .most = 200, ROWS(parameter_rows),
+     .sentence = "A named value that expressions use and --set, the page and studies may change."},
+    {"material", "device", "ref", .once = true, ROWS(material_rows),
+     .sentence = "What the device is made of; attributes replace the material's own values."},
+    {"limits", "device", .once = true, ROWS(limits_rows), .sentence = "What the verdict asks for."},
+    {"flow", "device", "ref", FW_SPACE_FLOW, .most = 50, ROWS(flow_rows),
+     .sentence = "A fabrication flow to plan for."},
+    {"flexure", "device", "id", FW_SPACE_FLEXURE, .most = 4000, ROWS(flexure_rows),
+     .sentence = "Geometry of a flexure hinge."},
+    {"workspace", "device", .most = 200, ROWS(workspace_rows),
+     .sentence = "Platform poses that must be reachable, relative to the drawn pose."},
+    {"die", "device", .once = true, ROWS(die_rows), .sentence = "The chip around the mechanism."},
+};
+const int fw_table_device_count = sizeof fw_table_device / sizeof fw_table_device[0];
