@@ -59,6 +59,7 @@ static void springs_as_elements(void **state) {
         fw_arena *arena = fw_arena_new(0);
         const char *method = fw_method_at(i).name;
         rig r = six_bar_with_springs(arena);
+        r.scene.duration_s = 2e-3;
         fw_terms native = rig_terms(arena, &r), own = native;
         line data[2];
         own.nspring = 0;
@@ -219,6 +220,30 @@ static void released_six_bar(void **state) {
         assert_true(x->stats.max_constraint_norm < 1e-12);
         fw_arena_free(arena);
     }
+}
+
+/* the largest force on a released pin is found between the samples, and its error is told */
+static void peak_of_a_released_pin(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const bush d = {900, 4, 0.05};
+    rig r = rig_bar(arena);
+    fw_terms t = rig_terms(arena, &r);
+    bush_release(arena, &r.m, &t, 0, &d);
+    fw_diags diags = fw_diags_new(arena);
+    fw_motion *m;
+    const fw_motion_options o = {.rtol = 1e-9, .samples = 4001, .reactions = true};
+    assert_int_equal(fw_simulate_terms(arena, &r.m, &r.scene, &o, &t, &diags, &m), FW_OK);
+    double most = 0, at = 0;
+    for (int i = 0; i < m->nsample; i++) {
+        double now = hypot(m->reaction_N[2 * i], m->reaction_N[2 * i + 1]);
+        if (now > most) most = now, at = m->t_s[i];
+    }
+    assert_near(m->force_peak[0].force_N, most, 1e-5 * most);
+    assert_true(m->force_peak[0].force_N >= most * (1 - 1e-9));
+    assert_near(m->force_peak[0].t_s, at, 3e-4);
+    assert_true(m->force_peak[0].error_N < 1e-5 * most && m->force_peak[0].error_N > 0);
+    fw_arena_free(arena);
 }
 
 /* as the bush becomes stiff, the motion tends to that of the pin like 1/k */
@@ -418,11 +443,12 @@ static void classes_are_sound(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(classes_are_sound), cmocka_unit_test(springs_as_elements),
-        cmocka_unit_test(cable_as_element),  cmocka_unit_test(bar_on_a_bush),
-        cmocka_unit_test(released_six_bar),  cmocka_unit_test(stiff_bush_is_a_pin),
-        cmocka_unit_test(start_is_closed),   cmocka_unit_test(energies_add_up),
-        cmocka_unit_test(where_it_ends),     cmocka_unit_test(open_contact_is_seen),
+        cmocka_unit_test(classes_are_sound),    cmocka_unit_test(springs_as_elements),
+        cmocka_unit_test(cable_as_element),     cmocka_unit_test(bar_on_a_bush),
+        cmocka_unit_test(released_six_bar),     cmocka_unit_test(peak_of_a_released_pin),
+        cmocka_unit_test(stiff_bush_is_a_pin),  cmocka_unit_test(start_is_closed),
+        cmocka_unit_test(energies_add_up),      cmocka_unit_test(where_it_ends),
+        cmocka_unit_test(open_contact_is_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
