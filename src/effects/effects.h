@@ -138,7 +138,7 @@ fw_status fw_static_response(fw_arena *arena, const fw_mechanism *mechanism, con
                              const double *force, double *displacement, double *rotation,
                              bool *valid);
 /* generalized forces (3 nbody) of the terms at the initial pose, just behind t = 0: constants,
-   loads, springs, slides, stops */
+   loads, springs, slides, stops, elements */
 void fw_terms_initial_force(const fw_mechanism *mechanism, const fw_terms *terms, double *force);
 /* the same with every timed load at the largest |factor| that it has in (0, end_s) */
 void fw_terms_largest_force(const fw_mechanism *mechanism, const fw_terms *terms, double end_s,
