@@ -31,6 +31,7 @@ typedef struct fw_effect_entry { /* a line of the ledger */
 typedef struct fw_effect_ledger {
     fw_effect_entry *item; /* (count) */
     int count;
+    double left_out; /* sum of the bounds of what is called for and left out */
 } fw_effect_ledger;
 
 /* ---- what acts, compiled to plain arrays in SI; an absent effect leaves no entry behind ---- */
@@ -124,7 +125,9 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
 } fw_effect_row;
 const fw_effect_row *const *fw_effect_rows(size_t *count);
 
-/* decides and compiles. A list with an unknown id is FW_USAGE (FW-D110 names the known ones). */
+/* decides and compiles. Auto leaves effects out, the smallest bound first, while the sum of their
+   bounds stays below the accuracy; none and lists leave out what is not kept. A list with an
+   unknown id is FW_USAGE (FW-D110 names the known ones). */
 fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                              const fw_effect_choice *choice, double accuracy, fw_diags *diags,
                              fw_effect_ledger *ledger, fw_terms *terms);
