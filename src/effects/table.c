@@ -145,23 +145,41 @@ static fw_status decide_auto(const fw_effect_case *c, double accuracy, fw_effect
     return FW_OK;
 }
 
-/* a stop that may be reached is a part of the mechanism, as springs are */
-static bool belongs(const fw_effect_row *row, const fw_effect_entry *entry) {
-    return row->kept || (row == &fw_effect_joint_stop && isinf(entry->bound));
+/* something of the scene or the mechanism moves it, other than weight: what is kept besides springs
+ */
+static bool moved(const fw_effect_case *c) {
+    for (int i = 0; i < ROWS; i++)
+        if (rows[i]->kept && rows[i] != &fw_effect_joint_elasticity &&
+            rows[i] != &fw_effect_point_spring && rows[i]->called_for(c))
+            return true;
+    return c->mechanism->ndriver > 0;
 }
 
-static void decide_asked(const fw_effect_choice *choice, fw_effect_entry *entry) {
+/* stays whatever was asked for: what is kept; a stop that may be reached, as springs do; weight
+   where nothing else moves the mechanism */
+static bool belongs(const fw_effect_case *c, const fw_effect_row *row,
+                    const fw_effect_entry *entry) {
+    return row->kept || (row == &fw_effect_joint_stop && isinf(entry->bound)) ||
+           (row == &fw_effect_gravity && !moved(c));
+}
+
+static void decide_asked(const fw_effect_case *c, const fw_effect_choice *choice,
+                         fw_effect_entry *entry) {
+    bool all = choice->mode == FW_EFFECTS_ALL, list = choice->mode == FW_EFFECTS_LIST;
     for (int i = 0; i < ROWS; i++) {
         fw_effect_entry *e = &entry[i];
         if (!e->called_for) continue;
-        bool in = choice->mode == FW_EFFECTS_ALL ||
-                  (choice->mode == FW_EFFECTS_LIST && listed(choice->list, e->id));
-        e->active = in || belongs(rows[i], e);
-        if (belongs(rows[i], e) && choice->mode != FW_EFFECTS_ALL) continue;
-        e->reason = choice->mode == FW_EFFECTS_ALL    ? "called for, and all effects were asked for"
-                    : in                              ? "called for, and in the list asked for"
-                    : choice->mode == FW_EFFECTS_NONE ? "called for, but no effect was asked for"
-                                                      : "called for, but not in the list";
+        bool in = all || (list && listed(choice->list, e->id)), stays = belongs(c, rows[i], e);
+        e->active = in || stays;
+        if (all)
+            e->reason = "called for, and all effects were asked for";
+        else if (in && !rows[i]->kept)
+            e->reason = "called for, and in the list asked for";
+        else if (!stays)
+            e->reason = list ? "called for, but not in the list"
+                             : "called for, but no effect was asked for";
+        else if (rows[i] == &fw_effect_gravity)
+            e->reason = "nothing but weight moves the mechanism: it is the motion itself";
     }
 }
 
@@ -189,7 +207,7 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, con
     if (choice->mode == FW_EFFECTS_AUTO)
         FW_TRY(decide_auto(&c, accuracy, ledger->item));
     else
-        decide_asked(choice, ledger->item);
+        decide_asked(&c, choice, ledger->item);
     for (int i = 0; i < ROWS; i++) {
         const fw_effect_entry *e = &ledger->item[i];
         if (e->called_for && !e->active) ledger->left_out += e->bound;
