@@ -31,7 +31,7 @@ typedef struct fw_effect_entry { /* a line of the ledger */
 typedef struct fw_effect_ledger {
     fw_effect_entry *item; /* (count) */
     int count;
-    double left_out; /* sum of the bounds of what is called for and left out */
+    double left_out; /* sum of the bounds of what auto left out; 0 where the choice was asked for */
 } fw_effect_ledger;
 
 /* ---- what acts, compiled to plain arrays in SI; an absent effect leaves no entry behind ---- */
