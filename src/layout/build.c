@@ -126,6 +126,31 @@ static void say_ties(const fw_device *device, fw_diags *diags) {
                     device->ntie > 1 ? ", and so are the other joints that do not turn" : "");
 }
 
+static void say_actuator(fw_diags *diags, fw_place place, const char *kind, const char *id,
+                         const char *what) {
+    fw_diag_warning(
+        diags, 131, place,
+        "%s %s moves the device, but %s not drawn: add the layer's polygons to the mask "
+        "by hand before you order it; their mass is not in the motion either",
+        kind, id ? id : "(unnamed)", what);
+}
+
+/* the first of each kind, once per file */
+static void say_actuators(const fw_device *device, fw_diags *diags) {
+    for (size_t i = 0; i < diags->count; i++)
+        if (diags->item[i].number == 131) return;
+    const fw_comb *comb = NULL;
+    const fw_tendon *tendon = NULL;
+    for (int i = 0; i < device->nscene; i++) {
+        const fw_scene *s = &device->scene[i];
+        if (!comb && s->ncomb > 0) comb = &s->comb[0];
+        if (!tendon && s->ntendon > 0) tendon = &s->tendon[0];
+    }
+    if (comb)
+        say_actuator(diags, comb->place, "comb drive", comb->id, "its electrodes and leads are");
+    if (tendon) say_actuator(diags, tendon->place, "tendon", tendon->id, "its eyelets are");
+}
+
 fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *diags,
                           const fw_layout **layout) {
     fw_layout *l;
@@ -138,6 +163,7 @@ fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *di
     if (!l->why_not) {
         fw_drawing d = {.arena = arena, .device = device, .diags = diags, .layout = l};
         say_ties(device, diags);
+        say_actuators(device, diags);
         FW_TRY(draw(&d));
         l->drawn = true;
     }

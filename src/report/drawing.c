@@ -184,6 +184,7 @@ fw_status fw_report_drawing(const fw_device *device, const fw_layout *layout,
     } else
         FW_TRY(schematic(device, verdict, view, ids, out));
     hinges(device, layout, verdict, view, out);
+    fw_report_actuators(device, layout, view, out);
     body_labels(device, layout, view, out);
     hinge_labels(device, layout, verdict, view, out);
     fw_report_scale_bar_svg(out, view);

@@ -147,6 +147,13 @@ void fw_report_body_path(const fw_layout *layout, int body, const fw_report_view
                          fw_text *out);
 double fw_report_joint_utilisation(const fw_verdict *verdict, int joint); /* NaN: none */
 
+/* ---- actuators.c ---- */
+/* tendons and electrodes of all scenes, over the drawing */
+void fw_report_actuators(const fw_device *device, const fw_layout *layout,
+                         const fw_report_view *view, fw_text *out);
+/* adds where tendons lead */
+void fw_report_actuators_reach(const fw_device *device, const fw_layout *layout, fw_box *box);
+
 /* ---- sections of the page ---- */
 typedef struct fw_page {
     fw_arena *arena;

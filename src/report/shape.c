@@ -113,6 +113,12 @@ fw_report_view fw_report_device_view(const fw_device *device, const fw_layout *l
     if (!isfinite(size) || !(size > 0.0)) return fw_report_view_fit(box, width, 0.0);
     double pad = 0.2 * size, less = 0.1 * size;
     box = (fw_box){box.x0 - pad, box.y0 - pad, box.x1 + pad, box.y1 + pad};
+    fw_box led = fw_report_box_empty();
+    fw_report_actuators_reach(device, layout, &led);
+    if (led.x1 >= led.x0) {
+        fw_report_box_add(&box, led.x0 - less, led.y0 - less);
+        fw_report_box_add(&box, led.x1 + less, led.y1 + less);
+    }
     if (reach && reach->x1 >= reach->x0 && reach->y1 >= reach->y0) {
         fw_report_box_add(&box, reach->x0 - less, reach->y0 - less);
         fw_report_box_add(&box, reach->x1 + less, reach->y1 + less);
