@@ -100,7 +100,7 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, con
                              fw_effect_ledger *ledger, fw_terms *terms) {
     fw_envelope envelope;
     FW_TRY(fw_envelope_find(arena, mechanism, scene, &envelope));
-    const fw_effect_case c = {arena, mechanism, scene, &envelope};
+    const fw_effect_case c = {arena, mechanism, scene, &envelope, diags};
     if (choice->mode == FW_EFFECTS_LIST) FW_TRY(check_list(arena, choice->list, diags));
     FW_NEED(ledger->item = fw_arena_array(arena, fw_effect_entry, ROWS));
     ledger->count = ROWS;
