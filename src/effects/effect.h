@@ -34,6 +34,11 @@ typedef struct fw_hinge_give {
     double *give_m;      /* (npin) |W of b from W of a| at most */
 } fw_hinge_give;
 fw_status fw_hinge_give_find(const fw_effect_case *c, fw_hinge_give *give);
+/* this pin's damper comes from the scene's <material-damping>: joint-damping has nothing to add */
+bool fw_material_damped(const fw_effect_case *c, int pin);
+/* N/m: conforming cylinders, convex radius and gap, pressed by `force`: contact.c */
+double fw_line_contact(double youngs_Pa, double poisson, double depth_m, double radius_m,
+                       double gap_m, double force_N);
 /* something in the scene or the mechanism answers out of proportion to a load: its response to a
    part of the loads says nothing about the whole (loads that go with time, drivers, stops, cables)
  */

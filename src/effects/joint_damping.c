@@ -2,21 +2,28 @@
 #include "effects/effect.h"
 #include <math.h>
 
+/* of a pin: as the file or the mechanism has it, unless the scene's <material-damping> replaces it
+ */
+static double damping_of(const fw_effect_case *c, int pin) {
+    return fw_material_damped(c, pin) ? 0 : c->mechanism->pin[pin].damping_Nms_per_rad;
+}
+
 static bool called_for(const fw_effect_case *c) {
     for (int i = 0; i < c->mechanism->npin; i++)
-        if (c->mechanism->pin[i].damping_Nms_per_rad > 0) return true;
+        if (damping_of(c, i) > 0) return true;
     for (int i = 0; i < c->mechanism->ntie; i++)
         if (c->mechanism->tie[i].damping_Ns_per_m > 0) return true;
     return false;
 }
 
 /* adds c/J of a turning damper, c (1/m + r^2/J) of a sliding one to its bodies */
-static void add_rates(const fw_mechanism *m, double *rate) {
+static void add_rates(const fw_effect_case *c, double *rate) {
+    const fw_mechanism *m = c->mechanism;
     for (int i = 0; i < m->npin; i++) {
         const fw_pin *p = &m->pin[i];
         for (int side = 0; side < 2; side++) {
             int b = side ? p->body_b : p->body_a;
-            if (b != FW_GROUND) rate[b] += p->damping_Nms_per_rad / m->body[b].inertia_kg_m2;
+            if (b != FW_GROUND) rate[b] += damping_of(c, i) / m->body[b].inertia_kg_m2;
         }
     }
     for (int i = 0; i < m->ntie; i++) {
@@ -43,7 +50,7 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     fw_mark mark = fw_arena_mark(c->arena);
     double fastest = 0, *rate = fw_arena_array(c->arena, double, (size_t)m->nbody);
     FW_NEED(rate);
-    add_rates(m, rate);
+    add_rates(c, rate);
     for (int b = 0; b < m->nbody; b++)
         fastest = fmax(fastest, rate[b]);
     fw_arena_rewind(c->arena, mark);
@@ -55,9 +62,8 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
 
 static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     for (int i = 0; i < c->mechanism->npin; i++)
-        if (c->mechanism->pin[i].damping_Nms_per_rad > 0)
-            fw_terms_torsion(c->mechanism, terms, i)->damping_Nms_per_rad =
-                c->mechanism->pin[i].damping_Nms_per_rad;
+        if (damping_of(c, i) > 0)
+            fw_terms_torsion(c->mechanism, terms, i)->damping_Nms_per_rad = damping_of(c, i);
     for (int i = 0; i < c->mechanism->ntie; i++)
         if (c->mechanism->tie[i].damping_Ns_per_m > 0)
             fw_terms_slide(terms, i)->damping_Ns_per_m = c->mechanism->tie[i].damping_Ns_per_m;

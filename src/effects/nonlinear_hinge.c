@@ -243,10 +243,21 @@ static int count(const fw_effect_case *c) {
     return n;
 }
 
+/* further rotation over the floor, and what a softer mechanism does to the motion: hinge_give.c.
+   Where surfaces may touch the hinge must be able to give. Test: test_hinge_give.c. */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
-    (void)c;
+    fw_hinge_give give;
     *value = (double)INFINITY;
-    *reason = "";
+    FW_TRY(fw_hinge_give_find(c, &give));
+    *reason = give.why_not;
+    if (give.why_not) return FW_OK;
+    double touch = 0;
+    *reason = "conjugate surfaces may touch, which needs the hinge to give: kept";
+    if (c->scene->ncontact > 0) FW_TRY(fw_effect_contact.bound(c, &touch, &(const char *){NULL}));
+    if (!(touch == 0)) return FW_OK;
+    *value = fw_envelope_stiffness(c, give.softening) + give.turned_rad / c->envelope->floor;
+    *reason = "bound: what hinges that give and drift add to the rotations, and take from the "
+              "stiffness";
     return FW_OK;
 }
 

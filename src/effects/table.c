@@ -5,9 +5,16 @@
 #include <string.h>
 
 static const fw_effect_row *const rows[] = {
-    &fw_effect_joint_elasticity, &fw_effect_joint_damping, &fw_effect_joint_stop,
-    &fw_effect_point_spring,     &fw_effect_applied_load,  &fw_effect_gravity,
+    &fw_effect_joint_elasticity,
+    &fw_effect_joint_damping,
+    &fw_effect_material_damping, /* before nonlinear-hinge, which takes it over */
+    &fw_effect_joint_stop,
+    &fw_effect_point_spring,
+    &fw_effect_applied_load,
+    &fw_effect_gravity,
     &fw_effect_initial_velocity,
+    &fw_effect_nonlinear_hinge, /* after joint-elasticity: it takes the spring over */
+    &fw_effect_contact,
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
