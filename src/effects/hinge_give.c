@@ -5,30 +5,35 @@
 
      M e'' + Kc e = G^T s,   s_i = l0_i + k_i drift_i
 
-   with Kc the stiffness of all elements and G^T s_i the force s_i on body b and its opposite on
-   body a at pin i. With A = Kc^-1: slowly          e = A G^T s: turned_j <= sum_i |t_j A G_i^T|
-   s_i, t_j: rotation of pin j at once         twice that, over 1 - r for the frequencies of the
+   with Kc the stiffness of all hinges and G^T s_i the force s_i on body b and its opposite on body
+   a at pin i. In the modes f_m of (Kc, M), W_m their frequencies: turned     rotation of pin j: c
+   sum_m |turn_j f_m| sum_i |G_i f_m| s_i / W_m^2. A static sum would cancel between modes; a motion
+   does not, so sizes are added. c = 2/(1 - r): put on at once, and for the frequencies of the
    pinned motion, r = (largest pinned frequency / least one at which the pins vibrate)^2; only where
-   r < 1/4 softening       the pinned flexibility is F0 = Q W^-2 Q^T in modes Q (W: omega); A - F0
-   >= 0 is what the pins add, in the modes |W Q^T M A M Q W - 1| (Frobenius) second order    forces
-   through the drift soften the rotation by l drift''/k; the place of W gives them an arm, couples
-   s_i give_i Inputs SI from the envelope; outputs rad, m, relative. Not valid for loads that go
-   with time (they may meet the pins' own vibrations), other joints, springs. Cost: (3 nbody)^3 and
-   an eigenvalue problem. Source: docs/theory/effects/nonlinear-hinge.md. Test: test_hinge_give.c
-   (motions of a lever and a six-bar with and without). */
+   r < 1/4 give       of pin j: the same with |G_j f_m| softening  the pinned flexibility is F0 = Q
+   w^-2 Q^T in pinned modes Q; A = Kc^-1, and A - F0 >= 0 is what the pins add: |w Q^T M A M Q w -
+   1| in the modes (Frobenius). It holds the slow part of l0 too, which goes with the motion's own
+   frequencies second     forces through the drift soften the rotation by l drift''/k; the displaced
+   W gives order      them an arm: couples s_i give_i on both bodies Inputs SI from the envelope;
+   outputs rad, m, relative. Not valid for loads that go with time (they may meet the pins' own
+   vibrations), other joints, springs. Cost: an eigenvalue problem of 3 nbody. Source:
+   docs/theory/effects/nonlinear-hinge.md. Test: test_hinge_give.c (motions of a lever and a six-bar
+   with and without). */
 #include "effects/effect.h"
 #include "effects/envelope.h"
 #include "maths/lapack.h"
 #include <math.h>
-#include <string.h>
 
 typedef struct work {
     const fw_effect_case *c;
     int n;
-    double *stiffness; /* (n x n) then its Cholesky factor */
-    double *answer;    /* (2 npin x n) A G_i^T for forces along x and y at every pin */
-    double *couple;    /* (n) work */
-    double *push;      /* (npin) s_i */
+    double *mass;      /* (n) */
+    double *stiffness; /* (n x n) */
+    double *mode;      /* (n x n) row m: f_m, f_m^T M f_m = 1 */
+    double *square;    /* (n) W_m^2, ascending */
+    double *turn;      /* (n x npin) |turn of pin| in mode m */
+    double *open;      /* (n x npin) |G_i f_m| */
+    double *push;      /* (n) sum over what pushes: |generalised force of mode m|, at most */
 } work;
 
 /* what in the scene the theory above has no place for */
@@ -70,33 +75,36 @@ static fw_status assemble(work *w) {
     return FW_OK;
 }
 
-/* generalised force of (fx, fy) on body b and the opposite on body a at a pin */
-static void pull_pin(const fw_mechanism *m, int pin, double fx, double fy, double *force) {
-    const fw_pin *p = &m->pin[pin];
-    for (int side = 0; side < 2; side++) {
-        int b = side ? p->body_b : p->body_a;
-        double o = side ? 1 : -1;
-        if (b == FW_GROUND) continue;
-        fw_vec2 at = fw_pin_place(m, p, side);
-        double rx = at.x - m->body[b].x_m, ry = at.y - m->body[b].y_m;
-        force[3 * b] += o * fx, force[3 * b + 1] += o * fy;
-        force[3 * b + 2] += o * (rx * fy - ry * fx);
+/* f_m and W_m; how mode m turns and opens the pins. *fine false: no stiffness, or no modes */
+static fw_status find_modes(work *w, bool *fine) {
+    const fw_mechanism *m = w->c->mechanism;
+    int n = w->n;
+    fw_lapack_space space;
+    FW_TRY(fw_eigen_space(w->c->arena, n, &space));
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            w->mode[i * n + j] = w->stiffness[i * n + j] / sqrt(w->mass[i] * w->mass[j]);
+    *fine = fw_eigen(n, w->mode, w->square, &space) && w->square[0] > 0;
+    for (int k = 0; k < n && *fine; k++) {
+        double *f = w->mode + (size_t)k * (size_t)n;
+        for (int i = 0; i < n; i++)
+            f[i] /= sqrt(w->mass[i]);
+        for (int i = 0; i < m->npin; i++) {
+            fw_vec2 at[2] = {{0, 0}, {0, 0}};
+            double turn[2] = {0, 0};
+            for (int side = 0; side < 2; side++) {
+                int b = side ? m->pin[i].body_b : m->pin[i].body_a;
+                if (b == FW_GROUND) continue;
+                fw_vec2 p = fw_pin_place(m, &m->pin[i], side);
+                turn[side] = f[3 * b + 2];
+                at[side].x = f[3 * b] - turn[side] * (p.y - m->body[b].y_m);
+                at[side].y = f[3 * b + 1] + turn[side] * (p.x - m->body[b].x_m);
+            }
+            w->turn[k * m->npin + i] = fabs(turn[1] - turn[0]);
+            w->open[k * m->npin + i] = hypot(at[1].x - at[0].x, at[1].y - at[0].y);
+        }
     }
-}
-
-static double turn_of(const fw_mechanism *m, int pin, const double *q) {
-    int a = m->pin[pin].body_a, b = m->pin[pin].body_b;
-    return (b == FW_GROUND ? 0 : q[3 * b + 2]) - (a == FW_GROUND ? 0 : q[3 * a + 2]);
-}
-
-/* displacement q opens a pin by this along (fx, fy): G q */
-static double opening(const work *w, int pin, int along, const double *q) {
-    double sum = 0;
-    memset(w->couple, 0, (size_t)w->n * sizeof(double));
-    pull_pin(w->c->mechanism, pin, along == 0, along == 1, w->couple);
-    for (int i = 0; i < w->n; i++)
-        sum += w->couple[i] * q[i];
-    return sum;
+    return FW_OK;
 }
 
 /* largest of drift, its second derivative and |k'/k| within the angles that the envelope allows */
@@ -121,128 +129,88 @@ static worst worst_of(const fw_hinge_law *law, double angle_rad) {
     return w;
 }
 
-/* |W Q^T M A M Q W - 1| */
+/* |w Q^T M A M Q w - 1| */
 static fw_status soften(const work *w, double *softening) {
-    const fw_effect_case *c = w->c;
-    const fw_envelope *v = c->envelope;
-    double sum = 0, *x;
-    FW_NEED(x = fw_arena_array(c->arena, double, (size_t)w->n));
-    for (int j = 0; j < v->modes; j++) {
-        for (int i = 0; i < w->n; i++) {
-            const fw_mass *b = &c->mechanism->body[i / 3];
-            x[i] = (i % 3 == 2 ? b->inertia_kg_m2 : b->mass_kg) * v->shape[j * w->n + i];
-        }
-        if (!fw_cholesky_solve(w->n, w->stiffness, x)) return FW_SOLVER;
-        for (int k = 0; k < v->modes; k++) {
+    const fw_envelope *v = w->c->envelope;
+    double sum = 0, *part; /* (modes x n) q_j^T M f_m w_j / W_m */
+    FW_NEED(part = fw_arena_array(w->c->arena, double, (size_t)v->modes *(size_t)w->n));
+    for (int j = 0; j < v->modes; j++)
+        for (int k = 0; k < w->n; k++) {
             double dot = 0;
-            for (int i = 0; i < w->n; i++) {
-                const fw_mass *b = &c->mechanism->body[i / 3];
-                dot += (i % 3 == 2 ? b->inertia_kg_m2 : b->mass_kg) * v->shape[k * w->n + i] * x[i];
-            }
-            double off = v->omega[j] * v->omega[k] * dot - (j == k);
+            for (int i = 0; i < w->n; i++)
+                dot += v->shape[j * w->n + i] * w->mass[i] * w->mode[k * w->n + i];
+            part[j * w->n + k] = dot * v->omega[j] / sqrt(w->square[k]);
+        }
+    for (int i = 0; i < v->modes; i++)
+        for (int j = 0; j < v->modes; j++) {
+            double off = i == j ? -1 : 0;
+            for (int k = 0; k < w->n; k++)
+                off += part[i * w->n + k] * part[j * w->n + k];
             sum += off * off;
         }
-    }
     *softening = sqrt(sum);
     return FW_OK;
 }
 
-/* (largest pinned frequency / least one of the pins' own vibrations)^2; infinite where unknown */
-static fw_status closeness(const work *w, double *ratio) {
-    const fw_effect_case *c = w->c;
-    const fw_envelope *v = c->envelope;
-    fw_lapack_space space;
-    double *a, *value;
-    *ratio = (double)INFINITY;
-    if (v->modes >= w->n || v->modes < 1) return FW_OK;
-    FW_NEED(a = fw_arena_array(c->arena, double, (size_t)w->n *(size_t)w->n));
-    FW_NEED(value = fw_arena_array(c->arena, double, (size_t)w->n));
-    FW_TRY(fw_eigen_space(c->arena, w->n, &space));
-    for (int i = 0; i < w->n; i++)
-        for (int j = 0; j < w->n; j++) {
-            const fw_mass *p = &c->mechanism->body[i / 3], *q = &c->mechanism->body[j / 3];
-            double mi = i % 3 == 2 ? p->inertia_kg_m2 : p->mass_kg;
-            double mj = j % 3 == 2 ? q->inertia_kg_m2 : q->mass_kg;
-            a[i * w->n + j] = w->stiffness[i * w->n + j] / sqrt(mi * mj);
-        }
-    if (!fw_eigen(w->n, a, value, &space) || !(value[v->modes] > 0)) return FW_OK;
-    *ratio = v->omega[v->modes - 1] * v->omega[v->modes - 1] / value[v->modes];
-    return FW_OK;
-}
-
-/* rotation of pin j and opening of pin j by unit forces at pin i, for the worst direction */
-static double turned_by(const work *w, int j, int i) {
-    const double *x = w->answer + (size_t)(2 * i) * (size_t)w->n;
-    return hypot(turn_of(w->c->mechanism, j, x), turn_of(w->c->mechanism, j, x + w->n));
-}
-
-static double opened_by(const work *w, int j, int i) {
+/* sum over the modes of what they show of their pushes */
+static double shown(const work *w, const double *what, int pin) {
     double sum = 0;
-    for (int k = 0; k < 4; k++) {
-        const double *x = w->answer + (size_t)(2 * i + k % 2) * (size_t)w->n;
-        double o = opening(w, j, k / 2, x);
-        sum += o * o;
-    }
-    return sqrt(sum);
+    for (int k = 0; k < w->n; k++)
+        sum += what[k * w->c->mechanism->npin + pin] * w->push[k] / w->square[k];
+    return sum;
 }
 
-/* what the arm of the forces at the displaced W turns: a couple on both bodies of pin i, and one
-   between them where the stiffness depends on the angle */
-static fw_status add_couples(work *w, int i, double couple, double between, double *turned) {
+static void add_push(work *w, int hinge, double force_N) {
+    int i = w->c->mechanism->hinge[hinge].pin;
+    for (int k = 0; k < w->n; k++)
+        w->push[k] += w->open[k * w->c->mechanism->npin + i] * force_N;
+}
+
+/* the arm of the forces at the displaced W: couples on both bodies, and one between them where the
+   stiffness depends on the angle */
+static void add_couples(work *w, int hinge, double couple_Nm, double between_Nm) {
     const fw_mechanism *m = w->c->mechanism;
-    int body[2] = {m->pin[i].body_a, m->pin[i].body_b};
-    for (int side = 0; side < 2; side++) {
-        if (body[side] == FW_GROUND) continue;
-        memset(w->couple, 0, (size_t)w->n * sizeof(double));
-        w->couple[3 * body[side] + 2] = 1;
-        if (!fw_cholesky_solve(w->n, w->stiffness, w->couple)) return FW_SOLVER;
-        for (int j = 0; j < m->npin; j++)
-            turned[j] += (0.5 * couple + between) * fabs(turn_of(m, j, w->couple));
-    }
-    return FW_OK;
+    const fw_pin *p = &m->pin[m->hinge[hinge].pin];
+    for (int k = 0; k < w->n; k++)
+        for (int side = 0; side < 2; side++) {
+            int b = side ? p->body_b : p->body_a;
+            if (b == FW_GROUND) continue;
+            w->push[k] += (0.5 * couple_Nm + between_Nm) * fabs(w->mode[k * w->n + 3 * b + 2]);
+        }
 }
 
 static fw_status find(work *w, fw_hinge_give *give) {
     const fw_effect_case *c = w->c;
+    const fw_envelope *v = c->envelope;
     const fw_mechanism *m = c->mechanism;
-    double ratio, *turned;
-    FW_NEED(turned = fw_arena_array(c->arena, double, (size_t)m->npin));
-    FW_TRY(closeness(w, &ratio));
+    bool fine;
+    FW_TRY(find_modes(w, &fine));
+    double ratio = (double)INFINITY, most = 0;
+    if (fine && v->modes > 0 && v->modes < w->n)
+        ratio = v->omega[v->modes - 1] * v->omega[v->modes - 1] / w->square[v->modes];
     if (!(ratio < 0.25)) {
         give->why_not = "the hinges give at frequencies near those of the motion: kept";
         return FW_OK;
     }
-    if (!fw_cholesky(w->n, w->stiffness)) {
-        give->why_not = "the mechanism has no stiffness: kept";
-        return FW_OK;
-    }
-    for (int i = 0; i < 2 * m->npin; i++) {
-        double *x = w->answer + (size_t)i * (size_t)w->n;
-        pull_pin(m, i / 2, i % 2 == 0, i % 2 == 1, x);
-        if (!fw_cholesky_solve(w->n, w->stiffness, x)) return FW_SOLVER;
-    }
     FW_TRY(soften(w, &give->softening));
-    double at_once = 2 / (1 - ratio) * (1 + give->softening), most = 0;
+    double at_once = 2 / (1 - ratio) * (1 + give->softening);
     for (int h = 0; h < m->nhinge; h++) {
         int i = m->hinge[h].pin;
-        worst x = worst_of(&m->hinge[h].law, c->envelope->angle[i]);
-        w->push[i] = c->envelope->force[i] + x.stiffness_N_per_m * x.drift_m;
-        most = fmax(most, c->envelope->force[i] * x.curve_m / m->pin[i].stiffness_Nm_per_rad);
+        worst x = worst_of(&m->hinge[h].law, v->angle[i]);
+        add_push(w, h, v->force[i] + x.stiffness_N_per_m * x.drift_m);
+        most = fmax(most, v->force[i] * x.curve_m / m->pin[i].stiffness_Nm_per_rad);
     }
     give->softening += most;
     for (int i = 0; i < m->npin; i++)
-        for (int j = 0; j < m->npin; j++) {
-            give->give_m[j] += at_once * opened_by(w, j, i) * w->push[i];
-            turned[j] += turned_by(w, j, i) * w->push[i];
-        }
+        give->give_m[i] = at_once * shown(w, w->open, i);
     for (int h = 0; h < m->nhinge; h++) {
         int i = m->hinge[h].pin;
-        double work_J = w->push[i] * give->give_m[i];
-        worst x = worst_of(&m->hinge[h].law, c->envelope->angle[i]);
-        FW_TRY(add_couples(w, i, work_J, 0.5 * x.change_per_rad * work_J, turned));
+        worst x = worst_of(&m->hinge[h].law, v->angle[i]);
+        double work_J = (v->force[i] + x.stiffness_N_per_m * x.drift_m) * give->give_m[i];
+        add_couples(w, h, work_J, 0.5 * x.change_per_rad * work_J);
     }
-    for (int j = 0; j < m->npin; j++)
-        give->turned_rad = fmax(give->turned_rad, at_once * turned[j]);
+    for (int i = 0; i < m->npin; i++)
+        give->turned_rad = fmax(give->turned_rad, at_once * shown(w, w->turn, i));
     return FW_OK;
 }
 
@@ -255,10 +223,17 @@ fw_status fw_hinge_give_find(const fw_effect_case *c, fw_hinge_give *give) {
     if (give->why_not) return FW_OK;
     size_t n = (size_t)w.n;
     fw_mark mark = fw_arena_mark(c->arena);
+    FW_NEED(w.mass = fw_arena_array(c->arena, double, n));
     FW_NEED(w.stiffness = fw_arena_array(c->arena, double, n *n));
-    FW_NEED(w.answer = fw_arena_array(c->arena, double, 2 * (size_t)m->npin * n));
-    FW_NEED(w.couple = fw_arena_array(c->arena, double, n));
-    FW_NEED(w.push = fw_arena_array(c->arena, double, (size_t)m->npin));
+    FW_NEED(w.mode = fw_arena_array(c->arena, double, n *n));
+    FW_NEED(w.square = fw_arena_array(c->arena, double, n));
+    FW_NEED(w.turn = fw_arena_array(c->arena, double, n *(size_t)m->npin));
+    FW_NEED(w.open = fw_arena_array(c->arena, double, n *(size_t)m->npin));
+    FW_NEED(w.push = fw_arena_array(c->arena, double, n));
+    for (int b = 0; b < m->nbody; b++) {
+        w.mass[3 * b] = w.mass[3 * b + 1] = m->body[b].mass_kg;
+        w.mass[3 * b + 2] = m->body[b].inertia_kg_m2;
+    }
     FW_TRY(assemble(&w));
     FW_TRY(find(&w, give));
     fw_arena_rewind(c->arena, mark);
