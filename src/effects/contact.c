@@ -167,19 +167,6 @@ static int count(const fw_effect_case *c) {
     return c->scene->ncontact;
 }
 
-static const fw_hinge *hinge_of(const fw_mechanism *m, const fw_contact_use *use) {
-    if (use->joint < 0 || use->joint >= m->npin || m->pin[use->joint].hinge == FW_NONE) return NULL;
-    return &m->hinge[m->pin[use->joint].hinge];
-}
-
-/* as far as W may move freely; 0: not known */
-static double gap_of(const fw_effect_case *c, const fw_contact_use *use, const fw_hinge *h) {
-    if (!isnan(use->distance_m)) return use->distance_m;
-    const fw_device *d = c->mechanism->device;
-    bool drawn = h->surface_radius_m > 0 && d && h->flexure >= 0 && h->flexure < d->nflexure;
-    return drawn ? d->flexure[h->flexure].gap_m : 0;
-}
-
 double fw_line_contact(double youngs_Pa, double poisson, double depth_m, double radius_m,
                        double gap_m, double force_N) {
     double modulus = youngs_Pa / (2 * (1 - poisson * poisson));
@@ -225,7 +212,7 @@ static fw_status put(const fw_effect_case *c, fw_terms *terms, const fw_contact_
 static fw_status add_conjugate(const fw_effect_case *c, fw_terms *terms,
                                const fw_contact_use *use) {
     const fw_mechanism *m = c->mechanism;
-    const fw_hinge *h = hinge_of(m, use);
+    const fw_hinge *h = fw_contact_hinge(m, use);
     if (!h)
         return unknown(c, use,
                        "the joint is no flexure hinge, so it has no conjugate surfaces; name "
@@ -234,7 +221,7 @@ static fw_status add_conjugate(const fw_effect_case *c, fw_terms *terms,
         return unknown(c, use,
                        "the hinge is not drawn, so the direction in which it gives is not known; "
                        "give its bodies a width or a plate, or the hinge an axis");
-    double gap = gap_of(c, use, h);
+    double gap = fw_contact_gap(c, use, h);
     if (!(gap > 0))
         return unknown(
             c, use,
@@ -293,32 +280,6 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     return status;
 }
 
-/* ---- can it touch at all? ---- */
-
-/* as far as a point of a body can move, m */
-static double reach_of(const fw_effect_case *c, int body, double x, double y) {
-    if (body == FW_GROUND) return 0;
-    const double *r = c->envelope->reach + 3 * body;
-    return hypot(r[0], r[1]) + r[2] * hypot(x, y);
-}
-
-/* the least overlap that is still open: distance left, less what the motion can take of it */
-static double room(const fw_effect_case *c, const fw_contact_use *use, const fw_hinge_give *give) {
-    const fw_mechanism *m = c->mechanism;
-    if (use->joint != FW_NONE) {
-        const fw_hinge *h = hinge_of(m, use);
-        return h ? gap_of(c, use, h) - give->give_m[use->joint] : -1;
-    }
-    fw_vec2 a = fw_local_place(m, use->body_a, use->ax_m, use->ay_m);
-    fw_vec2 b = fw_local_place(m, use->body_b, use->bx_m, use->by_m);
-    double now = hypot(b.x - a.x, b.y - a.y), moves = 0;
-    moves += reach_of(c, use->body_a, use->ax_m, use->ay_m);
-    moves += reach_of(c, use->body_b, use->bx_m, use->by_m);
-    for (int i = 0; i < m->npin; i++)
-        moves += give->give_m[i];
-    return (use->side == FW_CONTACT_INSIDE ? use->distance_m - now : now - use->distance_m) - moves;
-}
-
 /* 0 where the envelope of the motion leaves every gap open (hinges: force and drift of W by
    hinge_give.c; points: reach of their bodies, and the same for every hinge on the way); otherwise
    what it changes is everything behind the touch. Test: test_contact.c. */
@@ -327,9 +288,7 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     *value = (double)INFINITY;
     *reason = "surfaces may touch: what that changes is the motion itself";
     FW_TRY(fw_hinge_give_find(c, &give));
-    if (give.why_not) return FW_OK;
-    for (int i = 0; i < c->scene->ncontact; i++)
-        if (!(room(c, &c->scene->contact[i], &give) > 0)) return FW_OK;
+    if (fw_contact_may_touch(c, &give)) return FW_OK;
     *value = 0;
     *reason = "no gap closes within the reach of the motion: bound";
     return FW_OK;
@@ -341,4 +300,5 @@ const fw_effect_row fw_effect_contact = {.id = "contact",
                                          .called_for = called_for,
                                          .bound = bound,
                                          .add = add,
+                                         .cost = 1290,
                                          .count = count};

@@ -34,6 +34,11 @@ typedef struct fw_hinge_give {
     double *give_m;      /* (npin) |W of b from W of a| at most */
 } fw_hinge_give;
 fw_status fw_hinge_give_find(const fw_effect_case *c, fw_hinge_give *give);
+/* hinge of a contact between conjugate surfaces, NULL: none; how far W may move freely, 0: not
+   known; false: no gap closes within the motion */
+const fw_hinge *fw_contact_hinge(const fw_mechanism *mechanism, const fw_contact_use *use);
+double fw_contact_gap(const fw_effect_case *c, const fw_contact_use *use, const fw_hinge *hinge);
+bool fw_contact_may_touch(const fw_effect_case *c, const fw_hinge_give *give);
 /* this pin's damper comes from the scene's <material-damping>: joint-damping has nothing to add */
 bool fw_material_damped(const fw_effect_case *c, int pin);
 /* N/m: conforming cylinders, convex radius and gap, pressed by `force`: contact.c */

@@ -15,13 +15,6 @@
 #include "effects/envelope.h"
 #include <math.h>
 
-bool fw_material_damped(const fw_effect_case *c, int pin) {
-    const fw_mechanism *m = c->mechanism;
-    int hinge = m->pin[pin].hinge;
-    return c->scene->ndamping > 0 && hinge != FW_NONE && hinge < m->nhinge &&
-           !m->hinge[hinge].damping_stated;
-}
-
 static bool called_for(const fw_effect_case *c) {
     for (int i = 0; i < c->mechanism->npin; i++)
         if (fw_material_damped(c, i)) return true;
