@@ -186,6 +186,7 @@ static double surface_stiffness(const fw_effect_case *c, const fw_hinge *h, doub
 }
 
 static fw_status unknown(const fw_effect_case *c, const fw_contact_use *use, const char *what) {
+    if (!c->diags) return FW_INPUT;
     return fw_diag_error(c->diags, 246, use->place, "contact %s: %s", use->id ? use->id : "", what);
 }
 
