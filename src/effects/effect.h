@@ -19,6 +19,31 @@ fw_friction *fw_terms_add_friction(fw_arena *arena, fw_terms *terms);
 fw_torsion *fw_terms_torsion(const fw_mechanism *mechanism, fw_terms *terms, int pin);
 /* of a prismatic joint, made on first use */
 fw_slide *fw_terms_slide(fw_terms *terms, int tie);
+/* what the drawing and the geometry say of a flexure suffices for its law at finite rotation */
+bool fw_hinge_is_known(const fw_hinge *hinge);
+/* a <contact> of the scene is between the conjugate surfaces of this pin */
+bool fw_hinge_touches(const fw_scene *scene, int pin);
+/* its pin is no constraint any more: an element stands for it (once, however often it is asked for)
+ */
+fw_status fw_hinge_release(const fw_effect_case *c, fw_terms *terms, int hinge);
+/* how far an ideal pin is from what the hinges do: nonlinear-hinge.md, "Bound" */
+typedef struct fw_hinge_give {
+    const char *why_not; /* NULL: the numbers below hold */
+    double softening;    /* relative, of the generalised stiffness: at most */
+    double turned_rad;   /* further rotation of any hinge when loads come slowly: at most */
+    double *give_m;      /* (npin) |W of b from W of a| at most */
+} fw_hinge_give;
+fw_status fw_hinge_give_find(const fw_effect_case *c, fw_hinge_give *give);
+/* hinge of a contact between conjugate surfaces, NULL: none; how far W may move freely, 0: not
+   known; false: no gap closes within the motion */
+const fw_hinge *fw_contact_hinge(const fw_mechanism *mechanism, const fw_contact_use *use);
+double fw_contact_gap(const fw_effect_case *c, const fw_contact_use *use, const fw_hinge *hinge);
+bool fw_contact_may_touch(const fw_effect_case *c, const fw_hinge_give *give);
+/* this pin's damper comes from the scene's <material-damping>: joint-damping has nothing to add */
+bool fw_material_damped(const fw_effect_case *c, int pin);
+/* N/m: conforming cylinders, convex radius and gap, pressed by `force`: contact.c */
+double fw_line_contact(double youngs_Pa, double poisson, double depth_m, double radius_m,
+                       double gap_m, double force_N);
 /* something in the scene or the mechanism answers out of proportion to a load: its response to a
    part of the loads says nothing about the whole (loads that go with time, drivers, stops, cables)
  */

@@ -16,8 +16,9 @@ static fw_status can_take(const fw_effect_case *c, const fw_effect_row *row, boo
     fw_terms scratch;
     fw_mark mark = fw_arena_mark(c->arena);
     FW_TRY(fw_terms_new(c->arena, c->mechanism, c->scene, &scratch));
-    FW_TRY(row->add(c, &scratch));
-    *taken = linear(&scratch);
+    fw_status status = row->add(c, &scratch); /* it says no when it is compiled */
+    if (status == FW_NOMEM) return status;
+    *taken = status == FW_OK && linear(&scratch);
     fw_arena_rewind(c->arena, mark);
     return FW_OK;
 }
@@ -36,7 +37,8 @@ fw_status fw_envelope_find(fw_arena *arena, const fw_mechanism *mechanism, const
     size_t count;
     const fw_effect_row *const *row = fw_effect_rows(&count);
     fw_envelope first = {.why_not = "not computed yet"};
-    const fw_effect_case c = {arena, mechanism, scene, &first};
+    fw_diags quiet = fw_diags_new(arena); /* what an effect objects to is said when it is compiled */
+    const fw_effect_case c = {arena, mechanism, scene, &first, &quiet};
     fw_terms *terms, all;
     bool *taken, more = false;
     FW_NEED(taken = fw_arena_array(arena, bool, count));

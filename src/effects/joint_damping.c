@@ -3,9 +3,15 @@
 #include "effects/envelope.h"
 #include <math.h>
 
+/* of a pin: as the file or the mechanism has it, unless the scene's <material-damping> replaces it
+ */
+static double damping_of(const fw_effect_case *c, int pin) {
+    return fw_material_damped(c, pin) ? 0 : c->mechanism->pin[pin].damping_Nms_per_rad;
+}
+
 static bool called_for(const fw_effect_case *c) {
     for (int i = 0; i < c->mechanism->npin; i++)
-        if (c->mechanism->pin[i].damping_Nms_per_rad > 0) return true;
+        if (damping_of(c, i) > 0) return true;
     for (int i = 0; i < c->mechanism->ntie; i++)
         if (c->mechanism->tie[i].damping_Ns_per_m > 0) return true;
     return false;
@@ -50,7 +56,7 @@ static void modal_forces(const fw_effect_case *c, double *mode, double *force) {
     for (int j = 0; j < e->modes; j++) {
         const double *turn = e->turn + (size_t)j * (size_t)e->npin;
         for (int i = 0; i < m->npin; i++)
-            mode[j] += fabs(turn[i]) * m->pin[i].damping_Nms_per_rad * e->rate[i];
+            mode[j] += fabs(turn[i]) * damping_of(c, i) * e->rate[i];
         for (int k = 0; k < e->n; k++)
             mode[j] += fabs(e->shape[(size_t)j * (size_t)e->n + (size_t)k]) * force[k];
     }
@@ -82,9 +88,8 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
 
 static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     for (int i = 0; i < c->mechanism->npin; i++)
-        if (c->mechanism->pin[i].damping_Nms_per_rad > 0)
-            fw_terms_torsion(c->mechanism, terms, i)->damping_Nms_per_rad =
-                c->mechanism->pin[i].damping_Nms_per_rad;
+        if (damping_of(c, i) > 0)
+            fw_terms_torsion(c->mechanism, terms, i)->damping_Nms_per_rad = damping_of(c, i);
     for (int i = 0; i < c->mechanism->ntie; i++)
         if (c->mechanism->tie[i].damping_Ns_per_m > 0)
             fw_terms_slide(terms, i)->damping_Ns_per_m = c->mechanism->tie[i].damping_Ns_per_m;
@@ -94,7 +99,7 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
 static int count(const fw_effect_case *c) {
     int n = 0;
     for (int i = 0; i < c->mechanism->npin; i++)
-        n += c->mechanism->pin[i].damping_Nms_per_rad > 0;
+        n += damping_of(c, i) > 0;
     for (int i = 0; i < c->mechanism->ntie; i++)
         n += c->mechanism->tie[i].damping_Ns_per_m > 0;
     return n;

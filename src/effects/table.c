@@ -5,9 +5,16 @@
 #include <string.h>
 
 static const fw_effect_row *const rows[] = {
-    &fw_effect_joint_elasticity, &fw_effect_joint_damping, &fw_effect_joint_stop,
-    &fw_effect_point_spring,     &fw_effect_applied_load,  &fw_effect_gravity,
+    &fw_effect_joint_elasticity,
+    &fw_effect_joint_damping,
+    &fw_effect_material_damping, /* before nonlinear-hinge, which takes it over */
+    &fw_effect_joint_stop,
+    &fw_effect_point_spring,
+    &fw_effect_applied_load,
+    &fw_effect_gravity,
     &fw_effect_initial_velocity,
+    &fw_effect_nonlinear_hinge, /* after joint-elasticity: it takes the spring over */
+    &fw_effect_contact,
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
@@ -195,7 +202,7 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, con
                              const fw_effect_choice *choice, double accuracy, fw_diags *diags,
                              fw_effect_ledger *ledger, fw_terms *terms) {
     fw_envelope envelope = {.why_not = "no effect asked for it"};
-    const fw_effect_case c = {arena, mechanism, scene, &envelope};
+    const fw_effect_case c = {arena, mechanism, scene, &envelope, diags};
     if (choice->mode == FW_EFFECTS_LIST) FW_TRY(check_list(arena, choice->list, diags));
     FW_NEED(ledger->item = fw_arena_array(arena, fw_effect_entry, ROWS));
     ledger->count = ROWS;

@@ -453,6 +453,7 @@ static fw_status plan_hinge(fw_drawing *d, int joint) {
     layout->surface_radius_m = f->gap_m > 0.0 ? in->ring_out_m : 0.0;
     layout->gap_m = f->gap_m;
     layout->facing_rad = f->gap_m > 0.0 ? facing : 0.0;
+    layout->facing_from_rad = plan->side[1].ring_end_rad;
     layout->keep_out_m = out->ring_out_m + FW_BESIDE_RING_M;
     return FW_OK;
 }

@@ -40,7 +40,9 @@ typedef struct fw_hinge_layout { /* per joint */
     double keep_out_m; /* radius about W that belongs to this hinge */
     double free_rad;   /* rotation until solid parts of the two bodies touch, either way */
     int convex;        /* body with the convex surface: the one farther from the ground */
-    double facing_rad; /* sector about W in which the surfaces face each other */
+    double facing_rad; /* sector about W in which the surfaces face each other: counter-clockwise */
+    double facing_from_rad; /* from here, measured from the axis, where the upper body's ring ends,
+                               to where the lower body's ends */
 } fw_hinge_layout;
 
 typedef struct fw_body_layout { /* per body; area 0 when it is not drawn */

@@ -120,7 +120,7 @@ static double inertia_about(const fw_mass *m, double x, double y) {
 }
 
 static fw_status flexure_result(const fw_builder *b, int j, const fw_joint *joint,
-                                fw_flexure_result *result) {
+                                fw_flexure_result *result, fw_hinge_law *law) {
     const fw_flexure *f = &b->device->flexure[joint->flexure];
     const fw_material *m = &b->variant->material;
     FW_TRY(need_property(b, &m->youngs, "Young's modulus", "a flexure", joint->place));
@@ -149,6 +149,7 @@ static fw_status flexure_result(const fw_builder *b, int j, const fw_joint *join
             b->diags, 85, f->place,
             "flexure %s has no finite stiffness; check its length, angle and width",
             fw_name_or_none(f->id));
+    fw_hinge_law_of(&in, result, law);
     return FW_OK;
 }
 
@@ -198,6 +199,7 @@ static void build_stops(const fw_builder *b, const fw_joint *from, fw_pin *to) {
 /* what the layout drew of the flexure; without a drawing its axis and surfaces are not known */
 static void set_hinge_shape(const fw_builder *b, int j, const fw_joint *from, fw_hinge *to) {
     to->stated = !isnan(from->stiffness_Nm_per_rad);
+    to->damping_stated = !isnan(from->damping_Nms_per_rad);
     to->axis_rad = from->axis_rad;
     to->first_is_a = true;
     to->cover_from_rad = to->cover_to_rad = (double)NAN;
@@ -206,6 +208,11 @@ static void set_hinge_shape(const fw_builder *b, int j, const fw_joint *from, fw
     to->axis_rad = h->axis_rad;
     to->first_is_a = h->lower == from->body_a;
     to->surface_radius_m = h->surface_radius_m;
+    if (!(h->surface_radius_m > 0)) return;
+    double turned = from->body_a == FW_GROUND ? 0 : b->mechanism->body[from->body_a].phi_rad;
+    to->convex_is_a = h->convex == from->body_a;
+    to->cover_from_rad = h->axis_rad + h->facing_from_rad - turned;
+    to->cover_to_rad = to->cover_from_rad + h->facing_rad;
 }
 
 static fw_status build_pin(const fw_builder *b, int j) {
@@ -223,7 +230,7 @@ static fw_status build_pin(const fw_builder *b, int j) {
     if (from->flexure != FW_NONE) {
         fw_hinge *hinge = &b->mechanism->hinge[b->mechanism->nhinge];
         *hinge = (fw_hinge){.pin = j, .flexure = from->flexure};
-        FW_TRY(flexure_result(b, j, from, &hinge->closed_form));
+        FW_TRY(flexure_result(b, j, from, &hinge->closed_form, &hinge->law));
         set_hinge_shape(b, j, from, hinge);
         to->hinge = b->mechanism->nhinge++;
         double own = hinge->closed_form.stiffness_Nm_per_rad;

@@ -9,6 +9,7 @@
 #ifndef FW_MECHANISM_MECHANISM_H
 #define FW_MECHANISM_MECHANISM_H
 #include "device/device.h"
+#include "flexure/finite.h"
 #include "flexure/flexure.h"
 #include "layout/layout.h"
 
@@ -43,15 +44,20 @@ typedef struct fw_pin { /* per revolute joint; local points in the body frames (
 typedef struct fw_hinge { /* a pin that is a flexure */
     int pin, flexure;
     fw_flexure_result closed_form;
+    fw_hinge_law law; /* at finite rotation; its stiffness is the flexure's own, not a stated one */
     /* the arc as drawn: direction, in the world, from the arc's centre to the middle of the arc
        (leaf: across it); `first` is the body at polar angle -a from there (element frame of
        flexure.h) */
     double axis_rad;
     bool first_is_a;
     double surface_radius_m; /* of the convex conjugate surface; 0: none */
-    double cover_from_rad,
-        cover_to_rad; /* directions, in body a's frame, in which they can touch */
-    bool stated;      /* the file states the stiffness: the flexure's own law is not asked for */
+    /* directions, in body a's frame and the drawn pose, in which they can touch, counter-clockwise;
+       NaN: not drawn. Where they begin the surface of the body at polar angle +a ends, where they
+       end that of the other: so do the directions turn */
+    double cover_from_rad, cover_to_rad;
+    bool convex_is_a;    /* the convex surface belongs to body a */
+    bool stated;         /* the file states the stiffness: the flexure's own law is not asked for */
+    bool damping_stated; /* and the damping: no loss factor is asked for */
 } fw_hinge;
 
 typedef struct fw_mechanism {

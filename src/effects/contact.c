@@ -1,0 +1,305 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What touches: the conjugate surfaces of a hinge, or two round things. With D from port 0 to port
+   1, the overlap g (positive when pressed) and the force N = k g + c g' along its gradient:
+
+     round, inside   g = |D| - distance        outside  g = distance - |D|
+     conjugate       u = D (or -D): W of the convex body from W of the concave one
+                     g = |u| - gap             u points to where the surfaces face each other
+                     g = n.u - gap             else; n: where they end, the end nearer to u. It
+                                               turns with the body whose surface ends there
+   force -N dg/dp, stiffness dg/dp (k dg/dp + c d2g/dp2 w) + N d2g/dp2, damping c dg/dp dg/dp. It
+   acts while its switch is on, min(k g, k g + c g') > 0: pressed, and not pulling.
+
+   Stiffness of the conjugate surfaces where the scene states none: two conforming cylinders of the
+   same material in line contact, each compressed over the depth Rc behind it,
+     R = Rc (Rc + gap)/gap,  Ec = E/(2 (1 - nu^2)),  b^2 = 4 F R/(pi h Ec)
+     k = pi h Ec / (2 ln(4 Rc/b) - 1)   at F = gap k_hinge, the force that closes the gap; ten times
+   the force changes k by about a quarter. What rings and links give behind the surfaces is not in
+   it: the stiffness is an upper limit. Valid b << Rc, h >> b (plane strain).
+   Inputs SI. Source: K. L. Johnson, Contact Mechanics, Cambridge 1985, sections 4.2 and 5.6;
+   docs/theory/effects/contact.md. Test: test_contact.c. */
+#include "effects/effect.h"
+#include "effects/envelope.h"
+#include <math.h>
+#include <string.h>
+
+enum { N = 6 };
+
+typedef struct touch { /* data; ports: point of body a, point of body b */
+    double distance_m, k_N_per_m, c_Ns_per_m;
+    double side;             /* 1: |D| beyond the distance presses, -1: below it */
+    bool partial;            /* the surfaces face each other only in a sector of directions: */
+    double sense;            /* u = sense D */
+    double from_rad, to_rad; /* less the turn of the body that they go with */
+    int from_port, to_port;
+} touch;
+
+typedef struct overlap {
+    double value, rate, slope[N], curve[N][N];
+} overlap;
+
+/* g = o (|D| - distance) */
+static void radial(const double *p, double o, double distance, bool second, overlap *g) {
+    double x = p[3] - p[0], y = p[4] - p[1], l = hypot(x, y);
+    double nx = l > 0 ? x / l : 1, ny = l > 0 ? y / l : 0;
+    const double along[N] = {-nx, -ny, 0, nx, ny, 0}, across[N] = {ny, -nx, 0, -ny, nx, 0};
+    g->value = o * (l - distance);
+    for (int i = 0; i < N; i++)
+        g->slope[i] = o * along[i];
+    for (int i = 0; i < N && second; i++)
+        for (int j = 0; j < N; j++)
+            g->curve[i][j] = l > 0 ? o * across[i] * across[j] / l : 0;
+}
+
+/* g = n.u - gap, n = (cos angle, sin angle) turning with a port */
+static void ended(const double *p, double o, double angle, int port, double gap, bool second,
+                  overlap *g) {
+    double x = p[3] - p[0], y = p[4] - p[1], c = cos(angle), s = sin(angle);
+    const double along[N] = {-o * c, -o * s, 0, o * c, o * s, 0};
+    const double across[N] = {o * s, -o * c, 0, -o * s, o * c, 0};
+    int turn = 3 * port + 2;
+    g->value = o * (c * x + s * y) - gap;
+    memcpy(g->slope, along, sizeof along);
+    g->slope[turn] = o * (c * y - s * x);
+    if (!second) return;
+    memset(g->curve, 0, sizeof g->curve);
+    for (int i = 0; i < N; i++)
+        if (i != turn) g->curve[i][turn] = g->curve[turn][i] = across[i];
+    g->curve[turn][turn] = -o * (c * x + s * y);
+}
+
+static void look(const fw_force_element *e, const fw_seen *s, bool second, overlap *g) {
+    const touch *t = e->data;
+    const double *p = s->p;
+    double ux = t->sense * (p[3] - p[0]), uy = t->sense * (p[4] - p[1]);
+    double from = t->from_rad + p[3 * t->from_port + 2], to = t->to_rad + p[3 * t->to_port + 2];
+    double behind = fmod(atan2(uy, ux) - from, 2 * M_PI); /* from where they begin to u */
+    if (behind < 0) behind += 2 * M_PI;
+    if (!t->partial || behind <= to - from)
+        radial(p, t->side, t->distance_m, second, g);
+    else if (cos(from) * ux + sin(from) * uy > cos(to) * ux + sin(to) * uy)
+        ended(p, t->sense, from, t->from_port, t->distance_m, second, g);
+    else
+        ended(p, t->sense, to, t->to_port, t->distance_m, second, g);
+    g->rate = 0;
+    for (int i = 0; i < N; i++)
+        g->rate += g->slope[i] * s->w[i];
+}
+
+static void force(const fw_force_element *e, const fw_seen *s, double *f) {
+    const touch *t = e->data;
+    overlap g;
+    look(e, s, false, &g);
+    double push = s->on[0] ? t->k_N_per_m * g.value + t->c_Ns_per_m * g.rate : 0;
+    for (int i = 0; i < N; i++)
+        f[i] = -push * g.slope[i];
+}
+
+static void tangent(const fw_force_element *e, const fw_seen *s, double *stiffness,
+                    double *damping) {
+    const touch *t = e->data;
+    overlap g;
+    memset(stiffness, 0, N * N * sizeof *stiffness);
+    memset(damping, 0, N * N * sizeof *damping);
+    if (!s->on[0]) return;
+    look(e, s, true, &g);
+    double push = t->k_N_per_m * g.value + t->c_Ns_per_m * g.rate;
+    for (int j = 0; j < N; j++) {
+        double turning = 0; /* of g' by p_j */
+        for (int i = 0; i < N; i++)
+            turning += g.curve[i][j] * s->w[i];
+        double by = t->k_N_per_m * g.slope[j] + t->c_Ns_per_m * turning;
+        for (int i = 0; i < N; i++) {
+            stiffness[N * i + j] = g.slope[i] * by + push * g.curve[i][j];
+            damping[N * i + j] = t->c_Ns_per_m * g.slope[i] * g.slope[j];
+        }
+    }
+}
+
+static double energy(const fw_force_element *e, const fw_seen *s) {
+    const touch *t = e->data;
+    overlap g;
+    if (!s->on[0]) return 0;
+    look(e, s, false, &g);
+    return 0.5 * t->k_N_per_m * g.value * g.value;
+}
+
+static void power(const fw_force_element *e, const fw_seen *s, double power[2]) {
+    const touch *t = e->data;
+    overlap g;
+    look(e, s, false, &g);
+    power[0] = s->on[0] ? t->c_Ns_per_m * g.rate * g.rate : 0;
+    power[1] = 0;
+}
+
+static double switch_value(const fw_force_element *e, const fw_seen *s, int i) {
+    (void)i;
+    const touch *t = e->data;
+    overlap g;
+    look(e, s, false, &g);
+    double elastic = t->k_N_per_m * g.value;
+    return fmin(elastic, elastic + t->c_Ns_per_m * g.rate);
+}
+
+static double pressing(const fw_force_element *e, const fw_seen *s) {
+    const touch *t = e->data;
+    overlap g;
+    if (!s->on[0]) return 0;
+    look(e, s, false, &g);
+    return fmax(0, t->k_N_per_m * g.value + t->c_Ns_per_m * g.rate);
+}
+
+static const fw_element_class class_ = {.effect = "contact",
+                                        .force = force,
+                                        .tangent = tangent,
+                                        .energy = energy,
+                                        .power = power,
+                                        .switch_value = switch_value,
+                                        .pressing = pressing};
+
+/* ---- from the scene ---- */
+
+static bool called_for(const fw_effect_case *c) {
+    return c->scene->ncontact > 0;
+}
+
+static int count(const fw_effect_case *c) {
+    return c->scene->ncontact;
+}
+
+double fw_line_contact(double youngs_Pa, double poisson, double depth_m, double radius_m,
+                       double gap_m, double force_N) {
+    double modulus = youngs_Pa / (2 * (1 - poisson * poisson));
+    double relative = radius_m * (radius_m + gap_m) / gap_m;
+    double half = sqrt(4 * force_N * relative / (M_PI * depth_m * modulus));
+    return M_PI * depth_m * modulus / (2 * log(4 * radius_m / fmin(half, radius_m)) - 1);
+}
+
+static double surface_stiffness(const fw_effect_case *c, const fw_hinge *h, double gap) {
+    const fw_variant *v = c->mechanism->variant;
+    fw_hinge_at at;
+    if (!v || v->material.youngs.unknown || !(h->surface_radius_m > 0)) return 0;
+    fw_hinge_law_at(&h->law, 0, &at);
+    double nu = v->material.poisson.unknown ? 0 : v->material.poisson.value;
+    return fw_line_contact(v->material.youngs.value, nu, v->thickness_m, h->surface_radius_m, gap,
+                           gap * fmin(at.kx_N_per_m.value, at.ky_N_per_m.value));
+}
+
+static fw_status unknown(const fw_effect_case *c, const fw_contact_use *use, const char *what) {
+    if (!c->diags) return FW_INPUT;
+    return fw_diag_error(c->diags, 246, use->place, "contact %s: %s", use->id ? use->id : "", what);
+}
+
+static double drawn_turn(const fw_mechanism *m, int body) {
+    return body == FW_GROUND ? 0 : m->body[body].phi_rad;
+}
+
+static fw_status put(const fw_effect_case *c, fw_terms *terms, const fw_contact_use *use,
+                     const fw_port port[2], const touch *from) {
+    touch *t = fw_arena_one(c->arena, touch);
+    fw_force_element *e = fw_terms_add_element(c->arena, terms, &class_, 2);
+    if (!t || !e) return FW_NOMEM;
+    *t = *from;
+    if (use->id) e->id = use->id;
+    e->place = use->place;
+    e->port[0] = port[0], e->port[1] = port[1];
+    e->switches = 1;
+    e->data = t;
+    e->size_N_per_m = t->k_N_per_m;
+    e->dissipates = t->c_Ns_per_m > 0;
+    return FW_OK;
+}
+
+static fw_status add_conjugate(const fw_effect_case *c, fw_terms *terms,
+                               const fw_contact_use *use) {
+    const fw_mechanism *m = c->mechanism;
+    const fw_hinge *h = fw_contact_hinge(m, use);
+    if (!h)
+        return unknown(c, use,
+                       "the joint is no flexure hinge, so it has no conjugate surfaces; name "
+                       "a hinge with a flexure, or two points with a and b");
+    if (!fw_hinge_is_known(h))
+        return unknown(c, use,
+                       "the hinge is not drawn, so the direction in which it gives is not known; "
+                       "give its bodies a width or a plate, or the hinge an axis");
+    double gap = fw_contact_gap(c, use, h);
+    if (!(gap > 0))
+        return unknown(
+            c, use,
+            "the hinge has no conjugate surfaces; give its flexure a gap and its bodies a "
+            "width or a plate, or the contact a distance and a stiffness");
+    double k =
+        isnan(use->stiffness_N_per_m) ? surface_stiffness(c, h, gap) : use->stiffness_N_per_m;
+    if (!(k > 0) || !isfinite(k))
+        return unknown(c, use,
+                       "the stiffness of surfaces that are not drawn, or of a material "
+                       "without Young's modulus, is not known; give the contact a stiffness");
+    const fw_pin *p = &m->pin[h->pin];
+    int upper = h->first_is_a ? 1 : 0;
+    int body[2] = {p->body_a, p->body_b};
+    touch t = {.distance_m = gap,
+               .k_N_per_m = k,
+               .c_Ns_per_m = isnan(use->damping_Ns_per_m) ? 0 : use->damping_Ns_per_m,
+               .side = 1,
+               .sense = h->convex_is_a ? -1 : 1,
+               .partial = isfinite(h->cover_from_rad) && isfinite(h->cover_to_rad),
+               .from_port = upper,
+               .to_port = !upper};
+    if (t.partial) { /* as drawn in the world, then with the body of the end */
+        double a = drawn_turn(m, p->body_a);
+        t.from_rad = h->cover_from_rad + a - drawn_turn(m, body[t.from_port]);
+        t.to_rad = h->cover_to_rad + a - drawn_turn(m, body[t.to_port]);
+    }
+    FW_TRY(fw_hinge_release(c, terms, p->hinge));
+    const fw_port port[2] = {{p->body_a, p->ax_m, p->ay_m}, {p->body_b, p->bx_m, p->by_m}};
+    return put(c, terms, use, port, &t);
+}
+
+static fw_status add_round(const fw_effect_case *c, fw_terms *terms, const fw_contact_use *use) {
+    if (!(use->distance_m > 0) || !(use->stiffness_N_per_m > 0) ||
+        !isfinite(use->stiffness_N_per_m))
+        return unknown(c, use, "two round things need a distance and a stiffness above 0");
+    const touch t = {.distance_m = use->distance_m,
+                     .k_N_per_m = use->stiffness_N_per_m,
+                     .c_Ns_per_m = isnan(use->damping_Ns_per_m) ? 0 : use->damping_Ns_per_m,
+                     .side = use->side == FW_CONTACT_INSIDE ? 1 : -1,
+                     .sense = 1};
+    const fw_port port[2] = {{use->body_a, use->ax_m, use->ay_m},
+                             {use->body_b, use->bx_m, use->by_m}};
+    return put(c, terms, use, port, &t);
+}
+
+static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+    fw_status status = FW_OK;
+    for (int i = 0; i < c->scene->ncontact; i++) {
+        const fw_contact_use *use = &c->scene->contact[i];
+        fw_status now =
+            use->joint == FW_NONE ? add_round(c, terms, use) : add_conjugate(c, terms, use);
+        if (now == FW_NOMEM) return now;
+        if (status == FW_OK) status = now;
+    }
+    return status;
+}
+
+/* 0 where the envelope of the motion leaves every gap open (hinges: force and drift of W by
+   hinge_give.c; points: reach of their bodies, and the same for every hinge on the way); otherwise
+   what it changes is everything behind the touch. Test: test_contact.c. */
+static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
+    fw_hinge_give give;
+    *value = (double)INFINITY;
+    *reason = "surfaces may touch: what that changes is the motion itself";
+    FW_TRY(fw_hinge_give_find(c, &give));
+    if (fw_contact_may_touch(c, &give)) return FW_OK;
+    *value = 0;
+    *reason = "no gap closes within the reach of the motion: bound";
+    return FW_OK;
+}
+
+const fw_effect_row fw_effect_contact = {.id = "contact",
+                                         .summary = "surfaces that press on each other where a gap "
+                                                    "is closed",
+                                         .called_for = called_for,
+                                         .bound = bound,
+                                         .add = add,
+                                         .cost = 1290,
+                                         .count = count};

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which gaps the motion can close at all: hinges by the give and drift of W (hinge_give.c), points
+   by the reach of their bodies and of every hinge. Inputs SI from the envelope. Test:
+   test_hinge_give.c, test_contact.c. */
+#include "effects/effect.h"
+#include "effects/envelope.h"
+#include <math.h>
+
+const fw_hinge *fw_contact_hinge(const fw_mechanism *m, const fw_contact_use *use) {
+    if (use->joint < 0 || use->joint >= m->npin || m->pin[use->joint].hinge == FW_NONE) return NULL;
+    return &m->hinge[m->pin[use->joint].hinge];
+}
+
+double fw_contact_gap(const fw_effect_case *c, const fw_contact_use *use, const fw_hinge *h) {
+    if (!isnan(use->distance_m)) return use->distance_m;
+    const fw_device *d = c->mechanism->device;
+    bool drawn = h->surface_radius_m > 0 && d && h->flexure >= 0 && h->flexure < d->nflexure;
+    return drawn ? d->flexure[h->flexure].gap_m : 0;
+}
+
+/* as far as a point of a body can move, m */
+static double reach_of(const fw_effect_case *c, int body, double x, double y) {
+    if (body == FW_GROUND) return 0;
+    const double *r = c->envelope->reach + 3 * body;
+    return hypot(r[0], r[1]) + r[2] * hypot(x, y);
+}
+
+/* the least overlap that is still open: distance left, less what the motion can take of it */
+static double room(const fw_effect_case *c, const fw_contact_use *use, const fw_hinge_give *give) {
+    const fw_mechanism *m = c->mechanism;
+    if (use->joint != FW_NONE) {
+        const fw_hinge *h = fw_contact_hinge(m, use);
+        return h ? fw_contact_gap(c, use, h) - give->give_m[use->joint] : -1;
+    }
+    fw_vec2 a = fw_local_place(m, use->body_a, use->ax_m, use->ay_m);
+    fw_vec2 b = fw_local_place(m, use->body_b, use->bx_m, use->by_m);
+    double now = hypot(b.x - a.x, b.y - a.y), moves = 0;
+    moves += reach_of(c, use->body_a, use->ax_m, use->ay_m);
+    moves += reach_of(c, use->body_b, use->bx_m, use->by_m);
+    for (int i = 0; i < m->npin; i++)
+        moves += give->give_m[i];
+    return (use->side == FW_CONTACT_INSIDE ? use->distance_m - now : now - use->distance_m) - moves;
+}
+
+bool fw_contact_may_touch(const fw_effect_case *c, const fw_hinge_give *give) {
+    if (c->scene->ncontact > 0 && give->why_not) return true;
+    for (int i = 0; i < c->scene->ncontact; i++)
+        if (!(room(c, &c->scene->contact[i], give) > 0)) return true;
+    return false;
+}

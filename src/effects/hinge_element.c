@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A flexure instead of an ideal pin. Between W of body a and W of body b, D = W_b - W_a, with the
+   rotation th = phi_b - phi_a - free angle and the arc's axis half turned,
+   psi = axis + (turn of a + turn of b)/2, e = (cos psi, sin psi), n = (-sin psi, cos psi):
+
+     w = e.D,  v = n.D - o drift(o th),  o = 1 where body a has the root at -a, else -1
+     U = K th^2/2 + kx(o th) w^2/2 + ky(o th) v^2/2
+
+   Force -dU/dp, stiffness d2U/dp dp in full, all derivatives of kx, ky and the drift included. The
+   material dissipates in all three deformations alike: forces -tau (kx w' dw/dp + ky v' dv/dp) with
+   tau = c/K of the pin's own viscous damper, which goes on acting on th (joint-damping,
+   material-damping); a damping stated in the file is for the rotation only.
+   Inputs p in m and rad, w in m/s and rad/s; outputs N, N m. Valid until the arc closes to a full
+   circle. Error: see flexure/finite.c. Cost some 0.4 us. Source: docs/theory/effects/
+   nonlinear-hinge.md. Test: test_nonlinear_hinge.c. */
+#include "effects/effect.h"
+#include <math.h>
+#include <string.h>
+
+typedef struct flexed { /* data of an element; ports: pin on body a, pin on body b */
+    fw_hinge_law law;
+    double sense;              /* o */
+    double axis_rad, free_rad; /* axis less half of the drawn turns */
+    double loss_s;             /* tau */
+} flexed;
+
+enum { N = 6 };
+
+typedef struct strain { /* one of w and v: value, rate, gradient by the ports, second derivative */
+    double value, rate, slope[N], curve[N][N];
+} strain;
+
+typedef struct state {
+    double th, w_th; /* rotation and its rate */
+    fw_hinge_jet kx, ky, drift;
+    strain w, v;
+} state;
+
+static const double turns[N] = {0, 0, -1, 0, 0, 1};   /* d th */
+static const double half[N] = {0, 0, 0.5, 0, 0, 0.5}; /* d psi */
+
+/* a jet of o th as one of th; `odd` where the value itself goes with o */
+static fw_hinge_jet seen_from_a(fw_hinge_jet j, double sense, bool odd) {
+    double o = odd ? sense : 1;
+    return (fw_hinge_jet){o * j.value, o * sense * j.slope, o * j.curve};
+}
+
+/* x = u.D, y = its partner a quarter turn on, so that dx/dpsi = side y: gradient and second
+   derivative without the drift. line: d(u.D) by the places, cross: the same of the partner */
+static void project(strain *s, double x, double y, double side, const double *line,
+                    const double *cross, bool second) {
+    s->value = x;
+    for (int i = 0; i < N; i++)
+        s->slope[i] = line[i] + side * y * half[i];
+    if (!second) return;
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++)
+            s->curve[i][j] =
+                -x * half[i] * half[j] + side * (cross[i] * half[j] + half[i] * cross[j]);
+}
+
+static void look(const fw_force_element *e, const fw_seen *s, bool second, state *at) {
+    const flexed *f = e->data;
+    const double *a = s->p, *b = s->p + 3;
+    double psi = f->axis_rad + 0.5 * (a[2] + b[2]), c = cos(psi), n = sin(psi);
+    double dx = b[0] - a[0], dy = b[1] - a[1], x = c * dx + n * dy, y = c * dy - n * dx;
+    const double along[N] = {-c, -n, 0, c, n, 0}, across[N] = {n, -c, 0, -n, c, 0};
+    fw_hinge_at law;
+    at->th = b[2] - a[2] - f->free_rad;
+    fw_hinge_law_at(&f->law, f->sense * at->th, &law);
+    at->kx = seen_from_a(law.kx_N_per_m, f->sense, false);
+    at->ky = seen_from_a(law.ky_N_per_m, f->sense, false);
+    at->drift = seen_from_a(law.drift_m, f->sense, true);
+    project(&at->w, x, y, 1, along, across, second);
+    project(&at->v, y, x, -1, across, along, second);
+    at->v.value -= at->drift.value;
+    for (int i = 0; i < N; i++)
+        at->v.slope[i] -= at->drift.slope * turns[i];
+    for (int i = 0; i < N && second; i++)
+        for (int j = 0; j < N; j++)
+            at->v.curve[i][j] -= at->drift.curve * turns[i] * turns[j];
+    at->w.rate = at->v.rate = at->w_th = 0;
+    for (int i = 0; i < N; i++) {
+        at->w.rate += at->w.slope[i] * s->w[i];
+        at->v.rate += at->v.slope[i] * s->w[i];
+        at->w_th += turns[i] * s->w[i];
+    }
+}
+
+static void force(const fw_force_element *e, const fw_seen *s, double *f) {
+    const flexed *h = e->data;
+    state at;
+    look(e, s, false, &at);
+    double w = at.w.value, v = at.v.value;
+    double moment =
+        h->law.stiffness_Nm_per_rad * at.th + 0.5 * at.kx.slope * w * w + 0.5 * at.ky.slope * v * v;
+    double x = at.kx.value * (w + h->loss_s * at.w.rate);
+    double y = at.ky.value * (v + h->loss_s * at.v.rate);
+    for (int i = 0; i < N; i++)
+        f[i] = -moment * turns[i] - x * at.w.slope[i] - y * at.v.slope[i];
+}
+
+/* of k (s + tau s') ds/dp: stiffness and damping, += */
+static void add_strain(const strain *s, fw_hinge_jet k, double tau, const double *speed,
+                       double *stiffness, double *damping) {
+    double pull = s->value + tau * s->rate, turning[N] = {0};
+    for (int j = 0; j < N; j++) /* of s' */
+        for (int i = 0; i < N; i++)
+            turning[j] += s->curve[i][j] * speed[i];
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++) {
+            stiffness[N * i + j] +=
+                k.value * (s->slope[i] * (s->slope[j] + tau * turning[j]) + pull * s->curve[i][j]) +
+                k.slope * (pull * s->slope[i] * turns[j] + s->value * turns[i] * s->slope[j]) +
+                0.5 * k.curve * s->value * s->value * turns[i] * turns[j];
+            damping[N * i + j] += tau * k.value * s->slope[i] * s->slope[j];
+        }
+}
+
+static void tangent(const fw_force_element *e, const fw_seen *s, double *stiffness,
+                    double *damping) {
+    const flexed *h = e->data;
+    state at;
+    look(e, s, true, &at);
+    memset(damping, 0, N * N * sizeof *damping);
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++)
+            stiffness[N * i + j] = h->law.stiffness_Nm_per_rad * turns[i] * turns[j];
+    add_strain(&at.w, at.kx, h->loss_s, s->w, stiffness, damping);
+    add_strain(&at.v, at.ky, h->loss_s, s->w, stiffness, damping);
+}
+
+static double energy(const fw_force_element *e, const fw_seen *s) {
+    const flexed *h = e->data;
+    state at;
+    look(e, s, false, &at);
+    return 0.5 * (h->law.stiffness_Nm_per_rad * at.th * at.th +
+                  at.kx.value * at.w.value * at.w.value + at.ky.value * at.v.value * at.v.value);
+}
+
+static void power(const fw_force_element *e, const fw_seen *s, double power[2]) {
+    const flexed *h = e->data;
+    state at;
+    look(e, s, false, &at);
+    power[0] =
+        h->loss_s * (at.kx.value * at.w.rate * at.w.rate + at.ky.value * at.v.rate * at.v.rate);
+    power[1] = 0;
+}
+
+static bool valid(const fw_force_element *e, const fw_seen *s, const char **why) {
+    const flexed *h = e->data;
+    double th = h->sense * (s->p[5] - s->p[2] - h->free_rad);
+    if (fabs(h->law.half_angle_rad + 0.5 * h->law.share * th) < M_PI) return true;
+    *why =
+        "the flexure is wound up to a full circle, where its ends would meet; lower the load, or "
+        "make its angle smaller";
+    return false;
+}
+
+static const fw_element_class class_ = {.effect = "nonlinear-hinge",
+                                        .force = force,
+                                        .tangent = tangent,
+                                        .energy = energy,
+                                        .power = power,
+                                        .valid = valid};
+
+/* ---- in the mechanism ---- */
+
+bool fw_hinge_is_known(const fw_hinge *hinge) {
+    return isfinite(hinge->axis_rad) && hinge->law.length_m > 0 &&
+           isfinite(hinge->law.bend_m_per_N);
+}
+
+bool fw_hinge_touches(const fw_scene *scene, int pin) {
+    for (int i = 0; i < scene->ncontact; i++)
+        if (scene->contact[i].joint == pin) return true;
+    return false;
+}
+
+bool fw_material_damped(const fw_effect_case *c, int pin) {
+    const fw_mechanism *m = c->mechanism;
+    int hinge = m->pin[pin].hinge;
+    return c->scene->ndamping > 0 && hinge != FW_NONE && hinge < m->nhinge &&
+           !m->hinge[hinge].damping_stated;
+}
+
+static double drawn_turn(const fw_mechanism *m, int body) {
+    return body == FW_GROUND ? 0 : m->body[body].phi_rad;
+}
+
+fw_status fw_hinge_release(const fw_effect_case *c, fw_terms *terms, int hinge) {
+    const fw_mechanism *m = c->mechanism;
+    const fw_hinge *h = &m->hinge[hinge];
+    const fw_pin *pin = &m->pin[h->pin];
+    if (terms->released[h->pin]) return FW_OK;
+    flexed *f = fw_arena_one(c->arena, flexed);
+    fw_force_element *e = fw_terms_add_element(c->arena, terms, &class_, 2);
+    if (!f || !e) return FW_NOMEM;
+    *f = (flexed){.law = h->law,
+                  .sense = h->first_is_a ? 1 : -1,
+                  .free_rad = pin->free_angle_rad,
+                  .axis_rad = h->axis_rad -
+                              0.5 * (drawn_turn(m, pin->body_a) + drawn_turn(m, pin->body_b))};
+    f->law.stiffness_Nm_per_rad = pin->stiffness_Nm_per_rad;
+    if (terms->torsion_of[h->pin]) { /* the spring is the element's now, the damper stays */
+        fw_torsion *t = &terms->torsion[terms->torsion_of[h->pin] - 1];
+        t->stiffness_Nm_per_rad = 0;
+        if (!h->damping_stated && pin->stiffness_Nm_per_rad > 0)
+            f->loss_s = t->damping_Nms_per_rad / pin->stiffness_Nm_per_rad;
+    }
+    fw_hinge_at at;
+    fw_hinge_law_at(&f->law, 0, &at);
+    e->data = f;
+    e->id = pin->id;
+    e->pin = h->pin;
+    e->port[0] = (fw_port){pin->body_a, pin->ax_m, pin->ay_m};
+    e->port[1] = (fw_port){pin->body_b, pin->bx_m, pin->by_m};
+    e->size_N_per_m = fmax(at.kx_N_per_m.value, at.ky_N_per_m.value);
+    e->dissipates = f->loss_s > 0;
+    if (m->device && h->pin < m->device->njoint) e->place = m->device->joint[h->pin].place;
+    terms->released[h->pin] = true;
+    terms->nreleased++;
+    return FW_OK;
+}

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A flexure at finite rotation: how far its two ends' images of the elastic centre W drift apart,
+   and how soft they are against each other, as functions of the rotation. Theory:
+   docs/theory/effects/nonlinear-hinge.md. */
+#ifndef FW_FLEXURE_FINITE_H
+#define FW_FLEXURE_FINITE_H
+#include "flexure/flexure.h"
+
+typedef struct fw_hinge_law {
+    double stiffness_Nm_per_rad;
+    double half_angle_rad; /* a of the free arc; 0: straight */
+    double length_m;       /* L */
+    double share; /* L/(L + 2 dL): of the rotation that the strip takes, the roots take the rest */
+    double bend_m_per_N;                 /* L^3/(8 EI): of the strip */
+    double root_m_per_N;                 /* dL L^2/(2 EI): of the two roots */
+    double axial_m_per_N, shear_m_per_N; /* L/(2 EA), L/(2 kGA) */
+} fw_hinge_law;
+
+/* value, first and second derivative by the rotation */
+typedef struct fw_hinge_jet {
+    double value, slope, curve;
+} fw_hinge_jet;
+
+typedef struct fw_hinge_at {
+    fw_hinge_jet kx_N_per_m, ky_N_per_m; /* along and across the arc's axis, half turned */
+    fw_hinge_jet drift_m;                /* of W on the second body from W on the first, along y */
+} fw_hinge_at;
+
+void fw_hinge_law_of(const fw_flexure_input *in, const fw_flexure_result *closed_form,
+                     fw_hinge_law *law);
+void fw_hinge_law_at(const fw_hinge_law *law, double rotation_rad, fw_hinge_at *at);
+/* least rotation, of either sign, at which a pure moment makes W drift by `gap_m`; NaN: at none
+   below half a turn */
+double fw_hinge_drift_reaches(const fw_hinge_law *law, double gap_m);
+
+#endif

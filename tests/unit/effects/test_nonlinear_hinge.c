@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "element_check.h"
+#include "hinge_rigs.h"
+
+static double random_(unsigned *seed) { /* in [-1, 1) */
+    *seed = *seed * 1664525u + 1013904223u;
+    return (double)(*seed >> 8) / 8388608.0 - 1;
+}
+
+/* both senses, arcs and leaves, with roots, axial and shear compliance, a free angle and damping:
+   power, tangent and balance on random states */
+static void element_laws(void **state) {
+    (void)state;
+    unsigned seed = 7;
+    for (int i = 0; i < 60; i++) {
+        rig r;
+        rig_new(&r, 2, 1);
+        r.body[0] = (fw_mass){"a", 1e-8, 1e-15, 1e-4, 2e-4, 0.3};
+        r.body[1] = (fw_mass){"b", 1e-8, 1e-15, -1e-4, 3e-4, -0.2};
+        rig_hinge(&r, 0, "H", 0, 1, (fw_vec2){1e-4, 1e-4}, 4 * random_(&seed), i % 2 == 0);
+        fw_hinge_law *law = &r.hinge[0].law;
+        if (i % 3 == 0) law->half_angle_rad = 0;
+        law->share = 0.96, law->root_m_per_N = 0.03 * law->bend_m_per_N;
+        law->axial_m_per_N = 2e-4 * law->bend_m_per_N;
+        law->shear_m_per_N = 6e-4 * law->bend_m_per_N;
+        r.pin[0].free_angle_rad = 0.05;
+        r.pin[0].damping_Nms_per_rad = i % 4 == 0 ? 0 : 1e-10;
+        rig_compile(&r);
+        assert_int_equal(r.terms.nelement, 1);
+        const fw_force_element *e = &r.terms.element[0];
+        assert_int_equal(e->dissipates, i % 4 != 0);
+        double p[6], w[6];
+        for (int k = 0; k < 6; k++) {
+            p[k] = (k % 3 == 2 ? 0.4 : 4e-6) * random_(&seed);
+            w[k] = (k % 3 == 2 ? 300 : 4e-2) * random_(&seed);
+        }
+        fw_seen s = {.load = 1, .p = p, .w = w};
+        fw_check_tangent(e, &s, 2e-8, 1e-3, 1e-7);
+        fw_check_power(e, &s, 1e-7, 1e-7);
+        fw_check_balance(e, &s, 1e-11);
+        const char *why;
+        assert_true(e->class_->valid(e, &s, &why));
+        fw_arena_free(r.arena);
+    }
+}
+
+/* the spring of the joint goes over to the element, its damper stays, and all of it but once */
+static void released_once(void **state) {
+    (void)state;
+    rig r;
+    rig_six_bar(&r, false);
+    r.hinge[2].stated = true;
+    r.hinge[3].axis_rad = (double)NAN;
+    for (int i = 0; i < 6; i++)
+        r.pin[i].damping_Nms_per_rad = 1e-12;
+    rig_compile(&r);
+    assert_int_equal(fw_effect_nonlinear_hinge.add(&r.c, &r.terms), FW_OK);
+    assert_int_equal(r.terms.nreleased, 4);
+    assert_int_equal(r.terms.nelement, 4);
+    assert_int_equal(r.terms.ntorsion, 6);
+    assert_int_equal(fw_effect_nonlinear_hinge.count(&r.c), 4);
+    for (int i = 0; i < 6; i++) {
+        bool kept = i == 2 || i == 3;
+        const fw_torsion *t = &r.terms.torsion[r.terms.torsion_of[i] - 1];
+        assert_int_equal(r.terms.released[i], !kept);
+        assert_near(t->stiffness_Nm_per_rad, kept ? r.pin[i].stiffness_Nm_per_rad : 0, 0);
+        assert_near(t->damping_Nms_per_rad, 1e-12, 0);
+    }
+    for (int i = 0; i < r.terms.nelement; i++)
+        assert_string_equal(r.terms.element[i].id, r.pin[r.terms.element[i].pin].id);
+    for (int i = 0; i < 6; i++)
+        r.hinge[i].stated = true;
+    assert_false(fw_effect_nonlinear_hinge.called_for(&r.c));
+    fw_contact_use touch = {.joint = 2};
+    r.scene.contact = &touch, r.scene.ncontact = 1;
+    assert_true(fw_effect_nonlinear_hinge.called_for(&r.c));
+    assert_int_equal(fw_effect_nonlinear_hinge.count(&r.c), 1);
+    fw_arena_free(r.arena);
+}
+
+typedef struct pose { /* of the tables, um and rad: load on body (N, N m), platform */
+    int body[2];
+    double load[2][3];
+    double law[3], exact[3]; /* this law, and the geometrically exact beams */
+    double off_um;           /* between the two */
+} pose;
+
+static const pose poses[] = {
+    {{0, 4},
+     {{0, 0, 1.5e-7}, {0, 0, 0.5e-7}},
+     {-155.0400837915246, -21.8362627379247, 0.03650945844046964},
+     {-155.04022506993311, -21.8362154572784, 0.03650960718103183},
+     0.0002},
+    {{0, 4},
+     {{0, 0, -3e-7}, {0, 0, 3e-7}},
+     {1.3937382066897281, 81.43980570640758, -1.551683685219656e-05},
+     {1.3913825568937488, 81.44031273173971, -1.2500889802526859e-05},
+     0.0025},
+    {{2, 2},
+     {{150e-6, 0, 0}, {0, 0, 0}},
+     {160.24000618628827, -6.058040243648975, -0.02028279713276589},
+     {160.238868236719, -6.057972332452664, -0.020282277220120427},
+     0.0012},
+    {{2, 2},
+     {{0, 0, 3e-7}, {0, 0, 0}},
+     {-40.304818361321765, -4.828695077963516, 0.10959693288363755},
+     {-40.30551076969056, -4.828665370104318, 0.10959798125006724},
+     0.0008},
+};
+
+/* six flexures in two loops: the platform's pose; mirrored, with bodies named the other way round
+   and first_is_a false, everything is mirrored */
+static void six_bar_poses(void **state) {
+    (void)state;
+    for (int mirrored = 0; mirrored < 2; mirrored++)
+        for (size_t i = 0; i < sizeof poses / sizeof poses[0]; i++) {
+            const pose *t = &poses[i];
+            double q[RIG_N], load[RIG_N] = {0}, s = mirrored ? -1 : 1;
+            rig r;
+            rig_six_bar(&r, mirrored);
+            rig_compile(&r);
+            rig_drawn(&r, q);
+            for (int k = 0; k < 6; k++)
+                load[3 * t->body[k / 3] + k % 3] += t->load[k / 3][k % 3] * (k % 3 == 1 ? 1 : s);
+            rig_equilibrium(&r, load, 10, q);
+            double x = s * (q[6] - r.body[2].x_m) * 1e6, y = (q[7] - r.body[2].y_m) * 1e6;
+            assert_near(x, t->law[0], 2e-5);
+            assert_near(y, t->law[1], 2e-5);
+            assert_near(s * q[8], t->law[2], 1e-8);
+            assert_true(hypot(x - t->exact[0], y - t->exact[1]) < t->off_um);
+            assert_near(s * q[8], t->exact[2], 4e-6);
+            fw_arena_free(r.arena);
+        }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(element_laws),
+        cmocka_unit_test(released_once),
+        cmocka_unit_test(six_bar_poses),
+    };
+    return cmocka_run_group_tests_name("nonlinear-hinge", tests, NULL, NULL);
+}

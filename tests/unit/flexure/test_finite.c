@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The hinge at finite rotation against tables of the geometrically exact beam (mpmath, 28 digits;
+   um, uN, rad there), closed forms and differences. */
+#include "flexure/finite.h"
+#include "test.h"
+
+static const double degree = M_PI / 180;
+
+/* a strip without roots, axial and shear compliance: inextensible */
+static fw_hinge_law thin(double r_m, double angle_deg, double EI) {
+    double a = 0.5 * angle_deg * degree, L = 2 * a * r_m;
+    return (fw_hinge_law){.stiffness_Nm_per_rad = EI / L,
+                          .half_angle_rad = a,
+                          .length_m = L,
+                          .share = 1,
+                          .bend_m_per_N = L * L * L / (8 * EI)};
+}
+
+/* u of W2 in the first body's frame under a dead force (fx, fy) there, at th; *M the moment */
+static void loaded(const fw_hinge_law *law, double th, double fx, double fy, double u[2],
+                   double *M) {
+    fw_hinge_at at;
+    fw_hinge_law_at(law, th, &at);
+    double c = cos(0.5 * th), s = sin(0.5 * th);
+    double fe = c * fx + s * fy, fn = c * fy - s * fx;
+    double w = fe / at.kx_N_per_m.value, v = fn / at.ky_N_per_m.value, y = v + at.drift_m.value;
+    u[0] = c * w - s * y, u[1] = s * w + c * y;
+    /* dU/dth at fixed u: the frame turns by half of th */
+    *M = law->stiffness_Nm_per_rad * th + 0.5 * at.kx_N_per_m.slope * w * w +
+         0.5 * at.ky_N_per_m.slope * v * v - fn * at.drift_m.slope + 0.5 * (fe * y - fn * w);
+}
+
+static FILE *table(const char *name) {
+    char line[600], path[600];
+    snprintf(path, sizeof path, "%s/tests/data/hinge/%s", FW_TEST_SOURCE_DIR, name);
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    assert_non_null(fgets(line, sizeof line, file));
+    return file;
+}
+
+/* the table's own column of this law, and its error against the beam, which falls with the square
+   of the force: 4 rows of forces that halve */
+static void against_the_beam(void **state) {
+    (void)state;
+    FILE *file = table("prb3theta_check.csv");
+    char line[600];
+    int rows = 0;
+    double last = 0;
+    while (fgets(line, sizeof line, file)) {
+        double angle, th, fx, fy, x, y, M, px, py, pM, u[2], moment;
+        assert_int_equal(sscanf(line, "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", &angle, &th, &fx,
+                                &fy, &x, &y, &M, &px, &py, &pM),
+                         10);
+        fw_hinge_law law = thin(100e-6, angle, 169e9 * 50e-6 * pow(8e-6, 3) / 12);
+        loaded(&law, th * degree, fx * 1e-6, fy * 1e-6, u, &moment);
+        assert_near(u[0] * 1e6, px, 1e-11 * hypot(px, py) + 1e-12);
+        assert_near(u[1] * 1e6, py, 1e-11 * hypot(px, py) + 1e-12);
+        assert_relative(moment * 1e12, pM, 1e-11);
+        double off = hypot(u[0] * 1e6 - x, u[1] * 1e6 - y);
+        assert_true(off < 6e-3);
+        if (rows % 4 != 0) assert_relative(last / off, 4, 0.03);
+        last = off;
+        rows++;
+    }
+    fclose(file);
+    assert_int_equal(rows, 60);
+}
+
+/* both theories of the beam; with axial and shear compliance the law is no longer exact, but as
+   near as what these change under a moment */
+static void against_the_reference(void **state) {
+    (void)state;
+    FILE *file = table("ge_hinge_reference.csv");
+    char line[600], which[8], theory[32];
+    int rows = 0;
+    double worst[2] = {0, 0}, worst_moment = 0;
+    while (fgets(line, sizeof line, file)) {
+        double th, fx, fy, M, root, tip, x, y, u[2], moment;
+        assert_int_equal(sscanf(line, "%7[^,],%31[^,],%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", which,
+                                theory, &th, &fx, &fy, &M, &root, &tip, &x, &y),
+                         10);
+        bool soft = strcmp(theory, "inextensible") != 0, h3 = strcmp(which, "H3") == 0;
+        double t = h3 ? 10e-6 : 8e-6, h = h3 ? 9e-6 : 50e-6, E = h3 ? 115e9 : 169e9;
+        double nu = h3 ? 0.34 : 0.22;
+        fw_hinge_law law = thin(100e-6, 270, E * h * t * t * t / 12);
+        law.axial_m_per_N = soft ? law.length_m / (2 * E * h * t) : 0;
+        law.shear_m_per_N = soft ? law.length_m * 2 * (1 + nu) / (2 * 5.0 / 6.0 * E * h * t) : 0;
+        loaded(&law, th * degree, fx * 1e-6, fy * 1e-6, u, &moment);
+        double off = hypot(u[0] * 1e6 - x, u[1] * 1e6 - y);
+        worst[soft] = fmax(worst[soft], off);
+        worst_moment = fmax(worst_moment, fabs(moment * 1e12 / M - 1));
+        if (fx == 0 && fy == 0 && !soft) assert_true(off < 1e-9);
+        rows++;
+    }
+    fclose(file);
+    assert_int_equal(rows, 80);
+    if (!(worst[0] < 4e-3 && worst[1] < 6e-3 && worst_moment < 1e-5))
+        fail_msg("off by %g um, %g um; moment %g", worst[0], worst[1], worst_moment);
+}
+
+/* the angle at which the drift alone closes a gap, r = 100 um: table of the hinge's theory */
+static void gaps_close(void **state) {
+    (void)state;
+    const double angle[] = {90, 120, 180, 225, 270, 300, 330, 360};
+    const double deg[][4] = {{16.4, 23.3, 28.6, 37.0}, {14.6, 20.7, 25.4, 32.9},
+                             {12.8, 18.2, 22.3, 29.0}, {12.4, 17.6, 21.6, 28.1},
+                             {12.5, 17.8, 21.9, 28.5}, {12.9, 18.4, 22.6, 29.5},
+                             {13.6, 19.4, 23.9, 31.2}, {14.7, 21.0, 25.9, 33.8}};
+    const double gap[] = {1e-6, 2e-6, 3e-6, 5e-6};
+    for (int i = 0; i < 8; i++)
+        for (int g = 0; g < 4; g++) {
+            fw_hinge_law law = thin(100e-6, angle[i], 1e-6);
+            fw_hinge_at at;
+            double th = fw_hinge_drift_reaches(&law, gap[g]);
+            fw_hinge_law_at(&law, th, &at);
+            double other = fabs(at.drift_m.value);
+            fw_hinge_law_at(&law, -th, &at);
+            assert_near(fmax(other, fabs(at.drift_m.value)), gap[g], 1e-6 * gap[g]);
+            /* the table winds the arc and has one decimal */
+            fw_hinge_law_at(&law, (deg[i][g] - 0.06) * degree, &at);
+            assert_true(at.drift_m.value < gap[g]);
+            fw_hinge_law_at(&law, (deg[i][g] + 0.06) * degree, &at);
+            assert_true(at.drift_m.value > gap[g]);
+            assert_true(th > 0.9 * deg[i][g] * degree && th < (deg[i][g] + 0.06) * degree);
+        }
+    fw_hinge_law stiff = thin(100e-6, 270, 1e-6);
+    assert_true(isnan(fw_hinge_drift_reaches(&stiff, 1e-3)));
+}
+
+/* derivatives against differences of order 6, through a = 0 and through where the series end */
+static void derivatives(void **state) {
+    (void)state;
+    const double half[] = {0, 0.01, 0.4, 0.98, 1.0, 1.7, 2.36, 3.0};
+    const double turn[] = {-0.8, -0.2, 0, 0.013, 0.05, 0.21};
+    const double weight[7] = {-1, 9, -45, 0, 45, -9, 1};
+    for (int i = 0; i < 8; i++)
+        for (int j = 0; j < 6; j++) {
+            fw_hinge_law law = {1e-6, half[i], 300e-6, 0.97, 0.05, 1e-3, 2e-4, 5e-4};
+            fw_hinge_at at, near;
+            const double h = 1e-3;
+            double slope[3] = {0}, curve[3] = {0};
+            fw_hinge_law_at(&law, turn[j], &at);
+            for (int k = -3; k <= 3; k++) {
+                fw_hinge_law_at(&law, turn[j] + k * h, &near);
+                const fw_hinge_jet jet[3] = {near.kx_N_per_m, near.ky_N_per_m, near.drift_m};
+                for (int m = 0; m < 3; m++) {
+                    slope[m] += weight[k + 3] * jet[m].value / (60 * h);
+                    curve[m] += weight[k + 3] * jet[m].slope / (60 * h);
+                }
+            }
+            const fw_hinge_jet jet[3] = {at.kx_N_per_m, at.ky_N_per_m, at.drift_m};
+            for (int m = 0; m < 3; m++) {
+                double size = m == 2 ? law.length_m : fabs(jet[m].value);
+                assert_near(jet[m].slope, slope[m], 1e-10 * size);
+                assert_near(jet[m].curve, curve[m], 2e-9 * (size + fabs(jet[m].curve)));
+            }
+        }
+}
+
+/* linear theory: exact integrals of the free arc at no rotation, straight leaf, roots as weights */
+static void at_rest(void **state) {
+    (void)state;
+    double r = 100e-6, a = 135 * degree, s = sin(a), c = cos(a), EI = 3.6e-10, dL = 0.7e-6;
+    double L = 2 * a * r, W = (L * r * s / a + 2 * dL * r * c) / (L + 2 * dL);
+    fw_hinge_law law = thin(r, 270, EI);
+    law.share = L / (L + 2 * dL), law.root_m_per_N = dL * L * L / (2 * EI);
+    law.axial_m_per_N = 3e-5, law.shear_m_per_N = 7e-5;
+    fw_hinge_at at;
+    fw_hinge_law_at(&law, 0, &at);
+    double p = 2 * 3e-5 / L * r, v = 2 * 7e-5 / L * r; /* r/EA, r/kGA */
+    double x = pow(r, 3) / EI * (a - s * c) + p * (a - s * c) + v * (a + s * c) +
+               2 * dL * r * r * s * s / EI;
+    /* int (x - W)^2 ds = r^3 (a + sc) - 2 W r^2 2 s + W^2 L, and the two ends */
+    double y =
+        (pow(r, 3) * (a + s * c) - 4 * W * r * r * s + W * W * L + 2 * dL * pow(r * c - W, 2)) /
+            EI +
+        p * (a + s * c) + v * (a - s * c);
+    assert_relative(at.kx_N_per_m.value, 1 / x, 1e-12);
+    assert_relative(at.ky_N_per_m.value, 1 / y, 1e-12);
+    assert_near(at.drift_m.value, 0, 1e-19);
+    assert_near(at.drift_m.slope, 0, 1e-18); /* W is the elastic centre, the roots included */
+
+    fw_hinge_law leaf = {1e-6, 0, L, 1, L * L * L / (8 * EI), 0, L / (2 * 5.0), L / (2 * 2.0)};
+    fw_hinge_law_at(&leaf, 0, &at);
+    assert_relative(at.kx_N_per_m.value, 1 / (L * L * L / (12 * EI) + L / 2.0), 1e-13);
+    assert_relative(at.ky_N_per_m.value, 5.0 / L, 1e-13);
+    for (double th = -0.4; th < 0.5; th += 0.2) {
+        fw_hinge_law_at(&leaf, th, &at);
+        double half = 0.5 * th + 1e-300;
+        assert_near(at.drift_m.value, L * (sin(half) / half - cos(half)), 1e-15 * L);
+    }
+}
+
+/* with real roots: forces against 3-D finite elements of H1 and H2 (N/m), and the drift, less what
+   the printed centre was off by (um) */
+static void against_finite_elements(void **state) {
+    (void)state;
+    const struct {
+        fw_flexure_input in;
+        double kx, ky, deg, shift, centre, thin_centre;
+    } row[] = {
+        {{FW_FLEXURE_CSFH, 150e-6 * M_PI, 1.5 * M_PI, 100e-6, 8e-6, 4e-6, 50e-6, 169e9, 0.22, 1e9,
+          1},
+         127.020,
+         251.951,
+         10,
+         0.66283,
+         29.8787,
+         30.0105},
+        {{FW_FLEXURE_CSFH, 100e-6 * M_PI, M_PI, 100e-6, 10e-6, 4e-6, 50e-6, 169e9, 0.22, 1e9, 1},
+         443.768,
+         2269.21,
+         10,
+         0.70753,
+         63.1165,
+         63.6620},
+    };
+    for (int i = 0; i < 2; i++) {
+        fw_flexure_result out;
+        fw_hinge_law law;
+        fw_hinge_at at;
+        fw_flexure_closed_form(&row[i].in, &out);
+        fw_hinge_law_of(&row[i].in, &out, &law);
+        fw_hinge_law_at(&law, 0, &at);
+        assert_relative(at.kx_N_per_m.value, row[i].kx, 0.01);
+        assert_relative(at.ky_N_per_m.value, row[i].ky, 0.014);
+        fw_hinge_law_at(&law, row[i].deg * degree, &at);
+        double seen = row[i].shift - row[i].deg * degree * (row[i].thin_centre - row[i].centre);
+        assert_near(at.drift_m.value * 1e6, seen, 0.006);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(against_the_beam), cmocka_unit_test(against_the_reference),
+        cmocka_unit_test(gaps_close),       cmocka_unit_test(derivatives),
+        cmocka_unit_test(at_rest),          cmocka_unit_test(against_finite_elements),
+    };
+    return cmocka_run_group_tests_name("finite", tests, NULL, NULL);
+}
