@@ -123,9 +123,11 @@ static fw_status state_new(fw_arena *arena, const fw_mechanism *mechanism, const
         return status == FW_NOMEM ? FW_NOMEM : FW_LIMIT;
     }
     double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
-    if (scene)
+    if (scene) {
         FW_TRY(fw_effects_compile(arena, mechanism, scene, &options->effects, accuracy, diags,
                                   &ledger, &terms));
+        terms.released = NULL; /* the motion is given: all pins are joints */
+    }
     FW_TRY(fw_model_new(arena, mechanism, scene ? &terms : NULL, q, scene ? scene->duration_s : 1,
                         NULL, diags, &s->m));
     s->m->piece = DBL_MIN;
@@ -205,7 +207,7 @@ static fw_status rates(state *s, double t, const fw_coordinate_choice *c, const 
 static void forces(state *s, double t, const fw_coordinate_choice *c, const fw_singular *rows,
                    double *tau) {
     fw_model *m = s->m;
-    fw_model_set_switches(m, s->y);
+    fw_model_set_switches(m, t, s->y);
     fw_model_forces(m, t, s->y);
     for (int i = 0; i < m->nq; i++) {
         double mass = i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3];

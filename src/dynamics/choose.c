@@ -13,14 +13,15 @@ static const double fw_uneven_most = 1e3;
 
 /* ---- the method ---- */
 
-/* heaviest body over the lightest one that sits between two joints */
-static fw_status unevenness(fw_run *r, int *light, int *heavy) {
+/* heaviest body over the lightest one that sits between two joints; a released pin is none */
+static fw_status unevenness(fw_run *r, const fw_terms *terms, int *light, int *heavy) {
     const fw_mechanism *m = r->mechanism;
     int *joints;
     fw_mark mark = fw_arena_mark(r->arena);
     FW_NEED(joints = fw_arena_array(r->arena, int, (size_t)m->nbody));
     for (int i = 0; i < m->npin + m->ntie; i++) {
         const fw_tie *t = i < m->npin ? NULL : &m->tie[i - m->npin];
+        if (!t && terms->released && terms->released[i]) continue;
         int a = t ? t->body_a : m->pin[i].body_a, b = t ? t->body_b : m->pin[i].body_b;
         if (a != FW_GROUND) joints[a]++;
         if (b != FW_GROUND) joints[b]++;
@@ -40,10 +41,10 @@ static fw_status unevenness(fw_run *r, int *light, int *heavy) {
    16 - log10(ratio) digits, and the step control follows the noise. Independent coordinates add m
    instead and keep them all. Up to a ratio of 1e3 the noise lies below every tolerance. Test:
    test_hard_masses.c. */
-fw_status fw_method_choose(fw_run *r) {
+fw_status fw_method_choose(fw_run *r, const fw_terms *terms) {
     int light, heavy;
     char ratio[32];
-    FW_TRY(unevenness(r, &light, &heavy));
+    FW_TRY(unevenness(r, terms, &light, &heavy));
     if (r->options->method || r->uneven <= fw_uneven_most || r->mechanism->nbody > fw_dense_most)
         return FW_OK;
     r->motion->method = "coordinate-partitioning";
@@ -113,6 +114,33 @@ static fw_status fastest(fw_run *r, double *rate) {
     return FW_OK;
 }
 
+/* 1/T of a body that hangs on an element's stated stiffness: for those whose formula has no
+   stiffness where the scene starts */
+static double stated_rate(const fw_model *m, const fw_force_element *e) {
+    double free = 0, unit = m->scale.time_s * m->scale.time_s / m->scale.mass_kg;
+    for (int i = 0; i < e->ports; i++)
+        if (e->port[i].body != FW_GROUND) free += m->minv[e->port[i].body];
+    return sqrt(e->size_N_per_m * unit * free);
+}
+
+/* the same with all switches of elements on: a stiff contact may be open at the start. 0: none is
+   off. Where the formula of one means nothing there, what it states counts. */
+static fw_status fastest_in_touch(fw_run *r, double before, double *rate) {
+    fw_model *m = r->model;
+    double stated = 0;
+    *rate = 0;
+    for (int i = 0; i < m->nelement; i++)
+        for (int k = 0; k < m->element[i].own->switches; k++) {
+            if (m->element[i].on[k]) continue;
+            stated = fmax(stated, stated_rate(m, m->element[i].own));
+            m->element[i].on[k] = true;
+        }
+    if (stated > 0) FW_TRY(fastest(r, rate));
+    if (!(*rate > 1.01 * before)) *rate = stated;
+    fw_model_set_switches(m, 0, r->start);
+    return FW_OK;
+}
+
 /* omega^2 = F.u / u^T M u for the static response u to F (SI), scaled; 0 when there is none */
 static fw_status rayleigh(fw_run *r, const fw_terms *terms, const double *force, double *u,
                           double *rotation, double *rate) {
@@ -158,8 +186,11 @@ static fw_status excited(fw_run *r, const fw_terms *terms, double *rate) {
    its dense factorisations are not. */
 static fw_status choose(fw_run *r, const fw_terms *terms) {
     const fw_model *m = r->model;
-    double fast, slow, unit = m->scale.time_s, time = r->scene->duration_s / unit;
+    double fast, slow, touching, unit = m->scale.time_s, time = r->scene->duration_s / unit;
     FW_TRY(fastest(r, &fast));
+    FW_TRY(fastest_in_touch(r, fast, &touching));
+    bool later = touching > fast;
+    fast = fmax(fast, touching);
     FW_TRY(excited(r, terms, &slow));
     slow = fmin(slow, fast); /* a nearly rigid response says nothing */
     double stable = time * fast / 6, needed = fmax(200, time * (slow > 0 ? slow : fast));
@@ -175,9 +206,10 @@ static fw_status choose(fw_run *r, const fw_terms *terms) {
     }
     FW_NEED(r->motion->reason = fw_arena_printf(
                 r->arena,
-                "auto: stiff, the fastest motion has %s rad/s where %s rad/s are excited; explicit "
-                "steps need %s for stability, %s",
+                "auto: stiff, the fastest motion has %s rad/s%s where %s rad/s are excited; "
+                "explicit steps need %s for stability, %s",
                 fw_number_text(a, sizeof a, fast / unit, 2),
+                later ? " (once all contacts touch)" : "",
                 fw_number_text(b, sizeof b, slow / unit, 2), c,
                 large ? "but the model is too large for implicit ones"
                       : "implicit ones pass over the fast motion"));

@@ -97,9 +97,9 @@ static void start_stepper(const fw_run *r, fw_stepper *s, double t, const double
 /* ---- energy ---- */
 
 /* the energy of models that have a kernel needs no arms: no loads or springs at points */
-static void watch_energy(fw_run *r, const double *y) {
+static void watch_energy(fw_run *r, double t, const double *y) {
     if (!r->model->kernel) fw_model_pose(r->model, y);
-    fw_energy e = fw_model_energy(r->model, y);
+    fw_energy e = fw_model_energy(r->model, t, y);
     double balance = e.kinetic + e.elastic + e.dissipated - e.work;
     double start = r->first.kinetic + r->first.elastic + r->first.dissipated - r->first.work;
     r->drift = fmax(r->drift, fabs(balance - start));
@@ -108,20 +108,29 @@ static void watch_energy(fw_run *r, const double *y) {
 
 static void first_energy(fw_run *r, const double *y) {
     fw_model_pose(r->model, y);
-    r->first = fw_model_energy(r->model, y);
+    r->first = fw_model_energy(r->model, 0, y);
     r->drift = 0;
     r->largest = r->first.kinetic + r->first.elastic;
 }
 
 /* ---- events ---- */
 
-/* how well switch i fits its flag at theta: >= 0 fits, its value with the sign of the flag */
-static double fitness(fw_run *r, fw_stepper *s, int i, double theta) {
+/* r->moved at theta, posed; returns the time */
+static double stand_at(fw_run *r, fw_stepper *s, double theta) {
     fw_stepper_dense(s, theta, r->moved);
     fw_model_pose(r->model, r->moved);
-    double value = fw_model_switch_value(r->model, i, r->moved);
+    return s->t_old + theta * s->h;
+}
+
+/* how well switch i fits its flag: >= 0 fits, its value with the sign of the flag */
+static double fitting(const fw_run *r, int i, double value) {
     if (fw_model_switch_on(r->model, i)) return value > 0 ? value : fmin(value, -DBL_MIN);
     return value > 0 ? -value : fabs(value);
+}
+
+static double fitness(fw_run *r, fw_stepper *s, int i, double theta) {
+    double t = stand_at(r, s, theta);
+    return fitting(r, i, fw_model_switch_value(r->model, t, i, r->moved));
 }
 
 /* first place in (low, high] where switch i does not fit, given that it does at low and not at
@@ -152,34 +161,42 @@ static double dip(fw_run *r, fw_stepper *s, int i, double low, double high) {
     return fx < 0 ? x : fy < 0 ? y : (double)NAN;
 }
 
-/* first place of the step where switch i does not fit, 1 with *found false when there is none: its
-   fitness at 17 places, and between any three of which the middle one is least and so small that a
-   parabola through them may reach below 0 */
-static double first_unfit(fw_run *r, fw_stepper *s, int i, bool *found) {
-    double f[17];
-    *found = true;
-    for (int k = 0; k <= 16; k++) {
-        f[k] = fitness(r, s, i, k / 16.0);
-        if (k > 1 && f[k - 1] <= f[k - 2] && f[k - 1] <= f[k] && f[k - 1] >= 0 && f[k] >= 0 &&
-            f[k - 1] <= f[k - 2] - 2 * f[k - 1] + f[k]) {
-            double low = (k - 2) / 16.0, at = dip(r, s, i, low, k / 16.0);
-            if (!isnan(at)) return bisect(r, s, i, low, at);
-        }
-        if (k > 0 && f[k] < 0) return bisect(r, s, i, (k - 1) / 16.0, k / 16.0);
+/* first place up to place k of the step where switch i does not fit, though it did up to k - 1: by
+   its fitness f at the places so far, and between any three of which the middle one is least and so
+   small that a parabola through them may reach below 0. NaN: there is none */
+static double first_unfit(fw_run *r, fw_stepper *s, int i, int k) {
+    const double part = 1.0 / FW_PLACES;
+    size_t count = (size_t)fw_model_switches(r->model);
+    const double *f = r->fit + (size_t)k * count + i;
+    if (k == 0) return (double)NAN;
+    const double *f1 = f - count, *f2 = f1 - (k > 1 ? count : 0);
+    if (k > 1 && *f1 <= *f2 && *f1 <= *f && *f1 >= 0 && *f >= 0 && *f1 <= *f2 - 2 * *f1 + *f) {
+        double low = (k - 2) * part, at = dip(r, s, i, low, k * part);
+        if (!isnan(at)) return bisect(r, s, i, low, at);
     }
-    *found = false;
-    return 1;
+    return *f < 0 ? bisect(r, s, i, (k - 1) * part, k * part) : (double)NAN;
 }
 
-/* the earliest event of the last step: its theta, and which switch; 1 and -1 when there is none */
+/* the earliest event of the last step: its theta, and which switch; 1 and -1 when there is none.
+   All switches are looked at in one pose of each place; what is found at the next place lies beyond
+   the place before this one. */
 static double find_event(fw_run *r, fw_stepper *s, int *which) {
     int count = fw_model_switches(r->model);
     double first = 1;
     *which = -1;
-    for (int i = 0; i < count; i++) {
-        bool found;
-        double at = first_unfit(r, s, i, &found);
-        if (found && (*which < 0 || at < first)) first = at, *which = i;
+    if (count == 0) return first;
+    memset(r->unfit, 0, (size_t)count * sizeof *r->unfit);
+    for (int k = 0; k <= FW_PLACES && !(*which >= 0 && first <= (k - 2.0) / FW_PLACES); k++) {
+        double *f = r->fit + (size_t)k * (size_t)count, t = stand_at(r, s, (double)k / FW_PLACES);
+        fw_model_switch_values(r->model, t, r->moved, f);
+        for (int i = 0; i < count; i++)
+            f[i] = fitting(r, i, f[i]);
+        for (int i = 0; i < count; i++) {
+            double at = r->unfit[i] ? (double)NAN : first_unfit(r, s, i, k);
+            if (isnan(at)) continue;
+            r->unfit[i] = true;
+            if (*which < 0 || at < first || (at == first && i < *which)) first = at, *which = i;
+        }
     }
     return first;
 }
@@ -189,7 +206,7 @@ static bool pass_event(fw_run *r, fw_stepper *s, int which, double theta) {
     fw_model *m = r->model;
     double t = s->t_old + theta * s->h;
     fw_stepper_dense(s, theta, r->moved);
-    fw_model_flip(m, which, r->moved);
+    fw_model_flip(m, t, which, r->moved);
     if (m->projecting) {
         fw_model_pose(m, r->moved);
         if (!m->method->factor(m) || !fw_model_project_position(m, t, r->moved) ||
@@ -202,12 +219,24 @@ static bool pass_event(fw_run *r, fw_stepper *s, int which, double theta) {
 
 /* ---- pieces ---- */
 
+/* a law that jumps changes what its element stores: that is its work. Switches fit the new law. */
+static void jump_of_elements(fw_run *r, double t, double *y, double stored) {
+    fw_model *m = r->model;
+    fw_model_set_switches(m, t, y);
+    fw_model_pose(m, y);
+    if (m->worked >= 0) y[m->worked] += fw_model_element_energy(m, t, y, true) - stored;
+}
+
 /* a driver whose speed jumps moves the velocities at once (an impact without rebound); the energy
    that brings or takes is the driver's work */
 static fw_status next_piece(fw_run *r, fw_stepper *s, int piece) {
     fw_model *m = r->model;
-    double t = s->t, *y = r->moved;
+    double t = s->t, *y = r->moved, stored = 0;
     memcpy(y, s->y, (size_t)m->ny * sizeof *y);
+    if (m->nelement > 0) {
+        fw_model_pose(m, y);
+        stored = fw_model_element_energy(m, t, y, true);
+    }
     m->piece = 0.5 * (r->end[piece - 1] + r->end[piece]) * m->scale.time_s;
     if (m->driven) {
         double before = fw_model_kinetic(m, y + m->nq), psi;
@@ -225,6 +254,7 @@ static fw_status next_piece(fw_run *r, fw_stepper *s, int piece) {
         if (m->worked >= 0) y[m->worked] += after - before;
         m->events += fabs(after - before) > 1e-9 * fmax(after, before); /* a blow */
     }
+    if (m->nelement > 0) jump_of_elements(r, t, y, stored);
     start_stepper(r, s, t, y, r->end[piece]);
     return FW_OK;
 }
@@ -241,7 +271,7 @@ static bool look(fw_run *r, fw_stepper *s, fw_peaks *peaks, double theta_end) {
     fw_peaks_mark(peaks, s, theta_end, r->end[r->npiece - 1], r->moved);
     fw_run_extremes(r, s, theta_end);
     if (!r->full) return true;
-    if (theta_end == 1) watch_energy(r, s->y);
+    if (theta_end == 1) watch_energy(r, s->t, s->y);
     fw_run_show(r, s, theta_end);
     return fw_run_samples(r, s, theta_end);
 }
@@ -253,7 +283,7 @@ static fw_status begin(fw_run *r, fw_stepper *s) {
     m->worst_position = m->worst_velocity = 0;
     m->stuck = -1;
     m->piece = 0.5 * r->end[0] * m->scale.time_s;
-    fw_model_set_switches(m, r->start);
+    fw_model_set_switches(m, 0, r->start);
     start_stepper(r, s, 0, r->start, r->end[0]);
     if (!r->full) return FW_OK;
     first_energy(r, s->y);
@@ -276,6 +306,7 @@ fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks) {
             double theta = find_event(r, s, &which);
             if (!look(r, s, peaks, theta)) return stopped(r, s, FW_ODE_SMALL);
             if (which >= 0 && !pass_event(r, s, which, theta)) return stopped(r, s, FW_ODE_SMALL);
+            FW_TRY(fw_run_valid(r, s->t, s->y));
             if (++r->steps > most_steps(r) || m->events > fw_most_events) return too_long(r, s);
             ended = turned_too_far(r, peaks);
         }

@@ -42,6 +42,8 @@ typedef struct fw_extreme {
     double end;      /* value where the pass ends */
 } fw_extreme;
 
+enum { FW_PLACES = 16 }; /* parts of a step at whose ends switches are looked at */
+
 typedef struct fw_run {
     fw_arena *arena;
     const fw_mechanism *mechanism;
@@ -58,6 +60,8 @@ typedef struct fw_run {
     double *state;    /* (ny) a sample */
     double *rate;     /* (ny) its derivative */
     double *moved;    /* (ny) a state at an event */
+    double *fit;      /* (FW_PLACES + 1 x switches) along a step */
+    bool *unfit;      /* (switches) found in this step */
     double amplitude; /* scaled size of the motion: the absolute tolerance is rtol times this */
     fw_energy first;
     double drift, largest;
@@ -80,15 +84,21 @@ typedef struct fw_run {
 
 /* start.c: pieces, assembled state with fitting velocities, size of the motion, output arrays */
 fw_status fw_run_prepare(fw_run *r, const fw_terms *terms);
+/* FW-D242 where an element says that it does not hold */
+fw_status fw_run_valid(const fw_run *r, double t, const double *y);
 /* longest scaled step from scaled time t on that leaps over nothing in any law, each of whose
    strides may be `factor` times as long */
 double fw_run_stride(const fw_run *r, double factor, double t);
-/* simulate.c: what differences of the two runs are multiplied with to be errors */
+/* simulate.c: fw_simulate with effects that are compiled already; its ledger is then empty */
+fw_status fw_simulate_terms(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                            const fw_motion_options *options, const fw_terms *terms,
+                            fw_diags *diags, fw_motion **motion);
+/* what differences of the two runs are multiplied with to be errors */
 double fw_run_margin(const fw_run *r);
 fw_status fw_run_arrays(fw_run *r);
 
 /* choose.c: by name, or by the masses; r->why says so where it is not the default */
-fw_status fw_method_choose(fw_run *r);
+fw_status fw_method_choose(fw_run *r, const fw_terms *terms);
 /* by name, or by the scene; says why in motion->reason */
 fw_status fw_integrator_choose(fw_run *r, const fw_terms *terms, const char *name);
 

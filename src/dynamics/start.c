@@ -17,22 +17,38 @@ static int by_size(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-static const fw_law *law_of(const fw_run *r, const fw_terms *terms, int i) {
-    return i < terms->ntimed ? terms->timed[i].law : &r->mechanism->driver[i - terms->ntimed].law;
+static int law_count(const fw_run *r, const fw_terms *terms) {
+    int count = terms->ntimed + r->mechanism->ndriver;
+    for (int i = 0; i < terms->nelement; i++)
+        count += terms->element[i].laws;
+    return count;
+}
+
+/* the i-th law of all: of timed loads, drivers, elements; *coordinate: it drives a joint. NULL:
+   constant */
+static const fw_law *law_of(const fw_run *r, const fw_terms *terms, int i, bool *coordinate) {
+    *coordinate = i >= terms->ntimed && i < terms->ntimed + r->mechanism->ndriver;
+    if (i < terms->ntimed) return terms->timed[i].law;
+    if (*coordinate) return &r->mechanism->driver[i - terms->ntimed].law;
+    const fw_force_element *e = terms->element;
+    for (i -= terms->ntimed + r->mechanism->ndriver; i >= e->laws; e++)
+        i -= e->laws;
+    return e->law[i];
 }
 
 /* the breaks of every law, one law after the other (at, counted), and the strides between them */
 static fw_status look_at_laws(fw_run *r, const fw_terms *terms, double *at, int count) {
-    int laws = terms->ntimed + r->mechanism->ndriver, have = 0;
+    int laws = law_count(r, terms), have = 0;
     double end = r->scene->duration_s;
+    bool coordinate;
     FW_NEED(r->stride = fw_arena_array(r->arena, fw_law_strides, (size_t)laws));
     FW_NEED(r->stride_row = fw_arena_array(r->arena, int, (size_t)laws));
     for (int i = 0; i < laws; i++) {
-        const fw_law *law = law_of(r, terms, i);
+        const fw_law *law = law_of(r, terms, i, &coordinate);
         fw_law_strides *own = &r->stride[r->nstride];
         int breaks = fw_law_breaks(law, end, at + have, count - have);
         qsort(at + have, (size_t)breaks, sizeof *at, by_size);
-        FW_TRY(fw_law_look(r->arena, law, i >= terms->ntimed, end, at + have, breaks, own));
+        FW_TRY(fw_law_look(r->arena, law, coordinate, end, at + have, breaks, own));
         have += breaks;
         bool limits = false;
         for (int k = 0; k < own->n; k++)
@@ -51,10 +67,11 @@ double fw_run_stride(const fw_run *r, double factor, double t) {
 }
 
 static fw_status pieces(fw_run *r, const fw_terms *terms) {
-    int laws = terms->ntimed + r->mechanism->ndriver, have = 0;
+    int laws = law_count(r, terms), have = 0;
     double end = r->scene->duration_s, unit = r->model->scale.time_s;
+    bool coordinate;
     for (int i = 0; i < laws; i++)
-        have += fw_law_breaks(law_of(r, terms, i), end, NULL, 0);
+        have += fw_law_breaks(law_of(r, terms, i, &coordinate), end, NULL, 0);
     double *at;
     FW_NEED(at = fw_arena_array(r->arena, double, (size_t)have + 1));
     FW_TRY(look_at_laws(r, terms, at, have));
@@ -169,20 +186,42 @@ static void warn_velocities(fw_run *r, const double *given, const double *v) {
                     fw_number_text(energy, sizeof energy, 100 * (after - before) / before, 3));
 }
 
+/* Velocities start as if all pins were joints, also those that elements stand for: they then start
+   without a stretch and without its rate, whatever the scene states. */
+static fw_status closed_model(fw_run *r, const fw_terms *terms, fw_model **closed) {
+    fw_terms all = *terms;
+    *closed = r->model;
+    if (r->model->nreleased == 0) return FW_OK;
+    all.released = NULL;
+    FW_TRY(fw_model_new(r->arena, r->mechanism, &all, r->q0, r->scene->duration_s, NULL, r->diags,
+                        closed));
+    (*closed)->piece = r->model->piece;
+    return FW_OK;
+}
+
+/* r->start onto the joints of r->model, v too; given: and as near to that as they allow */
+static bool onto_joints(fw_run *r, const double *given, double *v) {
+    fw_model *m = r->model;
+    fw_model_pose(m, r->start);
+    if (!m->method->factor(m) || !fw_model_project_position(m, 0, r->start)) return false;
+    fw_model_pose(m, r->start);
+    if (given && !follow_stated(r, given, v)) return false;
+    return m->method->factor(m) && fw_model_impact(m, 0, v);
+}
+
 /* assembled pose, initial velocities moved onto G v = -Psi_t; says so when they contradicted the
    joints */
 static fw_status start_values(fw_run *r, const fw_terms *terms) {
-    fw_model *m = r->model;
+    fw_model *m = r->model, *closed;
     const fw_scale s = m->scale;
     double *v = r->start + m->nq, *given = r->state;
     for (int i = 0; i < m->nq; i++)
         v[i] = given[i] = terms->velocity[i] * s.time_s / (i % 3 == 2 ? 1 : s.length_m);
-    fw_model_pose(m, r->start);
-    bool good = m->method->factor(m) && fw_model_project_position(m, 0, r->start);
-    if (good) {
-        fw_model_pose(m, r->start);
-        good = follow_stated(r, given, v) && m->method->factor(m) && fw_model_impact(m, 0, v);
-    }
+    FW_TRY(closed_model(r, terms, &closed));
+    r->model = closed;
+    bool good = onto_joints(r, given, v);
+    r->model = m;
+    if (good && closed != m) good = onto_joints(r, NULL, v);
     if (!good)
         return fw_diag_error(r->diags, 109, r->scene->place,
                              "method %s cannot start scene %s: its equations are singular in the "
@@ -191,8 +230,22 @@ static fw_status start_values(fw_run *r, const fw_terms *terms) {
                    ? FW_NOMEM
                    : FW_SOLVER;
     warn_velocities(r, given, v);
-    fw_model_set_switches(m, r->start);
-    return FW_OK;
+    fw_model_set_switches(m, 0, r->start);
+    return fw_run_valid(r, 0, r->start);
+}
+
+fw_status fw_run_valid(const fw_run *r, double t, const double *y) {
+    fw_model *m = r->model;
+    const char *why = "";
+    char time[32];
+    if (m->nelement == 0) return FW_OK;
+    fw_model_pose(m, y);
+    const fw_force_element *e = fw_model_element_invalid(m, t, y, &why);
+    if (!e) return FW_OK;
+    fw_status status =
+        fw_diag_error(r->diags, 242, e->place, "%s of scene %s at %s s: %s", e->id, scene_name(r),
+                      fw_number_text(time, sizeof time, t * m->scale.time_s, 4), why);
+    return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
 
 fw_status fw_run_prepare(fw_run *r, const fw_terms *terms) {
@@ -228,5 +281,8 @@ fw_status fw_run_arrays(fw_run *r) {
     FW_NEED(r->state = fw_arena_array(r->arena, double, ny));
     FW_NEED(r->rate = fw_arena_array(r->arena, double, ny));
     FW_NEED(r->moved = fw_arena_array(r->arena, double, ny));
+    size_t switches = (size_t)fw_model_switches(r->model);
+    FW_NEED(r->fit = fw_arena_array(r->arena, double, (FW_PLACES + 1) * switches));
+    FW_NEED(r->unfit = fw_arena_array(r->arena, bool, switches));
     return FW_OK;
 }

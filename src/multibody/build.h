@@ -9,5 +9,8 @@ void fw_model_scale(const fw_mechanism *mechanism, const fw_terms *terms, double
                     fw_scale *scale);
 fw_status fw_model_body_arrays(fw_arena *arena, fw_model *m);
 fw_status fw_model_block_arrays(fw_arena *arena, fw_model *m, int nblock);
+/* elements.c: centre: origin of the scaled coordinates, m */
+fw_status fw_model_elements_new(fw_arena *arena, fw_model *m, const fw_terms *terms,
+                                fw_vec2 centre);
 
 #endif

@@ -18,13 +18,13 @@ static double work_of_loads(const fw_model *m, const double *u) {
     return work;
 }
 
-static double stored(const fw_model *m, const double *y) {
+static double stored(const fw_model *m, double t, const double *y) {
     double energy = 0, stretch, rate;
     for (int i = 0; i < m->ntorsion; i++) {
-        const fw_model_torsion *t = &m->torsion[i];
-        stretch = t->angle0 + (t->b < m->nbody ? y[3 * t->b + 2] : 0) -
-                  (t->a < m->nbody ? y[3 * t->a + 2] : 0);
-        energy += 0.5 * t->k * stretch * stretch;
+        const fw_model_torsion *s = &m->torsion[i];
+        stretch = s->angle0 + (s->b < m->nbody ? y[3 * s->b + 2] : 0) -
+                  (s->a < m->nbody ? y[3 * s->a + 2] : 0);
+        energy += 0.5 * s->k * stretch * stretch;
     }
     for (int i = 0; i < m->nstop; i++) {
         if (!m->stop[i].on) continue;
@@ -40,7 +40,7 @@ static double stored(const fw_model *m, const double *y) {
         fw_model_travel(m, &m->slide[i], y, &stretch, &rate);
         energy += 0.5 * m->slide[i].k * stretch * stretch;
     }
-    return energy;
+    return energy + (m->nelement > 0 ? fw_model_element_energy(m, t, y, true) : 0);
 }
 
 double fw_model_kinetic(const fw_model *m, const double *v) {
@@ -51,15 +51,16 @@ double fw_model_kinetic(const fw_model *m, const double *v) {
     return sum;
 }
 
-/* T = v^T M v / 2; V of torsion springs, stops, point springs and slides, k x^2 / 2 each; W = work
-   of constant loads from the assembled pose, and of drivers and timed loads as carried with the
-   state; D = what dampers took, carried with the state. T + V + D - W is constant. Scaled units.
-   Uses the sines of the pose (fw_model_pose). Test: test_simulate.c, test_forces.c. */
-fw_energy fw_model_energy(fw_model *m, const double *y) {
+/* T = v^T M v / 2; V of torsion springs, stops, point springs and slides, k x^2 / 2 each, and what
+   elements say that they store at time t; W = work of constant loads from the assembled pose, and
+   of drivers, timed loads and laws of elements as carried with the state; D = what dampers took,
+   carried with the state. T + V + D - W is constant. Scaled units. Uses the sines of the pose
+   (fw_model_pose). Test: test_simulate.c, test_forces.c. */
+fw_energy fw_model_energy(fw_model *m, double t, const double *y) {
     const double *u = y, *v = y + m->nq;
     fw_energy e = {.dissipated = m->dissipated >= 0 ? y[m->dissipated] : 0};
     e.kinetic = fw_model_kinetic(m, v);
-    e.elastic = stored(m, y);
+    e.elastic = stored(m, t, y);
     e.work = work_of_loads(m, u) + (m->worked >= 0 ? y[m->worked] : 0);
     return e;
 }

@@ -1,24 +1,31 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What holds on one side only: stops and cables. A flag says whether the element acts; during a
-   step it stays as it is, so that the right-hand side is smooth, and run.c looks for the time at
-   which the flag no longer fits. With the element's stretch g and its rate g' it acts while
+/* What holds on one side only. Switches are counted through: stops, cables, then those of force
+   elements (whatever else has switches is counted behind these). A flag says whether the thing
+   acts; during a step it stays as it is, so that the right-hand side is smooth, and run.c looks for
+   the time at which the flag no longer fits. With the stretch g of a stop or cable and its rate g'
+   it acts while
 
        min(k g, k g + c g') > 0:
 
    it is stretched and does not pull the wrong way (a damped stop lets go before it is relaxed).
-   Test: test_events.c. */
+   Elements have a function of their own. Test: test_events.c, test_elements.c. */
 #include "multibody/model.h"
 #include <math.h>
 
-static int cables(const fw_model *m) {
-    int count = 0;
-    for (int i = 0; i < m->nspring; i++)
-        count += m->spring[i].cable;
-    return count;
+int fw_model_switches(const fw_model *m) {
+    return m->nstop + m->ncable + m->nswitch;
 }
 
-int fw_model_switches(const fw_model *m) {
-    return m->nstop + cables(m);
+static double stop_value(const fw_model *m, const fw_model_stop *s, const double *y) {
+    double past, rate;
+    fw_model_stopped(m, s, y, &past, &rate);
+    return fmin(s->k * past, s->k * past + s->c * rate);
+}
+
+static double cable_value(const fw_model *m, const fw_model_spring *s, const double *y) {
+    fw_pull p = fw_model_pull(m, s, y);
+    double stretch = p.length - s->length;
+    return fmin(s->k * stretch, s->k * stretch + s->c * p.rate);
 }
 
 /* the i-th cable */
@@ -28,43 +35,47 @@ static fw_model_spring *cable(const fw_model *m, int i) {
     return NULL;
 }
 
-double fw_model_switch_value(fw_model *m, int i, const double *y) {
-    double stretch, rate, k, c;
-    if (i < m->nstop) {
-        const fw_model_stop *s = &m->stop[i];
-        fw_model_stopped(m, s, y, &stretch, &rate);
-        k = s->k, c = s->c;
-    } else {
-        const fw_model_spring *s = cable(m, i - m->nstop);
-        fw_pull p = fw_model_pull(m, s, y);
-        stretch = p.length - s->length, rate = p.rate;
-        k = s->k, c = s->c;
-    }
-    return fmin(k * stretch, k * stretch + c * rate);
+double fw_model_switch_value(const fw_model *m, double t, int i, const double *y) {
+    int which;
+    if (i < m->nstop) return stop_value(m, &m->stop[i], y);
+    if ((i -= m->nstop) < m->ncable) return cable_value(m, cable(m, i), y);
+    const fw_model_element *e = fw_model_element_switch(m, i - m->ncable, &which);
+    return fw_model_element_switch_value(m, e, t, which, y);
+}
+
+void fw_model_switch_values(const fw_model *m, double t, const double *y, double *value) {
+    for (int i = 0; i < m->nstop; i++)
+        *value++ = stop_value(m, &m->stop[i], y);
+    for (int i = 0; i < m->nspring; i++)
+        if (m->spring[i].cable) *value++ = cable_value(m, &m->spring[i], y);
+    for (int i = 0; i < m->nelement; i++)
+        for (int k = 0; k < m->element[i].own->switches; k++)
+            *value++ = fw_model_element_switch_value(m, &m->element[i], t, k, y);
 }
 
 static bool *flag(const fw_model *m, int i) {
-    return i < m->nstop ? &m->stop[i].on : &cable(m, i - m->nstop)->on;
+    int which;
+    if (i < m->nstop) return &m->stop[i].on;
+    if ((i -= m->nstop) < m->ncable) return &cable(m, i)->on;
+    fw_model_element *e = fw_model_element_switch(m, i - m->ncable, &which);
+    return &e->on[which];
 }
 
 bool fw_model_switch_on(const fw_model *m, int i) {
     return *flag(m, i);
 }
 
-void fw_model_set_switches(fw_model *m, const double *y) {
+void fw_model_set_switches(fw_model *m, double t, const double *y) {
     int count = fw_model_switches(m);
     if (count == 0) return;
     fw_model_pose(m, y);
     for (int i = 0; i < count; i++)
-        *flag(m, i) = fw_model_switch_value(m, i, y) > 0;
+        *flag(m, i) = fw_model_switch_value(m, t, i, y) > 0;
 }
 
-/* what is still stored when a damped element lets go is lost to it, and is there again when it
-   takes hold while stretched */
-void fw_model_flip(fw_model *m, int i, double *y) {
-    bool *on = flag(m, i);
+/* what a stop or cable stores while it acts */
+static double held(const fw_model *m, int i, const double *y) {
     double stretch, rate, k;
-    fw_model_pose(m, y);
     if (i < m->nstop) {
         fw_model_stopped(m, &m->stop[i], y, &stretch, &rate);
         k = m->stop[i].k;
@@ -73,7 +84,23 @@ void fw_model_flip(fw_model *m, int i, double *y) {
         stretch = fw_model_pull(m, s, y).length - s->length;
         k = s->k;
     }
-    if (m->dissipated >= 0) y[m->dissipated] += (*on ? 0.5 : -0.5) * k * stretch * stretch;
-    *on = !*on;
+    return 0.5 * k * stretch * stretch;
+}
+
+/* what is still stored when a damped thing lets go is lost to it, and is there again when it takes
+   hold while stretched */
+void fw_model_flip(fw_model *m, double t, int i, double *y) {
+    bool *on = flag(m, i);
+    double lost;
+    fw_model_pose(m, y);
+    if (i < m->nstop + m->ncable) {
+        lost = (*on ? 1 : -1) * held(m, i, y);
+        *on = !*on;
+    } else {
+        lost = fw_model_element_energy(m, t, y, true);
+        *on = !*on;
+        lost -= fw_model_element_energy(m, t, y, true);
+    }
+    if (m->dissipated >= 0) y[m->dissipated] += lost;
     m->events++;
 }

@@ -9,6 +9,7 @@
              the points meet, along their relative velocity, which is where the line comes to lie
              next: the damping force is continuous there along every motion
    slide     -k s - c s' along the axis of a prismatic joint
+   elements  in elements.c
    Test: test_simulate.c, test_forces.c (against the derivative of the energy). */
 #include "multibody/model.h"
 #include <float.h>
@@ -145,6 +146,7 @@ void fw_model_forces(fw_model *m, double t, const double *y) {
     turning(m, y);
     loads(m, t);
     springs(m, y);
+    if (m->nelement > 0) fw_model_element_forces(m, t, y);
 }
 
 static double taken(const fw_model *m, const double *y) {
@@ -184,4 +186,5 @@ void fw_model_power(const fw_model *m, double t, const double *y, double power[2
         power[1] += factor[0] *
                     (l->fx * (v[0] - v[2] * ry) + l->fy * (v[1] + v[2] * rx) + l->torque * v[2]);
     }
+    if (m->nelement > 0) fw_model_element_power(m, t, y, power);
 }

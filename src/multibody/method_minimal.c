@@ -4,6 +4,7 @@
    body, e the vector from there to the other pin of a body and J e = (-e_y, e_x),
 
    one body   v = P - w J s,           w independent or given by a turn
+   loose      v and w independent: a body that only released pins hold
    dyad       w_1 J e_1 - w_2 J e_2 = h = P_2 - P_1:   w_1 = (h.e_2)/D, w_2 = (h.e_1)/D,
               D = e_1 x e_2
 
@@ -132,6 +133,11 @@ static void sweep(const fw_model *m, const minimal *p, const double *right, cons
         }
         int body = s->body[0];
         double point[2], turn = 0;
+        if (s->loose) {
+            for (int k = 0; k < 3; k++)
+                d[3 * body + k] = rates ? rates[s->rate + k] : 0;
+            continue;
+        }
         if (s->rate != FW_NONE) turn = rates ? rates[s->rate] : 0;
         if (s->turn != FW_NONE) /* row: w_b - w_a */
             turn = d[3 * fw_across(m, s->turn, body) + 2] -
@@ -227,6 +233,7 @@ static void multipliers(const fw_model *m, const minimal *p, double *force, doub
             dyad_lambda(m, s, p->determinant[i], force, lambda);
             continue;
         }
+        if (s->loose) continue; /* nothing pulls at it */
         const double *f = force + 3 * s->body[0];
         double left = f[2] - cross(arm_of(m, s->block[0], s->body[0]), f);
         if (s->turn != FW_NONE) { /* row: on b +lambda, on a -lambda */
@@ -361,6 +368,7 @@ static bool place_all(fw_model *m, minimal *p, double *u) {
         }
         int body = s->body[0];
         double point[2];
+        if (s->loose) continue; /* stays, and is posed */
         if (s->turn != FW_NONE)
             u[3 * body + 2] = rotation(m, u, fw_across(m, s->turn, body)) -
                               sign_of(m, s->turn, body) * p->turn[i];
@@ -391,14 +399,15 @@ static bool close(fw_model *m, double t, double *u) {
 }
 
 static fw_status report(const fw_model *m, const fw_mechanism *mechanism, fw_text *out) {
+    static const char *const axis[] = {"x", "y", "phi"};
     const minimal *p = m->work;
     int dyads = 0;
     for (int i = 0; i < p->plan.count; i++)
         dyads += p->plan.step[i].dyad;
     fw_text_add(out, p->plan.rates > 0 ? "independent coordinates: " : "no independent coordinate");
     for (int k = 0; k < p->plan.rates; k++)
-        fw_text_printf(out, "%s%s.phi", k > 0 ? ", " : "",
-                       mechanism->body[p->plan.rate_body[k]].id);
+        fw_text_printf(out, "%s%s.%s", k > 0 ? ", " : "", mechanism->body[p->plan.rate_body[k]].id,
+                       axis[p->plan.rate_axis[k]]);
     fw_text_printf(out, "; %d dyad%s closed", dyads, dyads == 1 ? "" : "s");
     return fw_text_end(out);
 }

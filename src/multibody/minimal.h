@@ -5,18 +5,21 @@
 #define FW_MULTIBODY_MINIMAL_H
 #include "multibody/model.h"
 
-typedef struct fw_placing { /* a body turned about a pin of placed bodies, or a dyad of two */
+typedef struct fw_placing { /* a body turned about a pin of placed bodies, a dyad of two, or a
+                               body that nothing holds */
     bool dyad;
     int body[2];  /* the bodies placed; one: body[0] */
     int block[3]; /* pins: placed - body[0], body[0] - body[1], body[1] - placed; one: block[0] */
     int turn;     /* one: block that keeps its angle, or FW_NONE */
     int rate;     /* one: index of its angle among the independent ones, or FW_NONE */
+    bool loose;   /* x, y and angle are independent, from `rate` on; no block */
 } fw_placing;
 
 typedef struct fw_placing_plan {
     fw_placing *step; /* (count) */
-    int count, rates; /* independent angles */
+    int count, rates; /* independent coordinates */
     int *rate_body;   /* (rates) */
+    int *rate_axis;   /* (rates) 0 x, 1 y, 2 angle */
 } fw_placing_plan;
 
 enum { FW_MOST_RATES = 200 }; /* N is dense */

@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A mechanism of pins (and of turns: drivers of pins, welds) as a sequence of bodies placed one
-   after another, starting with the ground. Three steps exist:
+   after another, starting with the ground. Four steps exist:
 
    led    a body pinned to a placed body, its angle kept by a turn to a placed body
    dyad   two bodies pinned to each other, each to a placed body (class II Assur group)
    free   a body pinned to a placed body: its angle is an independent coordinate
+   loose  a body that no pin holds to a placed one: all three coordinates are independent. Only
+          where pins were released, and when nothing else can be placed
 
    Led bodies and dyads are forced moves: taking one never blocks another. Which body turns freely
    is a choice; depth-first search tries the bodies in the order of the file and takes back choices
-   that leave a body with two pins to placed bodies. There are 3 bodies - rows free angles when the
-   rows are independent, so a branch with more is not followed. Cost O(bodies) for each choice, and
-   at most FW_TRIES choices. Source: Assur groups, e.g. Galletti, Mech. Mach. Theory 21 (1986)
+   that leave a body with two pins to placed bodies. There are 3 bodies - rows free coordinates when
+   the rows are independent, so a branch with more is not followed. Cost O(bodies) for each choice,
+   and at most FW_TRIES choices. Source: Assur groups, e.g. Galletti, Mech. Mach. Theory 21 (1986)
    385-391; Kecskemethy, Krupp and Hiller, Multibody Syst. Dyn. 1 (1997). Test: test_minimal.c. */
 #include "multibody/minimal.h"
 
@@ -73,11 +75,18 @@ static void mark_placed(search *s, int body, int change) {
     }
 }
 
+static int blocks_of(const fw_placing *step) {
+    return step->dyad ? 3 : step->loose ? 0 : 1 + (step->turn != FW_NONE);
+}
+
 static void add_step(search *s, fw_placing step) {
     fw_placing_plan *plan = s->plan;
-    if (step.rate != FW_NONE) plan->rate_body[plan->rates++] = step.body[0];
+    for (int axis = step.loose ? 0 : 2; axis < 3 && step.rate != FW_NONE; axis++) {
+        plan->rate_body[plan->rates] = step.body[0];
+        plan->rate_axis[plan->rates++] = axis;
+    }
     plan->step[plan->count++] = step;
-    s->used += step.dyad ? 3 : 1 + (step.turn != FW_NONE);
+    s->used += blocks_of(&step);
     for (int i = 0; i <= step.dyad; i++)
         mark_placed(s, step.body[i], 1);
     for (int k = 0; k <= step.dyad; k++)
@@ -89,8 +98,8 @@ static void take_back(search *s, int count) {
     fw_placing_plan *plan = s->plan;
     while (plan->count > count) {
         const fw_placing *step = &plan->step[--plan->count];
-        if (step->rate != FW_NONE) plan->rates--;
-        s->used -= step->dyad ? 3 : 1 + (step->turn != FW_NONE);
+        if (step->rate != FW_NONE) plan->rates -= step->loose ? 3 : 1;
+        s->used -= blocks_of(step);
         for (int i = 0; i <= step->dyad; i++)
             mark_placed(s, step->body[i], -1);
     }
@@ -111,7 +120,10 @@ static bool look_at(search *s, int body) {
     if (s->held[body] > 1) return stopped(s, body);
     int pin = holding(s, body, FW_ROWS_PIN), turn = holding(s, body, FW_ROWS_TURN);
     if (turn != FW_NONE) {
-        add_step(s, (fw_placing){false, {body, FW_NONE}, {pin, FW_NONE, FW_NONE}, turn, FW_NONE});
+        add_step(s, (fw_placing){.body = {body, FW_NONE},
+                                 .block = {pin, FW_NONE, FW_NONE},
+                                 .turn = turn,
+                                 .rate = FW_NONE});
         return true;
     }
     for (int i = s->links.first[body]; i < s->links.first[body + 1]; i++) {
@@ -120,7 +132,11 @@ static bool look_at(search *s, int body) {
             continue;
         int end = holding(s, other, FW_ROWS_PIN);
         if (holding(s, other, FW_ROWS_TURN) != FW_NONE) continue; /* led, at its own turn */
-        add_step(s, (fw_placing){true, {body, other}, {pin, block, end}, FW_NONE, FW_NONE});
+        add_step(s, (fw_placing){.dyad = true,
+                                 .body = {body, other},
+                                 .block = {pin, block, end},
+                                 .turn = FW_NONE,
+                                 .rate = FW_NONE});
         return true;
     }
     return true;
@@ -135,9 +151,10 @@ static bool forced_moves(search *s) {
     return true;
 }
 
-static int next_body(const search *s, int from) { /* that hangs on one pin */
+/* that hangs on so many pins */
+static int next_body(const search *s, int pins, int from) {
     for (int b = from; b < s->m->nbody; b++)
-        if (!s->placed[b] && s->held[b] == 1) return b;
+        if (!s->placed[b] && s->held[b] == pins) return b;
     return FW_NONE;
 }
 
@@ -148,25 +165,27 @@ static bool complete(search *s) {
     return false;
 }
 
-static bool find_rest(search *s) { /* depth: one level per independent angle */
+static bool find_rest(search *s) { /* depth: one level per body that moves by itself */
     if (!forced_moves(s)) return false;
     bool all = true;
     for (int b = 0; b < s->m->nbody && all; b++)
         if (!s->placed[b]) all = false;
     if (all) return complete(s);
-    int first = next_body(s, 0);
-    if (first == FW_NONE || s->plan->rates >= s->dof || s->plan->rates >= FW_MOST_RATES) {
+    int pins = 1, first = next_body(s, 1, 0);
+    if (first == FW_NONE && s->m->nreleased > 0) pins = 0, first = next_body(s, 0, 0);
+    int rates = s->plan->rates + (pins ? 1 : 3);
+    if (first == FW_NONE || rates > s->dof || rates > FW_MOST_RATES) {
         for (int b = 0; b < s->m->nbody; b++)
             if (!s->placed[b]) return stopped(s, b);
     }
-    for (int b = first; b != FW_NONE && s->tries < FW_TRIES; b = next_body(s, b + 1)) {
-        int before = s->plan->count;
+    for (int b = first; b != FW_NONE && s->tries < FW_TRIES; b = next_body(s, pins, b + 1)) {
+        int before = s->plan->count, pin = pins ? holding(s, b, FW_ROWS_PIN) : FW_NONE;
         s->tries++;
-        add_step(s, (fw_placing){false,
-                                 {b, FW_NONE},
-                                 {holding(s, b, FW_ROWS_PIN), FW_NONE, FW_NONE},
-                                 FW_NONE,
-                                 s->plan->rates});
+        add_step(s, (fw_placing){.body = {b, FW_NONE},
+                                 .block = {pin, FW_NONE, FW_NONE},
+                                 .turn = FW_NONE,
+                                 .rate = s->plan->rates,
+                                 .loose = !pins});
         if (find_rest(s)) return true;
         take_back(s, before);
     }
@@ -221,7 +240,8 @@ fw_status fw_placing_find(fw_arena *arena, const fw_model *m, const fw_mechanism
     size_t bodies = (size_t)m->nbody + 1;
     *plan = (fw_placing_plan){0};
     FW_NEED(plan->step = fw_arena_array(arena, fw_placing, bodies));
-    FW_NEED(plan->rate_body = fw_arena_array(arena, int, bodies));
+    FW_NEED(plan->rate_body = fw_arena_array(arena, int, 3 * bodies));
+    FW_NEED(plan->rate_axis = fw_arena_array(arena, int, 3 * bodies));
     FW_NEED(s.placed = fw_arena_array(arena, bool, bodies));
     FW_NEED(s.held = fw_arena_array(arena, int, bodies));
     FW_NEED(s.queue = fw_arena_array(arena, int, 2 * (size_t)m->nblock + bodies));

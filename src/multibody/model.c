@@ -53,9 +53,19 @@ static double origin_turn(const fw_model *m, int a, int b) {
     return m->origin[3 * b + 2] - m->origin[3 * a + 2];
 }
 
+static bool released(const builder *b, int pin) {
+    return b->terms && b->terms->released && b->terms->released[pin];
+}
+
 static void pin_blocks(const builder *b, fw_block *block, int *count) {
     for (int i = 0; i < b->mechanism->npin; i++) {
         const fw_pin *p = &b->mechanism->pin[i];
+        b->m->pin_element[i] = FW_NONE;
+        if (released(b, i)) { /* an element stands for it */
+            b->m->pin_block[i] = FW_NONE;
+            b->m->nreleased++;
+            continue;
+        }
         block[(*count)++] = (fw_block){.rows = FW_ROWS_PIN,
                                        .a = index_of(b->m, p->body_a),
                                        .b = index_of(b->m, p->body_b),
@@ -164,7 +174,7 @@ static fw_status set_blocks(builder *b) {
         body[2 * i] = block[i].a, body[2 * i + 1] = block[i].b;
     FW_TRY(fw_topology_order(b->arena, count, body, m->nbody, order));
     FW_TRY(fw_model_block_arrays(b->arena, m, count));
-    m->plain = count == from->npin;
+    m->plain = count == from->npin - m->nreleased;
     for (int i = 0; i < count; i++) {
         fw_block *k = &m->block[i];
         double *local = m->local + 4 * i;
@@ -258,6 +268,7 @@ static void set_springs(const builder *b) {
                                          p->length_m / s.length_m,
                                          p->cable,
                                          !p->cable};
+        m->ncable += p->cable;
     }
     for (int i = 0; i < b->terms->nslide; i++) {
         const fw_slide *p = &b->terms->slide[i];
@@ -286,9 +297,14 @@ static void set_books(fw_model *m) {
         loses = loses || m->slide[i].c > 0;
     for (int i = 0; i < m->nstop; i++)
         loses = loses || m->stop[i].c > 0;
+    bool driven = m->driven || m->ntimed > 0;
+    for (int i = 0; i < m->nelement; i++) {
+        loses = loses || m->element[i].own->dissipates;
+        driven = driven || m->element[i].own->works;
+    }
     m->ny = 2 * m->nq;
     m->dissipated = loses ? m->ny++ : -1;
-    m->worked = m->ntimed > 0 || m->driven ? m->ny++ : -1;
+    m->worked = driven ? m->ny++ : -1;
 }
 
 static fw_status set_terms(const builder *b) {
@@ -303,7 +319,8 @@ static fw_status set_terms(const builder *b) {
     set_turning(b);
     set_loads(b);
     set_springs(b);
-    return FW_OK;
+    m->special = t->nelement > 0 || m->nreleased > 0 || t->nfriction > 0 || t->stretch.law;
+    return fw_model_elements_new(b->arena, m, t, b->centre);
 }
 
 /* the model in its own units: lengths of order 1 and masses of mean 1 bring the condition of the
@@ -319,6 +336,7 @@ fw_status fw_model_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_
     m->nq = 3 * m->nbody;
     m->projecting = true;
     m->epsilon = fw_epsilon;
+    m->actuation = 1, m->held_s = -1;
     fw_model_scale(mechanism, terms, duration_s, &m->scale);
     FW_TRY(fw_model_body_arrays(arena, m));
     builder b = {arena, mechanism, terms, m, middle(mechanism, q)};

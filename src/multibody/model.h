@@ -78,6 +78,22 @@ typedef struct fw_model_slide { /* spring and damper along a prismatic joint */
     double k, c, free;
 } fw_model_slide;
 
+typedef struct fw_model_element { /* a force element (effects/element.h) on the model's bodies */
+    const fw_force_element *own;
+    fw_force_element scaled; /* its ports in scaled units, those of the ground from the centre */
+    int *body;               /* (ports) */
+    bool *on;                /* (switches) held during a step, changed by events */
+    double *f;               /* (3 ports) N, N m: at the last fw_model_forces */
+} fw_model_element;
+
+typedef struct fw_element_work { /* for one element at a time, sizes of the largest one */
+    double *p, *w;               /* (3 ports) SI: what it sees */
+    double *arm;                 /* (2 ports) scaled, world axes */
+    double *f;                   /* (3 ports) */
+    double *stiffness, *damping; /* (3 ports x 3 ports) */
+    double *pose;                /* (3 nbody) */
+} fw_element_work;
+
 /* ---- sparse block LDL^T of S = G M^-1 G^T, 2 x 2 blocks, one row of blocks per constraint block
  */
 typedef struct fw_coupling { /* a body shared by two blocks: block += J_row M^-1 J_column^T */
@@ -116,7 +132,8 @@ typedef struct fw_model {
     double *mass, *inertia; /* (nbody) */
     double *minv, *jinv;    /* (nbody + 1), 0 for the ground */
     fw_block *block;        /* (nblock) in the order of elimination */
-    int *pin_block;         /* (npin) block of a pin; (ntie, ndriver) first block of those: */
+    int *pin_block;         /* (npin) block of a pin, FW_NONE: released */
+    /* (ntie, ndriver) first block of those: */
     int *tie_block, *driver_block;
     int *body;        /* (2 nblock) bodies a and b */
     double *local;    /* (4 nblock) local arms of a and b */
@@ -129,7 +146,16 @@ typedef struct fw_model {
     fw_model_slide *slide;
     fw_model_spring *spring;
     int ntorsion, nload, ntimed, nstop, nslide, nspring;
-    double size; /* largest |offset| + arms: round-off of Psi is eps times this */
+    int ncable; /* of the springs */
+    fw_model_element *element;
+    int nelement, nswitch; /* switches of all elements */
+    int *pin_element;      /* (npin) element that stands for a pin, or FW_NONE */
+    int nreleased;         /* pins that are not constraints */
+    fw_element_work port;
+    double actuation; /* what elements see as load: 1; in statics the load factor */
+    double held_s;    /* statics: elements see their laws at this time; below 0: as time goes */
+    bool special;     /* elements, released pins, friction or a stretching ground: no fast path */
+    double size;      /* largest |offset| + arms: round-off of Psi is eps times this */
     fw_chain chain;
     const struct fw_method *method;
     void *work;               /* the method's */
@@ -244,6 +270,26 @@ void fw_model_travel(const fw_model *m, const fw_model_slide *s, const double *y
 void fw_model_stopped(const fw_model *m, const fw_model_stop *s, const double *y, double *past,
                       double *rate);
 
+/* elements.c: what force elements do, in scaled units. The model is posed at y. */
+void fw_model_element_forces(fw_model *m, double t, const double *y); /* accel += M^-1 Q */
+/* generalised forces (nq) of those that are driven from outside (`works`): += */
+void fw_model_element_driven(fw_model *m, double t, const double *y, double *force);
+/* dQ/dload (nq): += */
+void fw_model_element_slope(fw_model *m, double t, const double *y, double *force);
+void fw_model_element_power(const fw_model *m, double t, const double *y, double power[2]); /* += */
+/* stored; `driven`: of those with `works` too */
+double fw_model_element_energy(const fw_model *m, double t, const double *y, bool driven);
+/* -dQ/du and -dQ/dv (nq x nq, may be NULL): += */
+void fw_model_element_tangent(const fw_model *m, double t, const double *y, double *stiffness,
+                              double *damping);
+/* the i-th switch of all elements: its element, and which one there */
+fw_model_element *fw_model_element_switch(const fw_model *m, int i, int *which);
+double fw_model_element_switch_value(const fw_model *m, const fw_model_element *e, double t, int i,
+                                     const double *y);
+/* the first element whose formula does not hold at y, with what it says; NULL: all hold */
+const fw_force_element *fw_model_element_invalid(const fw_model *m, double t, const double *y,
+                                                 const char **why);
+
 /* rhs.c */
 void fw_model_accelerate(fw_model *m, double t, const double *y, double *f); /* posed, factored */
 void fw_model_rhs(void *model, double t, const double *y, double *f);
@@ -262,15 +308,18 @@ typedef struct fw_energy {
     double kinetic, elastic, work, dissipated;
 } fw_energy;
 double fw_model_kinetic(const fw_model *m, const double *v); /* v^T M v / 2 */
-fw_energy fw_model_energy(fw_model *m, const double *y);
+fw_energy fw_model_energy(fw_model *m, double t, const double *y);
 
-/* events.c: what holds only on one side (stops, cables) */
+/* events.c: what holds only on one side: stops, then cables, then switches of elements */
 int fw_model_switches(const fw_model *m);
-void fw_model_set_switches(fw_model *m, const double *y); /* all flags from the state; posed here */
-/* > 0: should be on. Reads only u and v of the bodies concerned. */
-double fw_model_switch_value(fw_model *m, int i, const double *y);
+/* all flags from the state; posed here */
+void fw_model_set_switches(fw_model *m, double t, const double *y);
+/* > 0: should be on. Posed at y. */
+double fw_model_switch_value(const fw_model *m, double t, int i, const double *y);
+void fw_model_switch_values(const fw_model *m, double t, const double *y, double *value); /* all */
 bool fw_model_switch_on(const fw_model *m, int i);
-void fw_model_flip(fw_model *m, int i, double *y); /* energy that is let go counts as dissipated */
+/* energy that is let go counts as dissipated */
+void fw_model_flip(fw_model *m, double t, int i, double *y);
 
 static const double fw_epsilon = 1e-8; /* proximal term, relative to 1/m_a + 1/m_b of each pin */
 

@@ -7,12 +7,19 @@ double fw_newton(const fw_model *m) {
     return s.mass_kg * s.length_m / (s.time_s * s.time_s);
 }
 
-/* force of every pin on its body b, world axes: the multipliers at the last right-hand side */
+/* force of every pin on its body b, world axes: the multipliers at the last right-hand side, and
+   what the element that stands for the pin does to the body of its last port */
 void fw_pin_forces(const fw_model *m, double *out) {
     double unit = fw_newton(m);
-    for (int i = 0; i < m->npin; i++)
+    for (int i = 0; i < m->npin; i++) {
+        int block = m->pin_block[i], element = m->pin_element[i];
         for (int k = 0; k < 2; k++)
-            out[2 * i + k] = unit * m->lambda[2 * m->pin_block[i] + k];
+            out[2 * i + k] = block != FW_NONE ? unit * m->lambda[2 * block + k] : 0;
+        if (element == FW_NONE) continue;
+        const fw_model_element *e = &m->element[element];
+        for (int k = 0; k < 2; k++)
+            out[2 * i + k] += e->f[3 * (e->own->ports - 1) + k];
+    }
 }
 
 /* -G_b^T lambda of one block, as force and torque about its point b. Where b is the ground, which

@@ -29,7 +29,8 @@ static double scene_length(const fw_mechanism *m) {
     return fmax(arms, gyration);
 }
 
-/* 1/T^2 = (sum k + sum k_s L^2 + L sum |F| + sum |torque|) / sum (J + m L^2) + (v/L)^2 + omega^2 */
+/* 1/T^2 = (sum k + sum k_s L^2 + L sum |F| + sum |torque|) / sum (J + m L^2) + (v/L)^2 + omega^2.
+   Elements add the stiffness and the force that they state. */
 static double scene_time(const fw_mechanism *m, const fw_terms *terms, double length,
                          double duration) {
     if (!terms) return 1;
@@ -51,6 +52,10 @@ static double scene_time(const fw_mechanism *m, const fw_terms *terms, double le
     for (int i = 0; i < terms->ntimed; i++) {
         const fw_timed_load *l = &terms->timed[i];
         torque += length * hypot(l->fx_N, l->fy_N) + fabs(l->torque_Nm);
+    }
+    for (int i = 0; i < terms->nelement; i++) {
+        const fw_force_element *e = &terms->element[i];
+        torque += length * (e->size_N_per_m * length + e->force_N);
     }
     double square = torque / inertia + speed * speed;
     return square > 0 && isfinite(square) ? 1 / sqrt(square) : duration;
@@ -82,6 +87,7 @@ fw_status fw_model_body_arrays(fw_arena *arena, fw_model *m) {
     FW_NEED(m->correction = fw_arena_array(arena, double, 3 * (n + 1)));
     FW_NEED(m->product = fw_arena_array(arena, double, 3 * (n + 1)));
     FW_NEED(m->pin_block = fw_arena_array(arena, int, (size_t)m->npin));
+    FW_NEED(m->pin_element = fw_arena_array(arena, int, (size_t)m->npin));
     FW_NEED(m->tie_block = fw_arena_array(arena, int, (size_t)m->ntie));
     FW_NEED(m->driver_block = fw_arena_array(arena, int, (size_t)m->ndriver));
     return FW_OK;

@@ -297,6 +297,7 @@ static fw_status frames(fw_rest *w, fw_mode *mode) {
 /* ---- the pose ---- */
 
 static fw_status not_found(const fw_rest *w) {
+    if (w->invalid) return fw_rest_nowhere(w);
     fw_status status =
         fw_diag_error(w->diags, 111, w->scene->place,
                       "the pose of scene %s could not be evaluated: its numbers are not "
@@ -368,26 +369,30 @@ static fw_status all_modes(fw_rest *w, const fw_mode_options *o, fw_modes *out) 
     return FW_OK;
 }
 
+fw_status fw_rest_modes(fw_rest *w, const fw_mode_options *options, const fw_modes **modes) {
+    fw_modes *out;
+    FW_NEED(out = fw_arena_one(w->arena, fw_modes));
+    FW_TRY(reach_pose(w, options, out));
+    out->nbody = w->mechanism->nbody;
+    out->npin = w->mechanism->npin;
+    out->at_equilibrium = options->at_equilibrium;
+    out->unit_length_m = w->model->scale.length_m;
+    out->ledger = w->ledger;
+    FW_NEED(out->q = fw_arena_array(w->arena, double, (size_t)w->model->nq));
+    fw_rest_pose(w, w->y, out->q, NULL);
+    FW_TRY(fw_rest_rank(w, &out->rank));
+    fw_status status = all_modes(w, options, out);
+    if (status == FW_SOLVER) return not_found(w);
+    FW_TRY(status);
+    *modes = out;
+    return FW_OK;
+}
+
 fw_status fw_small_motions(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                            const fw_mode_options *options, fw_diags *diags,
                            const fw_modes **modes) {
     fw_rest w;
-    fw_modes *out;
     *modes = NULL;
-    FW_NEED(out = fw_arena_one(arena, fw_modes));
     FW_TRY(fw_rest_new(arena, mechanism, scene, &options->effects, diags, &w));
-    FW_TRY(reach_pose(&w, options, out));
-    out->nbody = mechanism->nbody;
-    out->npin = mechanism->npin;
-    out->at_equilibrium = options->at_equilibrium;
-    out->unit_length_m = w.model->scale.length_m;
-    out->ledger = w.ledger;
-    FW_NEED(out->q = fw_arena_array(arena, double, (size_t)w.model->nq));
-    fw_rest_pose(&w, w.y, out->q, NULL);
-    FW_TRY(fw_rest_rank(&w, &out->rank));
-    fw_status status = all_modes(&w, options, out);
-    if (status == FW_SOLVER) return not_found(&w);
-    FW_TRY(status);
-    *modes = out;
-    return FW_OK;
+    return fw_rest_modes(&w, options, modes);
 }

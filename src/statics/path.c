@@ -129,8 +129,7 @@ static bool take_state(follower *f, const state *along, state *to) {
         to->value[k] = w->reduced.value[k];
         to->negative += to->value[k] < -w->reduced.zero[k];
     }
-    for (int i = 0; i < f->switches; i++)
-        to->hold[i] = fw_model_switch_value(w->model, i, w->y);
+    fw_model_switch_values(m, 0, w->y, to->hold);
     memcpy(to->u, w->y, (size_t)m->nq * sizeof(double));
     double ds;
     if (!bordered(w, along, 1, false, w->step, &ds)) return false;

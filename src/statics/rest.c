@@ -59,6 +59,27 @@ static fw_status freeze(fw_rest *w, fw_terms *terms) {
     return FW_OK;
 }
 
+/* laws of elements stand still at the end, all seen from inside their last pieces */
+static fw_status freeze_elements(fw_rest *w) {
+    fw_model *m = w->model;
+    double end = w->scene->duration_s, edge = 0;
+    for (int i = 0; i < m->nelement; i++)
+        for (int k = 0; k < m->element[i].own->laws; k++) {
+            const fw_law *law = m->element[i].own->law[k];
+            double *at;
+            int count = fw_law_breaks(law, end, NULL, 0);
+            fw_mark mark = fw_arena_mark(w->arena);
+            FW_NEED(at = fw_arena_array(w->arena, double, (size_t)count));
+            fw_law_breaks(law, end, at, count);
+            for (int j = 0; j < count; j++)
+                edge = fmax(edge, at[j]);
+            fw_arena_rewind(w->arena, mark);
+        }
+    m->held_s = end;
+    m->piece = 0.5 * (edge + end);
+    return FW_OK;
+}
+
 static bool gravity_acts(const fw_rest *w) {
     for (int i = 0; i < w->ledger.count; i++)
         if (strcmp(w->ledger.item[i].id, "gravity") == 0)
@@ -117,6 +138,8 @@ static fw_status arrays(fw_rest *w) {
     FW_NEED(w->psi = fw_arena_array(w->arena, double, 2 * blocks));
     FW_NEED(w->start = fw_arena_array(w->arena, double, blocks));
     FW_NEED(w->way = fw_arena_array(w->arena, double, blocks));
+    FW_NEED(w->away = fw_arena_array(w->arena, double, (size_t)m->ny));
+    FW_NEED(w->pull = fw_arena_array(w->arena, double, n));
     FW_NEED(w->load = fw_arena_array(w->arena, fw_model_load, (size_t)m->nload));
     return FW_OK;
 }
@@ -130,18 +153,14 @@ static fw_status too_large(const fw_rest *w) {
     return status == FW_NOMEM ? FW_NOMEM : FW_LIMIT;
 }
 
-fw_status fw_rest_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                      const fw_effect_choice *effects, fw_diags *diags, fw_rest *w) {
-    fw_terms terms;
+static fw_status assemble(fw_rest *w, fw_terms *terms) {
+    fw_arena *arena = w->arena;
+    const fw_mechanism *mechanism = w->mechanism;
+    const fw_scene *scene = w->scene;
+    fw_diags *diags = w->diags;
     double moved;
     size_t n = 3 * (size_t)mechanism->nbody;
-    *w = (fw_rest){.arena = arena, .mechanism = mechanism, .scene = scene, .diags = diags};
-    FW_TRY(fw_check_motion(mechanism, scene, diags));
-    if (n > FW_STATICS_MOST) return too_large(w);
-    fw_effect_choice choice = *effects;
-    if (choice.mode == FW_EFFECTS_AUTO) choice.mode = FW_EFFECTS_ALL;
-    FW_TRY(fw_effects_compile(arena, mechanism, scene, &choice, 1e-3, diags, &w->ledger, &terms));
-    FW_TRY(freeze(w, &terms));
+    FW_TRY(freeze(w, terms));
     FW_NEED(w->q0 = fw_arena_array(arena, double, n));
     for (int b = 0; b < mechanism->nbody; b++) {
         w->q0[3 * b] = mechanism->body[b].x_m;
@@ -149,9 +168,9 @@ fw_status fw_rest_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_s
         w->q0[3 * b + 2] = mechanism->body[b].phi_rad;
     }
     FW_TRY(fw_assemble(arena, mechanism, w->q0, &moved, diags));
-    FW_TRY(
-        fw_model_new(arena, mechanism, &terms, w->q0, scene->duration_s, NULL, diags, &w->model));
+    FW_TRY(fw_model_new(arena, mechanism, terms, w->q0, scene->duration_s, NULL, diags, &w->model));
     FW_TRY(arrays(w));
+    FW_TRY(freeze_elements(w));
     split_loads(w);
     FW_TRY(split_drivers(w));
     FW_TRY(fw_reduced_new(arena, w->model, &w->reduced));
@@ -159,9 +178,33 @@ fw_status fw_rest_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_s
     return FW_OK;
 }
 
+static fw_status check(const fw_rest *w) {
+    FW_TRY(fw_check_motion(w->mechanism, w->scene, w->diags));
+    return 3 * w->mechanism->nbody > FW_STATICS_MOST ? too_large(w) : FW_OK;
+}
+
+fw_status fw_rest_new_terms(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                            const fw_terms *terms, fw_diags *diags, fw_rest *w) {
+    fw_terms own = *terms;
+    *w = (fw_rest){.arena = arena, .mechanism = mechanism, .scene = scene, .diags = diags};
+    FW_TRY(check(w));
+    return assemble(w, &own);
+}
+
+fw_status fw_rest_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                      const fw_effect_choice *effects, fw_diags *diags, fw_rest *w) {
+    fw_terms terms;
+    *w = (fw_rest){.arena = arena, .mechanism = mechanism, .scene = scene, .diags = diags};
+    FW_TRY(check(w));
+    fw_effect_choice choice = *effects;
+    if (choice.mode == FW_EFFECTS_AUTO) choice.mode = FW_EFFECTS_ALL;
+    FW_TRY(fw_effects_compile(arena, mechanism, scene, &choice, 1e-3, diags, &w->ledger, &terms));
+    return assemble(w, &terms);
+}
+
 void fw_rest_factor(fw_rest *w, double s) {
     fw_model *m = w->model;
-    w->factor = s;
+    w->factor = m->actuation = s;
     for (int i = 0; i < m->nq; i++)
         m->constant[i] = w->gravity[i] + s * w->loads[i];
     for (int i = 0; i < m->nload; i++) {
@@ -182,16 +225,20 @@ bool fw_rest_close(fw_rest *w, double *u) {
     if (m->nblock > 0 && (!m->method->factor(m) || !fw_model_project_position(m, 0, u)))
         return false;
     memcpy(w->trial, u, (size_t)m->nq * sizeof *u);
-    fw_model_set_switches(m, w->trial); /* at rest: the velocities of trial are 0 */
+    fw_model_set_switches(m, 0, w->trial); /* at rest: the velocities of trial are 0 */
     fw_model_pose(m, u);
-    return true;
+    w->invalid = m->nelement > 0 ? fw_model_element_invalid(m, 0, w->trial, &w->why) : NULL;
+    return !w->invalid;
 }
 
 double fw_rest_energy(fw_rest *w, const double *u, double *size) {
-    memcpy(w->trial, u, (size_t)w->model->nq * sizeof *u);
-    fw_energy e = fw_model_energy(w->model, w->trial);
-    *size = fabs(e.elastic) + fabs(e.work);
-    return e.elastic - e.work;
+    fw_model *m = w->model;
+    double driven = 0, more = 0;
+    memcpy(w->trial, u, (size_t)m->nq * sizeof *u);
+    if (m->nelement > 0) driven = fw_rest_driven(w, u, &more);
+    fw_energy e = fw_model_energy(m, 0, w->trial);
+    *size = fabs(e.elastic) + fabs(e.work) + more;
+    return e.elastic - e.work + driven;
 }
 
 static double inertia_of(const fw_model *m, int i) {
@@ -210,6 +257,7 @@ static void derivative_by_factor(fw_rest *w) {
         to[1] += l->fy;
         to[2] += (c * l->x - s * l->y) * l->fy - (s * l->x + c * l->y) * l->fx;
     }
+    if (m->nelement > 0) fw_model_element_slope(w->model, 0, w->y, w->slope);
     memset(w->follow, 0, (size_t)m->nq * sizeof(double));
     if (!w->moving) return;
     for (int i = 0; i < m->nblock; i++)
@@ -274,6 +322,11 @@ void fw_rest_pose(const fw_rest *w, const double *u, double *q, double *angle) {
 void fw_rest_reactions(const fw_rest *w, double *reaction, double *tie, double *driver) {
     fw_model *m = w->model;
     memcpy(m->lambda, w->lambda, 2 * (size_t)m->nblock * sizeof(double));
+    if (m->nelement > 0) { /* their forces on released pins */
+        fw_model_set_switches(m, 0, w->y);
+        fw_model_pose(m, w->y);
+        fw_model_forces(m, 0, w->y);
+    }
     fw_pin_forces(m, reaction);
     fw_tie_forces(m, w->mechanism, tie, driver);
 }

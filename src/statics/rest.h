@@ -4,7 +4,7 @@
 #ifndef FW_STATICS_REST_H
 #define FW_STATICS_REST_H
 #include "statics/reduced.h"
-#include "statics/statics.h"
+#include "statics/modes.h"
 
 /* dense matrices of 3 nbody unknowns: more would take minutes */
 enum { FW_STATICS_MOST = 1200 };
@@ -35,16 +35,28 @@ typedef struct fw_rest {
     double *psi, *trial, *step;
     bool moving; /* some driver moves */
     int iterations;
+    const fw_force_element *invalid; /* its formula does not hold at the pose closed last */
+    const char *why;
+    double *away, *pull; /* (ny) (n) work of the potential of driven elements */
 } fw_rest;
 
 /* model of the scene's end at the assembled pose, s = 0, not evaluated */
 fw_status fw_rest_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                       const fw_effect_choice *effects, fw_diags *diags, fw_rest *w);
+/* the same with effects that are compiled already; the ledger is then empty */
+fw_status fw_rest_new_terms(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                            const fw_terms *terms, fw_diags *diags, fw_rest *w);
+/* statics.c, modes.c: what their entries do with a new fw_rest */
+fw_status fw_rest_statics(fw_rest *w, const fw_static_options *options, const fw_statics **statics);
+fw_status fw_rest_modes(fw_rest *w, const fw_mode_options *options, const fw_modes **modes);
 void fw_rest_factor(fw_rest *w, double s);
 /* u onto the constraints at the present s; leaves the model posed, the switches set. false: no */
 bool fw_rest_close(fw_rest *w, double *u);
-/* potential energy at a closed u; *size: sum of its terms' sizes */
+/* potential energy at a closed u, that of driven elements counted from w->y; *size: sum of its
+   terms' sizes */
 double fw_rest_energy(fw_rest *w, const double *u, double *size);
+/* potential.c: the part of driven elements; leaves the model posed at u with its switches */
+double fw_rest_driven(fw_rest *w, const double *u, double *size);
 /* everything at w->y, closed first: force, lambda, stiffness, modes, gradient, push. FW_SOLVER: the
    joints cannot close, or something is not finite */
 fw_status fw_rest_evaluate(fw_rest *w);

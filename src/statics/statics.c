@@ -140,8 +140,19 @@ fw_status fw_rest_descend(fw_rest *w, bool *left_unstable) {
 
 /* ---- answer ---- */
 
+/* the descent ended before a place where the formula of an element ends */
+static fw_status does_not_hold(const fw_rest *w) {
+    char factor[32];
+    fw_status status = fw_diag_error(
+        w->diags, 242, w->invalid->place,
+        "%s leaves scene %s without an equilibrium at load factor %s: %s", w->invalid->id,
+        fw_rest_scene_name(w), fw_number_text(factor, sizeof factor, w->factor, 4), w->why);
+    return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
+}
+
 fw_status fw_rest_nowhere(const fw_rest *w) {
     const char *names;
+    if (w->invalid) return does_not_hold(w);
     FW_TRY(fw_rest_bodies(w, w->y, &names));
     char far[32], factor[32];
     int b = fw_rest_mover(w, w->y);
@@ -168,6 +179,11 @@ static fw_status actives(const fw_rest *w, fw_statics *out) {
     for (int i = 0, k = m->nstop; i < m->nspring; i++)
         if (m->spring[i].cable)
             out->active[k++] = (fw_active){w->mechanism->spring[i].id, 0, false};
+    for (int i = 0; i < m->nswitch; i++) {
+        int which;
+        const char *id = fw_model_element_switch(m, i, &which)->own->id;
+        out->active[m->nstop + m->ncable + i] = (fw_active){id, 0, false};
+    }
     for (int i = 0; i < out->nactive; i++)
         out->active[i].on = fw_model_switch_on(m, i);
     return FW_OK;
@@ -245,16 +261,21 @@ static fw_status reach(fw_rest *w, const fw_static_options *o, fw_statics *out) 
     return fw_rest_settle(w, &out->left_unstable);
 }
 
+fw_status fw_rest_statics(fw_rest *w, const fw_static_options *options,
+                          const fw_statics **statics) {
+    fw_statics *out;
+    FW_NEED(out = fw_arena_one(w->arena, fw_statics));
+    FW_TRY(reach(w, options, out));
+    FW_TRY(answer(w, out));
+    *statics = out;
+    return FW_OK;
+}
+
 fw_status fw_static_equilibrium(fw_arena *arena, const fw_mechanism *mechanism,
                                 const fw_scene *scene, const fw_static_options *options,
                                 fw_diags *diags, const fw_statics **statics) {
     fw_rest w;
-    fw_statics *out;
     *statics = NULL;
-    FW_NEED(out = fw_arena_one(arena, fw_statics));
     FW_TRY(fw_rest_new(arena, mechanism, scene, &options->effects, diags, &w));
-    FW_TRY(reach(&w, options, out));
-    FW_TRY(answer(&w, out));
-    *statics = out;
-    return FW_OK;
+    return fw_rest_statics(&w, options, statics);
 }

@@ -2,9 +2,9 @@
 /* Equilibria of a mechanism under the loads of a scene, and the path that leads there.
 
    Loads and drivers are taken as they are at the scene's end. The load factor s multiplies forces
-   and torques of the scene and the way of the drivers; springs, stops, cables and gravity act fully
-   at every s. At s = 0 the mechanism is at rest, at s = 1 it carries the scene. Theory:
-   docs/theory/statics-and-modes.md. */
+   and torques of the scene, the actuation of force elements and the way of the drivers; springs,
+   stops, cables and gravity act fully at every s. At s = 0 the mechanism is at rest, at s = 1 it
+   carries the scene. Theory: docs/theory/statics-and-modes.md. */
 #ifndef FW_STATICS_STATICS_H
 #define FW_STATICS_STATICS_H
 #include "multibody/multibody.h"
@@ -22,9 +22,9 @@ typedef struct fw_row_rank { /* what was found out about the constraint rows */
     const char *joints;   /* joints that repeat what others say, comma separated, or NULL */
 } fw_row_rank;
 
-typedef struct fw_active { /* a stop or a cable */
-    const char *id;        /* of the joint or the spring */
-    double side;           /* of a stop: +1 at its largest angle, -1 at its smallest; 0: a cable */
+typedef struct fw_active { /* a stop, a cable, or a switch of a force element */
+    const char *id;        /* of the joint, the spring or the element */
+    double side;           /* of a stop: +1 at its largest angle, -1 at its smallest; 0: others */
     bool on;               /* touches, is taut */
 } fw_active;
 

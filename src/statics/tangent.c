@@ -9,6 +9,7 @@
      what the line above tends to along every motion through that place (D = dd/du):
        K = k D^T D,   C = c D^T D
      constraint g = value with multiplier lambda:  K = lambda hess g
+     force elements: what their classes say, spread as effects/element.c explains
 
    Coordinates of a pair of bodies: x_a, y_a, phi_a, x_b, y_b, phi_b. With arms r, p(r) = (-r_y,
    r_x) and dp/dphi = -r. Error: round-off. Cost: a constant per element, and nq^2 zeros. Source:
@@ -231,6 +232,7 @@ static void forces(const fw_model *m, double t, const double *y, const target *s
         gauge g = along(&p, e);
         spring_on(m, &g, s->a, s->b, v, s->k, s->c, s->free, stiffness, damping);
     }
+    if (m->nelement > 0) fw_model_element_tangent(m, t, y, stiffness->matrix, damping->matrix);
 }
 
 void fw_tangent(const fw_model *m, double t, const double *y, const double *lambda,

@@ -208,7 +208,7 @@ static void test_products(void **state) {
 
 static double potential(fw_model *m, const double *y) {
     fw_model_pose(m, y);
-    fw_energy e = fw_model_energy(m, y);
+    fw_energy e = fw_model_energy(m, 0, y);
     return e.elastic - e.work;
 }
 
@@ -223,7 +223,7 @@ static void test_forces(void **state) {
         double y[MOST], work = 0, booked[2];
         state_of(&z, y, 0.7);
         y[m->dissipated] = y[m->worked] = 0;
-        fw_model_set_switches(m, y);
+        fw_model_set_switches(m, 0, y);
         assert_int_equal(fw_model_switches(m), 4);
         fw_model_pose(m, y);
         fw_model_forces(m, 1e-3 / m->scale.time_s, y);

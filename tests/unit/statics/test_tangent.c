@@ -163,7 +163,7 @@ static void every_joint_and_force(void **state) {
             lambda[2 * i + 1] = two ? pick(&noise) : 0;
             kinds[m->block[i].rows]++;
         }
-        fw_model_set_switches(m, y);
+        fw_model_set_switches(m, t, y);
         for (int i = 0; i < fw_model_switches(m); i++)
             if (fw_model_switch_on(m, i)) *(i < m->nstop ? &stops : &cables) += 1;
         fw_model_pose(m, y);
