@@ -156,9 +156,9 @@ typedef struct fw_model {
     double actuation; /* what elements see as load: 1; in statics the load factor */
     double drive;     /* the same of comb drives: their voltages go alone towards pull-in */
     double actuation_rate, drive_rate; /* their derivatives by the load factor: 1 */
-    double held_s;    /* statics: elements see their laws at this time; below 0: as time goes */
-    bool special;     /* elements, released pins, friction or a stretching ground: no fast path */
-    double size;      /* largest |offset| + arms: round-off of Psi is eps times this */
+    double held_s; /* statics: elements see their laws at this time; below 0: as time goes */
+    bool special;  /* elements, released pins, friction or a stretching ground: no fast path */
+    double size;   /* largest |offset| + arms: round-off of Psi is eps times this */
     fw_chain chain;
     const struct fw_method *method;
     void *work;               /* the method's */

@@ -367,6 +367,7 @@ fw_status fw_flow_judge_drives(fw_arena *arena, fw_flow *flow, bool insulating_c
                                const fw_drive_facts *drive, int n, fw_diags *diags) {
     static const answer as_judged[] = {ANSWER_OPEN, ANSWER_NO, ANSWER_FINE}; /* -1, 0, 1 */
     judge j = {.arena = arena, .flow = flow, .verdict = as_judged[flow->manufacturable + 1]};
+    int before = flow->nreason;
     if (n == 0) return FW_OK;
     if (!insulating_carrier && !flow->insulating) FW_TRY(insulation(&j, drive, n, diags));
     for (int i = 0; i < n; i++) {
@@ -374,6 +375,12 @@ fw_status fw_flow_judge_drives(fw_arena *arena, fw_flow *flow, bool insulating_c
         for (int k = 0; k < i && !told; k++)
             told = drive[k].gap_m == drive[i].gap_m;
         if (!told) FW_TRY(drive_gap(&j, &drive[i], diags));
+    }
+    for (int i = before; i < flow->nreason; i++) { /* what refuses comes first */
+        const char *reason = flow->reason[i];
+        memmove(flow->reason + i - before + 1, flow->reason + i - before,
+                (size_t)before * sizeof *flow->reason);
+        flow->reason[i - before] = reason;
     }
     flow->manufacturable = j.verdict == ANSWER_NO ? 0 : j.verdict == ANSWER_OPEN ? -1 : 1;
     return diags->failed ? FW_NOMEM : FW_OK;

@@ -344,6 +344,12 @@ fw_status fw_pull_in_find(fw_arena *arena, const fw_mechanism *mechanism, const 
     for (int i = 0; i < scene->ncomb; i++)
         driven = driven || scene->comb[i].voltage_V != 0;
     if (!driven) return FW_OK;
+    if (3 * mechanism->nbody > FW_PULL_IN_MOST) {
+        fw_diag_note(diags, 249, scene->comb[0].place,
+                     "the pull-in voltage of scene %s is not looked for: more than %d bodies",
+                     scene->name ? scene->name : "(unnamed)", FW_PULL_IN_MOST / 3);
+        return diags->failed ? FW_NOMEM : FW_OK;
+    }
     seeker *k;
     fw_diags silent = fw_diags_new(arena);
     FW_NEED(k = fw_arena_one(arena, seeker));

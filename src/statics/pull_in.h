@@ -29,6 +29,8 @@ typedef struct fw_pull_in {
     const char *why;   /* NONE: what ended it */
 } fw_pull_in;
 
+enum { FW_PULL_IN_MOST = 150 }; /* unknowns: some hundred dense evaluations of 30 n^3 */
+
 /* All combs at their largest voltages of the scene times sqrt(s), other loads and drivers in full
    as they are at its end, from s = 0 to the first loss of stability. *found is NULL for a scene
    without comb drives. Warns with FW-D248 when the scene's voltage is beyond, with FW-D249 when it
