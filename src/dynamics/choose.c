@@ -114,8 +114,8 @@ static fw_status fastest(fw_run *r, double *rate) {
     return FW_OK;
 }
 
-/* 1/T of a body that hangs on an element's stated stiffness: for those whose formula has no
-   stiffness where the scene starts */
+/* rad per scaled time of a body that hangs on an element's stated stiffness: for those whose
+   formula has no stiffness where the scene starts */
 static double stated_rate(const fw_model *m, const fw_force_element *e) {
     double free = 0, unit = m->scale.time_s * m->scale.time_s / m->scale.mass_kg;
     for (int i = 0; i < e->ports; i++)
@@ -128,14 +128,16 @@ static double stated_rate(const fw_model *m, const fw_force_element *e) {
 static fw_status fastest_in_touch(fw_run *r, double before, double *rate) {
     fw_model *m = r->model;
     double stated = 0;
+    bool idle = false;
     *rate = 0;
     for (int i = 0; i < m->nelement; i++)
         for (int k = 0; k < m->element[i].own->switches; k++) {
             if (m->element[i].on[k]) continue;
             stated = fmax(stated, stated_rate(m, m->element[i].own));
-            m->element[i].on[k] = true;
+            m->element[i].on[k] = idle = true;
         }
-    if (stated > 0) FW_TRY(fastest(r, rate));
+    if (!idle) return FW_OK;
+    FW_TRY(fastest(r, rate));
     if (!(*rate > 1.01 * before)) *rate = stated;
     fw_model_set_switches(m, 0, r->start);
     return FW_OK;

@@ -50,7 +50,8 @@ static json_t *actives(const fw_statics *s, bool *failed) {
         const fw_active *a = &s->active[i];
         json_t *o = json_object();
         fw_json_put(o, "id", fw_json_text(a->id), failed);
-        fw_json_put(o, "kind", fw_json_text(a->side == 0 ? "cable" : "stop"), failed);
+        const char *kind = a->effect ? a->effect : a->side == 0 ? "cable" : "stop";
+        fw_json_put(o, "kind", fw_json_text(kind), failed);
         fw_json_put(o, "side", fw_json_real(a->side), failed);
         fw_json_put(o, "on", json_boolean(a->on), failed);
         fw_json_push(list, o, failed);

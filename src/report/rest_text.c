@@ -94,6 +94,11 @@ static void stability(fw_text *out, const fw_statics *s) {
 static void active(fw_text *out, const fw_statics *s) {
     for (int i = 0; i < s->nactive; i++) {
         const fw_active *a = &s->active[i];
+        if (a->effect) {
+            fw_text_printf(out, "%s %s %s\n", a->effect, a->id ? a->id : "",
+                           a->on ? "acts" : "does not act");
+            continue;
+        }
         fw_text_printf(out, "%s %s%s %s\n", a->side == 0 ? "cable" : "stop of", a->id ? a->id : "",
                        a->side > 0   ? " at its largest angle"
                        : a->side < 0 ? " at its smallest angle"

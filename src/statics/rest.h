@@ -51,7 +51,8 @@ typedef struct fw_rest {
 /* model of the scene's end at the assembled pose, s = 0, not evaluated */
 fw_status fw_rest_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                       const fw_effect_choice *effects, fw_diags *diags, fw_rest *w);
-/* the same with effects that are compiled already; the ledger is then empty */
+/* the same with effects that are compiled already; the ledger is then empty, and weight counts as a
+   load that goes with s */
 fw_status fw_rest_new_terms(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                             const fw_terms *terms, fw_diags *diags, fw_rest *w);
 /* statics.c, modes.c: what their entries do with a new fw_rest */

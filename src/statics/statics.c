@@ -145,8 +145,7 @@ fw_status fw_rest_descend(fw_rest *w, bool *left_unstable) {
 static fw_status does_not_hold(const fw_rest *w) {
     char factor[32];
     fw_status status = fw_diag_error(
-        w->diags, 242, w->invalid->place,
-        "%s leaves scene %s without an equilibrium at load factor %s: %s", w->invalid->id,
+        w->diags, 242, w->invalid->place, "%s of scene %s at load factor %s: %s", w->invalid->id,
         fw_rest_scene_name(w), fw_number_text(factor, sizeof factor, w->factor, 4), w->why);
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
@@ -176,14 +175,15 @@ static fw_status actives(const fw_rest *w, fw_statics *out) {
     out->nactive = fw_model_switches(m);
     FW_NEED(out->active = fw_arena_array(w->arena, fw_active, (size_t)out->nactive));
     for (int i = 0; i < m->nstop; i++)
-        out->active[i] = (fw_active){w->mechanism->pin[m->stop[i].pin].id, m->stop[i].side, false};
+        out->active[i] =
+            (fw_active){.id = w->mechanism->pin[m->stop[i].pin].id, .side = m->stop[i].side};
     for (int i = 0, k = m->nstop; i < m->nspring; i++)
-        if (m->spring[i].cable)
-            out->active[k++] = (fw_active){w->mechanism->spring[i].id, 0, false};
+        if (m->spring[i].cable) out->active[k++] = (fw_active){.id = w->mechanism->spring[i].id};
     for (int i = 0; i < m->nswitch; i++) {
         int which;
-        const char *id = fw_model_element_switch(m, i, &which)->own->id;
-        out->active[m->nstop + m->ncable + i] = (fw_active){id, 0, false};
+        const fw_force_element *e = fw_model_element_switch(m, i, &which)->own;
+        out->active[m->nstop + m->ncable + i] =
+            (fw_active){.id = e->id, .effect = e->class_->effect};
     }
     for (int i = 0; i < out->nactive; i++)
         out->active[i].on = fw_model_switch_on(m, i);

@@ -25,7 +25,8 @@ typedef struct fw_row_rank { /* what was found out about the constraint rows */
 typedef struct fw_active { /* a stop, a cable, or a switch of a force element */
     const char *id;        /* of the joint, the spring or the element */
     double side;           /* of a stop: +1 at its largest angle, -1 at its smallest; 0: others */
-    bool on;               /* touches, is taut */
+    bool on;               /* touches, is taut, acts */
+    const char *effect;    /* id of the effect of an element; NULL: a stop or a cable */
 } fw_active;
 
 typedef enum fw_path_mark {
