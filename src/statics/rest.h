@@ -25,17 +25,18 @@ typedef struct fw_rest {
     double *y;     /* (ny) state; u first, all else 0 */
     double factor; /* s */
     fw_lead lead;
-    double drive_unit;   /* squared voltages of comb drives per s */
-    double reach;        /* of paths: the displacement, scaled, that counts like s = 1 */
-    bool until_unstable; /* paths end where the first eigenvalue passes zero */
-    double *force;       /* (n) Q */
-    double *slope;       /* (n) dQ/ds */
-    double *follow;      /* (n) du/ds of least mass norm that the drivers force; 0 without them */
-    double *stiffness;   /* (n x n) */
-    double *lambda;      /* (2 nblock) */
-    double *gradient;    /* (dof) force along each mode */
-    double *push;        /* (dof) along each mode: its derivative by s, drivers included */
-    double *noise;       /* (dof) round-off of the gradient */
+    double drive_unit; /* squared voltages of comb drives per s */
+    double reach;      /* of paths: the displacement, scaled, that counts like s = 1 */
+    const struct fw_pull_in *pull_in; /* NULL: none, or not looked for */
+    bool until_unstable;              /* paths end where the first eigenvalue passes zero */
+    double *force;                    /* (n) Q */
+    double *slope;                    /* (n) dQ/ds */
+    double *follow;    /* (n) du/ds of least mass norm that the drivers force; 0 without them */
+    double *stiffness; /* (n x n) */
+    double *lambda;    /* (2 nblock) */
+    double *gradient;  /* (dof) force along each mode */
+    double *push;      /* (dof) along each mode: its derivative by s, drivers included */
+    double *noise;     /* (dof) round-off of the gradient */
     /* what goes with s */
     double *gravity, *loads; /* (n + 3) accelerations */
     fw_model_load *load;     /* (nload) as at s = 1 */
@@ -56,7 +57,7 @@ fw_status fw_rest_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_s
 fw_status fw_rest_new_terms(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                             const fw_terms *terms, fw_diags *diags, fw_rest *w);
 /* statics.c, modes.c: what their entries do with a new fw_rest */
-fw_status fw_rest_statics(fw_rest *w, const fw_static_options *options, fw_statics **statics);
+fw_status fw_rest_statics(fw_rest *w, const fw_static_options *options, const fw_statics **statics);
 fw_status fw_rest_modes(fw_rest *w, const fw_mode_options *options, const fw_modes **modes);
 void fw_rest_factor(fw_rest *w, double s);
 /* u onto the constraints at the present s; leaves the model posed, the switches set. false: no */

@@ -227,6 +227,7 @@ static fw_status answer(const fw_rest *w, fw_statics *out) {
     out->ledger = w->ledger;
     out->iterations = w->iterations;
     out->rest_q = w->q0;
+    out->pull_in = w->pull_in;
     FW_NEED(out->q = fw_arena_array(w->arena, double, n));
     FW_NEED(out->angle_rad = fw_arena_array(w->arena, double, pins));
     FW_NEED(out->reaction_N = fw_arena_array(w->arena, double, 2 * pins));
@@ -262,7 +263,8 @@ static fw_status reach(fw_rest *w, const fw_static_options *o, fw_statics *out) 
     return fw_rest_settle(w, &out->left_unstable);
 }
 
-fw_status fw_rest_statics(fw_rest *w, const fw_static_options *options, fw_statics **statics) {
+fw_status fw_rest_statics(fw_rest *w, const fw_static_options *options,
+                          const fw_statics **statics) {
     fw_statics *out;
     FW_NEED(out = fw_arena_one(w->arena, fw_statics));
     FW_TRY(reach(w, options, out));
@@ -275,13 +277,9 @@ fw_status fw_static_equilibrium(fw_arena *arena, const fw_mechanism *mechanism,
                                 const fw_scene *scene, const fw_static_options *options,
                                 fw_diags *diags, const fw_statics **statics) {
     fw_rest w;
-    fw_statics *out;
     *statics = NULL;
     FW_TRY(fw_rest_new(arena, mechanism, scene, &options->effects, diags, &w));
-    const fw_pull_in *pull_in; /* first: it says why there may be no equilibrium */
-    FW_TRY(fw_pull_in_find(arena, mechanism, scene, &options->effects, diags, &pull_in));
-    FW_TRY(fw_rest_statics(&w, options, &out));
-    out->pull_in = pull_in;
-    *statics = out;
-    return FW_OK;
+    /* first: it says why there may be no equilibrium */
+    FW_TRY(fw_pull_in_find(arena, mechanism, scene, &options->effects, diags, &w.pull_in));
+    return fw_rest_statics(&w, options, statics);
 }
