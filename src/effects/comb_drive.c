@@ -13,12 +13,12 @@
 
    Co-energy: f = +grad C V^2/2, E = -C V^2/2, the source feeds -C V V' besides (power balance of
    element.h; the charge that it moves at constant V is C' V^2, half of it work). V^2 goes with the
-   load factor. First and second derivatives of C are exact (jets of second order).
+   load factor. First and second derivatives of C are exact.
 
    Inputs SI. Range: |gap change| <= 95 % of the gap at both ends, the fingers engaged and not at
    the root; small tilts (sin theta = theta). Left out: fringe fields (fw_comb_fringe), the
    capacitance of finger tips, and that the fingers of one comb are not at one place (second order
-   in theta). Cost about 900 instructions. Source: parallel plates piecewise, W. C. Tang et al.,
+   in theta). Cost about 1200 instructions. Source: parallel plates piecewise, W. C. Tang et al.,
    Sens. Actuators A 21 (1990) 328; R. Legtenberg et al., J. Micromech. Microeng. 6 (1996) 320 (side
    instability). Test: test_comb_drive.c. */
 #include "effects/comb.h"
@@ -31,107 +31,88 @@ static const double fw_eps0_F_per_m = 8.8541878128e-12; /* CODATA 2018 */
 static const double fw_pi_comb = 3.141592653589793;
 static const double fw_nearest = 0.05; /* of the gap: nearer is called a touch */
 
-/* ---- values with first and second derivatives by x, y, theta ---- */
+/* ---- one strip ---- */
 
-typedef struct jet {
-    double v, d[3], h[3][3];
-} jet;
-
-static jet constant(double value) {
-    return (jet){.v = value};
-}
-
-static jet variable(double value, int which) {
-    jet a = {.v = value};
-    a.d[which] = 1;
-    return a;
-}
-
-/* scale a + b */
-static jet sum(jet a, double scale, jet b) {
-    b.v += scale * a.v;
-    for (int i = 0; i < 3; i++) {
-        b.d[i] += scale * a.d[i];
-        for (int j = 0; j < 3; j++)
-            b.h[i][j] += scale * a.h[i][j];
-    }
-    return b;
-}
-
-static jet product(jet a, jet b) {
-    jet c = {.v = a.v * b.v};
-    for (int i = 0; i < 3; i++) {
-        c.d[i] = a.d[i] * b.v + a.v * b.d[i];
-        for (int j = 0; j < 3; j++)
-            c.h[i][j] = a.h[i][j] * b.v + a.d[i] * b.d[j] + a.d[j] * b.d[i] + a.v * b.h[i][j];
-    }
-    return c;
-}
-
-/* f(a) from f, f', f'' there */
-static jet chain(jet a, double f, double f1, double f2) {
-    jet c = {.v = f};
-    for (int i = 0; i < 3; i++) {
-        c.d[i] = f1 * a.d[i];
-        for (int j = 0; j < 3; j++)
-            c.h[i][j] = f1 * a.h[i][j] + f2 * a.d[i] * a.d[j];
-    }
-    return c;
-}
-
-static jet inverse(jet a) {
-    double r = 1 / a.v;
-    return chain(a, r, -r * r, 2 * r * r * r);
-}
-
-/* phi(q) = atanh(sqrt q)/sqrt q = sum q^n/(2n + 1), 0 <= q < 1; 2 q phi' = 1/(1 - q) - phi */
-static jet phi(jet a) {
-    double q = a.v, f = 0, f1 = 0, f2 = 0;
-    if (q < 0.2) {
-        double power = 1; /* q^n; the sums of the derivatives lag behind by one and two */
-        for (int n = 0; n < 40; n++, power *= q) {
-            f += power / (2 * n + 1);
-            f1 += (n + 1) * power / (2 * n + 3);
-            f2 += (n + 2) * (n + 1) * power / (2 * n + 5);
-            if (power * (n + 2) < DBL_EPSILON / 8) break;
-        }
-    } else {
+/* phi(q) = atanh(sqrt q)/sqrt q = sum q^n/(2n + 1), 0 <= q < 1, with phi' and phi'';
+   2 q phi' = 1/(1 - q) - phi */
+static void shape(double q, double phi[3]) {
+    phi[0] = phi[1] = phi[2] = 0;
+    if (q >= 0.2) {
         double root = sqrt(q), far = 1 / (1 - q); /* q >= 1: not a number */
-        f = atanh(root) / root;
-        f1 = (far - f) / (2 * q);
-        f2 = (far * far - 3 * f1) / (2 * q);
+        phi[0] = atanh(root) / root;
+        phi[1] = (far - phi[0]) / (2 * q);
+        phi[2] = (far * far - 3 * phi[1]) / (2 * q);
+        return;
     }
-    return chain(a, f, f1, f2);
+    double power = 1;
+    for (int n = 0; n < 40; n++, power *= q) {
+        phi[0] += power / (2 * n + 1);
+        phi[1] += (n + 1) * power / (2 * n + 3);
+        phi[2] += (n + 2) * (n + 1) * power / (2 * n + 5);
+        if (power * (n + 2) < DBL_EPSILON / 8) break;
+    }
 }
 
-/* int ds/gap over a strip of length l, gap `middle` in the middle */
-static jet strip(jet l, jet middle, jet tilt) {
-    jet shape = inverse(middle), part = product(product(tilt, l), shape);
-    jet quarter = sum(part, 0.25, constant(0));
-    return product(product(l, shape), phi(product(part, quarter)));
+typedef struct strip { /* l, m, t: length, gap in the middle, tilt, and their slopes by x, y, theta
+                        */
+    double l, m, t;
+    double by[3][3]; /* of l, m, t */
+    double m_xt;     /* the one second derivative that is not 0: of m by x and theta */
+} strip;
+
+/* F = int ds/gap = (l/m) phi(q), r = t l/2m, q = r^2, w = 1/(1 - q) = phi + 2 q phi':
+     F_l = w/m,  F_m = -l w/m^2,  F_t = (l/m)^2 r phi',  F_ll = 2 q w^2/(m l),
+     F_lm = -(w + 2 q w^2)/m^2,  F_lt = l r w^2/m^2,  F_mm = 2 l (w + q w^2)/m^3,
+     F_mt = -l^2 r w^2/m^3,  F_tt = (l/m)^3 (phi'/2 + q phi'')
+   scale F is returned, its slopes are added */
+static double add_strip(const strip *s, double scale, double *slope, double *bend) {
+    double l = s->l, m = s->m, a = 1 / m, r = 0.5 * s->t * l * a, q = r * r, w = 1 / (1 - q);
+    double phi[3], la = l * a;
+    shape(q, phi);
+    const double f[3] = {w * a, -la * w * a, la * la * r * phi[1]};
+    for (int i = 0; slope && i < 3; i++)
+        slope[i] += scale * (f[0] * s->by[0][i] + f[1] * s->by[1][i] + f[2] * s->by[2][i]);
+    if (bend) {
+        double ww = w * w;
+        double lm = -(w + 2 * q * ww) * a * a, lt = la * r * ww * a, mt = -la * la * r * ww * a;
+        const double second[3][3] = {
+            {0.5 * s->t * s->t * l * ww * a * a * a, lm, lt}, /* 2 q/l = t^2 l/2m^2 */
+            {lm, 2 * la * (w + q * ww) * a * a, mt},
+            {lt, mt, la * la * la * (0.5 * phi[1] + q * phi[2])}};
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                for (int k = 0; k < 9; k++)
+                    bend[3 * i + j] +=
+                        scale * s->by[k / 3][i] * second[k / 3][k % 3] * s->by[k % 3][j];
+        bend[2] += scale * f[1] * s->m_xt;
+        bend[6] += scale * f[1] * s->m_xt;
+    }
+    return scale * la * phi[0];
 }
 
 double fw_comb_capacitance(const fw_comb_element *c, const double place[3], double *slope,
                            double *bend) {
-    jet x = variable(place[0], 0), y = variable(place[1], 1), tilt = variable(place[2], 2), all;
-    double nearest;
+    const double x = place[0], y = place[1], t = place[2];
+    double face = c->face_Fm;
+    if (slope) memset(slope, 0, 3 * sizeof *slope);
+    if (bend) memset(bend, 0, 9 * sizeof *bend);
     if (c->kind == FW_ELECTRODES_PLATE) {
-        jet gap = sum(x, -1, constant(c->gap_m));
-        nearest = gap.v;
-        all = strip(constant(c->length_m), gap, tilt);
-    } else {
-        jet l = sum(x, 1, constant(c->overlap_m));
-        jet off = sum(product(tilt, x), -0.5, y); /* in the middle of the overlap, at -x/2 */
-        jet above = sum(off, -1, constant(c->gap_m)), below = sum(off, 1, constant(c->gap_m));
-        nearest = fmin(above.v, below.v);
-        all = sum(strip(l, above, tilt), 1, strip(l, below, tilt));
+        const strip only = {
+            .l = c->length_m, .m = c->gap_m - x, .t = t, .by = {{0}, {-1, 0, 0}, {0, 0, 1}}};
+        return add_strip(&only, only.m > 0 ? face : (double)NAN, slope, bend);
     }
-    double face = nearest > 0 ? c->face_Fm : (double)NAN; /* beyond touch there is no field */
-    for (int i = 0; slope && i < 3; i++)
-        slope[i] = face * all.d[i];
-    for (int i = 0; bend && i < 9; i++)
-        bend[i] = face * all.h[i / 3][i % 3];
-    return face * all.v;
+    /* the middle of the overlap is at s = -x/2 */
+    double off = y - 0.5 * t * x, all = 0;
+    if (!(fabs(off) < c->gap_m)) face = (double)NAN; /* beyond touch there is no field */
+    for (int side = 1; side >= -1; side -= 2) {
+        const strip one = {.l = c->overlap_m + x,
+                           .m = c->gap_m - side * off,
+                           .t = t,
+                           .by = {{1, 0, 0}, {0.5 * side * t, -side, 0.5 * side * x}, {0, 0, 1}},
+                           .m_xt = 0.5 * side};
+        all += add_strip(&one, face, slope, bend);
+    }
+    return all;
 }
 
 double fw_comb_fringe(const fw_comb_element *c) {
@@ -380,5 +361,6 @@ const fw_effect_row fw_effect_comb_drive = {
     .called_for = called_for,
     .bound = bound,
     .add = add,
+    .cost = 1200,
     .count = count,
     .kept = true};

@@ -15,7 +15,7 @@
    end the cable moves by -L'). Two eyelets that meet have the direction of their relative velocity,
    or none, as a spring between points, and no geometric stiffness.
    Inputs SI. Exact for this model to round-off; what it leaves out (friction at eyelets, weight of
-   the cable): docs/theory/effects/tendon.md. Cost about 40 instructions per eyelet.
+   the cable): docs/theory/effects/tendon.md. Cost about 650 instructions with three eyelets.
    Source: principle of virtual work, e.g. Shabana, Dynamics of Multibody Systems, ch. 3.
    Test: test_tendon.c. */
 #include "effects/effect.h"
@@ -64,9 +64,9 @@ static double round_off(const fw_port *port, const double *p) {
 static segment segment_of(const fw_force_element *e, const fw_seen *s, int i) {
     const double *p = s->p + 3 * i, *w = s->w + 3 * i;
     double dx = p[3] - p[0], dy = p[4] - p[1], wx = w[3] - w[0], wy = w[4] - w[1];
-    double length = hypot(dx, dy), size = length;
+    double length = sqrt(dx * dx + dy * dy), size = length;
     if (length <= round_off(&e->port[i], p)) {
-        dx = wx, dy = wy, size = hypot(wx, wy);
+        dx = wx, dy = wy, size = sqrt(wx * wx + wy * wy);
         length = 0; /* marks that they meet */
     }
     return (segment){length, size > 0 ? dx / size : 0, size > 0 ? dy / size : 0};
@@ -289,5 +289,6 @@ const fw_effect_row fw_effect_tendon = {
     .called_for = called_for,
     .bound = bound,
     .add = add,
+    .cost = 650,
     .count = count,
     .kept = true};

@@ -306,10 +306,10 @@ static fw_status insulation(judge *j, const fw_drive_facts *drive, int n, fw_dia
     FW_TRY(
         say(j, ANSWER_NO,
             "comb drive %s: nothing insulates its rotor from its stator. In this flow the device "
-            "is one layer of %s that conducts, cut from one sheet or standing on a conducting "
-            "wafer, so that every voltage is shorted. Nearest change: a carrier that insulates "
-            "(glass, or an oxidised silicon handle) with anchors of rotor and stator apart on it, "
-            "<flow ref=\"%s\" carrier=\"insulating\"/>",
+            "is one conducting layer (%s), cut from one sheet or standing on a conducting wafer, "
+            "so that every voltage is shorted. Nearest change: a carrier that insulates (glass, "
+            "or an oxidised silicon handle) with anchors of rotor and stator apart on it, <flow "
+            "ref=\"%s\" carrier=\"insulating\"/>",
             names, layer, j->flow->id));
     fw_diag_warning(diags, 207, drive[0].place,
                     "comb drive %s cannot work in flow %s: nothing insulates rotor from stator; "

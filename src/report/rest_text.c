@@ -176,7 +176,7 @@ static void pull_in(const fw_pull_in *p, fw_text *out) {
     } else
         fw_text_add(out, " V");
     fw_text_add(out,
-                "; all drives together, raised slowly. Fringe fields, not counted, add up to ");
+                "; all drives grow together, slowly\n  fringe fields, not counted, add up to ");
     fw_text_number(out, 100 * p->fringe, 2);
     fw_text_add(out, " % of the capacitance and lower it by about half of that\n");
 }
