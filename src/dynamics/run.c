@@ -103,14 +103,15 @@ static void watch_energy(fw_run *r, double t, const double *y) {
     double balance = e.kinetic + e.elastic + e.dissipated - e.work;
     double start = r->first.kinetic + r->first.elastic + r->first.dissipated - r->first.work;
     r->drift = fmax(r->drift, fabs(balance - start));
-    r->largest = fmax(r->largest, fmax(e.kinetic + e.elastic + e.dissipated, fabs(e.work)));
+    /* what electrodes store is below 0 */
+    r->largest = fmax(r->largest, fmax(e.kinetic + fabs(e.elastic) + e.dissipated, fabs(e.work)));
 }
 
 static void first_energy(fw_run *r, const double *y) {
     fw_model_pose(r->model, y);
     r->first = fw_model_energy(r->model, 0, y);
     r->drift = 0;
-    r->largest = r->first.kinetic + r->first.elastic;
+    r->largest = r->first.kinetic + fabs(r->first.elastic);
 }
 
 /* ---- events ---- */

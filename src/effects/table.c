@@ -15,6 +15,8 @@ static const fw_effect_row *const rows[] = {
     &fw_effect_initial_velocity,
     &fw_effect_nonlinear_hinge, /* after joint-elasticity: it takes the spring over */
     &fw_effect_contact,
+    &fw_effect_tendon,
+    &fw_effect_comb_drive,
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 

@@ -10,6 +10,7 @@
    round-off. Cost: the classes', and some twenty operations per port; nothing is allocated after
    fw_model_elements_new. Test: test_elements.c. */
 #include "multibody/build.h"
+#include "effects/comb.h"
 #include "multibody/reactions.h"
 #include <math.h>
 #include <string.h>
@@ -18,7 +19,7 @@ static fw_status element_new(fw_arena *arena, const fw_model *m, const fw_force_
                              fw_vec2 centre, fw_model_element *e) {
     size_t ports = (size_t)own->ports;
     double length = m->scale.length_m;
-    *e = (fw_model_element){.own = own, .scaled = *own};
+    *e = (fw_model_element){.own = own, .electrodes = fw_comb_of(own) != NULL, .scaled = *own};
     FW_NEED(e->scaled.port = fw_arena_array(arena, fw_port, ports));
     FW_NEED(e->body = fw_arena_array(arena, int, ports));
     FW_NEED(e->on = fw_arena_array(arena, bool, (size_t)own->switches));
@@ -86,7 +87,7 @@ static fw_seen look(const fw_model *m, const fw_model_element *e, double t, cons
     }
     return (fw_seen){.t_s = m->held_s >= 0 ? m->held_s : t * m->scale.time_s,
                      .piece_s = m->piece,
-                     .load = m->actuation,
+                     .load = e->electrodes ? m->drive : m->actuation,
                      .p = k->p,
                      .w = k->w,
                      .on = e->on};
@@ -136,9 +137,12 @@ void fw_model_element_driven(fw_model *m, double t, const double *y, double *for
 void fw_model_element_slope(fw_model *m, double t, const double *y, double *force) {
     for (int i = 0; i < m->nelement; i++) {
         const fw_model_element *e = &m->element[i];
-        if (!e->own->class_->slope) continue;
+        double rate = e->electrodes ? m->drive_rate : m->actuation_rate;
+        if (!e->own->class_->slope || rate == 0) continue;
         const fw_seen seen = look(m, e, t, y);
         e->own->class_->slope(e->own, &seen, m->port.f);
+        for (int k = 0; k < 3 * e->own->ports; k++)
+            m->port.f[k] *= rate;
         push(m, e, force);
     }
 }

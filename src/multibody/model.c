@@ -336,7 +336,8 @@ fw_status fw_model_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_
     m->nq = 3 * m->nbody;
     m->projecting = true;
     m->epsilon = fw_epsilon;
-    m->actuation = 1, m->held_s = -1;
+    m->actuation = m->drive = m->actuation_rate = m->drive_rate = 1;
+    m->held_s = -1;
     fw_model_scale(mechanism, terms, duration_s, &m->scale);
     FW_TRY(fw_model_body_arrays(arena, m));
     builder b = {arena, mechanism, terms, m, middle(mechanism, q)};

@@ -80,6 +80,7 @@ typedef struct fw_model_slide { /* spring and damper along a prismatic joint */
 
 typedef struct fw_model_element { /* a force element (effects/element.h) on the model's bodies */
     const fw_force_element *own;
+    bool electrodes;         /* a comb drive: goes with `drive` below */
     fw_force_element scaled; /* its ports in scaled units, those of the ground from the centre */
     int *body;               /* (ports) */
     bool *on;                /* (switches) held during a step, changed by events */
@@ -153,9 +154,11 @@ typedef struct fw_model {
     int nreleased;         /* pins that are not constraints */
     fw_element_work port;
     double actuation; /* what elements see as load: 1; in statics the load factor */
-    double held_s;    /* statics: elements see their laws at this time; below 0: as time goes */
-    bool special;     /* elements, released pins, friction or a stretching ground: no fast path */
-    double size;      /* largest |offset| + arms: round-off of Psi is eps times this */
+    double drive;     /* the same of comb drives: their voltages go alone towards pull-in */
+    double actuation_rate, drive_rate; /* their derivatives by the load factor: 1 */
+    double held_s; /* statics: elements see their laws at this time; below 0: as time goes */
+    bool special;  /* elements, released pins, friction or a stretching ground: no fast path */
+    double size;   /* largest |offset| + arms: round-off of Psi is eps times this */
     fw_chain chain;
     const struct fw_method *method;
     void *work;               /* the method's */
@@ -274,7 +277,7 @@ void fw_model_stopped(const fw_model *m, const fw_model_stop *s, const double *y
 void fw_model_element_forces(fw_model *m, double t, const double *y); /* accel += M^-1 Q */
 /* generalised forces (nq) of those that are driven from outside (`works`): += */
 void fw_model_element_driven(fw_model *m, double t, const double *y, double *force);
-/* dQ/dload (nq): += */
+/* dQ/ds by the load factor s (nq): += */
 void fw_model_element_slope(fw_model *m, double t, const double *y, double *force);
 void fw_model_element_power(const fw_model *m, double t, const double *y, double power[2]); /* += */
 /* stored; `driven`: of those with `works` too */

@@ -2,6 +2,7 @@
 #include "base/hash.h"
 #include "plan/stages.h"
 #include <math.h>
+#include <string.h>
 
 static bool is_structure(fw_role role) {
     return role == FW_ROLE_STRUCTURE || role == FW_ROLE_FLEXURE || role == FW_ROLE_FRAME ||
@@ -96,6 +97,29 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     return not_manufacturable(plan, pf->flow, pf->mask_error);
 }
 
+/* comb drives of the scenes that hold in a flow, each once: scenes may name the same one */
+static fw_status drives_of(fw_plan *plan, const char *flow, fw_drive_facts **drive, int *n) {
+    const fw_device *d = plan->device;
+    size_t most = 0;
+    *n = 0;
+    for (int i = 0; i < d->nscene; i++)
+        most += (size_t)d->scene[i].ncomb;
+    FW_NEED(*drive = fw_arena_array(plan->arena, fw_drive_facts, most));
+    for (int i = 0; i < d->nscene; i++) {
+        const fw_scene *s = &d->scene[i];
+        if (!fw_device_in_flow(s->flow, flow)) continue;
+        for (int k = 0; k < s->ncomb; k++) {
+            const fw_comb *c = &s->comb[k];
+            bool there = false;
+            for (int l = 0; l < *n && !there; l++)
+                there = c->id && (*drive)[l].id && strcmp((*drive)[l].id, c->id) == 0 &&
+                        (*drive)[l].gap_m == c->gap_m;
+            if (!there) (*drive)[(*n)++] = (fw_drive_facts){c->id, c->gap_m, c->place};
+        }
+    }
+    return FW_OK;
+}
+
 fw_status fw_plan_compute_flows(fw_plan *plan) {
     bool drawn = plan->layout && plan->layout->drawn;
     fw_mask_facts facts = facts_of(plan->device, plan->layout);
@@ -104,6 +128,11 @@ fw_status fw_plan_compute_flows(fw_plan *plan) {
         if (!pf->flow) continue;
         facts.device_thickness_m = pf->variant.thickness_m;
         FW_TRY(fw_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, &plan->diags));
+        fw_drive_facts *drive;
+        int n;
+        FW_TRY(drives_of(plan, pf->variant.flow, &drive, &n));
+        FW_TRY(fw_flow_judge_drives(plan->arena, pf->flow, pf->use && pf->use->insulating_carrier,
+                                    drive, n, &plan->diags));
     }
     return FW_OK;
 }

@@ -98,6 +98,9 @@ fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mec
     fw_motion_options options = plan->options.verdict.motion;
     FW_TRY(fw_plan_start(plan, mechanism, scene, &options.moved_m));
     options.reactions = true;
+    const fw_pull_in *pull_in; /* only its warning: it says why a run may end early */
+    FW_TRY(
+        fw_pull_in_find(plan->arena, *mechanism, *scene, &options.effects, &plan->diags, &pull_in));
     FW_TRY(fw_simulate(plan->arena, *mechanism, *scene, &options, &plan->diags, motion));
     note_tolerance(plan, options.rtol, (*motion)->stats.rtol);
     return FW_OK;

@@ -176,33 +176,43 @@ static fw_status printable(judge *j, const char *what, double drawn, double on_m
     numbers t = {0};
     const char *thick = um(&t, resist), *size = um(&t, on_mask), *as_drawn = um(&t, drawn);
     if (on_mask < hard)
-        return say(
-            j, ANSWER_NO,
-            "the narrowest %s is %s um on the mask (%s um drawn), below what %s um of resist "
-            "can print in contact, 1.5 sqrt(lambda h/2) = %s um. Nearest change: draw it "
-            "%s um wide or use a thinner resist",
-            what, size, as_drawn, thick, um(&t, hard), um(&t, drawn + (safe - on_mask)));
+        return say(j, ANSWER_NO,
+                   "the %s is %s um on the mask (%s um drawn), below what %s um of resist "
+                   "can print in contact, 1.5 sqrt(lambda h/2) = %s um. Nearest change: draw it "
+                   "%s um wide or use a thinner resist",
+                   what, size, as_drawn, thick, um(&t, hard), um(&t, drawn + (safe - on_mask)));
     if (on_mask < safe)
-        return say(
-            j, ANSWER_OPEN,
-            "the narrowest %s is %s um on the mask: %s um of resist print it only in perfect "
-            "contact; with the gap of this flow the limit is %s um",
-            what, size, thick, um(&t, safe));
+        return say(j, ANSWER_OPEN,
+                   "the %s is %s um on the mask: %s um of resist print it only in perfect "
+                   "contact; with the gap of this flow the limit is %s um",
+                   what, size, thick, um(&t, safe));
     return FW_OK;
 }
 
+typedef struct printing {  /* what this flow's lithography can print */
+    double hard_m, safe_m; /* in contact, with the gap of the flow */
+    double resist_m;
+} printing;
+
+static bool printing_of(const fw_flow *flow, printing *p) {
+    double lambda = known(fw_flow_quantity(flow, "litho.wavelength")),
+           gap = known(fw_flow_quantity(flow, "litho.gap")),
+           resist = known(fw_flow_quantity(flow, "litho.resist"));
+    if (isnan(resist)) resist = known(fw_flow_quantity(flow, "mould.height"));
+    if (isnan(lambda) || isnan(gap) || isnan(resist)) return false;
+    *p = (printing){fw_print_limit(lambda, 0.0, resist), fw_print_limit(lambda, gap, resist),
+                    resist};
+    return true;
+}
+
 static fw_status lithography(judge *j) {
-    double lambda = known(fw_flow_quantity(j->flow, "litho.wavelength")),
-           gap = known(fw_flow_quantity(j->flow, "litho.gap")),
-           resist = known(fw_flow_quantity(j->flow, "litho.resist"));
-    if (isnan(resist)) resist = known(fw_flow_quantity(j->flow, "mould.height"));
-    if (!j->facts || isnan(lambda) || isnan(gap) || isnan(resist)) return FW_OK;
-    double hard = fw_print_limit(lambda, 0.0, resist), safe = fw_print_limit(lambda, gap, resist);
+    printing p;
+    if (!j->facts || !printing_of(j->flow, &p)) return FW_OK;
     double b = j->flow->bias_m;
-    FW_TRY(printable(j, "slot", j->facts->narrowest_slot_m, j->facts->narrowest_slot_m - 2.0 * b,
-                     hard, safe, resist));
-    return printable(j, "line", j->facts->narrowest_line_m, j->facts->narrowest_line_m + 2.0 * b,
-                     hard, safe, resist);
+    FW_TRY(printable(j, "narrowest slot", j->facts->narrowest_slot_m,
+                     j->facts->narrowest_slot_m - 2.0 * b, p.hard_m, p.safe_m, p.resist_m));
+    return printable(j, "narrowest line", j->facts->narrowest_line_m,
+                     j->facts->narrowest_line_m + 2.0 * b, p.hard_m, p.safe_m, p.resist_m);
 }
 
 /* a deposit must stay below its mould: no mushroom while f_J d < h */
@@ -276,4 +286,102 @@ fw_status fw_flow_judge(fw_arena *arena, fw_flow *flow, const fw_mask_facts *fac
     flow->bias_note = j.note.length ? j.note.data : "nothing to compensate is known";
     flow->manufacturable = j.verdict == ANSWER_NO ? 0 : j.verdict == ANSWER_OPEN ? -1 : 1;
     return FW_OK;
+}
+
+/* ---- comb drives ---- */
+
+static fw_status drive_names(judge *j, const fw_drive_facts *drive, int n, const char **names) {
+    fw_text list = fw_text_new(j->arena);
+    for (int i = 0; i < n; i++)
+        fw_text_printf(&list, "%s%s", i ? ", " : "", drive[i].id ? drive[i].id : "(unnamed)");
+    FW_TRY(fw_text_end(&list));
+    *names = list.data;
+    return FW_OK;
+}
+
+/* rotor and stator are electrodes: they must not be one piece of conductor */
+static fw_status insulation(judge *j, const fw_drive_facts *drive, int n, fw_diags *diags) {
+    const char *names, *layer = fw_flow_material_name(j->flow, j->flow->material);
+    FW_TRY(drive_names(j, drive, n, &names));
+    FW_TRY(
+        say(j, ANSWER_NO,
+            "comb drive %s: nothing insulates its rotor from its stator. In this flow the device "
+            "is one conducting layer (%s), cut from one sheet or standing on a conducting wafer, "
+            "so that every voltage is shorted. Nearest change: a carrier that insulates (glass, "
+            "or an oxidised silicon handle) with anchors of rotor and stator apart on it, <flow "
+            "ref=\"%s\" carrier=\"insulating\"/>",
+            names, layer, j->flow->id));
+    fw_diag_warning(diags, 207, drive[0].place,
+                    "comb drive %s cannot work in flow %s: nothing insulates rotor from stator; "
+                    "carrier=\"insulating\" in <flow> says that the handle does",
+                    names, j->flow->id);
+    return FW_OK;
+}
+
+/* what an etch with unknown anisotropy makes of the gap: force per V^2 goes with 1/gap */
+static fw_status widened(judge *j, const fw_drive_facts *d) {
+    for (int i = 0; i < j->flow->nstep; i++)
+        for (int k = 0; k < j->flow->step[i].nchange; k++) {
+            const fw_step *s = &j->flow->step[i];
+            double depth = known(s->change[k].thickness), g = d->gap_m;
+            const fw_quantity *a = s->change[k].anisotropy;
+            if (!a || !isnan(known(a)) || isnan(depth)) continue;
+            numbers t = {0};
+            const char *as_drawn = um(&t, g);
+            double mild = 0.02 * depth, strong = 0.1 * depth; /* both sides, A = 0.99 and 0.95 */
+            FW_TRY(say(
+                j, ANSWER_OPEN,
+                "the gap of comb drive %s, drawn %s um, is not known until the anisotropy A of "
+                "step %s is measured: at its top edge it is %s um at A = 0.99 and %s um at A = "
+                "0.95, and the force at a given voltage %s and %s of the drawn one's",
+                d->id ? d->id : "(unnamed)", as_drawn, s->id, um(&t, g + mild), um(&t, g + strong),
+                number(&t, g / (g + mild), 3), number(&t, g / (g + strong), 3)));
+        }
+    return FW_OK;
+}
+
+static fw_status drive_gap(judge *j, const fw_drive_facts *d, fw_diags *diags) {
+    numbers t = {0};
+    printing p;
+    double on_mask = d->gap_m - 2.0 * j->flow->bias_m;
+    const char *what =
+        fw_arena_printf(j->arena, "gap of comb drive %s", d->id ? d->id : "(unnamed)");
+    FW_NEED(what);
+    bool limited = printing_of(j->flow, &p);
+    if (on_mask <= 0.0)
+        FW_TRY(say(j, ANSWER_NO,
+                   "the compensation of %s um per edge closes the %s, %s um drawn, on the mask. "
+                   "Nearest change: a gap above %s um",
+                   um(&t, j->flow->bias_m), what, um(&t, d->gap_m),
+                   um(&t, 2.0 * j->flow->bias_m + (limited ? p.safe_m : 0.0))));
+    else if (limited)
+        FW_TRY(printable(j, what, d->gap_m, on_mask, p.hard_m, p.safe_m, p.resist_m));
+    if (on_mask <= 0.0 || (limited && on_mask < p.hard_m))
+        fw_diag_warning(diags, 208, d->place,
+                        "the %s is too narrow for flow %s: %s um drawn, %s um on the mask", what,
+                        j->flow->id, um(&t, d->gap_m), um(&t, on_mask));
+    return widened(j, d);
+}
+
+fw_status fw_flow_judge_drives(fw_arena *arena, fw_flow *flow, bool insulating_carrier,
+                               const fw_drive_facts *drive, int n, fw_diags *diags) {
+    static const answer as_judged[] = {ANSWER_OPEN, ANSWER_NO, ANSWER_FINE}; /* -1, 0, 1 */
+    judge j = {.arena = arena, .flow = flow, .verdict = as_judged[flow->manufacturable + 1]};
+    int before = flow->nreason;
+    if (n == 0) return FW_OK;
+    if (!insulating_carrier && !flow->insulating) FW_TRY(insulation(&j, drive, n, diags));
+    for (int i = 0; i < n; i++) {
+        bool told = false; /* once per gap */
+        for (int k = 0; k < i && !told; k++)
+            told = drive[k].gap_m == drive[i].gap_m;
+        if (!told) FW_TRY(drive_gap(&j, &drive[i], diags));
+    }
+    for (int i = before; i < flow->nreason; i++) { /* what refuses comes first */
+        const char *reason = flow->reason[i];
+        memmove(flow->reason + i - before + 1, flow->reason + i - before,
+                (size_t)before * sizeof *flow->reason);
+        flow->reason[i - before] = reason;
+    }
+    flow->manufacturable = j.verdict == ANSWER_NO ? 0 : j.verdict == ANSWER_OPEN ? -1 : 1;
+    return diags->failed ? FW_NOMEM : FW_OK;
 }

@@ -130,6 +130,8 @@ typedef struct fw_flow {
     int not_computable;    /* steps */
     double bias_m;         /* per edge that the mask must add to the drawn outline, known part */
     const char *bias_note; /* what is in it, and what is not known */
+    bool insulating;       /* carrier="insulating" of the pack: what is not joined in the layer is
+                              insulated */
     int manufacturable;    /* 1 yes, 0 no, -1 not guaranteed until something is measured */
     const char **reason;   /* (nreason) */
     int nreason;
@@ -151,6 +153,12 @@ typedef struct fw_mask_facts { /* what the mask hands to the flow */
     double device_thickness_m; /* as the device file wants it; 0 or NaN: the pack's own */
 } fw_mask_facts;
 
+typedef struct fw_drive_facts { /* a comb drive of a scene that holds in the flow */
+    const char *id;
+    double gap_m; /* as drawn */
+    fw_place place;
+} fw_drive_facts;
+
 /* reads base.xml and FLOW.xml; all mistakes in diags */
 fw_status fw_flow_read(fw_arena *arena, const char *base_file, const char *base_xml, size_t base_n,
                        const char *file, const char *xml, size_t n, fw_diags *diags,
@@ -160,6 +168,11 @@ fw_status fw_flow_read(fw_arena *arena, const char *base_file, const char *base_
    COMPUTABLE. */
 fw_status fw_flow_compute(fw_arena *arena, fw_flow *flow, const fw_mask_facts *facts,
                           fw_diags *diags);
+/* after fw_flow_compute: adds to the judgement whether rotor and stator of the drives (n) are
+   insulated from each other (the pack's carrier, or the device's own) and their gaps can be made.
+   Warns with FW-D207 and FW-D208. */
+fw_status fw_flow_judge_drives(fw_arena *arena, fw_flow *flow, bool insulating_carrier,
+                               const fw_drive_facts *drive, int n, fw_diags *diags);
 const fw_quantity *fw_flow_quantity(const fw_flow *flow, const char *id);
 const char *fw_flow_material_name(const fw_flow *flow, const char *id); /* the id when unknown */
 

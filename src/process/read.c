@@ -261,6 +261,7 @@ static void read_head(fw_pack *pack) {
     f->title = fw_pack_text(pack->root, "title");
     f->place = pack->root->place;
     f->bias_note = "";
+    f->insulating = strcmp(fw_pack_text(pack->root, "carrier"), "insulating") == 0;
     if (!material || !thickness) {
         fw_diag_error(pack->diags, 162, pack->root->place,
                       "a flow needs the attributes 'material' and 'thickness' of its device layer");

@@ -11,7 +11,7 @@ typedef struct rule {
 } rule;
 
 static const rule rules[] = {
-    {"process", "id! version! title! material thickness",
+    {"process", "id! version! title! material thickness carrier",
      "source! material equipment hazard q open-point step"},
     {"source", "id! kind! date", ""},
     {"material", "id! name! criterion", "q"},
@@ -45,6 +45,7 @@ typedef struct words {
 } words;
 
 static const words lists[] = {
+    {"process", "carrier", "none insulating"},
     {"step", "op",
      "clean anodise displace coat bake expose develop plate deposit wet-etch dry-etch strip "
      "release "

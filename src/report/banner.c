@@ -9,6 +9,12 @@ static void band(fw_text *out, const fw_hinge_verdict *h) {
         fw_report_markup(out, " ({p} to {p})", h->utilisation_low, h->utilisation_high);
 }
 
+static bool beyond_pull_in(const fw_verdict *v) {
+    for (int i = 0; i < v->nvariant; i++)
+        if (v->variant[i].beyond_pull_in) return true;
+    return false;
+}
+
 static void why(fw_text *out, const fw_verdict *v) {
     static const char *const closing[] = {
         [FW_ACCEPT] = "Every hinge stays inside its elastic range, error band included.",
@@ -28,7 +34,11 @@ static void why(fw_text *out, const fw_verdict *v) {
                              h->utilisation);
         else
             fw_report_markup(out, ": {p} of its limit. ", h->utilisation);
-        fw_text_add(out, closing[v->decision <= FW_REJECT ? v->decision : FW_INCONCLUSIVE]);
+        if (v->decision == FW_INCONCLUSIVE && beyond_pull_in(v))
+            fw_text_add(out, "A scene asks for more than the pull-in voltage of a comb drive: not "
+                             "accepted.");
+        else
+            fw_text_add(out, closing[v->decision <= FW_REJECT ? v->decision : FW_INCONCLUSIVE]);
     } else
         fw_text_add(out, "No hinge of this device has a limit to be checked.");
     fw_text_add(out, "</p>\n");

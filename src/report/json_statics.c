@@ -98,6 +98,30 @@ static json_t *path(const fw_mechanism *m, const fw_statics *s, bool *failed) {
     return o;
 }
 
+json_t *fw_json_pull_in(const fw_pull_in *p, bool *failed) {
+    json_t *o = json_object();
+    fw_json_put(o, "comb", fw_json_text(p->comb), failed);
+    fw_json_put(o, "voltage_V", fw_json_real(p->voltage_V), failed);
+    fw_json_put(o, "kind", fw_json_text(fw_pull_in_kind_text(p->kind)), failed);
+    fw_json_put(o, "margin", fw_json_real(p->margin), failed);
+    fw_json_put(o, "bifurcation", json_boolean(p->bifurcation), failed);
+    fw_json_put(o, "scene_voltage_V", fw_json_real(p->largest_V), failed);
+    fw_json_put(o, "along_m", fw_json_real(p->where[0]), failed);
+    fw_json_put(o, "across_m", fw_json_real(p->where[1]), failed);
+    fw_json_put(o, "tilt_rad", fw_json_real(p->where[2]), failed);
+    fw_json_put(o, "body", fw_json_text(p->body), failed);
+    fw_json_put(o, "fringe", fw_json_real(p->fringe), failed);
+    fw_json_put(o, "why", fw_json_text(p->why), failed);
+    return o;
+}
+
+/* none without comb drives, else the one that loses the equilibrium first */
+static json_t *pull_ins(const fw_pull_in *p, bool *failed) {
+    json_t *list = json_array();
+    if (p) fw_json_push(list, fw_json_pull_in(p, failed), failed);
+    return list;
+}
+
 fw_status fw_report_statics_json(const fw_mechanism *mechanism, const fw_scene *scene,
                                  const fw_statics *s, fw_text *out) {
     bool failed = false;
@@ -120,6 +144,7 @@ fw_status fw_report_statics_json(const fw_mechanism *mechanism, const fw_scene *
     for (int i = 0; i < s->dof; i++)
         fw_json_push(values, fw_json_real(s->eigenvalue_per_s2[i]), &failed);
     fw_json_put(root, "eigenvalues_per_s2", values, &failed);
+    fw_json_put(root, "pull_in", pull_ins(s->pull_in, &failed), &failed);
     fw_json_put(root, "path", path(mechanism, s, &failed), &failed);
     fw_json_effects(effects, &s->ledger, NULL, NULL, &failed);
     fw_json_put(root, "effects", effects, &failed);

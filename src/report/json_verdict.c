@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "report/json_rest.h"
 #include "report/json.h"
 #include "report/json_effects.h"
 #include <math.h>
@@ -112,6 +113,22 @@ static json_t *effects(const fw_report_input *in, bool *failed) {
     return list;
 }
 
+/* of every scene with comb drives */
+static json_t *pull_ins(const fw_report_input *in, bool *failed) {
+    json_t *list = json_array();
+    for (int i = 0; i < in->verdict->nvariant; i++) {
+        const fw_variant_verdict *v = &in->verdict->variant[i];
+        for (int k = 0; v->pull_in && k < in->device->nscene; k++) {
+            if (!v->pull_in[k]) continue;
+            json_t *o = fw_json_pull_in(v->pull_in[k], failed);
+            fw_json_put(o, "scene", fw_json_text(in->device->scene[k].name), failed);
+            fw_json_put(o, "flow", fw_json_text(v->variant ? v->variant->flow : NULL), failed);
+            fw_json_push(list, o, failed);
+        }
+    }
+    return list;
+}
+
 static json_t *advice(const fw_verdict *v, bool *failed) {
     json_t *list = json_array();
     for (int i = 0; i < v->nadvice; i++) {
@@ -142,6 +159,11 @@ fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out) {
         fw_json_push(flows, flow(&input->flow[i], &failed), &failed);
     fw_json_put(root, "flows", flows, &failed);
     fw_json_put(root, "effects", effects(input, &failed), &failed);
+    json_t *pull_in = pull_ins(input, &failed); /* only where there are drives */
+    if (json_array_size(pull_in) > 0)
+        fw_json_put(root, "pull_in", pull_in, &failed);
+    else
+        json_decref(pull_in);
     json_t *accuracy = json_object();
     fw_json_put(accuracy, "wanted", fw_json_real(v->accuracy_wanted), &failed);
     fw_json_put(accuracy, "estimated", fw_json_real(v->accuracy_estimated), &failed);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/rest.h"
 #include "report/magnitude.h"
+#include "statics/pull_in.h"
 #include <math.h>
 
 static double degrees(double rad) {
@@ -151,6 +152,35 @@ static void ties(const fw_mechanism *m, const fw_statics *s, fw_magnitude force,
     }
 }
 
+static void pull_in(const fw_pull_in *p, fw_text *out) {
+    static const char *const how[] = {"", "snaps along the drive",
+                                      "moves aside between the fingers",
+                                      "tilts between the fingers"};
+    fw_text_add(out, "\npull-in: ");
+    if (p->kind == FW_PULL_IN_NONE && isinf(p->voltage_V))
+        fw_text_printf(out, "none, at whatever voltage: %s\n", p->why);
+    else if (p->kind == FW_PULL_IN_NONE) {
+        fw_text_number(out, p->voltage_V, 6);
+        fw_text_printf(out, " V at comb drive %s are stable, then %s\n", p->comb, p->why);
+    } else {
+        fw_text_number(out, p->voltage_V, 6);
+        fw_text_printf(out, " V at comb drive %s (%s): it %s", p->comb,
+                       fw_pull_in_kind_text(p->kind), how[p->kind]);
+        fw_text_printf(out, ", body %s moves most\n", p->body ? p->body : "(unnamed)");
+    }
+    fw_text_add(out, "  the scene asks for up to ");
+    fw_text_number(out, p->largest_V, 6);
+    if (isfinite(p->margin)) {
+        fw_text_add(out, " V, margin ");
+        fw_text_number(out, p->margin, 4);
+    } else
+        fw_text_add(out, " V");
+    fw_text_add(out,
+                "; all drives grow together, slowly\n  fringe fields, not counted, add up to ");
+    fw_text_number(out, 100 * p->fringe, 2);
+    fw_text_add(out, " % of the capacitance and lower it by about half of that\n");
+}
+
 fw_status fw_report_statics_text(const fw_mechanism *m, const fw_scene *scene, const fw_statics *s,
                                  fw_text *out) {
     fw_text_printf(out, "scene %s: equilibrium under its loads, ", scene->name);
@@ -188,6 +218,7 @@ fw_status fw_report_statics_text(const fw_mechanism *m, const fw_scene *scene, c
         fw_text_add(out, "\n");
     }
     ties(m, s, force, out);
+    if (s->pull_in) pull_in(s->pull_in, out);
     if (s->path) path_events(out, s);
     return fw_text_end(out);
 }

@@ -42,11 +42,12 @@ static double weight(const fw_model *m, int i) {
     return (i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]) / m->nbody;
 }
 
-static double product(const fw_model *m, const double *x, const double *y) {
+/* of displacements in units of w->reach */
+static double product(const fw_rest *w, const double *x, const double *y) {
     double sum = 0;
-    for (int i = 0; i < m->nq; i++)
-        sum += weight(m, i) * x[i] * y[i];
-    return sum;
+    for (int i = 0; i < w->model->nq; i++)
+        sum += weight(w->model, i) * x[i] * y[i];
+    return sum / (w->reach * w->reach);
 }
 
 /* A soft mode in equilibrium that the load hardly pushes takes no part: round-off, and
@@ -64,21 +65,20 @@ static bool idle(const fw_rest *w, int k) {
 static bool bordered(const fw_rest *w, const state *along, double rho, bool forced, double *step,
                      double *ds) {
     const fw_reduced *r = &w->reduced;
-    const fw_model *m = w->model;
     size_t n = (size_t)r->n;
     int pivot = -1;
     for (int k = 0; k < r->dof; k++)
         if (!idle(w, k) && (pivot < 0 || fabs(r->value[k]) < fabs(r->value[pivot]))) pivot = k;
-    double b = along->rate + product(m, along->tangent, w->follow), zp = 0, ap = 0;
+    double b = along->rate + product(w, along->tangent, w->follow), zp = 0, ap = 0;
     for (int k = 0; k < r->dof; k++) {
         if (k == pivot || idle(w, k)) continue;
-        double a = product(m, along->tangent, r->shape + (size_t)k * n);
+        double a = product(w, along->tangent, r->shape + (size_t)k * n);
         b += a * w->push[k] / r->value[k];
         if (forced) rho -= a * w->gradient[k] / r->value[k];
     }
     if (pivot >= 0) {
         double mu = r->value[pivot], p = w->push[pivot], g = forced ? w->gradient[pivot] : 0;
-        ap = product(m, along->tangent, r->shape + (size_t)pivot * n);
+        ap = product(w, along->tangent, r->shape + (size_t)pivot * n);
         double det = mu * b + ap * p;
         if (!(fabs(det) > 1e-14 * (fabs(mu * b) + fabs(ap * p)))) return false;
         zp = (b * g + p * rho) / det;
@@ -133,7 +133,7 @@ static bool take_state(follower *f, const state *along, state *to) {
     memcpy(to->u, w->y, (size_t)m->nq * sizeof(double));
     double ds;
     if (!bordered(w, along, 1, false, w->step, &ds)) return false;
-    double length = sqrt(product(m, w->step, w->step) + ds * ds);
+    double length = sqrt(product(w, w->step, w->step) + ds * ds);
     for (int i = 0; i < m->nq; i++)
         to->tangent[i] = w->step[i] / length;
     to->rate = ds / length;
@@ -153,7 +153,7 @@ static fw_status correct(follower *f, const state *from, double length, state *t
         FW_TRY(fw_rest_evaluate(w));
         for (int k = 0; k < m->nq; k++)
             gap[k] = w->y[k] - from->u[k];
-        double rho = length - product(m, from->tangent, gap) - from->rate * (w->factor - from->s);
+        double rho = length - product(w, from->tangent, gap) - from->rate * (w->factor - from->s);
         double ds, most = 0;
         if (!bordered(w, from, rho, true, w->step, &ds)) return FW_SOLVER;
         for (int k = 0; k < m->nq; k++)
@@ -329,13 +329,12 @@ static double largest_move(const follower *f) {
 
 /* small enough that the tangent turns little and nothing jumps; a switch may bend the path */
 static bool acceptable(const follower *f, double length) {
-    const fw_model *m = f->w->model;
     bool bends = false;
     for (int i = 0; i < f->switches; i++)
         bends = bends || (f->at.hold[i] > 0) != (f->next.hold[i] > 0);
     if (bends && length < 1e-3) return true;
-    double cosine = product(m, f->at.tangent, f->next.tangent) + f->at.rate * f->next.rate;
-    return cosine >= fw_turn && largest_move(f) <= fw_most_move;
+    double cosine = product(f->w, f->at.tangent, f->next.tangent) + f->at.rate * f->next.rate;
+    return cosine >= fw_turn && largest_move(f) <= fw_most_move * f->w->reach;
 }
 
 static bool out_of_reach(const follower *f) {
@@ -359,6 +358,7 @@ static fw_status walk(follower *f) {
         bool searched;
         FW_TRY(record_events(f, length, &ended, &searched));
         if (ended) break;
+        if (f->w->until_unstable && f->next.negative > f->at.negative) return FW_OK;
         if (searched) FW_TRY(correct(f, &f->at, length, &f->next));
         FW_TRY(record(f, &f->next, FW_PATH_POINT, FW_NONE));
         copy_state(f, &f->next, &f->at);

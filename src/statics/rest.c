@@ -174,6 +174,7 @@ static fw_status assemble(fw_rest *w, fw_terms *terms) {
     split_loads(w);
     FW_TRY(split_drivers(w));
     FW_TRY(fw_reduced_new(arena, w->model, &w->reduced));
+    w->drive_unit = w->reach = 1;
     fw_rest_factor(w, 0);
     return FW_OK;
 }
@@ -204,7 +205,12 @@ fw_status fw_rest_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_s
 
 void fw_rest_factor(fw_rest *w, double s) {
     fw_model *m = w->model;
-    w->factor = m->actuation = s;
+    w->factor = s;
+    m->drive_rate = w->lead == FW_LEAD_LOADS ? 0 : w->drive_unit;
+    m->actuation_rate = w->lead == FW_LEAD_DRIVES ? 0 : 1;
+    m->drive = s * m->drive_rate;
+    if (w->lead == FW_LEAD_DRIVES) s = 1; /* all the rest acts in full */
+    m->actuation = s;
     for (int i = 0; i < m->nq; i++)
         m->constant[i] = w->gravity[i] + s * w->loads[i];
     for (int i = 0; i < m->nload; i++) {
@@ -248,9 +254,10 @@ static double inertia_of(const fw_model *m, int i) {
 /* dQ/ds: the loads in full; du/ds of least mass norm with G du/ds = -dPsi/ds */
 static void derivative_by_factor(fw_rest *w) {
     const fw_model *m = w->model;
+    bool loads = w->lead != FW_LEAD_DRIVES;
     for (int i = 0; i < m->nq; i++)
-        w->slope[i] = inertia_of(m, i) * w->loads[i];
-    for (int i = 0; i < m->nload; i++) {
+        w->slope[i] = loads ? inertia_of(m, i) * w->loads[i] : 0;
+    for (int i = 0; loads && i < m->nload; i++) {
         const fw_model_load *l = &w->load[i];
         double c = m->cosine[l->body], s = m->sine[l->body], *to = w->slope + 3 * l->body;
         to[0] += l->fx;
@@ -259,7 +266,7 @@ static void derivative_by_factor(fw_rest *w) {
     }
     if (m->nelement > 0) fw_model_element_slope(w->model, 0, w->y, w->slope);
     memset(w->follow, 0, (size_t)m->nq * sizeof(double));
-    if (!w->moving) return;
+    if (!w->moving || !loads) return;
     for (int i = 0; i < m->nblock; i++)
         w->psi[2 * i] = -w->way[i], w->psi[2 * i + 1] = 0;
     fw_reduced_correct(m, &w->reduced, w->psi, w->follow);

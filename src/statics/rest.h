@@ -9,6 +9,10 @@
 /* dense matrices of 3 nbody unknowns: more would take minutes */
 enum { FW_STATICS_MOST = 1200 };
 
+/* what goes with the load factor: everything that a scene puts on; that without the voltages of
+   comb drives, which are 0; these voltages squared alone, with all the rest in full */
+typedef enum fw_lead { FW_LEAD_ALL, FW_LEAD_LOADS, FW_LEAD_DRIVES } fw_lead;
+
 typedef struct fw_rest {
     fw_arena *arena;
     const fw_mechanism *mechanism;
@@ -17,11 +21,16 @@ typedef struct fw_rest {
     fw_effect_ledger ledger;
     fw_model *model;
     fw_reduced reduced;
-    double *q0;        /* (3 nbody) assembled, SI */
-    double *y;         /* (ny) state; u first, all else 0 */
-    double factor;     /* s */
-    double *force;     /* (n) Q */
-    double *slope;     /* (n) dQ/ds */
+    double *q0;    /* (3 nbody) assembled, SI */
+    double *y;     /* (ny) state; u first, all else 0 */
+    double factor; /* s */
+    fw_lead lead;
+    double drive_unit; /* squared voltages of comb drives per s */
+    double reach;      /* of paths: the displacement, scaled, that counts like s = 1 */
+    const struct fw_pull_in *pull_in; /* NULL: none, or not looked for */
+    bool until_unstable;              /* paths end where the first eigenvalue passes zero */
+    double *force;                    /* (n) Q */
+    double *slope;                    /* (n) dQ/ds */
     double *follow;    /* (n) du/ds of least mass norm that the drivers force; 0 without them */
     double *stiffness; /* (n x n) */
     double *lambda;    /* (2 nblock) */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "statics/statics.h"
 #include "base/cancel.h"
+#include "statics/pull_in.h"
 #include "statics/rest.h"
 #include <float.h>
 #include <math.h>
@@ -226,6 +227,7 @@ static fw_status answer(const fw_rest *w, fw_statics *out) {
     out->ledger = w->ledger;
     out->iterations = w->iterations;
     out->rest_q = w->q0;
+    out->pull_in = w->pull_in;
     FW_NEED(out->q = fw_arena_array(w->arena, double, n));
     FW_NEED(out->angle_rad = fw_arena_array(w->arena, double, pins));
     FW_NEED(out->reaction_N = fw_arena_array(w->arena, double, 2 * pins));
@@ -277,5 +279,7 @@ fw_status fw_static_equilibrium(fw_arena *arena, const fw_mechanism *mechanism,
     fw_rest w;
     *statics = NULL;
     FW_TRY(fw_rest_new(arena, mechanism, scene, &options->effects, diags, &w));
+    /* first: it says why there may be no equilibrium */
+    FW_TRY(fw_pull_in_find(arena, mechanism, scene, &options->effects, diags, &w.pull_in));
     return fw_rest_statics(&w, options, statics);
 }

@@ -73,7 +73,8 @@ typedef struct fw_statics {
     fw_active *active;         /* (nactive) */
     int nactive;
     fw_row_rank rank;
-    fw_path *path; /* NULL: not asked for */
+    fw_path *path;                    /* NULL: not asked for */
+    const struct fw_pull_in *pull_in; /* pull_in.h; NULL: no comb drives */
     fw_effect_ledger ledger;
 } fw_statics;
 

@@ -140,9 +140,13 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     fw_motion_options motion = options->motion;
     if (motion.most_angle_rad <= 0) motion.most_angle_rad = whole_turn;
     FW_NEED(v->motion = fw_arena_alloc(arena, n, sizeof *v->motion));
+    FW_NEED(v->pull_in = fw_arena_alloc(arena, n, sizeof *v->pull_in));
     for (size_t i = 0; i < n; i++) {
         const fw_scene *scene = &device->scene[i];
         if (!fw_device_in_flow(scene->flow, m->variant->flow)) continue;
+        FW_TRY(fw_pull_in_find(arena, m, scene, &motion.effects, diags, &v->pull_in[i]));
+        if (v->pull_in[i] && v->pull_in[i]->kind != FW_PULL_IN_NONE && v->pull_in[i]->margin < 1)
+            v->beyond_pull_in = true;
         FW_TRY(fw_watch_new(arena, m, layout, &watch[i]));
         motion.observe = fw_watch_see;
         motion.context = &watch[i];
@@ -208,5 +212,8 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
             v->governing = k;
     }
     if (v->workspace.required && !v->workspace.reachable) v->decision = FW_REJECT;
+    /* a pulse may be over before the rotor has snapped; whether that holds on a wafer, where fringe
+       fields and gaps differ, is not known */
+    if (v->beyond_pull_in && v->decision == FW_ACCEPT) v->decision = FW_INCONCLUSIVE;
     return FW_OK;
 }

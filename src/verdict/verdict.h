@@ -5,6 +5,7 @@
 #ifndef FW_VERDICT_VERDICT_H
 #define FW_VERDICT_VERDICT_H
 #include "dynamics/dynamics.h"
+#include "statics/pull_in.h"
 #include "workspace/workspace.h"
 
 typedef enum fw_decision { FW_ACCEPT, FW_INCONCLUSIVE, FW_REJECT } fw_decision; /* worst last */
@@ -27,7 +28,9 @@ typedef struct fw_hinge_verdict {
 typedef struct fw_variant_verdict { /* one flow: a material and a thickness */
     const fw_variant *variant;
     const fw_mechanism *mechanism;
-    const fw_motion **motion; /* (device->nscene) NULL where the scene is not for this flow */
+    const fw_motion **motion;   /* (device->nscene) NULL where the scene is not for this flow */
+    const fw_pull_in **pull_in; /* (device->nscene) NULL without comb drives */
+    bool beyond_pull_in;        /* a scene asks for more than its pull-in voltage */
     fw_workspace_result workspace;
     fw_hinge_verdict *hinge; /* (mechanism->nhinge) */
     int nhinge;

@@ -1,0 +1,366 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Electrodes of a rotor and a stator at a given voltage V, ports: the stator's point and the
+   rotor's. Of the rotor against the stator, in the stator's frame turned by `direction` (e along, n
+   across): x = e.d, y = n.d, tilt theta; d from the stator's point to the rotor's, 0 as drawn.
+
+     comb   C = eps0 h N int_a^b [1/(g - y - theta s) + 1/(g + y + theta s)] ds,
+            a = -overlap/2 - x (tip of the stator's fingers), b = overlap/2 (tip of the rotor's)
+     plate  C = eps0 h int_-l/2^l/2 ds/(g - x + theta s)
+
+   Each strip of length l between electrodes whose gap goes linearly from one end to the other, m in
+   the middle, has int = (l/m) phi(q), q = (theta l/2m)^2, phi(q) = atanh(sqrt q)/sqrt q: closed at
+   every tilt, by its series 1 + q/3 + q^2/5 + ... where q is small.
+
+   Co-energy: f = +grad C V^2/2, E = -C V^2/2, the source feeds -C V V' besides (power balance of
+   element.h; the charge that it moves at constant V is C' V^2, half of it work). V^2 goes with the
+   load factor. First and second derivatives of C are exact.
+
+   Inputs SI. Range: |gap change| <= 95 % of the gap at both ends, the fingers engaged and not at
+   the root; small tilts (sin theta = theta). Left out: fringe fields (fw_comb_fringe), the
+   capacitance of finger tips, and that the fingers of one comb are not at one place (second order
+   in theta). Cost about 1200 instructions. Source: parallel plates piecewise, W. C. Tang et al.,
+   Sens. Actuators A 21 (1990) 328; R. Legtenberg et al., J. Micromech. Microeng. 6 (1996) 320 (side
+   instability). Test: test_comb_drive.c. */
+#include "effects/comb.h"
+#include "effects/effect.h"
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+static const double fw_eps0_F_per_m = 8.8541878128e-12; /* CODATA 2018 */
+static const double fw_pi_comb = 3.141592653589793;
+static const double fw_nearest = 0.05; /* of the gap: nearer is called a touch */
+
+/* ---- one strip ---- */
+
+/* phi(q) = atanh(sqrt q)/sqrt q = sum q^n/(2n + 1), 0 <= q < 1, with phi' and phi'';
+   2 q phi' = 1/(1 - q) - phi */
+static void shape(double q, double phi[3]) {
+    phi[0] = phi[1] = phi[2] = 0;
+    if (q >= 0.2) {
+        double root = sqrt(q), far = 1 / (1 - q); /* q >= 1: not a number */
+        phi[0] = atanh(root) / root;
+        phi[1] = (far - phi[0]) / (2 * q);
+        phi[2] = (far * far - 3 * phi[1]) / (2 * q);
+        return;
+    }
+    double power = 1;
+    for (int n = 0; n < 40; n++, power *= q) {
+        phi[0] += power / (2 * n + 1);
+        phi[1] += (n + 1) * power / (2 * n + 3);
+        phi[2] += (n + 2) * (n + 1) * power / (2 * n + 5);
+        if (power * (n + 2) < DBL_EPSILON / 8) break;
+    }
+}
+
+typedef struct strip { /* l, m, t: length, gap in the middle, tilt, and their slopes by x, y, theta
+                        */
+    double l, m, t;
+    double by[3][3]; /* of l, m, t */
+    double m_xt;     /* the one second derivative that is not 0: of m by x and theta */
+} strip;
+
+/* F = int ds/gap = (l/m) phi(q), r = t l/2m, q = r^2, w = 1/(1 - q) = phi + 2 q phi':
+     F_l = w/m,  F_m = -l w/m^2,  F_t = (l/m)^2 r phi',  F_ll = 2 q w^2/(m l),
+     F_lm = -(w + 2 q w^2)/m^2,  F_lt = l r w^2/m^2,  F_mm = 2 l (w + q w^2)/m^3,
+     F_mt = -l^2 r w^2/m^3,  F_tt = (l/m)^3 (phi'/2 + q phi'')
+   scale F is returned, its slopes are added */
+static double add_strip(const strip *s, double scale, double *slope, double *bend) {
+    double l = s->l, m = s->m, a = 1 / m, r = 0.5 * s->t * l * a, q = r * r, w = 1 / (1 - q);
+    double phi[3], la = l * a;
+    shape(q, phi);
+    const double f[3] = {w * a, -la * w * a, la * la * r * phi[1]};
+    for (int i = 0; slope && i < 3; i++)
+        slope[i] += scale * (f[0] * s->by[0][i] + f[1] * s->by[1][i] + f[2] * s->by[2][i]);
+    if (bend) {
+        double ww = w * w;
+        double lm = -(w + 2 * q * ww) * a * a, lt = la * r * ww * a, mt = -la * la * r * ww * a;
+        const double second[3][3] = {
+            {0.5 * s->t * s->t * l * ww * a * a * a, lm, lt}, /* 2 q/l = t^2 l/2m^2 */
+            {lm, 2 * la * (w + q * ww) * a * a, mt},
+            {lt, mt, la * la * la * (0.5 * phi[1] + q * phi[2])}};
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                for (int k = 0; k < 9; k++)
+                    bend[3 * i + j] +=
+                        scale * s->by[k / 3][i] * second[k / 3][k % 3] * s->by[k % 3][j];
+        bend[2] += scale * f[1] * s->m_xt;
+        bend[6] += scale * f[1] * s->m_xt;
+    }
+    return scale * la * phi[0];
+}
+
+double fw_comb_capacitance(const fw_comb_element *c, const double place[3], double *slope,
+                           double *bend) {
+    const double x = place[0], y = place[1], t = place[2];
+    double face = c->face_Fm;
+    if (slope) memset(slope, 0, 3 * sizeof *slope);
+    if (bend) memset(bend, 0, 9 * sizeof *bend);
+    if (c->kind == FW_ELECTRODES_PLATE) {
+        const strip only = {
+            .l = c->length_m, .m = c->gap_m - x, .t = t, .by = {{0}, {-1, 0, 0}, {0, 0, 1}}};
+        return add_strip(&only, only.m > 0 ? face : (double)NAN, slope, bend);
+    }
+    /* the middle of the overlap is at s = -x/2 */
+    double off = y - 0.5 * t * x, all = 0;
+    if (!(fabs(off) < c->gap_m)) face = (double)NAN; /* beyond touch there is no field */
+    for (int side = 1; side >= -1; side -= 2) {
+        const strip one = {.l = c->overlap_m + x,
+                           .m = c->gap_m - side * off,
+                           .t = t,
+                           .by = {{1, 0, 0}, {0.5 * side * t, -side, 0.5 * side * x}, {0, 0, 1}},
+                           .m_xt = 0.5 * side};
+        all += add_strip(&one, face, slope, bend);
+    }
+    return all;
+}
+
+double fw_comb_fringe(const fw_comb_element *c) {
+    double share = c->gap_m / (fw_pi_comb * c->depth_m);
+    return share * (1 + log(2 * fw_pi_comb * c->depth_m / c->gap_m));
+}
+
+/* ---- where the rotor is ---- */
+
+static const fw_comb_element *data_of(const fw_force_element *e) {
+    return e->data;
+}
+
+/* e of the stator as it stands */
+static fw_vec2 along(const fw_force_element *e, const double *p) {
+    double turned = data_of(e)->direction_rad + p[2];
+    return (fw_vec2){cos(turned), sin(turned)};
+}
+
+void fw_comb_place(const fw_force_element *e, const double *p, double place[3]) {
+    fw_vec2 u = along(e, p);
+    double dx = p[3] - p[0], dy = p[4] - p[1];
+    place[0] = u.x * dx + u.y * dy;
+    place[1] = -u.y * dx + u.x * dy;
+    place[2] = p[5] - p[2] - data_of(e)->turn_rad;
+}
+
+/* d(place)/dp, 3 x 6: d = p1 - p0 and e turns with the stator: x' = e.d' + y theta_a' */
+static void way(const fw_force_element *e, const double *p, double j[3][6]) {
+    fw_vec2 u = along(e, p);
+    double place[3];
+    fw_comb_place(e, p, place);
+    const double rows[3][6] = {{-u.x, -u.y, place[1], u.x, u.y, 0},
+                               {u.y, -u.x, -place[0], -u.y, u.x, 0},
+                               {0, 0, -1, 0, 0, 1}};
+    memcpy(j, rows, sizeof rows);
+}
+
+void fw_comb_rate(const fw_force_element *e, const double *p, const double *w, double rate[3]) {
+    double j[3][6];
+    way(e, p, j);
+    for (int i = 0; i < 3; i++) {
+        rate[i] = 0;
+        for (int k = 0; k < 6; k++)
+            rate[i] += j[i][k] * w[k];
+    }
+}
+
+/* ---- the class ---- */
+
+/* V and V' */
+static void volts(const fw_force_element *e, const fw_seen *s, double v[2]) {
+    double value[3] = {1, 0, 0};
+    if (e->law[0]) fw_law_value(e->law[0], s->t_s, s->piece_s, value);
+    v[0] = data_of(e)->voltage_V * value[0];
+    v[1] = data_of(e)->voltage_V * value[1];
+}
+
+static void push(const fw_force_element *e, const double *p, double half, double *f) {
+    double place[3], slope[3], j[3][6];
+    fw_comb_place(e, p, place);
+    fw_comb_capacitance(data_of(e), place, slope, NULL);
+    way(e, p, j);
+    for (int k = 0; k < 6; k++)
+        f[k] = half * (slope[0] * j[0][k] + slope[1] * j[1][k] + slope[2] * j[2][k]);
+}
+
+static void force(const fw_force_element *e, const fw_seen *s, double *f) {
+    double v[2];
+    volts(e, s, v);
+    push(e, s->p, 0.5 * v[0] * v[0] * s->load, f);
+}
+
+static void slope_of(const fw_force_element *e, const fw_seen *s, double *f) {
+    double v[2];
+    volts(e, s, v);
+    push(e, s->p, 0.5 * v[0] * v[0], f);
+}
+
+/* -(J^T C'' J + sum C'_i d2(place_i)) V^2/2; second derivatives with the stator's turn: de = n, dn
+   = -e, so d2x: n by points, -x by turns; d2y: -e by points, -y by turns */
+static void tangent(const fw_force_element *e, const fw_seen *s, double *stiffness,
+                    double *damping) {
+    double v[2], place[3], slope[3], bend[9], j[3][6];
+    volts(e, s, v);
+    double half = 0.5 * v[0] * v[0] * s->load;
+    fw_comb_place(e, s->p, place);
+    fw_comb_capacitance(data_of(e), place, slope, bend);
+    way(e, s->p, j);
+    memset(damping, 0, 36 * sizeof *damping);
+    for (int a = 0; a < 6; a++)
+        for (int b = 0; b < 6; b++) {
+            double curve = 0;
+            for (int i = 0; i < 9; i++)
+                curve += j[i / 3][a] * bend[i] * j[i % 3][b];
+            stiffness[6 * a + b] = -half * curve;
+        }
+    for (int k = 0; k < 6; k++) {
+        if (k % 3 == 2) continue;
+        double turned = -half * (slope[0] * j[1][k] - slope[1] * j[0][k]);
+        stiffness[6 * k + 2] += turned;
+        stiffness[12 + k] += turned;
+    }
+    stiffness[14] += half * (slope[0] * place[0] + slope[1] * place[1]);
+}
+
+static double energy(const fw_force_element *e, const fw_seen *s) {
+    double v[2], place[3];
+    volts(e, s, v);
+    fw_comb_place(e, s->p, place);
+    return -0.5 * fw_comb_capacitance(data_of(e), place, NULL, NULL) * v[0] * v[0] * s->load;
+}
+
+static void power(const fw_force_element *e, const fw_seen *s, double out[2]) {
+    double v[2], place[3];
+    volts(e, s, v);
+    fw_comb_place(e, s->p, place);
+    out[0] = 0;
+    out[1] = -fw_comb_capacitance(data_of(e), place, NULL, NULL) * v[0] * v[1] * s->load;
+}
+
+/* the gap that is left at the nearer end, relative to the gap as drawn */
+static double least_gap(const fw_comb_element *c, const double place[3]) {
+    if (c->kind == FW_ELECTRODES_PLATE)
+        return 1 - (place[0] + 0.5 * c->length_m * fabs(place[2])) / c->gap_m;
+    double at_stator = place[1] - place[2] * (0.5 * c->overlap_m + place[0]);
+    double at_rotor = place[1] + place[2] * 0.5 * c->overlap_m;
+    return 1 - fmax(fabs(at_stator), fabs(at_rotor)) / c->gap_m;
+}
+
+static bool valid(const fw_force_element *e, const fw_seen *s, const char **why) {
+    const fw_comb_element *c = data_of(e);
+    double place[3];
+    fw_comb_place(e, s->p, place);
+    if (c->kind == FW_ELECTRODES_COMB && !(c->overlap_m + place[0] > 0)) {
+        *why = "the fingers of the comb drive have left each other: the capacitance of an engaged "
+               "comb does not hold there. Draw them with more overlap, or move less";
+        return false;
+    }
+    if (c->kind == FW_ELECTRODES_COMB && c->overlap_m + place[0] > c->length_m) {
+        *why = "the fingers of the comb drive have reached the root of the other comb: draw longer "
+               "fingers, or use less voltage";
+        return false;
+    }
+    if (!(least_gap(c, place) >= fw_nearest)) {
+        *why = "the electrodes have come within 5 % of their gap of each other: they touch, the "
+               "voltage is beyond pull-in. Use less voltage, a stiffer suspension or a wider gap "
+               "(flexwright statics reports the pull-in voltage)";
+        return false;
+    }
+    return true;
+}
+
+static const fw_element_class comb_class = {.effect = "comb-drive",
+                                            .force = force,
+                                            .tangent = tangent,
+                                            .energy = energy,
+                                            .power = power,
+                                            .slope = slope_of,
+                                            .valid = valid};
+
+const fw_comb_element *fw_comb_of(const fw_force_element *e) {
+    return e->class_ == &comb_class ? data_of(e) : NULL;
+}
+
+/* ---- the row ---- */
+
+static bool called_for(const fw_effect_case *c) {
+    for (int i = 0; i < c->scene->ncomb; i++)
+        if (c->scene->comb[i].voltage_V != 0) return true;
+    return false;
+}
+
+static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
+    (void)c;
+    *value = (double)INFINITY;
+    *reason = "the scene drives combs with a voltage: they are the motion itself";
+    return FW_OK;
+}
+
+static double turn_of(const fw_mechanism *m, int body) {
+    return body == FW_GROUND ? 0 : m->body[body].phi_rad;
+}
+
+/* a world point as the body sees it, as drawn */
+static fw_port port_at(const fw_mechanism *m, int body, fw_vec2 world) {
+    if (body == FW_GROUND) return (fw_port){body, world.x, world.y};
+    const fw_mass *b = &m->body[body];
+    double dx = world.x - b->x_m, dy = world.y - b->y_m, c = cos(b->phi_rad), s = sin(b->phi_rad);
+    return (fw_port){body, c * dx + s * dy, -s * dx + c * dy};
+}
+
+static fw_comb_element electrodes(const fw_effect_case *c, const fw_comb *from) {
+    const fw_mechanism *m = c->mechanism;
+    fw_comb_element d = {.kind = from->kind,
+                         .gap_m = from->gap_m,
+                         .overlap_m = from->overlap_m,
+                         .length_m = from->length_m,
+                         .depth_m = from->depth_m,
+                         .direction_rad = from->direction_rad,
+                         .turn_rad = turn_of(m, from->body_b) - turn_of(m, from->body_a),
+                         .voltage_V = from->voltage_V};
+    if (isnan(d.depth_m) && m->variant) d.depth_m = m->variant->thickness_m;
+    if (d.kind == FW_ELECTRODES_COMB && isnan(d.length_m)) d.length_m = 2 * d.overlap_m;
+    d.face_Fm =
+        fw_eps0_F_per_m * d.depth_m * (d.kind == FW_ELECTRODES_COMB ? (double)from->fingers : 1);
+    return d;
+}
+
+static fw_status add_one(const fw_effect_case *c, const fw_comb *from, fw_terms *terms) {
+    fw_comb_element *d;
+    fw_force_element *e;
+    FW_NEED(d = fw_arena_one(c->arena, fw_comb_element));
+    FW_NEED(e = fw_terms_add_element(c->arena, terms, &comb_class, 2));
+    *d = electrodes(c, from);
+    fw_vec2 world = fw_local_place(c->mechanism, from->body_b, from->bx_m, from->by_m);
+    e->id = from->id ? from->id : "comb-drive";
+    e->place = from->place;
+    e->data = d;
+    e->port[0] = port_at(c->mechanism, from->body_a, world);
+    e->port[1] = (fw_port){from->body_b, from->bx_m, from->by_m};
+    if (!fw_law_is_constant(from->law)) e->law[e->laws++] = from->law;
+    e->works = e->laws > 0;
+    const double as_drawn[3] = {0, 0, 0};
+    double slope[3], bend[9];
+    fw_comb_capacitance(d, as_drawn, slope, bend);
+    double volt = d->voltage_V * fw_law_largest(from->law, c->scene->duration_s);
+    e->force_N = 0.5 * volt * volt * fabs(slope[0]);
+    e->size_N_per_m = 0.5 * volt * volt * fmax(fabs(bend[0]), fabs(bend[4]));
+    return FW_OK;
+}
+
+static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+    for (int i = 0; i < c->scene->ncomb; i++)
+        if (c->scene->comb[i].voltage_V != 0) FW_TRY(add_one(c, &c->scene->comb[i], terms));
+    return FW_OK;
+}
+
+static int count(const fw_effect_case *c) {
+    return c->scene->ncomb;
+}
+
+const fw_effect_row fw_effect_comb_drive = {
+    .id = "comb-drive",
+    .summary = "electrostatic forces between the electrodes of comb drives and plates",
+    .called_for = called_for,
+    .bound = bound,
+    .add = add,
+    .cost = 1200,
+    .count = count,
+    .kept = true};

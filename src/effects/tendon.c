@@ -1,0 +1,294 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tendons: a cable without mass and friction through eyelets 0..n-1, fixed at the first, an
+   actuator behind the last. Path L = sum |p_{i+1} - p_i| over the eyelets as they are now, and
+
+     pulled  T = max(0, pull law s)
+     drawn   T = k g + c g'  where it is taut, else 0;  g = L + draw law s - rest,
+             rest = path as drawn + slack; taut while min(k g, k g + c g') > 0
+
+   with the load factor s (1 but in statics). Virtual work: f = -T grad L on the eyelets, that is T
+   along the cable on the outer ones and T (u_after - u_before) in a bend. Tangent, H = hess L:
+
+     -df/dp = T H + grad L (k grad L + c H w)^T,    -df/dw = c grad L grad L^T.
+
+   Stored k g^2/2; c g'^2 is lost; the actuator gives T draw law' s (drawn) or -T L' (pulled: at its
+   end the cable moves by -L'). Two eyelets that meet have the direction of their relative velocity,
+   or none, as a spring between points, and no geometric stiffness.
+   Inputs SI. Exact for this model to round-off; what it leaves out (friction at eyelets, weight of
+   the cable): docs/theory/effects/tendon.md. Cost about 650 instructions with three eyelets.
+   Source: principle of virtual work, e.g. Shabana, Dynamics of Multibody Systems, ch. 3.
+   Test: test_tendon.c. */
+#include "effects/effect.h"
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+typedef struct tendon {
+    double pull_N; /* NaN: drawn */
+    double draw_m, k_N_per_m, c_Ns_per_m, rest_m;
+} tendon;
+
+/* factor of the actuation and its rate */
+typedef struct pace {
+    double factor, rate_per_s;
+} pace;
+
+static const tendon *data_of(const fw_force_element *e) {
+    return e->data;
+}
+
+static bool pulled(const tendon *d) {
+    return !isnan(d->pull_N);
+}
+
+static pace pace_of(const fw_force_element *e, const fw_seen *s) {
+    double value[3] = {1, 0, 0};
+    if (e->law[0]) fw_law_value(e->law[0], s->t_s, s->piece_s, value);
+    return (pace){value[0], value[1]};
+}
+
+/* ---- the path ---- */
+
+typedef struct segment { /* from eyelet i to i + 1 */
+    double length, ux, uy;
+} segment;
+
+/* points of a segment that are no farther apart than this coincide */
+static double round_off(const fw_port *port, const double *p) {
+    double reach = 0;
+    for (int i = 0; i < 2; i++)
+        reach += fabs(p[3 * i]) + fabs(p[3 * i + 1]) + fabs(port[i].x_m) + fabs(port[i].y_m);
+    return 64 * DBL_EPSILON * reach;
+}
+
+static segment segment_of(const fw_force_element *e, const fw_seen *s, int i) {
+    const double *p = s->p + 3 * i, *w = s->w + 3 * i;
+    double dx = p[3] - p[0], dy = p[4] - p[1], wx = w[3] - w[0], wy = w[4] - w[1];
+    double length = sqrt(dx * dx + dy * dy), size = length;
+    if (length <= round_off(&e->port[i], p)) {
+        dx = wx, dy = wy, size = sqrt(wx * wx + wy * wy);
+        length = 0; /* marks that they meet */
+    }
+    return (segment){length, size > 0 ? dx / size : 0, size > 0 ? dy / size : 0};
+}
+
+/* L and L'; grad (3 ports) may be NULL */
+static void path_of(const fw_force_element *e, const fw_seen *s, double *length, double *rate,
+                    double *grad) {
+    *length = *rate = 0;
+    if (grad) memset(grad, 0, 3 * (size_t)e->ports * sizeof *grad);
+    for (int i = 0; i + 1 < e->ports; i++) {
+        const double *w = s->w + 3 * i;
+        segment g = segment_of(e, s, i);
+        *length += g.length;
+        *rate += g.ux * (w[3] - w[0]) + g.uy * (w[4] - w[1]);
+        if (!grad) continue;
+        grad[3 * i] -= g.ux, grad[3 * i + 1] -= g.uy;
+        grad[3 * i + 3] += g.ux, grad[3 * i + 4] += g.uy;
+    }
+}
+
+/* how far a drawn cable is stretched beyond its rest length, and how fast */
+static void stretch_of(const tendon *d, pace at, double load, double length, double rate,
+                       double *stretch, double *speed) {
+    *stretch = length + d->draw_m * at.factor * load - d->rest_m;
+    *speed = rate + d->draw_m * at.rate_per_s * load;
+}
+
+/* ---- the class ---- */
+
+/* T as the switch says: a cable that is held on may for the rest of a step push a little */
+static double tension(const fw_force_element *e, const fw_seen *s, double length, double rate) {
+    const tendon *d = data_of(e);
+    pace at = pace_of(e, s);
+    double stretch, speed;
+    if (e->switches > 0 && !s->on[0]) return 0;
+    if (pulled(d)) return d->pull_N * at.factor * s->load;
+    stretch_of(d, at, s->load, length, rate, &stretch, &speed);
+    return d->k_N_per_m * stretch + d->c_Ns_per_m * speed;
+}
+
+static void force(const fw_force_element *e, const fw_seen *s, double *f) {
+    double length, rate;
+    path_of(e, s, &length, &rate, f);
+    double t = tension(e, s, length, rate);
+    for (int i = 0; i < 3 * e->ports; i++)
+        f[i] *= -t;
+}
+
+/* += T H, and, in `turned`, H w */
+static void geometric(const fw_force_element *e, const fw_seen *s, double t, double *stiffness,
+                      double *turned) {
+    int n = 3 * e->ports;
+    for (int i = 0; i + 1 < e->ports; i++) {
+        segment g = segment_of(e, s, i);
+        if (!(g.length > 0)) continue;
+        double h[2][2] = {{g.uy * g.uy / g.length, -g.ux * g.uy / g.length},
+                          {-g.ux * g.uy / g.length, g.ux * g.ux / g.length}};
+        const double *w = s->w + 3 * i;
+        for (int a = 0; a < 2; a++) {
+            double way = h[a][0] * (w[3] - w[0]) + h[a][1] * (w[4] - w[1]);
+            turned[3 * i + a] -= way;
+            turned[3 * i + 3 + a] += way;
+            for (int b = 0; b < 2; b++)
+                for (int k = 0; k < 4; k++) {
+                    int row = 3 * (i + k / 2) + a, column = 3 * (i + k % 2) + b;
+                    stiffness[row * n + column] += (k / 2 == k % 2 ? t : -t) * h[a][b];
+                }
+        }
+    }
+}
+
+/* grad L and H w are kept in the first row of the two matrices while these are not yet needed */
+static void tangent(const fw_force_element *e, const fw_seen *s, double *stiffness,
+                    double *damping) {
+    const tendon *d = data_of(e);
+    int n = 3 * e->ports;
+    double length, rate;
+    memset(stiffness, 0, (size_t)n * (size_t)n * sizeof *stiffness);
+    memset(damping, 0, (size_t)n * (size_t)n * sizeof *damping);
+    bool taut = e->switches == 0 || s->on[0], elastic = taut && !pulled(d);
+    double *grad = damping, *turned = damping + n; /* n >= 6: two rows */
+    path_of(e, s, &length, &rate, grad);
+    geometric(e, s, tension(e, s, length, rate), stiffness, turned);
+    for (int i = 0; elastic && i < n; i++)
+        for (int j = 0; j < n; j++)
+            stiffness[i * n + j] += grad[i] * (d->k_N_per_m * grad[j] + d->c_Ns_per_m * turned[j]);
+    memset(turned, 0, (size_t)n * sizeof *turned);
+    double c = elastic ? d->c_Ns_per_m : 0;
+    for (int i = n - 1; i >= 0; i--) { /* the first row, which holds grad L, last */
+        double share = c * grad[i];
+        for (int j = n - 1; j >= 0; j--)
+            damping[i * n + j] = share * grad[j];
+    }
+}
+
+static double energy(const fw_force_element *e, const fw_seen *s) {
+    const tendon *d = data_of(e);
+    double length, rate, stretch, speed;
+    if (pulled(d) || !s->on[0]) return 0;
+    path_of(e, s, &length, &rate, NULL);
+    stretch_of(d, pace_of(e, s), s->load, length, rate, &stretch, &speed);
+    return 0.5 * d->k_N_per_m * stretch * stretch;
+}
+
+static void power(const fw_force_element *e, const fw_seen *s, double out[2]) {
+    const tendon *d = data_of(e);
+    double length, rate, stretch, speed;
+    path_of(e, s, &length, &rate, NULL);
+    double t = tension(e, s, length, rate);
+    out[0] = 0, out[1] = -t * rate;
+    if (pulled(d)) return;
+    pace at = pace_of(e, s);
+    stretch_of(d, at, s->load, length, rate, &stretch, &speed);
+    if (s->on[0]) out[0] = d->c_Ns_per_m * speed * speed;
+    out[1] = t * d->draw_m * at.rate_per_s * s->load;
+}
+
+/* the load factor never decides whether a pulled cable pulls: at 0 it is about to */
+static double switch_value(const fw_force_element *e, const fw_seen *s, int i) {
+    (void)i;
+    const tendon *d = data_of(e);
+    pace at = pace_of(e, s);
+    double length, rate, stretch, speed;
+    if (pulled(d)) return d->pull_N * at.factor;
+    path_of(e, s, &length, &rate, NULL);
+    stretch_of(d, at, s->load, length, rate, &stretch, &speed);
+    return fmin(d->k_N_per_m * stretch, d->k_N_per_m * stretch + d->c_Ns_per_m * speed);
+}
+
+static void slope(const fw_force_element *e, const fw_seen *s, double *f) {
+    const tendon *d = data_of(e);
+    pace at = pace_of(e, s);
+    double length, rate, t;
+    path_of(e, s, &length, &rate, f);
+    if (pulled(d))
+        t = d->pull_N * at.factor;
+    else
+        t = d->draw_m * (d->k_N_per_m * at.factor + d->c_Ns_per_m * at.rate_per_s);
+    if (e->switches > 0 && !s->on[0]) t = 0;
+    for (int i = 0; i < 3 * e->ports; i++)
+        f[i] *= -t;
+}
+
+static const fw_element_class tendon_class = {.effect = "tendon",
+                                              .force = force,
+                                              .tangent = tangent,
+                                              .energy = energy,
+                                              .power = power,
+                                              .switch_value = switch_value,
+                                              .slope = slope};
+
+/* ---- the row ---- */
+
+static bool called_for(const fw_effect_case *c) {
+    return c->scene->ntendon > 0;
+}
+
+static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
+    (void)c;
+    *value = (double)INFINITY;
+    *reason = "the scene has tendons: they are the motion itself";
+    return FW_OK;
+}
+
+static double path_as_drawn(const fw_mechanism *m, const fw_tendon *t) {
+    double length = 0;
+    for (int i = 0; i + 1 < t->neyelet; i++) {
+        const fw_eyelet *a = &t->eyelet[i], *b = a + 1;
+        fw_vec2 from = fw_local_place(m, a->body, a->x_m, a->y_m);
+        fw_vec2 to = fw_local_place(m, b->body, b->x_m, b->y_m);
+        length += hypot(to.x - from.x, to.y - from.y);
+    }
+    return length;
+}
+
+static fw_status add_one(const fw_effect_case *c, const fw_tendon *t, fw_terms *terms) {
+    tendon *d;
+    fw_force_element *e;
+    FW_NEED(d = fw_arena_one(c->arena, tendon));
+    FW_NEED(e = fw_terms_add_element(c->arena, terms, &tendon_class, t->neyelet));
+    double most = fw_law_largest(t->law, c->scene->duration_s);
+    *d = (tendon){.pull_N = t->pull_N};
+    e->id = t->id ? t->id : "tendon";
+    e->place = t->place;
+    e->data = d;
+    for (int i = 0; i < t->neyelet; i++)
+        e->port[i] = (fw_port){t->eyelet[i].body, t->eyelet[i].x_m, t->eyelet[i].y_m};
+    if (!fw_law_is_constant(t->law)) e->law[e->laws++] = t->law;
+    e->works = true;
+    if (pulled(d)) {
+        e->switches = e->laws; /* a constant pull never lets go */
+        e->force_N = fabs(t->pull_N) * most;
+        return FW_OK;
+    }
+    d->draw_m = t->draw_m;
+    d->k_N_per_m = t->stiffness_N_per_m;
+    d->c_Ns_per_m = t->damping_Ns_per_m;
+    d->rest_m = path_as_drawn(c->mechanism, t) + t->slack_m;
+    e->switches = 1;
+    e->dissipates = d->c_Ns_per_m > 0;
+    e->size_N_per_m = d->k_N_per_m;
+    e->force_N = d->k_N_per_m * (fabs(d->draw_m) * most + fmax(0, -t->slack_m));
+    return FW_OK;
+}
+
+static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+    for (int i = 0; i < c->scene->ntendon; i++)
+        FW_TRY(add_one(c, &c->scene->tendon[i], terms));
+    return FW_OK;
+}
+
+static int count(const fw_effect_case *c) {
+    return c->scene->ntendon;
+}
+
+const fw_effect_row fw_effect_tendon = {
+    .id = "tendon",
+    .summary = "cables through eyelets, pulled with a force or drawn in by a length",
+    .called_for = called_for,
+    .bound = bound,
+    .add = add,
+    .cost = 650,
+    .count = count,
+    .kept = true};

@@ -1,0 +1,314 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Pull-in voltages against closed forms and scalar equations that are solved here. */
+#include "rest_rigs.h"
+#include "effects/comb.h"
+#include "statics/pull_in.h"
+
+static const double eps0 = 8.8541878128e-12;
+static const fw_effect_choice all = {FW_EFFECTS_ALL, NULL};
+
+static const fw_comb plate_drive = {.id = "plate",
+                                    .kind = FW_ELECTRODES_PLATE,
+                                    .body_a = FW_GROUND,
+                                    .body_b = 0,
+                                    .gap_m = 3e-6,
+                                    .length_m = 250e-6,
+                                    .depth_m = 20e-6,
+                                    .voltage_V = 5};
+
+static const fw_comb comb_drive = {.id = "comb",
+                                   .kind = FW_ELECTRODES_COMB,
+                                   .body_a = FW_GROUND,
+                                   .body_b = 1,
+                                   .fingers = 40,
+                                   .gap_m = 4e-6,
+                                   .overlap_m = 50e-6,
+                                   .length_m = 200e-6,
+                                   .depth_m = 50e-6,
+                                   .voltage_V = 10};
+
+static void add_drive(fixture *f, rig *r, const fw_comb *c) {
+    if (!r->scene.comb) r->scene.comb = fw_arena_array(f->arena, fw_comb, 4);
+    r->scene.comb[r->scene.ncomb++] = *c;
+    r->scene.duration_s = 1e-3;
+}
+
+/* a plate on a guide along x with the spring k */
+static rig plate_on_spring(fixture *f, double k) {
+    rig r = rig_new(f->arena, 1, 0, 0);
+    rig_body(&r, "rotor", 2e-9, 1e-17, 1e-3, -2e-3, 0);
+    rig_guide(f, &r, 0, 1e-3, -2e-3, 0)->stiffness_N_per_m = k;
+    return r;
+}
+
+/* a shuttle along x on kx, on it the rotor along y on ky */
+static rig comb_on_stage(fixture *f, double kx, double ky) {
+    rig r = rig_new(f->arena, 2, 0, 0);
+    rig_body(&r, "shuttle", 3e-9, 1e-17, 0.4e-3, 0, 0);
+    rig_body(&r, "rotor", 2e-9, 1e-17, 0.4e-3, 0, 0);
+    rig_guide(f, &r, 0, 0.4e-3, 0, 0)->stiffness_N_per_m = kx;
+    fw_tie *across = rig_guide(f, &r, 1, 0, 0, acos(0.0));
+    across->id = "across";
+    across->body_a = 0;
+    across->stiffness_N_per_m = ky;
+    return r;
+}
+
+static const fw_pull_in *find(fixture *f, const rig *r) {
+    const fw_pull_in *found;
+    assert_int_equal(fw_pull_in_find(f->arena, &r->m, &r->scene, &all, &f->diags, &found), FW_OK);
+    return found;
+}
+
+/* V^2 = 8 k g^3/(27 eps0 A) at a third of the gap, whatever the scene's own voltage is */
+static void test_plate(void **state) {
+    (void)state;
+    for (int i = 0; i < 5; i++) {
+        fixture f = begin();
+        double k = 0.3 * pow(7, i), g = 3e-6, area = 250e-6 * 20e-6;
+        double volt = sqrt(8 * k * g * g * g / (27 * eps0 * area));
+        rig r = plate_on_spring(&f, k);
+        fw_comb c = plate_drive;
+        c.voltage_V = volt * pow(10, 2 - i);
+        add_drive(&f, &r, &c);
+        const fw_pull_in *p = find(&f, &r);
+        assert_non_null(p);
+        assert_int_equal(p->kind, FW_PULL_IN_FOLD);
+        assert_false(p->bifurcation);
+        assert_string_equal(p->comb, "plate");
+        assert_string_equal(p->body, "rotor");
+        assert_relative(p->voltage_V, volt, 1e-10);
+        assert_relative(p->margin, pow(10, i - 2), 1e-10);
+        assert_near(p->where[0], g / 3, 1e-6 * g);
+        assert_near(fabs(p->shape[0]) / hypot(p->shape[0], p->shape[1]), 1, 1e-9);
+        assert_int_equal(said(&f, 248), p->margin < 1);
+        fw_arena_free(f.arena);
+    }
+}
+
+/* a constant force F along: V^2 = 2 (k x - F)(g - x)^2/(eps0 A) has its largest value at
+   x = (g + 2 F/k)/3; the force acts in full although only voltages grow */
+static void test_plate_with_load(void **state) {
+    (void)state;
+    for (int i = -2; i <= 2; i++) {
+        fixture f = begin();
+        double k = 2, g = 3e-6, area = 250e-6 * 20e-6, force = 0.15 * i * k * g;
+        double x = (g + 2 * force / k) / 3;
+        double volt = sqrt(2 * (k * x - force) * (g - x) * (g - x) / (eps0 * area));
+        rig r = plate_on_spring(&f, k);
+        add_drive(&f, &r, &plate_drive);
+        rig_force(&r, 0, force, 0);
+        const fw_pull_in *p = find(&f, &r);
+        assert_non_null(p);
+        assert_int_equal(p->kind, FW_PULL_IN_FOLD);
+        assert_relative(p->voltage_V, volt, 1e-10);
+        assert_near(p->where[0], x, 1e-6 * g);
+        fw_arena_free(f.arena);
+    }
+}
+
+/* one plate on either side: the middle stays an equilibrium and loses its stiffness at
+   k = 2 eps0 A V^2/g^3; the drives of two voltages named by what they take */
+static void test_two_plates(void **state) {
+    (void)state;
+    fixture f = begin();
+    double k = 2, g = 3e-6, area = 250e-6 * 20e-6;
+    rig r = plate_on_spring(&f, k);
+    fw_comb other = plate_drive;
+    other.id = "other";
+    other.direction_rad = acos(-1.0);
+    add_drive(&f, &r, &plate_drive);
+    add_drive(&f, &r, &other);
+    const fw_pull_in *p = find(&f, &r);
+    assert_non_null(p);
+    assert_int_equal(p->kind, FW_PULL_IN_FOLD);
+    assert_true(p->bifurcation);
+    assert_relative(p->voltage_V, sqrt(k * g * g * g / (2 * eps0 * area)), 1e-10);
+    fw_arena_free(f.arena);
+}
+
+/* side instability: (2 face/g^3) (overlap + face V^2/(g kx)) V^2 = ky, a quadratic in V^2 */
+static void test_side(void **state) {
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        fixture f = begin();
+        double kx = pow(5, i), ky = 40 * kx, g = 4e-6, o = 50e-6, face = eps0 * 50e-6 * 40;
+        double a = 2 * face * face / (g * g * g * g * kx), b = 2 * face * o / (g * g * g);
+        double square = 2 * ky / (b + sqrt(b * b + 4 * a * ky)), x = face * square / (g * kx);
+        rig r = comb_on_stage(&f, kx, ky);
+        add_drive(&f, &r, &comb_drive);
+        const fw_pull_in *p = find(&f, &r);
+        assert_non_null(p);
+        assert_int_equal(p->kind, FW_PULL_IN_SIDE);
+        assert_true(p->bifurcation);
+        assert_relative(p->voltage_V, sqrt(square), 1e-10);
+        assert_near(p->where[0], x, 1e-9 * o);
+        assert_near(p->where[1], 0, 1e-6 * g);
+        assert_string_equal(p->body, "rotor");
+        fw_arena_free(f.arena);
+    }
+}
+
+/* a comb that a side force holds out of the middle: no bifurcation but a limit point. With y given,
+   V^2 solves ky y - F = V^2/2 face D (o + V^2 face S/(2 kx)), S and D = 1/(g - y) +- 1/(g + y), D
+   of squares; the largest V^2(y) is searched here */
+typedef struct offset {
+    double kx, ky, force, face, gap, overlap;
+} offset;
+
+static double square_at(const offset *c, double y) {
+    double low = 1 / (c->gap - y), high = 1 / (c->gap + y);
+    double s = low + high, d = low * low - high * high;
+    double a = 0.25 * c->face * c->face * s * d / c->kx, b = 0.5 * c->face * d * c->overlap;
+    double rest = c->ky * y - c->force;
+    return rest > 0 ? 2 * rest / (b + sqrt(b * b + 4 * a * rest)) : 0;
+}
+
+static void test_side_with_offset(void **state) {
+    (void)state;
+    for (int i = 1; i < 5; i++) {
+        fixture f = begin();
+        offset c = {.kx = 2, .ky = 80, .face = eps0 * 50e-6 * 40, .gap = 4e-6, .overlap = 50e-6};
+        c.force = pow(10, -i) * 0.5 * c.ky * c.gap;
+        double low = c.force / c.ky, high = 0.95 * c.gap;
+        const double golden = 0.5 * (sqrt(5.0) - 1);
+        for (int k = 0; k < 80; k++) {
+            double a = high - golden * (high - low), b = low + golden * (high - low);
+            if (square_at(&c, a) > square_at(&c, b))
+                high = b;
+            else
+                low = a;
+        }
+        rig r = comb_on_stage(&f, c.kx, c.ky);
+        add_drive(&f, &r, &comb_drive);
+        rig_force(&r, 1, 0, c.force);
+        const fw_pull_in *p = find(&f, &r);
+        assert_non_null(p);
+        assert_int_equal(p->kind, FW_PULL_IN_SIDE);
+        assert_false(p->bifurcation);
+        assert_relative(p->voltage_V, sqrt(square_at(&c, low)), 1e-10);
+        assert_near(p->where[1], low, 1e-5 * c.gap);
+        fw_arena_free(f.arena);
+    }
+}
+
+/* a rotor that can only turn about the middle of its overlap: V^2 = 6 k g^3/(face o^3) */
+static void test_tilt(void **state) {
+    (void)state;
+    fixture f = begin();
+    double k = 2e-8, g = 4e-6, o = 50e-6, face = eps0 * 50e-6 * 40;
+    rig r = rig_new(f.arena, 1, 1, 0);
+    rig_body(&r, "rotor", 2e-9, 1e-17, 0.4e-3, 0.1e-3, 0.3);
+    rig_pin(&r, "hinge", FW_GROUND, 0, 0.4e-3, 0.1e-3, k, 0)->free_angle_rad = 0.3;
+    fw_comb c = comb_drive;
+    c.body_b = 0;
+    c.direction_rad = 1.1;
+    add_drive(&f, &r, &c);
+    const fw_pull_in *p = find(&f, &r);
+    assert_non_null(p);
+    assert_int_equal(p->kind, FW_PULL_IN_TILT);
+    assert_true(p->bifurcation);
+    assert_relative(p->voltage_V, sqrt(6 * k * g * g * g / (face * o * o * o)), 1e-10);
+    fw_arena_free(f.arena);
+}
+
+/* guided along the drive a comb pulls until its fingers are at the root: stable up to there, and
+   said so only when the scene asks for more */
+static void test_end_of_the_formula(void **state) {
+    (void)state;
+    double kx = 1, g = 4e-6, face = eps0 * 50e-6 * 40, root = sqrt(kx * 150e-6 * g / face);
+    for (int i = 0; i < 2; i++) {
+        fixture f = begin();
+        rig r = plate_on_spring(&f, kx);
+        fw_comb c = comb_drive;
+        c.body_b = 0;
+        c.voltage_V = i ? 1.3 * root : 0.7 * root;
+        add_drive(&f, &r, &c);
+        const fw_pull_in *p = find(&f, &r);
+        assert_non_null(p);
+        assert_int_equal(p->kind, FW_PULL_IN_NONE);
+        assert_non_null(strstr(p->why, "root"));
+        assert_true(p->voltage_V <= root && p->voltage_V > (1 - 1e-6) * root);
+        assert_int_equal(said(&f, 249), i);
+        assert_false(said(&f, 248));
+        fw_arena_free(f.arena);
+    }
+}
+
+/* the voltage of a law counts at its largest; without drives there is nothing to find; without
+   anything that holds the rotor it is lost from the start */
+static void test_around_it(void **state) {
+    (void)state;
+    static const fw_law sine = {
+        .kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 1e4};
+    double k = 2, g = 3e-6, area = 250e-6 * 20e-6;
+    double volt = sqrt(8 * k * g * g * g / (27 * eps0 * area));
+    fixture f = begin();
+    rig r = plate_on_spring(&f, k);
+    fw_comb c = plate_drive;
+    assert_null(find(&f, &r));
+    c.law = &sine;
+    c.voltage_V = -1.25 * volt;
+    add_drive(&f, &r, &c);
+    const fw_pull_in *p = find(&f, &r);
+    assert_relative(p->voltage_V, volt, 1e-10);
+    assert_relative(p->margin, 0.8, 1e-10);
+    assert_true(said(&f, 248));
+    r.m.tie[0].stiffness_N_per_m = 0;
+    p = find(&f, &r);
+    assert_int_equal(p->kind, FW_PULL_IN_NONE);
+    assert_true(p->voltage_V == 0);
+    assert_true(said(&f, 249));
+    r.scene.comb[0].voltage_V = 0;
+    assert_null(find(&f, &r));
+    fw_arena_free(f.arena);
+}
+
+/* statics finds the stable equilibrium below pull-in, with the negative stiffness in its tangent,
+   and refuses above */
+static void test_statics(void **state) {
+    (void)state;
+    double k = 2, g = 3e-6, area = 250e-6 * 20e-6;
+    double volt = sqrt(8 * k * g * g * g / (27 * eps0 * area));
+    for (int i = 0; i < 3; i++) {
+        static const double share[] = {0.5, 0.99, 1.02};
+        fixture f = begin();
+        rig r = plate_on_spring(&f, k);
+        fw_comb c = plate_drive;
+        c.voltage_V = share[i] * volt;
+        add_drive(&f, &r, &c);
+        const fw_static_options o = {.effects = all, .path = i == 1};
+        const fw_statics *s;
+        fw_status status = fw_static_equilibrium(f.arena, &r.m, &r.scene, &o, &f.diags, &s);
+        if (i == 2) {
+            assert_int_equal(status, FW_SOLVER);
+            assert_true(said(&f, 248));
+            fw_arena_free(f.arena);
+            continue;
+        }
+        assert_int_equal(status, FW_OK);
+        double x = s->q[0] - s->rest_q[0], left = g - x, v2 = c.voltage_V * c.voltage_V;
+        assert_near(k * x, eps0 * area * v2 / (2 * left * left), 1e-9 * k * g);
+        assert_true(x < g / 3);
+        double stiffness = k - eps0 * area * v2 / (left * left * left);
+        assert_relative(s->eigenvalue_per_s2[0], stiffness / 2e-9, 1e-8);
+        assert_non_null(s->pull_in);
+        assert_relative(s->pull_in->margin, 1 / share[i], 1e-10);
+        fw_arena_free(f.arena);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_plate),
+        cmocka_unit_test(test_plate_with_load),
+        cmocka_unit_test(test_two_plates),
+        cmocka_unit_test(test_side),
+        cmocka_unit_test(test_side_with_offset),
+        cmocka_unit_test(test_tilt),
+        cmocka_unit_test(test_end_of_the_formula),
+        cmocka_unit_test(test_around_it),
+        cmocka_unit_test(test_statics),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
