@@ -97,7 +97,8 @@ static void start_stepper(const fw_run *r, fw_stepper *s, double t, const double
 /* ---- energy ---- */
 
 /* the energy of models that have a kernel needs no arms: no loads or springs at points */
-static void watch_energy(fw_run *r, const double *y) {
+static void watch_energy(fw_run *r, double t, const double *y) {
+    fw_model_at(r->model, t);
     if (!r->model->kernel) fw_model_pose(r->model, y);
     fw_energy e = fw_model_energy(r->model, y);
     double balance = e.kinetic + e.elastic + e.dissipated - e.work;
@@ -107,6 +108,7 @@ static void watch_energy(fw_run *r, const double *y) {
 }
 
 static void first_energy(fw_run *r, const double *y) {
+    fw_model_at(r->model, 0);
     fw_model_pose(r->model, y);
     r->first = fw_model_energy(r->model, y);
     r->drift = 0;
@@ -118,6 +120,7 @@ static void first_energy(fw_run *r, const double *y) {
 /* how well switch i fits its flag at theta: >= 0 fits, its value with the sign of the flag */
 static double fitness(fw_run *r, fw_stepper *s, int i, double theta) {
     fw_stepper_dense(s, theta, r->moved);
+    fw_model_at(r->model, s->t_old + theta * s->h);
     fw_model_pose(r->model, r->moved);
     double value = fw_model_switch_value(r->model, i, r->moved);
     if (fw_model_switch_on(r->model, i)) return value > 0 ? value : fmin(value, -DBL_MIN);
@@ -189,6 +192,7 @@ static bool pass_event(fw_run *r, fw_stepper *s, int which, double theta) {
     fw_model *m = r->model;
     double t = s->t_old + theta * s->h;
     fw_stepper_dense(s, theta, r->moved);
+    fw_model_at(m, t);
     fw_model_flip(m, which, r->moved);
     if (m->projecting) {
         fw_model_pose(m, r->moved);
@@ -216,7 +220,8 @@ static fw_status next_piece(fw_run *r, fw_stepper *s, int piece) {
             char at[32];
             return solver_error(fw_diag_error(
                 r->diags, 101, r->scene->place,
-                "a driver of scene %s jumps at %s s: a position cannot; give it a ramp",
+                "a driver or the temperature of scene %s jumps at %s s: a position cannot; give it "
+                "a ramp",
                 scene_name(r), fw_number_text(at, sizeof at, t * m->scale.time_s, 6)));
         }
         if (!m->method->factor(m) || !fw_model_impact(m, t, y + m->nq))
@@ -241,7 +246,7 @@ static bool look(fw_run *r, fw_stepper *s, fw_peaks *peaks, double theta_end) {
     fw_peaks_mark(peaks, s, theta_end, r->end[r->npiece - 1], r->moved);
     fw_run_extremes(r, s, theta_end);
     if (!r->full) return true;
-    if (theta_end == 1) watch_energy(r, s->y);
+    if (theta_end == 1) watch_energy(r, s->t, s->y);
     fw_run_show(r, s, theta_end);
     return fw_run_samples(r, s, theta_end);
 }
@@ -253,6 +258,7 @@ static fw_status begin(fw_run *r, fw_stepper *s) {
     m->worst_position = m->worst_velocity = 0;
     m->stuck = -1;
     m->piece = 0.5 * r->end[0] * m->scale.time_s;
+    fw_model_at(m, 0);
     fw_model_set_switches(m, r->start);
     start_stepper(r, s, 0, r->start, r->end[0]);
     if (!r->full) return FW_OK;

@@ -305,6 +305,8 @@ fw_status fw_simulate(fw_arena *arena, const fw_mechanism *mechanism, const fw_s
     double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
     FW_TRY(fw_effects_compile(arena, mechanism, scene, &options->effects, accuracy, diags,
                               &r.motion->ledger, &terms));
+    FW_TRY(fw_effects_strain(arena, mechanism, &terms, &r.mechanism));
+    mechanism = r.mechanism;
     FW_TRY(assembled(&r));
     FW_TRY(fw_model_new(arena, mechanism, &terms, r.q0, scene->duration_s,
                         fw_method_find(r.motion->method), diags, &r.model));

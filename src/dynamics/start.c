@@ -17,13 +17,20 @@ static int by_size(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
+/* of loads, then of what moves joints: drivers, and last the ground where it stretches */
+static int laws_of(const fw_run *r, const fw_terms *terms) {
+    return terms->ntimed + r->mechanism->ndriver + (terms->stretch.law != NULL);
+}
+
 static const fw_law *law_of(const fw_run *r, const fw_terms *terms, int i) {
-    return i < terms->ntimed ? terms->timed[i].law : &r->mechanism->driver[i - terms->ntimed].law;
+    if (i < terms->ntimed) return terms->timed[i].law;
+    i -= terms->ntimed;
+    return i < r->mechanism->ndriver ? &r->mechanism->driver[i].law : terms->stretch.law;
 }
 
 /* the breaks of every law, one law after the other (at, counted), and the strides between them */
 static fw_status look_at_laws(fw_run *r, const fw_terms *terms, double *at, int count) {
-    int laws = terms->ntimed + r->mechanism->ndriver, have = 0;
+    int laws = laws_of(r, terms), have = 0;
     double end = r->scene->duration_s;
     FW_NEED(r->stride = fw_arena_array(r->arena, fw_law_strides, (size_t)laws));
     FW_NEED(r->stride_row = fw_arena_array(r->arena, int, (size_t)laws));
@@ -51,7 +58,7 @@ double fw_run_stride(const fw_run *r, double factor, double t) {
 }
 
 static fw_status pieces(fw_run *r, const fw_terms *terms) {
-    int laws = terms->ntimed + r->mechanism->ndriver, have = 0;
+    int laws = laws_of(r, terms), have = 0;
     double end = r->scene->duration_s, unit = r->model->scale.time_s;
     for (int i = 0; i < laws; i++)
         have += fw_law_breaks(law_of(r, terms, i), end, NULL, 0);
@@ -74,13 +81,16 @@ static fw_status pieces(fw_run *r, const fw_terms *terms) {
 /* ---- size of the motion ---- */
 
 /* in scaled units, at most 1: twice the linear static response to what acts, and the starting
-   velocity; 1 when the mechanism can move freely or is driven */
+   velocity, or the strain of the ground; 1 when the mechanism can move freely or is driven */
 static fw_status motion_size(fw_run *r, const fw_terms *terms) {
     const fw_mechanism *m = r->mechanism;
     size_t n = 3 * (size_t)m->nbody;
     double *force, *displacement, *rotation, size = 0, speed = 0;
     r->amplitude = 1;
-    if (r->model->driven) return FW_OK;
+    if (m->ndriver > 0) return FW_OK;
+    if (terms->stretch.law)
+        size =
+            fabs(terms->stretch.strain) * fw_law_largest(terms->stretch.law, r->scene->duration_s);
     fw_mark mark = fw_arena_mark(r->arena);
     bool valid = false;
     FW_NEED(force = fw_arena_array(r->arena, double, n));

@@ -7,7 +7,7 @@
 static const fw_effect_row *const rows[] = {
     &fw_effect_joint_elasticity, &fw_effect_joint_damping, &fw_effect_joint_stop,
     &fw_effect_point_spring,     &fw_effect_applied_load,  &fw_effect_gravity,
-    &fw_effect_initial_velocity, &fw_effect_base_motion,
+    &fw_effect_initial_velocity, &fw_effect_base_motion,   &fw_effect_temperature,
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
@@ -107,7 +107,9 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, con
     FW_TRY(fw_terms_new(arena, mechanism, scene, terms));
     for (size_t i = 0; i < ROWS; i++) {
         FW_TRY(decide(&c, rows[i], choice, accuracy, &ledger->item[i]));
-        if (ledger->item[i].active) FW_TRY(rows[i]->add(&c, terms));
+        if (!ledger->item[i].active) continue;
+        if (rows[i]->check) FW_TRY(rows[i]->check(&c, diags));
+        FW_TRY(rows[i]->add(&c, terms));
     }
     return FW_OK;
 }

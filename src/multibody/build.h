@@ -9,5 +9,7 @@ void fw_model_scale(const fw_mechanism *mechanism, const fw_terms *terms, double
                     fw_scale *scale);
 fw_status fw_model_body_arrays(fw_arena *arena, fw_model *m);
 fw_status fw_model_block_arrays(fw_arena *arena, fw_model *m, int nblock);
+/* stretch.c: centre: m, origin of the scaled coordinates. After blocks and springs. */
+fw_status fw_stretch_new(fw_arena *arena, const fw_stretch *from, fw_vec2 centre, fw_model *m);
 
 #endif

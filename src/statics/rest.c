@@ -56,6 +56,12 @@ static fw_status freeze(fw_rest *w, fw_terms *terms) {
     terms->nload = (int)have;
     terms->constant = constant;
     terms->ntimed = 0;
+    if (!terms->stretch.law) return FW_OK;
+    double last; /* the ground stays as it is at the end */
+    FW_TRY(law_at(w->arena, terms->stretch.law, w->scene->duration_s, true, &last));
+    terms->strain[terms->nbody] += terms->stretch.strain * last;
+    terms->strained = true;
+    terms->stretch.law = NULL;
     return FW_OK;
 }
 
@@ -142,6 +148,8 @@ fw_status fw_rest_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_s
     if (choice.mode == FW_EFFECTS_AUTO) choice.mode = FW_EFFECTS_ALL;
     FW_TRY(fw_effects_compile(arena, mechanism, scene, &choice, 1e-3, diags, &w->ledger, &terms));
     FW_TRY(freeze(w, &terms));
+    FW_TRY(fw_effects_strain(arena, mechanism, &terms, &w->mechanism));
+    mechanism = w->mechanism;
     FW_NEED(w->q0 = fw_arena_array(arena, double, n));
     for (int b = 0; b < mechanism->nbody; b++) {
         w->q0[3 * b] = mechanism->body[b].x_m;

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Free strains that act from the start on: temperature without a law, stress of the layer. */
+#include "effects/effects.h"
+
+static void strain_ports(const fw_terms *terms, fw_vec2 centre, fw_force_element *e) {
+    for (int i = 0; i < e->ports; i++)
+        fw_strain_point(terms->strain, terms->nbody, centre, e->port[i].body, &e->port[i].x_m,
+                        &e->port[i].y_m);
+}
+
+/* Inputs: terms->strain, dimensionless. Every point that the terms hold moves with the material
+   that it lies on, as the joints do in fw_mechanism_strained. Cost O(terms). Test: test_strain.c.
+ */
+fw_status fw_effects_strain(fw_arena *arena, const fw_mechanism *mechanism, fw_terms *terms,
+                            const fw_mechanism **strained) {
+    *strained = mechanism;
+    if (!terms->strained) return FW_OK;
+    fw_vec2 centre = fw_ground_centre(mechanism);
+    const double *e = terms->strain;
+    const int n = terms->nbody;
+    for (int i = 0; i < terms->nload; i++) {
+        fw_point_load *l = &terms->load[i];
+        fw_strain_point(e, n, centre, l->body, &l->x_m, &l->y_m);
+    }
+    for (int i = 0; i < terms->ntimed; i++) {
+        fw_timed_load *l = &terms->timed[i];
+        fw_strain_point(e, n, centre, l->body, &l->x_m, &l->y_m);
+    }
+    for (int i = 0; i < terms->nspring; i++) {
+        fw_spring *s = &terms->spring[i];
+        fw_strain_point(e, n, centre, s->body_a, &s->ax_m, &s->ay_m);
+        fw_strain_point(e, n, centre, s->body_b, &s->bx_m, &s->by_m);
+    }
+    for (int i = 0; i < terms->nelement; i++)
+        strain_ports(terms, centre, &terms->element[i]);
+    return fw_mechanism_strained(arena, mechanism, e, strained);
+}
