@@ -107,26 +107,6 @@ static const char *scene_text(const fw_scene *scene) {
     return scene && scene->name ? scene->name : "(none)";
 }
 
-static fw_status contradict(const state *s, double t, const char *what) {
-    char time[32];
-    fw_status status = fw_diag_error(
-        s->diags, 118, (fw_place){0},
-        "at %s s the drivers ask for %s that the joints do not allow; the position is "
-        "singular there, or two drivers contradict each other",
-        fw_number_text(time, sizeof time, t * s->m->scale.time_s, 6), what);
-    return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
-}
-
-/* the pose was closed on a ground that stood still: onto where its points are at the start */
-static fw_status onto_ground(state *s) {
-    fw_model *m = s->m;
-    fw_model_at(m, 0);
-    fw_model_pose(m, s->y);
-    if (!m->method->factor(m) || !fw_model_project_position(m, 0, s->y))
-        return contradict(s, 0, "a position");
-    return FW_OK;
-}
-
 static fw_status state_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                            const double *q, const fw_kinematics_options *options, fw_diags *diags,
                            state *s) {
@@ -147,23 +127,25 @@ static fw_status state_new(fw_arena *arena, const fw_mechanism *mechanism, const
     memcpy(s->q0, q, n * sizeof *q);
     if (scene) {
         double moved;
+        const fw_mechanism *start;
         FW_TRY(fw_effects_compile(arena, mechanism, scene, &options->effects, accuracy, diags,
                                   &ledger, &terms));
         FW_TRY(fw_effects_strain(arena, mechanism, &terms, &s->mechanism));
-        if (s->mechanism != mechanism)
-            FW_TRY(fw_assemble(arena, s->mechanism, s->q0, &moved, diags));
+        FW_TRY(fw_effects_at_start(arena, s->mechanism, &terms, &start));
+        if (start != mechanism) FW_TRY(fw_assemble(arena, start, s->q0, &moved, diags));
         mechanism = s->mechanism, q = s->q0;
     }
     FW_TRY(fw_model_new(arena, mechanism, scene ? &terms : NULL, q, scene ? scene->duration_s : 1,
                         NULL, diags, &s->m));
     s->m->piece = DBL_MIN;
+    fw_model_at(s->m, 0);
     size_t rows = (size_t)s->m->rows;
     FW_NEED(s->y = fw_arena_array(arena, double, (size_t)s->m->ny + 2));
     FW_NEED(s->a = fw_arena_array(arena, double, n));
     FW_NEED(s->g = fw_arena_array(arena, double, rows *n));
     FW_NEED(s->packed = fw_arena_array(arena, double, rows));
     FW_NEED(s->work = fw_arena_array(arena, double, n));
-    return s->m->stretch.law ? onto_ground(s) : FW_OK;
+    return FW_OK;
 }
 
 /* G at the pose s->y and its singular values */
@@ -190,6 +172,16 @@ static void wanted(const state *s, const fw_coordinate_choice *c, const double *
         int axis = c->item[i].axis;
         out[i] = (given ? given[i] * time / unit_of(s, axis) : 0) - x[3 * c->item[i].body + axis];
     }
+}
+
+static fw_status contradict(const state *s, double t, const char *what) {
+    char time[32];
+    fw_status status = fw_diag_error(
+        s->diags, 118, (fw_place){0},
+        "at %s s the drivers ask for %s that the joints do not allow; the position is "
+        "singular there, or two drivers contradict each other",
+        fw_number_text(time, sizeof time, t * s->m->scale.time_s, 6), what);
+    return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
 
 /* v, then a, at scaled time t; the choice's rates and accelerations in SI */

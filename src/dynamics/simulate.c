@@ -257,8 +257,9 @@ static fw_status solve(fw_run *r) {
 
 /* ---- the entry ---- */
 
-static fw_status assembled(fw_run *r) {
-    const fw_mechanism *m = r->mechanism;
+static fw_status assembled(fw_run *r, const fw_terms *terms) {
+    const fw_mechanism *m;
+    FW_TRY(fw_effects_at_start(r->arena, r->mechanism, terms, &m));
     FW_NEED(r->q0 = fw_arena_array(r->arena, double, 3 * (size_t)m->nbody));
     for (int b = 0; b < m->nbody; b++) {
         r->q0[3 * b] = m->body[b].x_m;
@@ -307,7 +308,7 @@ fw_status fw_simulate(fw_arena *arena, const fw_mechanism *mechanism, const fw_s
                               &r.motion->ledger, &terms));
     FW_TRY(fw_effects_strain(arena, mechanism, &terms, &r.mechanism));
     mechanism = r.mechanism;
-    FW_TRY(assembled(&r));
+    FW_TRY(assembled(&r, &terms));
     FW_TRY(fw_model_new(arena, mechanism, &terms, r.q0, scene->duration_s,
                         fw_method_find(r.motion->method), diags, &r.model));
     FW_TRY(fw_run_arrays(&r));

@@ -136,6 +136,10 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, con
    follow. Once after each fw_effects_compile. */
 fw_status fw_effects_strain(fw_arena *arena, const fw_mechanism *mechanism, fw_terms *terms,
                             const fw_mechanism **strained);
+/* of that mechanism, one whose ground is as a law stretches it at the start: for assembling there
+ */
+fw_status fw_effects_at_start(fw_arena *arena, const fw_mechanism *mechanism, const fw_terms *terms,
+                              const fw_mechanism **start);
 
 /* linear static response of the constrained mechanism about its initial pose to the generalized
    forces `force` (3 nbody), with the springs of `terms`, drivers held: displacements (3 nbody) and

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Free strains that act from the start on: temperature without a law, stress of the layer. */
 #include "effects/effects.h"
+#include <float.h>
 
 static void strain_ports(const fw_terms *terms, fw_vec2 centre, fw_force_element *e) {
     for (int i = 0; i < e->ports; i++)
@@ -34,4 +35,16 @@ fw_status fw_effects_strain(fw_arena *arena, const fw_mechanism *mechanism, fw_t
     for (int i = 0; i < terms->nelement; i++)
         strain_ports(terms, centre, &terms->element[i]);
     return fw_mechanism_strained(arena, mechanism, e, strained);
+}
+
+fw_status fw_effects_at_start(fw_arena *arena, const fw_mechanism *mechanism, const fw_terms *terms,
+                              const fw_mechanism **start) {
+    double law[3], *strain;
+    *start = mechanism;
+    if (!terms->stretch.law) return FW_OK;
+    fw_law_value(terms->stretch.law, 0, DBL_MIN, law); /* the piece that begins at 0 */
+    if (law[0] == 0) return FW_OK;
+    FW_NEED(strain = fw_arena_array(arena, double, (size_t)mechanism->nbody + 1));
+    strain[mechanism->nbody] = terms->stretch.strain * law[0];
+    return fw_mechanism_strained(arena, mechanism, strain, start);
 }

@@ -7,7 +7,7 @@
    so that Psi_t and Psi_tt follow from d' += g law', d'' += g law''; ends of springs on the ground
    move likewise. The model holds the ground of one time, fw_model_at. Scaled units. Exact. What the
    moving ground feeds in goes to the books: lambda . Psi_t of the joints, and here that of springs
-   and slides. Test: test_stretch.c. */
+   and slides. Test: test_constraints.c, test_temperature.c. */
 #include "multibody/build.h"
 #include <math.h>
 
