@@ -8,6 +8,7 @@ static const fw_effect_row *const rows[] = {
     &fw_effect_joint_elasticity, &fw_effect_joint_damping, &fw_effect_joint_stop,
     &fw_effect_point_spring,     &fw_effect_applied_load,  &fw_effect_gravity,
     &fw_effect_initial_velocity, &fw_effect_base_motion,   &fw_effect_temperature,
+    &fw_effect_residual_stress,  &fw_effect_air,
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 

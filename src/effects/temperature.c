@@ -30,13 +30,13 @@ static bool has_hinge(const fw_mechanism *m) {
     return false;
 }
 
-/* of the ground against the device, per unit of the law: -(alpha - alpha of the substrate) dT. Both
-   left open: the same material, whose expansion need not be known. */
+/* of the ground against the device where the law is 1: (1 + alpha_s dT)/(1 + alpha dT) - 1, about
+   -(alpha - alpha_s) dT. Both left open: the same material, whose expansion need not be known. */
 static double ground_strain(const fw_mechanism *m, const fw_temperature *t) {
     if (isnan(t->expansion_per_K) && isnan(t->substrate_expansion_per_K)) return 0;
-    return (stated_or(t->substrate_expansion_per_K, m, false) -
-            stated_or(t->expansion_per_K, m, false)) *
-           t->change_K;
+    double own = stated_or(t->expansion_per_K, m, false) * t->change_K;
+    double substrate = stated_or(t->substrate_expansion_per_K, m, false) * t->change_K;
+    return (substrate - own) / (1 + own);
 }
 
 /* relative change of hinge stiffness per unit of the law; 0 where no hinge asks for it */

@@ -22,7 +22,7 @@ static rig portal(fixture *f, double strain, double c) {
     r.scene.temperature[r.scene.ntemperature++] =
         (fw_temperature){.change_K = 100,
                          .expansion_per_K = 5e-6,
-                         .substrate_expansion_per_K = 5e-6 + strain / 100,
+                         .substrate_expansion_per_K = ((1 + strain) * (1 + 5e-4) - 1) / 100,
                          .modulus_change_per_K = 0};
     r.scene.duration_s = 1;
     return r;
