@@ -156,7 +156,7 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
 
 /* The layer is the measure: by similarity the ground's points move by the opposite strain. Each
    body is shorter by its own bow besides. Inputs Pa, Pa/m, E in Pa; valid for (1 - nu) sigma/E << 1
-   and small slopes of the bow. Test: test_environment.c. */
+   and small slopes of the bow. Test: test_thermal.c. */
 static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     released r = released_by(c);
     double *extent;

@@ -10,7 +10,7 @@ static void strain_ports(const fw_terms *terms, fw_vec2 centre, fw_force_element
 }
 
 /* Inputs: terms->strain, dimensionless. Every point that the terms hold moves with the material
-   that it lies on, as the joints do in fw_mechanism_strained. Cost O(terms). Test: test_strain.c.
+   that it lies on, as the joints do in fw_mechanism_strained. Cost O(terms). Test: test_thermal.c.
  */
 fw_status fw_effects_strain(fw_arena *arena, const fw_mechanism *mechanism, fw_terms *terms,
                             const fw_mechanism **strained) {

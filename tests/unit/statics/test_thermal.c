@@ -287,12 +287,96 @@ static void mistakes(void **state) {
     }
 }
 
+/* ---- stress of the layer ---- */
+
+/* A portal whose layer wants to be `shorter`, and bowed: the ground's points stand WIDTH/(1 +
+   strain of the layer) apart, a beam of WIDTH has the chord (2/kappa) sin(kappa WIDTH/2). */
+static void stressed_layer(void **state) {
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        fixture f = begin();
+        rig r = portal(&f, 0, 0);
+        fw_variant v = {.thickness_m = i ? 1 : 1e-3};
+        v.material.youngs.value = 100e9, v.material.poisson.value = 0.25;
+        fw_residual_stress s = {.mean_Pa = i < 2 ? 400e6 : -250e6,
+                                .gradient_Pa_per_m = i == 1 ? 0 : 9e9};
+        r.m.variant = &v;
+        r.scene.ntemperature = 0;
+        r.scene.stress = &s, r.scene.nstress = 1;
+        double layer = -s.mean_Pa * 0.75 / 100e9, kappa = s.gradient_Pa_per_m * 0.75 / 100e9;
+        double ground = WIDTH / (1 + layer), beam = WIDTH, leg = HEIGHT;
+        if (kappa > 0) {
+            beam = 2 / kappa * sin(kappa * WIDTH / 2), leg = 2 / kappa * sin(kappa * HEIGHT / 2);
+            assert_relative(beam, WIDTH * (1 - kappa * kappa * WIDTH * WIDTH / 24), 1e-5);
+        }
+        double theta = asin((ground - beam) / (2 * leg));
+        const fw_statics *rests = rest(&f, &r);
+        assert_near(rests->angle_rad[0], -theta, 1e-12);
+        assert_near(rests->angle_rad[1], theta, 1e-12);
+        assert_near(rests->angle_rad[3], -theta, 1e-12);
+        /* its free end rises by kappa L^2/2 = 0.3 m: 0 where there is no gradient */
+        assert_int_equal(said(&f, 251), i == 0);
+        const fw_effect_ledger *ledger = &rests->ledger;
+        for (int k = 0; k < ledger->count; k++)
+            if (strcmp(ledger->item[k].id, "residual-stress") == 0)
+                assert_true(ledger->item[k].active && isinf(ledger->item[k].bound));
+        v.material.youngs.unknown = true;
+        const fw_static_options o = {.path = false};
+        const fw_statics *none;
+        assert_int_equal(fw_static_equilibrium(f.arena, &r.m, &r.scene, &o, &f.diags, &none),
+                         FW_INPUT);
+        assert_true(said(&f, 253));
+        fw_arena_free(f.arena);
+    }
+}
+
+/* strains move the points of loads and springs with the material: a bent lever on a spring, loaded
+   off its joints, twice as large and with twice the rest length is the same lever */
+static void points_follow(void **state) {
+    (void)state;
+    fixture f = begin();
+    rig r[2];
+    double strain[2] = {1, 1};
+    for (int i = 0; i < 2; i++) {
+        double size = i ? 2 : 1;
+        r[i] = rig_new(f.arena, 1, 1, 1);
+        rig_body(&r[i], "lever", 1, 1, 0, 0, 0);
+        rig_pin_local(&r[i], "A", FW_GROUND, size, 0, 0, size * 0.3, size * 0.1);
+        rig_spring(&r[i], FW_GROUND, -size, size * 0.5, 0, size * 0.4, -size * 0.2, 3, 0.7);
+        r[i].scene.force[r[i].scene.nforce++] =
+            (fw_force){.body = 0, .x_m = size * -0.5, .y_m = size * 0.8, .fx_N = 2, .fy_N = 1};
+    }
+    const fw_effect_choice all = {FW_EFFECTS_ALL, NULL};
+    fw_terms terms[2];
+    fw_effect_ledger ledger;
+    for (int i = 0; i < 2; i++)
+        assert_int_equal(fw_effects_compile(f.arena, &r[i].m, &r[i].scene, &all, 1e-3, &f.diags,
+                                            &ledger, &terms[i]),
+                         FW_OK);
+    const fw_mechanism *same, *grown;
+    assert_int_equal(fw_effects_strain(f.arena, &r[1].m, &terms[1], &same), FW_OK);
+    assert_true(same == &r[1].m); /* nothing is strained */
+    memcpy(terms[0].strain, strain, sizeof strain);
+    terms[0].strained = true;
+    assert_int_equal(fw_effects_strain(f.arena, &r[0].m, &terms[0], &grown), FW_OK);
+    fw_vec2 c = fw_ground_centre(&r[0].m);
+    assert_near(grown->pin[0].ax_m, 2 * r[0].m.pin[0].ax_m - c.x, 1e-15);
+    assert_near(grown->pin[0].bx_m, r[1].m.pin[0].bx_m, 1e-15);
+    assert_near(terms[0].load[0].x_m, terms[1].load[0].x_m, 1e-15);
+    assert_near(terms[0].load[0].y_m, terms[1].load[0].y_m, 1e-15);
+    assert_near(terms[0].spring[0].bx_m, terms[1].spring[0].bx_m, 1e-15);
+    assert_near(terms[0].spring[0].ay_m, 2 * r[0].m.spring[0].ay_m - c.y, 1e-15);
+    assert_true(terms[0].spring[0].length_m == 0.7);
+    fw_arena_free(f.arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(portal_leans),   cmocka_unit_test(ramp_ends_like_a_constant),
         cmocka_unit_test(from_the_start), cmocka_unit_test(moved_by_the_ground_alone),
         cmocka_unit_test(methods_agree),  cmocka_unit_test(softer_flexure),
-        cmocka_unit_test(mistakes),
+        cmocka_unit_test(mistakes),       cmocka_unit_test(stressed_layer),
+        cmocka_unit_test(points_follow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
