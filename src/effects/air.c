@@ -229,5 +229,5 @@ const fw_effect_row fw_effect_air = {.id = "air",
                                      .bound = bound,
                                      .add = add,
                                      .check = check,
-                                     .cost = 150,
+                                     .cost = 600,
                                      .count = count};

@@ -117,6 +117,6 @@ const fw_effect_row fw_effect_base_motion = {.id = "base-motion",
                                              .called_for = called_for,
                                              .bound = bound,
                                              .add = add,
-                                             .cost = 60,
+                                             .cost = 120,
                                              .count = count,
                                              .kept = true};

@@ -258,6 +258,17 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     return add_modulus(c, terms);
 }
 
+/* what is constant costs nothing while it moves */
+static int count(const fw_effect_case *c) {
+    int hinges = 0;
+    for (int i = 0; i < c->scene->ntemperature; i++)
+        for (int k = 0; k < c->mechanism->npin; k++)
+            if (!fw_law_is_constant(c->scene->temperature[i].law) &&
+                c->mechanism->pin[k].hinge != FW_NONE)
+                hinges++;
+    return hinges;
+}
+
 const fw_effect_row fw_effect_temperature = {
     .id = "temperature",
     .summary = "expansion of the device against its substrate, and softer flexures",
@@ -265,4 +276,5 @@ const fw_effect_row fw_effect_temperature = {
     .bound = bound,
     .add = add,
     .check = check,
-    .cost = 70};
+    .cost = 500,
+    .count = count};
