@@ -80,11 +80,11 @@ typedef struct fw_model_slide { /* spring and damper along a prismatic joint */
 
 /* Ground points that move with a law, stretch.c. The model stands at one time: fw_model_at. */
 typedef struct fw_model_stretch {
-    const fw_law *law; /* NULL: the ground stands still */
-    double *block,
-        *spring;          /* (2 nblock) of d, (4 nspring) of the ends: gained per unit of the law */
-    double *offset, *end; /* likewise, what they are where the law is 0 */
-    double now[3], t, piece; /* law and derivatives at scaled time t */
+    const fw_law *law;        /* NULL: the ground stands still */
+    double strain, centre[2]; /* a point of the ground gains strain (point - centre) law */
+    double *block, *spring;   /* (2 nblock) of d, (4 nspring) of the ends: per unit of the law */
+    double *offset, *end;     /* likewise, what they are where the law is 0 */
+    double now[3], t, piece;  /* law and derivatives at scaled time t */
 } fw_model_stretch;
 
 /* ---- sparse block LDL^T of S = G M^-1 G^T, 2 x 2 blocks, one row of blocks per constraint block
@@ -221,6 +221,8 @@ void fw_chain_proximal(fw_model *m, const double *right, double *x);
 /* stretch.c: the ground as it stands at scaled time t; nothing to do where it stands still. What
    takes a time (residual, drift, gamma, rhs) does it; before fw_model_pose it is the caller's. */
 void fw_model_at(fw_model *m, double t);
+/* what a point of the ground gains per unit of the law */
+void fw_stretch_gain(const fw_model *m, const double local[2], double gain[2]);
 void fw_stretch_drift(const fw_model *m, double *r); /* r += Psi_t of the moving ground; posed */
 double fw_stretch_power(const fw_model *m,
                         const double *y); /* fed in by springs and slides; posed */

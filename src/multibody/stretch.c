@@ -11,31 +11,48 @@
 #include "multibody/build.h"
 #include <math.h>
 
+void fw_stretch_gain(const fw_model *m, const double local[2], double gain[2]) {
+    for (int k = 0; k < 2; k++)
+        gain[k] = m->stretch.strain * (local[k] - m->stretch.centre[k]);
+}
+
+/* g of every block: of b's point, less that of a's */
+static void gain_of_blocks(fw_model *m) {
+    fw_model_stretch *s = &m->stretch;
+    for (int i = 0; i < m->nblock; i++) {
+        const fw_block *b = &m->block[i];
+        double *g = s->block + 2 * i;
+        s->offset[2 * i] = m->offset[2 * i], s->offset[2 * i + 1] = m->offset[2 * i + 1];
+        if (b->b == m->nbody) {
+            fw_stretch_gain(m, m->local + 4 * i + 2, g);
+        } else if (b->a == m->nbody) {
+            fw_stretch_gain(m, m->local + 4 * i, g);
+            g[0] = -g[0], g[1] = -g[1];
+        }
+    }
+}
+
+static void gain_of_springs(fw_model *m) {
+    for (int i = 0; i < m->nspring; i++) {
+        const fw_model_spring *p = &m->spring[i];
+        double *end = m->stretch.end + 4 * i, *g = m->stretch.spring + 4 * i;
+        end[0] = p->ax, end[1] = p->ay, end[2] = p->bx, end[3] = p->by;
+        if (p->a == m->nbody) fw_stretch_gain(m, end, g);
+        if (p->b == m->nbody) fw_stretch_gain(m, end + 2, g + 2);
+    }
+}
+
 fw_status fw_stretch_new(fw_arena *arena, const fw_stretch *from, fw_vec2 centre, fw_model *m) {
     fw_model_stretch *s = &m->stretch;
-    const double length = m->scale.length_m;
-    const double c[2] = {(from->centre_m.x - centre.x) / length,
-                         (from->centre_m.y - centre.y) / length};
+    s->strain = from->strain;
+    s->centre[0] = (from->centre_m.x - centre.x) / m->scale.length_m;
+    s->centre[1] = (from->centre_m.y - centre.y) / m->scale.length_m;
     FW_NEED(s->block = fw_arena_array(arena, double, 2 * (size_t)m->nblock));
     FW_NEED(s->offset = fw_arena_array(arena, double, 2 * (size_t)m->nblock));
     FW_NEED(s->spring = fw_arena_array(arena, double, 4 * (size_t)m->nspring));
     FW_NEED(s->end = fw_arena_array(arena, double, 4 * (size_t)m->nspring));
-    for (int i = 0; i < 2 * m->nblock; i++) {
-        const double *local = m->local + 4 * (i / 2);
-        const fw_block *b = &m->block[i / 2];
-        s->offset[i] = m->offset[i];
-        if (b->b == m->nbody)
-            s->block[i] = from->strain * (local[2 + i % 2] - c[i % 2]);
-        else if (b->a == m->nbody)
-            s->block[i] = -from->strain * (local[i % 2] - c[i % 2]);
-    }
-    for (int i = 0; i < m->nspring; i++) {
-        const fw_model_spring *p = &m->spring[i];
-        double *end = s->end + 4 * i, *grows = s->spring + 4 * i;
-        end[0] = p->ax, end[1] = p->ay, end[2] = p->bx, end[3] = p->by;
-        for (int k = 0; k < 4; k++)
-            if ((k < 2 ? p->a : p->b) == m->nbody) grows[k] = from->strain * (end[k] - c[k % 2]);
-    }
+    gain_of_blocks(m);
+    gain_of_springs(m);
     s->law = from->law;
     s->t = (double)NAN;
     m->driven = true;
