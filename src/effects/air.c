@@ -204,12 +204,14 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
         int first, last;
         bodies_of(c, a, &first, &last);
         if (a->kind == FW_AIR_SQUEEZE) {
-            FW_TRY(fw_air_squeeze_add(c, terms, a));
+            if (fw_air_depth(c->mechanism, a) > 0) FW_TRY(fw_air_squeeze_add(c, terms, a));
             continue;
         }
-        for (int b = first; b <= last; b++)
+        for (int b = first; b <= last; b++) {
+            if (!(fw_air_face(c->mechanism, a, b).area_m2 > 0)) continue; /* see check */
             FW_TRY(a->kind == FW_AIR_SLIDE ? fw_air_slide_add(c, terms, a, b)
                                            : fw_air_drag_add(c, terms, a, b));
+        }
     }
     return FW_OK;
 }

@@ -159,6 +159,7 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
    and small slopes of the bow. Test: test_thermal.c. */
 static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     released r = released_by(c);
+    if (isnan(r.strain)) return FW_OK; /* not known: see check */
     double *extent;
     FW_NEED(extent = fw_arena_array(c->arena, double, (size_t)terms->nbody));
     FW_TRY(find_extents(c->arena, c->mechanism, extent));

@@ -228,7 +228,7 @@ static fw_status add_modulus(const fw_effect_case *c, fw_terms *terms) {
     const fw_temperature *changing = NULL;
     for (int i = 0; i < c->scene->ntemperature; i++) {
         const fw_temperature *t = &c->scene->temperature[i];
-        if (t->change_K == 0 || softening(c->mechanism, t) == 0) continue;
+        if (!(fabs(softening(c->mechanism, t)) > 0)) continue;
         if (fw_law_is_constant(t->law))
             factor += softening(c->mechanism, t);
         else
@@ -248,7 +248,7 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     for (int i = 0; i < c->scene->ntemperature; i++) {
         const fw_temperature *t = &c->scene->temperature[i];
         double strain = t->change_K != 0 ? ground_strain(c->mechanism, t) : 0;
-        if (strain == 0) continue;
+        if (!(fabs(strain) > 0)) continue; /* none, or not known: see check */
         if (fw_law_is_constant(t->law)) {
             terms->strain[terms->nbody] += strain;
             terms->strained = true;
