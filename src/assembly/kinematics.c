@@ -123,22 +123,29 @@ static fw_status state_new(fw_arena *arena, const fw_mechanism *mechanism, const
         return status == FW_NOMEM ? FW_NOMEM : FW_LIMIT;
     }
     double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
+    FW_NEED(s->q0 = fw_arena_array(arena, double, n));
+    memcpy(s->q0, q, n * sizeof *q);
     if (scene) {
+        double moved;
+        const fw_mechanism *start;
         FW_TRY(fw_effects_compile(arena, mechanism, scene, &options->effects, accuracy, diags,
                                   &ledger, &terms));
         terms.released = NULL; /* the motion is given: all pins are joints */
+        FW_TRY(fw_effects_strain(arena, mechanism, &terms, &s->mechanism));
+        FW_TRY(fw_effects_at_start(arena, s->mechanism, &terms, &start));
+        if (start != mechanism) FW_TRY(fw_assemble(arena, start, s->q0, &moved, diags));
+        mechanism = s->mechanism, q = s->q0;
     }
     FW_TRY(fw_model_new(arena, mechanism, scene ? &terms : NULL, q, scene ? scene->duration_s : 1,
                         NULL, diags, &s->m));
     s->m->piece = DBL_MIN;
+    fw_model_at(s->m, 0);
     size_t rows = (size_t)s->m->rows;
-    FW_NEED(s->q0 = fw_arena_array(arena, double, n));
     FW_NEED(s->y = fw_arena_array(arena, double, (size_t)s->m->ny + 2));
     FW_NEED(s->a = fw_arena_array(arena, double, n));
     FW_NEED(s->g = fw_arena_array(arena, double, rows *n));
     FW_NEED(s->packed = fw_arena_array(arena, double, rows));
     FW_NEED(s->work = fw_arena_array(arena, double, n));
-    memcpy(s->q0, q, n * sizeof *q);
     return FW_OK;
 }
 

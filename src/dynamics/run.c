@@ -98,6 +98,7 @@ static void start_stepper(const fw_run *r, fw_stepper *s, double t, const double
 
 /* the energy of models that have a kernel needs no arms: no loads or springs at points */
 static void watch_energy(fw_run *r, double t, const double *y) {
+    fw_model_at(r->model, t);
     if (!r->model->kernel) fw_model_pose(r->model, y);
     fw_energy e = fw_model_energy(r->model, t, y);
     double balance = e.kinetic + e.elastic + e.dissipated - e.work;
@@ -108,6 +109,7 @@ static void watch_energy(fw_run *r, double t, const double *y) {
 }
 
 static void first_energy(fw_run *r, const double *y) {
+    fw_model_at(r->model, 0);
     fw_model_pose(r->model, y);
     r->first = fw_model_energy(r->model, 0, y);
     r->drift = 0;
@@ -119,6 +121,7 @@ static void first_energy(fw_run *r, const double *y) {
 /* r->moved at theta, posed; returns the time */
 static double stand_at(fw_run *r, fw_stepper *s, double theta) {
     fw_stepper_dense(s, theta, r->moved);
+    fw_model_at(r->model, s->t_old + theta * s->h);
     fw_model_pose(r->model, r->moved);
     return s->t_old + theta * s->h;
 }
@@ -207,6 +210,7 @@ static bool pass_event(fw_run *r, fw_stepper *s, int which, double theta) {
     fw_model *m = r->model;
     double t = s->t_old + theta * s->h;
     fw_stepper_dense(s, theta, r->moved);
+    fw_model_at(m, t);
     fw_model_flip(m, t, which, r->moved);
     if (m->projecting) {
         fw_model_pose(m, r->moved);
@@ -246,7 +250,8 @@ static fw_status next_piece(fw_run *r, fw_stepper *s, int piece) {
             char at[32];
             return solver_error(fw_diag_error(
                 r->diags, 101, r->scene->place,
-                "a driver of scene %s jumps at %s s: a position cannot; give it a ramp",
+                "a driver or the temperature of scene %s jumps at %s s: a position cannot; give it "
+                "a ramp",
                 scene_name(r), fw_number_text(at, sizeof at, t * m->scale.time_s, 6)));
         }
         if (!m->method->factor(m) || !fw_model_impact(m, t, y + m->nq))
@@ -284,6 +289,7 @@ static fw_status begin(fw_run *r, fw_stepper *s) {
     m->worst_position = m->worst_velocity = 0;
     m->stuck = -1;
     m->piece = 0.5 * r->end[0] * m->scale.time_s;
+    fw_model_at(m, 0);
     fw_model_set_switches(m, 0, r->start);
     start_stepper(r, s, 0, r->start, r->end[0]);
     if (!r->full) return FW_OK;

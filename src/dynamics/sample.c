@@ -55,6 +55,7 @@ static bool settle(fw_run *r, double t, double *y) {
     fw_model *m = r->model;
     if (!m->projecting) return true;
     memcpy(r->moved, y, (size_t)m->nq * sizeof *y);
+    fw_model_at(m, t);
     fw_model_pose(m, y);
     if (!m->method->factor(m)) return false;
     if (!fw_model_project_position(m, t, y)) {

@@ -257,8 +257,9 @@ static fw_status solve(fw_run *r) {
 
 /* ---- the entry ---- */
 
-static fw_status assembled(fw_run *r) {
-    const fw_mechanism *m = r->mechanism;
+static fw_status assembled(fw_run *r, const fw_terms *terms) {
+    const fw_mechanism *m;
+    FW_TRY(fw_effects_at_start(r->arena, r->mechanism, terms, &m));
     FW_NEED(r->q0 = fw_arena_array(r->arena, double, 3 * (size_t)m->nbody));
     for (int b = 0; b < m->nbody; b++) {
         r->q0[3 * b] = m->body[b].x_m;
@@ -292,15 +293,18 @@ static fw_status say_method(fw_run *r) {
 }
 
 fw_status fw_simulate_terms(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                            const fw_motion_options *options, const fw_terms *terms,
+                            const fw_motion_options *options, const fw_terms *given,
                             fw_diags *diags, fw_motion **motion) {
+    fw_terms own = *given, *terms = &own;
     fw_run r = {
         .arena = arena, .mechanism = mechanism, .scene = scene, .options = options, .diags = diags};
     *motion = NULL;
     FW_NEED(r.motion = fw_arena_one(arena, fw_motion));
     FW_TRY(fw_check_names(options, diags, r.motion));
     FW_TRY(fw_method_choose(&r, terms));
-    FW_TRY(assembled(&r));
+    FW_TRY(fw_effects_strain(arena, mechanism, terms, &r.mechanism));
+    mechanism = r.mechanism;
+    FW_TRY(assembled(&r, terms));
     FW_TRY(fw_model_new(arena, mechanism, terms, r.q0, scene->duration_s,
                         fw_method_find(r.motion->method), diags, &r.model));
     FW_TRY(fw_run_arrays(&r));

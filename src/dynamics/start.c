@@ -18,20 +18,22 @@ static int by_size(const void *a, const void *b) {
 }
 
 static int law_count(const fw_run *r, const fw_terms *terms) {
-    int count = terms->ntimed + r->mechanism->ndriver;
+    int count = terms->ntimed + r->mechanism->ndriver + (terms->stretch.law != NULL);
     for (int i = 0; i < terms->nelement; i++)
         count += terms->element[i].laws;
     return count;
 }
 
-/* the i-th law of all: of timed loads, drivers, elements; *coordinate: it drives a joint. NULL:
-   constant */
+/* the i-th law of all: of timed loads, drivers, the stretching ground, elements; *coordinate: it
+   drives a joint. NULL: constant */
 static const fw_law *law_of(const fw_run *r, const fw_terms *terms, int i, bool *coordinate) {
-    *coordinate = i >= terms->ntimed && i < terms->ntimed + r->mechanism->ndriver;
+    int drivers = r->mechanism->ndriver, moving = drivers + (terms->stretch.law != NULL);
+    *coordinate = i >= terms->ntimed && i < terms->ntimed + moving;
     if (i < terms->ntimed) return terms->timed[i].law;
+    if (*coordinate && i == terms->ntimed + drivers) return terms->stretch.law;
     if (*coordinate) return &r->mechanism->driver[i - terms->ntimed].law;
     const fw_force_element *e = terms->element;
-    for (i -= terms->ntimed + r->mechanism->ndriver; i >= e->laws; e++)
+    for (i -= terms->ntimed + moving; i >= e->laws; e++)
         i -= e->laws;
     return e->law[i];
 }
@@ -91,13 +93,16 @@ static fw_status pieces(fw_run *r, const fw_terms *terms) {
 /* ---- size of the motion ---- */
 
 /* in scaled units, at most 1: twice the linear static response to what acts, and the starting
-   velocity; 1 when the mechanism can move freely or is driven */
+   velocity, or the strain of the ground; 1 when the mechanism can move freely or is driven */
 static fw_status motion_size(fw_run *r, const fw_terms *terms) {
     const fw_mechanism *m = r->mechanism;
     size_t n = 3 * (size_t)m->nbody;
     double *force, *displacement, *rotation, size = 0, speed = 0;
     r->amplitude = 1;
-    if (r->model->driven) return FW_OK;
+    if (m->ndriver > 0) return FW_OK;
+    if (terms->stretch.law)
+        size =
+            fabs(terms->stretch.strain) * fw_law_largest(terms->stretch.law, r->scene->duration_s);
     fw_mark mark = fw_arena_mark(r->arena);
     bool valid = false;
     FW_NEED(force = fw_arena_array(r->arena, double, n));

@@ -122,6 +122,8 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
     fw_status (*add)(const fw_effect_case *c, fw_terms *terms);
     double cost; /* instructions per right-hand side and instance (callgrind, gcc -O2) */
     int (*count)(const fw_effect_case *c); /* instances; NULL: 1 */
+    /* of an active effect, before add: errors and warnings on what is asked of it; NULL: none */
+    fw_status (*check)(const fw_effect_case *c, fw_diags *diags);
     bool kept; /* never left out, whatever was asked for: without it there is nothing to judge */
 } fw_effect_row;
 const fw_effect_row *const *fw_effect_rows(size_t *count);
@@ -132,6 +134,16 @@ const fw_effect_row *const *fw_effect_rows(size_t *count);
 fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                              const fw_effect_choice *choice, double accuracy, fw_diags *diags,
                              fw_effect_ledger *ledger, fw_terms *terms);
+
+/* The mechanism that the terms act on: `mechanism` itself, or where they hold strains one with
+   those strains, whose pose is to be assembled again; points in the terms (loads, springs, ports)
+   follow. Once after each fw_effects_compile. */
+fw_status fw_effects_strain(fw_arena *arena, const fw_mechanism *mechanism, fw_terms *terms,
+                            const fw_mechanism **strained);
+/* of that mechanism, one whose ground is as a law stretches it at the start: for assembling there
+ */
+fw_status fw_effects_at_start(fw_arena *arena, const fw_mechanism *mechanism, const fw_terms *terms,
+                              const fw_mechanism **start);
 
 /* linear static response of the constrained mechanism about its initial pose to the generalized
    forces `force` (3 nbody), with the springs of `terms`, drivers held: displacements (3 nbody) and

@@ -13,10 +13,14 @@ static const fw_effect_row *const rows[] = {
     &fw_effect_applied_load,
     &fw_effect_gravity,
     &fw_effect_initial_velocity,
+    &fw_effect_base_motion,
     &fw_effect_nonlinear_hinge, /* after joint-elasticity: it takes the spring over */
     &fw_effect_contact,
     &fw_effect_tendon,
     &fw_effect_comb_drive,
+    &fw_effect_temperature, /* after what has stiffness: it softens it */
+    &fw_effect_residual_stress,
+    &fw_effect_air,
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
@@ -221,7 +225,9 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, con
         const fw_effect_entry *e = &ledger->item[i];
         if (choice->mode == FW_EFFECTS_AUTO && e->called_for && !e->active)
             ledger->left_out += e->bound;
-        if (e->active) FW_TRY(rows[i]->add(&c, terms));
+        if (!e->active) continue;
+        if (rows[i]->check) FW_TRY(rows[i]->check(&c, diags));
+        FW_TRY(rows[i]->add(&c, terms));
     }
     return FW_OK;
 }

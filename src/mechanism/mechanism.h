@@ -86,6 +86,13 @@ fw_vec2 fw_local_place(const fw_mechanism *mechanism, int body, double x_m, doub
 fw_status fw_mechanism_strained(fw_arena *arena, const fw_mechanism *mechanism,
                                 const double *strain, const fw_mechanism **strained);
 
+/* mean of the ground's points (of pins, ties and springs): what a strain of the ground is about */
+fw_vec2 fw_ground_centre(const fw_mechanism *mechanism);
+/* a local point (ground: world) of a body that has become longer by strain[body], that of the
+   ground (strain[nbody]) away from the centre */
+void fw_strain_point(const double *strain, int nbody, fw_vec2 centre, int body, double *x_m,
+                     double *y_m);
+
 fw_status fw_mechanism_build(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_variant *variant, fw_diags *diags,
                              const fw_mechanism **mechanism);

@@ -12,5 +12,7 @@ fw_status fw_model_block_arrays(fw_arena *arena, fw_model *m, int nblock);
 /* elements.c: centre: origin of the scaled coordinates, m */
 fw_status fw_model_elements_new(fw_arena *arena, fw_model *m, const fw_terms *terms,
                                 fw_vec2 centre);
+/* stretch.c: centre: m, origin of the scaled coordinates. After blocks and springs. */
+fw_status fw_stretch_new(fw_arena *arena, const fw_stretch *from, fw_vec2 centre, fw_model *m);
 
 #endif

@@ -10,7 +10,8 @@
    TRAVEL   e.d - f                        (e, e.p(r_b))           -(e, e.p(r_a) - n.d)
    ROD      |d| - f                        (d/|d|, d/|d|.p(r_b))   -(d/|d|, d/|d|.p(r_a))
 
-   Only f depends on time, so Psi_t = -f', Psi_tt = -f'', Psi_qt = 0.
+   Only f depends on time, so Psi_t = -f', Psi_tt = -f'', Psi_qt = 0; where the ground's points move
+   (stretch.c) d does too.
    Source: Haug, Computer Aided Kinematics and Dynamics, 1989, ch. 3; Garcia de Jalon and Bayo 1994.
    Test: test_constraints.c (differences of Psi along motions). */
 #include "multibody/model.h"
@@ -142,6 +143,7 @@ static void block_residual(const fw_model *m, int i, double t, const double *u, 
 }
 
 double fw_model_residual(fw_model *m, double t, const double *u, double *psi) {
+    fw_model_at(m, t);
     fw_model_pose(m, u);
     double worst = 0;
     for (int i = 0; i < m->nblock; i++) {
@@ -240,6 +242,7 @@ void fw_model_drift(const fw_model *m, double t, double *r) {
         kept(m, &m->block[i], t, f);
         r[2 * i] = -f[1];
     }
+    if (m->stretch.law) fw_stretch_drift(m, r);
 }
 
 /* (G v)' at a = 0, of one block that is not a pin */
@@ -253,9 +256,12 @@ static void other_gamma(const fw_model *m, int i, double t, const double *v, dou
     /* d, its rate and its second derivative without accelerations */
     double d[2], e[2], n[2];
     fw_model_frame(m, i, m->posed, d, e, n);
-    const double rate[2] = {q[0] - wb * rb[1] - p[0] + wa * ra[1],
-                            q[1] + wb * rb[0] - p[1] - wa * ra[0]};
-    const double bend[2] = {wa * wa * ra[0] - wb * wb * rb[0], wa * wa * ra[1] - wb * wb * rb[1]};
+    double rate[2] = {q[0] - wb * rb[1] - p[0] + wa * ra[1], q[1] + wb * rb[0] - p[1] - wa * ra[0]};
+    double bend[2] = {wa * wa * ra[0] - wb * wb * rb[0], wa * wa * ra[1] - wb * wb * rb[1]};
+    for (int k = 0; k < 2 && m->stretch.law; k++) {
+        rate[k] += m->stretch.now[1] * m->stretch.block[2 * i + k];
+        bend[k] += m->stretch.now[2] * m->stretch.block[2 * i + k];
+    }
     if (b->rows == FW_ROWS_SLIDE) {
         r[1] = dot(n, bend) - 2 * wa * dot(e, rate) - wa * wa * dot(n, d);
     } else if (b->rows == FW_ROWS_TRAVEL) {
@@ -277,6 +283,9 @@ void fw_model_gamma(const fw_model *m, double t, const double *v, double *r) {
         wp *= wp, wq *= wq;
         r[2 * i] = wq * s[2] - wp * s[0];
         r[2 * i + 1] = wq * s[3] - wp * s[1];
+        if (!m->stretch.law) continue;
+        r[2 * i] -= m->stretch.now[2] * m->stretch.block[2 * i];
+        r[2 * i + 1] -= m->stretch.now[2] * m->stretch.block[2 * i + 1];
     }
 }
 

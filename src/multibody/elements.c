@@ -77,6 +77,15 @@ static fw_seen look(const fw_model *m, const fw_model_element *e, double t, cons
         if (b == m->nbody) {
             p[0] = length * rx, p[1] = length * ry, p[2] = 0;
             w[0] = w[1] = w[2] = 0;
+            if (m->stretch.law) { /* and moves */
+                const double local[2] = {at->x_m, at->y_m};
+                double gain[2];
+                fw_stretch_gain(m, local, gain);
+                for (int c = 0; c < 2; c++) {
+                    p[c] += length * gain[c] * m->stretch.now[0];
+                    w[c] = length * per_s * gain[c] * m->stretch.now[1];
+                }
+            }
             continue;
         }
         const double *x = m->origin + 3 * b, *u = y + 3 * b, *v = y + m->nq + 3 * b;
@@ -147,15 +156,26 @@ void fw_model_element_slope(fw_model *m, double t, const double *y, double *forc
     }
 }
 
+/* W: what the moving ground gives through the ports on it */
+static double fed_by_ground(const fw_model *m, const fw_model_element *e, const fw_seen *seen) {
+    double power = 0;
+    e->own->class_->force(e->own, seen, m->port.f);
+    for (int k = 0; k < e->own->ports; k++)
+        if (e->body[k] == m->nbody)
+            power -= m->port.f[3 * k] * seen->w[3 * k] + m->port.f[3 * k + 1] * seen->w[3 * k + 1];
+    return power;
+}
+
 /* W per scaled unit of power: newton L / T */
 void fw_model_element_power(const fw_model *m, double t, const double *y, double power[2]) {
     const double unit = m->scale.time_s / (fw_newton(m) * m->scale.length_m);
     for (int i = 0; i < m->nelement; i++) {
         const fw_model_element *e = &m->element[i];
         double now[2] = {0, 0};
-        if (!e->own->class_->power) continue;
+        if (!e->own->class_->power && !m->stretch.law) continue;
         const fw_seen seen = look(m, e, t, y);
-        e->own->class_->power(e->own, &seen, now);
+        if (e->own->class_->power) e->own->class_->power(e->own, &seen, now);
+        if (m->stretch.law) now[1] += fed_by_ground(m, e, &seen);
         power[0] += unit * now[0], power[1] += unit * now[1];
     }
 }

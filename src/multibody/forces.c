@@ -49,6 +49,10 @@ fw_pull fw_model_pull(const fw_model *m, const fw_model_spring *s, const double 
         double *p = state[i];
         p[4] = rx, p[5] = ry;
         p[0] = m->origin[3 * b] + rx, p[1] = m->origin[3 * b + 1] + ry;
+        if (b == m->nbody && m->stretch.law) {
+            const double *grows = m->stretch.spring + 4 * (s - m->spring) + 2 * i;
+            p[2] = m->stretch.now[1] * grows[0], p[3] = m->stretch.now[1] * grows[1];
+        }
         if (b == m->nbody) continue;
         p[0] += u[3 * b], p[1] += u[3 * b + 1];
         p[2] = v[3 * b] - v[3 * b + 2] * ry;
@@ -78,6 +82,8 @@ void fw_model_travel(const fw_model *m, const fw_model_slide *s, const double *y
         psi_rate += (side ? 1 : -1) * (e[0] * vx + e[1] * vy);
         if (!side) psi_rate += w[2] * (n[0] * d[0] + n[1] * d[1]);
     }
+    const double *grows = m->stretch.block + 2 * s->block;
+    if (m->stretch.law) psi_rate += m->stretch.now[1] * (e[0] * grows[0] + e[1] * grows[1]);
     *rate = psi_rate;
 }
 
@@ -187,4 +193,5 @@ void fw_model_power(const fw_model *m, double t, const double *y, double power[2
                     (l->fx * (v[0] - v[2] * ry) + l->fy * (v[1] + v[2] * rx) + l->torque * v[2]);
     }
     if (m->nelement > 0) fw_model_element_power(m, t, y, power);
+    if (m->stretch.law) power[1] += fw_stretch_power(m, y);
 }

@@ -345,6 +345,7 @@ fw_status fw_model_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_
     FW_TRY(set_blocks(&b));
     m->size = fmax(m->size, 1);
     if (terms) FW_TRY(set_terms(&b));
+    if (terms && terms->stretch.law) FW_TRY(fw_stretch_new(arena, &terms->stretch, b.centre, m));
     set_books(m);
     FW_NEED(m->stage = fw_arena_array(arena, double, (size_t)m->ny));
     FW_TRY(fw_chain_compile(arena, m));

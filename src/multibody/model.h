@@ -94,6 +94,14 @@ typedef struct fw_element_work { /* for one element at a time, sizes of the larg
     double *stiffness, *damping; /* (3 ports x 3 ports) */
     double *pose;                /* (3 nbody) */
 } fw_element_work;
+/* Ground points that move with a law, stretch.c. The model stands at one time: fw_model_at. */
+typedef struct fw_model_stretch {
+    const fw_law *law;        /* NULL: the ground stands still */
+    double strain, centre[2]; /* a point of the ground gains strain (point - centre) law */
+    double *block, *spring;   /* (2 nblock) of d, (4 nspring) of the ends: per unit of the law */
+    double *offset, *end;     /* likewise, what they are where the law is 0 */
+    double now[3], t, piece;  /* law and derivatives at scaled time t */
+} fw_model_stretch;
 
 /* ---- sparse block LDL^T of S = G M^-1 G^T, 2 x 2 blocks, one row of blocks per constraint block
  */
@@ -147,6 +155,7 @@ typedef struct fw_model {
     fw_model_slide *slide;
     fw_model_spring *spring;
     int ntorsion, nload, ntimed, nstop, nslide, nspring;
+    fw_model_stretch stretch;
     int ncable; /* of the springs */
     fw_model_element *element;
     int nelement, nswitch; /* switches of all elements */
@@ -237,6 +246,15 @@ void fw_chain_solve(const fw_chain *c, double *x); /* (S + eps D) x = x, in plac
 /* S x = right at the pose whose S + eps D is factored; right is kept, x (2 nblock) */
 void fw_chain_proximal(fw_model *m, const double *right, double *x);
 
+/* stretch.c: the ground as it stands at scaled time t; nothing to do where it stands still. What
+   takes a time (residual, drift, gamma, rhs) does it; before fw_model_pose it is the caller's. */
+void fw_model_at(fw_model *m, double t);
+/* what a point of the ground gains per unit of the law */
+void fw_stretch_gain(const fw_model *m, const double local[2], double gain[2]);
+void fw_stretch_drift(const fw_model *m, double *r); /* r += Psi_t of the moving ground; posed */
+double fw_stretch_power(const fw_model *m,
+                        const double *y); /* fed in by springs and slides; posed */
+
 /* constraints.c */
 void fw_model_pose(fw_model *m, const double *u); /* sines, arms and, unless plain, jac */
 /* d from point a to point b of a block, axis and normal of a, at the pose of u */
@@ -247,7 +265,7 @@ double fw_model_residual(fw_model *m, double t, const double *u, double *psi);
 void fw_model_jacobian(const fw_model *m, const double *v, double *r);   /* r = G v */
 void fw_model_apply(const fw_model *m, const double *lambda, double *a); /* a -= M^-1 G^T lambda */
 void fw_model_transpose(const fw_model *m, const double *lambda, double *force); /* += G^T lambda */
-void fw_model_drift(const fw_model *m, double t, double *r);                     /* r = Psi_t */
+void fw_model_drift(const fw_model *m, double t, double *r); /* r = Psi_t; posed */
 /* r = G' v + Psi_tt, so that G a = -r; gamma of the text books is -r */
 void fw_model_gamma(const fw_model *m, double t, const double *v, double *r);
 /* G without its empty rows, row-major (rows x nq), and vectors of its rows <-> of blocks */

@@ -56,6 +56,7 @@ void fw_model_rhs(void *model, double t, const double *y, double *f) {
         fw_kernel_rhs(m->kernel, y, f);
         return;
     }
+    fw_model_at(m, t);
     if (m->method->closes_stages) {
         y = closed(m, t, y);
     } else {

@@ -56,6 +56,12 @@ static fw_status freeze(fw_rest *w, fw_terms *terms) {
     terms->nload = (int)have;
     terms->constant = constant;
     terms->ntimed = 0;
+    if (!terms->stretch.law) return FW_OK;
+    double last; /* the ground stays as it is at the end */
+    FW_TRY(law_at(w->arena, terms->stretch.law, w->scene->duration_s, true, &last));
+    terms->strain[terms->nbody] += terms->stretch.strain * last;
+    terms->strained = true;
+    terms->stretch.law = NULL;
     return FW_OK;
 }
 
@@ -161,6 +167,8 @@ static fw_status assemble(fw_rest *w, fw_terms *terms) {
     double moved;
     size_t n = 3 * (size_t)mechanism->nbody;
     FW_TRY(freeze(w, terms));
+    FW_TRY(fw_effects_strain(arena, mechanism, terms, &w->mechanism));
+    mechanism = w->mechanism;
     FW_NEED(w->q0 = fw_arena_array(arena, double, n));
     for (int b = 0; b < mechanism->nbody; b++) {
         w->q0[3 * b] = mechanism->body[b].x_m;

@@ -1,0 +1,235 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The air around a device: films below bodies and between walls, drag of the open air. Each is a
+   damper; air_slide.c, air_squeeze.c and air_drag.c have the physics. Theory:
+   docs/theory/effects/air.md. */
+#include "effects/air.h"
+#include "effects/envelope.h"
+#include <math.h>
+
+static const double pi = 3.14159265358979323846;
+static const double gas_constant = 287.05; /* J/(kg K), dry air */
+
+double fw_air_viscosity(double temperature_K) {
+    return 1.458e-6 * pow(temperature_K, 1.5) / (temperature_K + 110.4);
+}
+
+/* mean free path mu/p sqrt(pi R T/2), the one that Kn of the slip formulas is made of */
+fw_gas fw_gas_of(const fw_air *air) {
+    fw_gas g = {.pressure_Pa = isnan(air->pressure_Pa) ? 101325 : air->pressure_Pa,
+                .temperature_K = isnan(air->temperature_K) ? 293.15 : air->temperature_K};
+    g.viscosity_Pas =
+        isnan(air->viscosity_Pas) ? fw_air_viscosity(g.temperature_K) : air->viscosity_Pas;
+    g.density_kg_per_m3 = g.pressure_Pa / (gas_constant * g.temperature_K);
+    g.path_m = g.viscosity_Pas / g.pressure_Pa * sqrt(pi * gas_constant * g.temperature_K / 2);
+    return g;
+}
+
+/* a stated area keeps the drawn figure; without one it is a disc, which has the least polar moment
+   and perimeter of its area */
+fw_face fw_air_face(const fw_mechanism *m, const fw_air *air, int body) {
+    const fw_shape *drawn = m->shape ? &m->shape[body] : NULL;
+    bool known = drawn && drawn->area_m2 > 0;
+    double area = air->area_m2;
+    if (known && isnan(area)) return (fw_face){drawn->area_m2, drawn->polar_m4, drawn->perimeter_m};
+    if (!known) return (fw_face){area, area * area / (2 * pi), 2 * sqrt(pi * area)};
+    double scale = area / drawn->area_m2;
+    return (fw_face){area, scale * scale * drawn->polar_m4, sqrt(scale) * drawn->perimeter_m};
+}
+
+static bool called_for(const fw_effect_case *c) {
+    return c->scene->nair > 0;
+}
+
+/* the bodies that an <air> of kind slide or drag acts on: [*first, *last] */
+static void bodies_of(const fw_effect_case *c, const fw_air *a, int *first, int *last) {
+    bool all = a->body == FW_NONE;
+    *first = all ? 0 : a->body;
+    *last = all ? c->mechanism->nbody - 1 : a->body;
+}
+
+static fw_status check(const fw_effect_case *c, fw_diags *diags) {
+    for (int i = 0; i < c->scene->nair; i++) {
+        const fw_air *a = &c->scene->air[i];
+        int first, last;
+        bodies_of(c, a, &first, &last);
+        if (a->kind == FW_AIR_SQUEEZE) {
+            if (isnan(fw_air_depth(c->mechanism, a)))
+                return fw_diag_error(diags, 253, a->place,
+                                     "the depth of this film is not known: state it");
+            continue;
+        }
+        for (int b = first; b <= last; b++) {
+            const char *id = c->mechanism->body[b].id;
+            if (!(fw_air_face(c->mechanism, a, b).area_m2 > 0))
+                return fw_diag_error(diags, 253, a->place,
+                                     "body %s is not drawn, so the area that the air acts on is "
+                                     "not known: state it",
+                                     id ? id : "(unnamed)");
+        }
+    }
+    return FW_OK;
+}
+
+/* ---- bound: |force| <= c times the largest speed that the envelope allows ---- */
+
+static void add_damper(const fw_effect_case *c, int body, fw_damper d, double *force) {
+    const double *speed = c->envelope->speed + 3 * body;
+    force[3 * body] += d.force_Ns_per_m * speed[0];
+    force[3 * body + 1] += d.force_Ns_per_m * speed[1];
+    force[3 * body + 2] += d.couple_Nms * speed[2];
+}
+
+/* how far or fast a point of a body can move, arm in m; way: reach or speed (3 nbody) */
+static double point_most(const double *way, int body, double arm_m) {
+    if (body == FW_GROUND) return 0;
+    return hypot(way[3 * body], way[3 * body + 1]) + arm_m * way[3 * body + 2];
+}
+
+static void add_to(double *force, int body, double arm_m, double most_N) {
+    if (body == FW_GROUND) return;
+    force[3 * body] += most_N, force[3 * body + 1] += most_N;
+    force[3 * body + 2] += arm_m * most_N;
+}
+
+/* false: the walls may come so close that nothing can be said */
+static bool add_squeeze(const fw_effect_case *c, const fw_air *a, double *force) {
+    const fw_envelope *e = c->envelope;
+    const fw_gas gas = fw_gas_of(a);
+    const fw_squeeze film =
+        fw_air_squeeze(&gas, a->length_m, fw_air_depth(c->mechanism, a), a->gap_m);
+    double own = hypot(a->x_m, a->y_m), other = 0;
+    if (a->against != FW_GROUND) {
+        fw_vec2 wall = fw_local_place(c->mechanism, a->body, a->x_m, a->y_m);
+        const fw_mass *b = &c->mechanism->body[a->against];
+        other = hypot(wall.x - b->x_m, wall.y - b->y_m) + a->gap_m;
+    }
+    double moved = point_most(e->reach, a->body, own) + point_most(e->reach, a->against, other);
+    double far = a->gap_m + moved; /* of the two middles: the lever of a turning normal */
+    double turned = a->against == FW_GROUND ? 0 : e->reach[3 * a->against + 2];
+    double least = a->gap_m - moved - turned * far;
+    if (!(least > 0.01 * a->gap_m)) return false;
+    double spin = a->against == FW_GROUND ? 0 : e->speed[3 * a->against + 2];
+    double rate = point_most(e->speed, a->body, own) + point_most(e->speed, a->against, other);
+    double most = fw_squeeze_at(&film, least, NULL) * (rate + spin * far);
+    add_to(force, a->body, own, most);
+    add_to(force, a->against, other + far, most);
+    return true;
+}
+
+static bool add_forces(const fw_effect_case *c, double *force) {
+    for (int i = 0; i < c->scene->nair; i++) {
+        const fw_air *a = &c->scene->air[i];
+        const fw_gas gas = fw_gas_of(a);
+        int first, last;
+        bodies_of(c, a, &first, &last);
+        if (a->kind == FW_AIR_SQUEEZE) {
+            if (!add_squeeze(c, a, force)) return false;
+            continue;
+        }
+        for (int b = first; b <= last; b++) {
+            const fw_face face = fw_air_face(c->mechanism, a, b);
+            add_damper(c, b,
+                       a->kind == FW_AIR_SLIDE ? fw_air_slide(&gas, &face, a->gap_m)
+                                               : fw_air_drag(&gas, &face),
+                       force);
+        }
+    }
+    return true;
+}
+
+/* ---- validity: numbers above 1 are named ---- */
+
+static void name(fw_text *out, const char *what, double number) {
+    char text[32];
+    if (!(number > 1)) return;
+    fw_text_printf(out, "; outside its validity: %s is %s (below 1 wanted)", what,
+                   fw_number_text(text, sizeof text, number, 2));
+}
+
+/* at the lowest mode of the envelope and its largest speeds */
+static void validity(const fw_effect_case *c, const fw_air *a, fw_text *out) {
+    const fw_envelope *e = c->envelope;
+    const fw_gas gas = fw_gas_of(a);
+    double omega = e->modes > 0 ? e->omega[0] : 0, mu = gas.viscosity_Pas;
+    double rho = gas.density_kg_per_m3, depth = sqrt(2 * mu / (rho * omega));
+    int first, last;
+    if (a->kind == FW_AIR_SQUEEZE) {
+        double across = fmin(a->length_m, fw_air_depth(c->mechanism, a)), g = a->gap_m;
+        name(out, "the squeeze number",
+             12 * mu * omega * across * across / (gas.pressure_Pa * g * g));
+        name(out, "the film's Reynolds number", rho * omega * g * g / mu);
+        name(out, "ten gaps over the film's shorter side", 10 * g / across);
+        return;
+    }
+    bodies_of(c, a, &first, &last);
+    double largest = 0, fastest = 0;
+    for (int b = first; b <= last; b++) {
+        double size = sqrt(fw_air_face(c->mechanism, a, b).area_m2 / pi);
+        largest = fmax(largest, size);
+        fastest = fmax(fastest, size * point_most(e->speed, b, size));
+    }
+    if (a->kind == FW_AIR_SLIDE) {
+        name(out, "gap over penetration depth", a->gap_m / depth);
+        name(out, "gap over the radius of the largest face", a->gap_m / largest);
+    } else {
+        name(out, "radius over penetration depth", largest / depth);
+        name(out, "the Reynolds number", rho * fastest / mu);
+    }
+}
+
+static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
+    *value = (double)INFINITY;
+    *reason = "the air damps, and how fast the bodies become is not known beforehand: kept";
+    if (!c->envelope || !c->envelope->valid) return FW_OK;
+    double *force;
+    FW_NEED(force = fw_arena_array(c->arena, double, 3 * (size_t)c->mechanism->nbody));
+    if (add_forces(c, force)) *value = fw_envelope_answer(c, force, (double)INFINITY);
+    if (isnan(*value)) *value = (double)INFINITY;
+    fw_text text = fw_text_new(c->arena);
+    fw_text_add(&text,
+                isfinite(*value)
+                    ? "the air damps: bound by the envelope's answer to its forces at the "
+                      "largest speeds"
+                    : "the air damps, and a film may close or the speeds have no bound: kept");
+    for (int i = 0; i < c->scene->nair; i++)
+        validity(c, &c->scene->air[i], &text);
+    FW_TRY(fw_text_end(&text));
+    *reason = text.data;
+    return FW_OK;
+}
+
+static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+    for (int i = 0; i < c->scene->nair; i++) {
+        const fw_air *a = &c->scene->air[i];
+        int first, last;
+        bodies_of(c, a, &first, &last);
+        if (a->kind == FW_AIR_SQUEEZE) {
+            if (fw_air_depth(c->mechanism, a) > 0) FW_TRY(fw_air_squeeze_add(c, terms, a));
+            continue;
+        }
+        for (int b = first; b <= last; b++) {
+            if (!(fw_air_face(c->mechanism, a, b).area_m2 > 0)) continue; /* see check */
+            FW_TRY(a->kind == FW_AIR_SLIDE ? fw_air_slide_add(c, terms, a, b)
+                                           : fw_air_drag_add(c, terms, a, b));
+        }
+    }
+    return FW_OK;
+}
+
+static int count(const fw_effect_case *c) {
+    int all = 0;
+    for (int i = 0; i < c->scene->nair; i++) {
+        bool every = c->scene->air[i].kind != FW_AIR_SQUEEZE && c->scene->air[i].body == FW_NONE;
+        all += every ? c->mechanism->nbody : 1;
+    }
+    return all;
+}
+
+const fw_effect_row fw_effect_air = {.id = "air",
+                                     .summary = "films of air below and between bodies, and drag",
+                                     .called_for = called_for,
+                                     .bound = bound,
+                                     .add = add,
+                                     .check = check,
+                                     .cost = 600,
+                                     .count = count};

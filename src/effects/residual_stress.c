@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Stress that the layer has from its deposition. Released, the layer takes the length that it
+   wants: a mean tension makes it shorter than the substrate that still holds its anchors, a
+   gradient along the thickness bends every body out of the plane, and what is seen of an arc from
+   above is its shorter chord. Theory: docs/theory/effects/residual-stress.md. */
+#include "effects/effect.h"
+#include <math.h>
+
+static bool called_for(const fw_effect_case *c) {
+    for (int i = 0; i < c->scene->nstress; i++)
+        if (c->scene->stress[i].mean_Pa != 0 || c->scene->stress[i].gradient_Pa_per_m != 0)
+            return true;
+    return false;
+}
+
+/* (1 - nu)/E of the layer, 1/Pa; NaN where it is not known */
+static double compliance(const fw_mechanism *m) {
+    if (!m->variant) return (double)NAN;
+    const fw_material *of = &m->variant->material;
+    if (of->youngs.unknown || of->poisson.unknown || !(of->youngs.value > 0)) return (double)NAN;
+    return (1 - of->poisson.value) / of->youngs.value;
+}
+
+typedef struct released {
+    double strain;          /* of the layer: -mean (1 - nu)/E */
+    double curvature_per_m; /* (1 - nu)/E times the gradient */
+} released;
+
+static released released_by(const fw_effect_case *c) {
+    double per_Pa = compliance(c->mechanism), mean = 0, gradient = 0;
+    for (int i = 0; i < c->scene->nstress; i++) {
+        mean += c->scene->stress[i].mean_Pa;
+        gradient += c->scene->stress[i].gradient_Pa_per_m;
+    }
+    return (released){-mean * per_Pa, gradient * per_Pa};
+}
+
+/* ---- bow ---- */
+
+typedef struct points { /* of all joints, local, body after body */
+    int *first;         /* (nbody + 1) */
+    fw_vec2 *at;
+} points;
+
+/* fill NULL: only counted */
+static void put_point(points *p, int body, double x_m, double y_m, int *fill) {
+    if (body == FW_GROUND) return;
+    if (fill)
+        p->at[fill[body]++] = (fw_vec2){x_m, y_m};
+    else
+        p->first[body + 1]++;
+}
+
+static void put_points(const fw_mechanism *m, points *p, int *fill) {
+    for (int i = 0; i < m->npin; i++) {
+        const fw_pin *from = &m->pin[i];
+        put_point(p, from->body_a, from->ax_m, from->ay_m, fill);
+        put_point(p, from->body_b, from->bx_m, from->by_m, fill);
+    }
+    for (int i = 0; i < m->ntie; i++) {
+        const fw_tie *from = &m->tie[i];
+        put_point(p, from->body_a, from->ax_m, from->ay_m, fill);
+        put_point(p, from->body_b, from->bx_m, from->by_m, fill);
+    }
+}
+
+/* largest distance between two joints of every body, m; 0 with fewer than two */
+static fw_status find_extents(fw_arena *arena, const fw_mechanism *m, double *extent) {
+    points p;
+    int *fill;
+    size_t n = (size_t)m->nbody;
+    FW_NEED(p.first = fw_arena_array(arena, int, n + 1));
+    FW_NEED(fill = fw_arena_array(arena, int, n));
+    put_points(m, &p, NULL);
+    for (size_t b = 0; b < n; b++)
+        fill[b] = p.first[b], p.first[b + 1] += p.first[b];
+    FW_NEED(p.at = fw_arena_array(arena, fw_vec2, (size_t)p.first[n]));
+    put_points(m, &p, fill);
+    for (size_t b = 0; b < n; b++)
+        for (int i = p.first[b]; i < p.first[b + 1]; i++)
+            for (int j = p.first[b]; j < i; j++)
+                extent[b] = fmax(extent[b], hypot(p.at[i].x - p.at[j].x, p.at[i].y - p.at[j].y));
+    return FW_OK;
+}
+
+/* strain that the chord of an arc of length L shows: (2/(kappa L)) sin(kappa L/2) - 1, whose series
+   begins with -(kappa L)^2/24. Exact for a circle. */
+static double chord_strain(double curvature_per_m, double length_m) {
+    double half = 0.5 * curvature_per_m * length_m;
+    if (fabs(half) < 1e-3) return -half * half / 6 * (1 - half * half / 20);
+    return sin(half) / half - 1;
+}
+
+/* how far the free end of the longest body rises when the other one is held flat, m */
+static fw_status find_rise(const fw_effect_case *c, double *rise_m, int *body) {
+    const fw_mechanism *m = c->mechanism;
+    double longest = 0, *extent;
+    fw_mark mark = fw_arena_mark(c->arena);
+    FW_NEED(extent = fw_arena_array(c->arena, double, (size_t)m->nbody));
+    FW_TRY(find_extents(c->arena, m, extent));
+    *body = 0;
+    for (int b = 0; b < m->nbody; b++)
+        if (extent[b] > longest) longest = extent[b], *body = b;
+    fw_arena_rewind(c->arena, mark);
+    *rise_m = 0.5 * fabs(released_by(c).curvature_per_m) * longest * longest;
+    return FW_OK;
+}
+
+/* ---- what is said ---- */
+
+static bool said_already(const fw_diags *diags, fw_place place) {
+    for (size_t i = 0; i < diags->count; i++)
+        if (diags->item[i].number == 251 && diags->item[i].place.line == place.line &&
+            diags->item[i].place.column == place.column)
+            return true;
+    return false;
+}
+
+static fw_status check(const fw_effect_case *c, fw_diags *diags) {
+    fw_place place = c->scene->nstress ? c->scene->stress[0].place : c->scene->place;
+    if (isnan(compliance(c->mechanism)))
+        return fw_diag_error(diags, 253, place,
+                             "residual stress needs Young's modulus and Poisson's ratio of the "
+                             "material, and they are not known; state them in <material>");
+    int body;
+    double up;
+    FW_TRY(find_rise(c, &up, &body));
+    double thickness = c->mechanism->variant->thickness_m;
+    char rises[32], thick[32];
+    if (!(up > thickness) || said_already(diags, place)) return FW_OK;
+    const char *id = c->mechanism->body[body].id;
+    fw_diag_warning(diags, 251, place,
+                    "the gradient of the layer's stress lifts the end of body %s by %s um out of "
+                    "the plane, more than the layer's thickness of %s um; the motion in the plane "
+                    "does not know of that",
+                    id ? id : "(unnamed)", fw_number_text(rises, sizeof rises, 1e6 * up, 3),
+                    fw_number_text(thick, sizeof thick, 1e6 * thickness, 3));
+    return FW_OK;
+}
+
+static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
+    released r = released_by(c);
+    int body;
+    char strain[32], up[32];
+    double rises;
+    FW_TRY(find_rise(c, &rises, &body));
+    *value = (double)INFINITY;
+    FW_NEED(*reason = fw_arena_printf(
+                c->arena,
+                "the released layer has a strain of %s against its substrate and bends its hinges; "
+                "its gradient lifts the end of the longest body by %s um out of the plane",
+                fw_number_text(strain, sizeof strain, r.strain, 3),
+                fw_number_text(up, sizeof up, 1e6 * rises, 3)));
+    return FW_OK;
+}
+
+/* The layer is the measure: by similarity the ground's points move by the opposite strain. Each
+   body is shorter by its own bow besides. Inputs Pa, Pa/m, E in Pa; valid for (1 - nu) sigma/E << 1
+   and small slopes of the bow. Test: test_thermal.c. */
+static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+    released r = released_by(c);
+    if (isnan(r.strain)) return FW_OK; /* not known: see check */
+    double *extent;
+    FW_NEED(extent = fw_arena_array(c->arena, double, (size_t)terms->nbody));
+    FW_TRY(find_extents(c->arena, c->mechanism, extent));
+    for (int b = 0; b < terms->nbody; b++)
+        terms->strain[b] += chord_strain(r.curvature_per_m, extent[b]);
+    terms->strain[terms->nbody] -= r.strain / (1 + r.strain);
+    terms->strained = true;
+    return FW_OK;
+}
+
+const fw_effect_row fw_effect_residual_stress = {
+    .id = "residual-stress",
+    .summary = "the released layer is longer or shorter than its substrate, and bowed",
+    .called_for = called_for,
+    .bound = bound,
+    .add = add,
+    .check = check};

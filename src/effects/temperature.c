@@ -1,0 +1,280 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The whole device is warmer than it was when it was made: it grows by alpha dT, its substrate by
+   another alpha, and its flexures become softer or stiffer. What all lengths have in common changes
+   no angle, so it is scaled out: only the ground's points move, by the difference. Another angle of
+   a hinge needs another shape, and hinges keep their free angles: the difference bends them.
+   Theory: docs/theory/effects/temperature.md. */
+#include "effects/effect.h"
+#include "effects/envelope.h"
+#include <math.h>
+#include <stdlib.h>
+
+static bool called_for(const fw_effect_case *c) {
+    for (int i = 0; i < c->scene->ntemperature; i++)
+        if (c->scene->temperature[i].change_K != 0) return true;
+    return false;
+}
+
+/* what the scene states, else the material's; NaN where neither is known */
+static double stated_or(double stated, const fw_mechanism *m, bool modulus) {
+    if (!isnan(stated)) return stated;
+    if (!m->variant) return (double)NAN;
+    const fw_quantity *q =
+        modulus ? &m->variant->material.modulus_change : &m->variant->material.expansion;
+    return q->unknown ? (double)NAN : q->value;
+}
+
+static bool has_hinge(const fw_mechanism *m) {
+    for (int i = 0; i < m->npin; i++)
+        if (m->pin[i].hinge != FW_NONE && m->pin[i].stiffness_Nm_per_rad > 0) return true;
+    return false;
+}
+
+/* of the ground against the device where the law is 1: (1 + alpha_s dT)/(1 + alpha dT) - 1, about
+   -(alpha - alpha_s) dT. Both left open: the same material, whose expansion need not be known. */
+static double ground_strain(const fw_mechanism *m, const fw_temperature *t) {
+    if (isnan(t->expansion_per_K) && isnan(t->substrate_expansion_per_K)) return 0;
+    double own = stated_or(t->expansion_per_K, m, false) * t->change_K;
+    double substrate = stated_or(t->substrate_expansion_per_K, m, false) * t->change_K;
+    return (substrate - own) / (1 + own);
+}
+
+/* relative change of hinge stiffness per unit of the law; 0 where no hinge asks for it */
+static double softening(const fw_mechanism *m, const fw_temperature *t) {
+    return has_hinge(m) ? stated_or(t->modulus_change_per_K, m, true) * t->change_K : 0;
+}
+
+/* ---- what cannot be ---- */
+
+static fw_status unknown(const fw_temperature *t, fw_diags *diags, const char *what,
+                         const char *attribute) {
+    return fw_diag_error(diags, 253, t->place,
+                         "the %s that this temperature needs is not known for the material; state "
+                         "it as %s",
+                         what, attribute);
+}
+
+static int by_size(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* a time where the law jumps within the scene; NaN: it does not */
+static fw_status jump(fw_arena *arena, const fw_law *law, double end_s, double *at_s) {
+    *at_s = (double)NAN;
+    int n = fw_law_breaks(law, end_s, NULL, 0);
+    double *at, before[3], behind[3];
+    fw_mark mark = fw_arena_mark(arena);
+    FW_NEED(at = fw_arena_array(arena, double, (size_t)n + 2));
+    fw_law_breaks(law, end_s, at + 1, n);
+    qsort(at + 1, (size_t)n, sizeof *at, by_size);
+    at[n + 1] = end_s;
+    for (int i = 1; i <= n && isnan(*at_s); i++) {
+        fw_law_value(law, at[i], 0.5 * (at[i - 1] + at[i]), before);
+        fw_law_value(law, at[i], 0.5 * (at[i] + at[i + 1]), behind);
+        if (fabs(behind[0] - before[0]) > 1e-9 * fmax(1, fabs(behind[0]))) *at_s = at[i];
+    }
+    fw_arena_rewind(arena, mark);
+    return FW_OK;
+}
+
+static fw_status check_law(const fw_effect_case *c, const fw_temperature *t, int *laws,
+                           fw_diags *diags) {
+    double at;
+    char time[32];
+    if (fw_law_is_constant(t->law)) return FW_OK;
+    if (++*laws > 1)
+        return fw_diag_error(diags, 252, t->place,
+                             "a scene can have one temperature with a law; put the changes into "
+                             "one law");
+    FW_TRY(jump(c->arena, t->law, c->scene->duration_s, &at));
+    if (isnan(at)) return FW_OK;
+    return fw_diag_error(diags, 252, t->place,
+                         "the temperature jumps at %s s: no body becomes warm at once; give it a "
+                         "ramp",
+                         fw_number_text(time, sizeof time, at, 6));
+}
+
+static fw_status check(const fw_effect_case *c, fw_diags *diags) {
+    double least = 1;
+    int laws = 0;
+    for (int i = 0; i < c->scene->ntemperature; i++) {
+        const fw_temperature *t = &c->scene->temperature[i];
+        if (t->change_K == 0) continue;
+        double soft = softening(c->mechanism, t);
+        if (isnan(ground_strain(c->mechanism, t)))
+            return unknown(t, diags, "thermal expansion", "expansion and substrate-expansion");
+        if (isnan(soft))
+            return unknown(t, diags, "change of Young's modulus",
+                           "modulus-change (0 where it does not matter)");
+        FW_TRY(check_law(c, t, &laws, diags));
+        least -= fabs(soft) * fw_law_largest(t->law, c->scene->duration_s);
+        if (!(least > 0))
+            return fw_diag_error(diags, 252, t->place,
+                                 "the flexures could lose all their stiffness by this temperature: "
+                                 "a linear modulus-change does not reach that far");
+    }
+    return FW_OK;
+}
+
+/* ---- bound ---- */
+
+/* Mismatch: not bounded, since it moves the equilibrium itself. Modulus alone: the envelope's
+   answer to a relative change of the stiffness, |beta dT| times the largest |law|. What was scaled
+   out changes angles by about three times the common expansion (docs). Test: test_temperature.c. */
+static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
+    double part = 0, strain = 0, common = 0;
+    for (int i = 0; i < c->scene->ntemperature; i++) {
+        const fw_temperature *t = &c->scene->temperature[i];
+        if (t->change_K == 0) continue;
+        double largest = fw_law_largest(t->law, c->scene->duration_s);
+        double own = stated_or(t->expansion_per_K, c->mechanism, false) * t->change_K;
+        part += fabs(softening(c->mechanism, t)) * largest;
+        strain += fabs(ground_strain(c->mechanism, t)) * largest;
+        if (!isnan(own)) common += fabs(own) * largest;
+    }
+    char grown[32], differs[32];
+    fw_number_text(grown, sizeof grown, common, 2);
+    fw_number_text(differs, sizeof differs, strain, 2);
+    *value = (double)INFINITY;
+    if (strain == 0 && c->envelope && c->envelope->valid && isfinite(part))
+        *value = fw_envelope_stiffness(c, part);
+    if (isfinite(*value))
+        FW_NEED(*reason = fw_arena_printf(
+                    c->arena,
+                    "device and substrate expand alike (%s, scaled out); bound by the envelope's "
+                    "answer to the change of the flexures' stiffness",
+                    grown));
+    else
+        FW_NEED(*reason = fw_arena_printf(
+                    c->arena,
+                    "the ground's points move by a strain of %s against the device and bend its "
+                    "hinges, or flexures change: kept (the common expansion of %s is scaled out)",
+                    differs, grown));
+    return FW_OK;
+}
+
+/* ---- modulus with a law: torque -k beta dT law(t) (phi_b - phi_a - free) on b ---- */
+
+typedef struct change {
+    double k_Nm_per_rad, free_rad; /* k beta dT */
+} change;
+
+static double stiffer(const fw_force_element *e, const fw_seen *s, double *rate) {
+    const change *d = e->data;
+    double law[3];
+    fw_law_value(e->law[0], s->t_s, s->piece_s, law);
+    *rate = d->k_Nm_per_rad * law[1];
+    return d->k_Nm_per_rad * law[0];
+}
+
+static double bent(const fw_force_element *e, const fw_seen *s) {
+    const change *d = e->data;
+    return s->p[5] - s->p[2] - d->free_rad;
+}
+
+static void force(const fw_force_element *e, const fw_seen *s, double *f) {
+    double rate, torque = stiffer(e, s, &rate) * bent(e, s);
+    for (int i = 0; i < 6; i++)
+        f[i] = 0;
+    f[2] = torque, f[5] = -torque;
+}
+
+static void tangent(const fw_force_element *e, const fw_seen *s, double *stiffness,
+                    double *damping) {
+    double rate, k = stiffer(e, s, &rate);
+    for (int i = 0; i < 36; i++)
+        stiffness[i] = damping[i] = 0;
+    stiffness[2 * 6 + 2] = stiffness[5 * 6 + 5] = k;
+    stiffness[2 * 6 + 5] = stiffness[5 * 6 + 2] = -k;
+}
+
+static double energy(const fw_force_element *e, const fw_seen *s) {
+    double rate, angle = bent(e, s);
+    return 0.5 * stiffer(e, s, &rate) * angle * angle;
+}
+
+static void power(const fw_force_element *e, const fw_seen *s, double out[2]) {
+    double rate, angle = bent(e, s);
+    stiffer(e, s, &rate);
+    out[0] = 0;
+    out[1] = 0.5 * rate * angle * angle;
+}
+
+static const fw_element_class modulus_class = {
+    .effect = "temperature", .force = force, .tangent = tangent, .energy = energy, .power = power};
+
+/* ---- what acts ---- */
+
+static fw_status add_changing_modulus(const fw_effect_case *c, fw_terms *terms,
+                                      const fw_temperature *t, const fw_torsion *on) {
+    change *data = fw_arena_one(c->arena, change);
+    fw_force_element *e = fw_terms_add_element(c->arena, terms, &modulus_class, 2);
+    FW_NEED(data && e);
+    data->k_Nm_per_rad = softening(c->mechanism, t) * on->stiffness_Nm_per_rad;
+    data->free_rad = on->free_angle_rad;
+    e->id = c->mechanism->pin[on->pin].id;
+    e->place = t->place;
+    e->port[0].body = on->body_a, e->port[1].body = on->body_b;
+    e->law[0] = t->law, e->laws = 1;
+    e->works = true;
+    e->data = data;
+    return FW_OK;
+}
+
+/* the springs of flexures among the terms; joint-elasticity has been there before */
+static fw_status add_modulus(const fw_effect_case *c, fw_terms *terms) {
+    double factor = 1;
+    const fw_temperature *changing = NULL;
+    for (int i = 0; i < c->scene->ntemperature; i++) {
+        const fw_temperature *t = &c->scene->temperature[i];
+        if (!(fabs(softening(c->mechanism, t)) > 0)) continue;
+        if (fw_law_is_constant(t->law))
+            factor += softening(c->mechanism, t);
+        else
+            changing = t;
+    }
+    for (int i = 0; i < terms->ntorsion; i++) {
+        fw_torsion *on = &terms->torsion[i];
+        if (c->mechanism->pin[on->pin].hinge == FW_NONE || !(on->stiffness_Nm_per_rad > 0))
+            continue;
+        if (changing) FW_TRY(add_changing_modulus(c, terms, changing, on));
+        on->stiffness_Nm_per_rad *= factor;
+    }
+    return FW_OK;
+}
+
+static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+    for (int i = 0; i < c->scene->ntemperature; i++) {
+        const fw_temperature *t = &c->scene->temperature[i];
+        double strain = t->change_K != 0 ? ground_strain(c->mechanism, t) : 0;
+        if (!(fabs(strain) > 0)) continue; /* none, or not known: see check */
+        if (fw_law_is_constant(t->law)) {
+            terms->strain[terms->nbody] += strain;
+            terms->strained = true;
+        } else
+            terms->stretch = (fw_stretch){strain, fw_ground_centre(c->mechanism), t->law};
+    }
+    return add_modulus(c, terms);
+}
+
+/* what is constant costs nothing while it moves */
+static int count(const fw_effect_case *c) {
+    int hinges = 0;
+    for (int i = 0; i < c->scene->ntemperature; i++)
+        for (int k = 0; k < c->mechanism->npin; k++)
+            if (!fw_law_is_constant(c->scene->temperature[i].law) &&
+                c->mechanism->pin[k].hinge != FW_NONE)
+                hinges++;
+    return hinges;
+}
+
+const fw_effect_row fw_effect_temperature = {
+    .id = "temperature",
+    .summary = "expansion of the device against its substrate, and softer flexures",
+    .called_for = called_for,
+    .bound = bound,
+    .add = add,
+    .check = check,
+    .cost = 500,
+    .count = count};

@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a temperature leaves in the terms; flexures that soften with a law. Motions and equilibria
+   are in tests/unit/statics/test_thermal.c. */
+#include "effects/effects.h"
+#include "element_check.h"
+
+typedef struct stand {
+    fw_arena *arena;
+    fw_diags diags;
+    fw_mass body[2];
+    fw_pin pin[2];
+    fw_mechanism m;
+    fw_variant variant;
+    fw_temperature warm[3];
+    fw_scene scene;
+    fw_effect_ledger ledger;
+    fw_terms terms;
+} stand;
+
+/* a lever on a flexure of the ground, and one on it by a spring that is no flexure */
+static void stand_new(stand *s) {
+    memset(s, 0, sizeof *s);
+    s->arena = fw_arena_new(0);
+    s->diags = fw_diags_new(s->arena);
+    for (int i = 0; i < 2; i++) {
+        s->body[i] = (fw_mass){"b", 1, 1, i + 0.5, 0, 0.2 * i};
+        s->pin[i] = (fw_pin){.id = "A",
+                             .body_a = i - 1,
+                             .body_b = i,
+                             .ax_m = i ? 0.5 : 0.25,
+                             .bx_m = -0.5,
+                             .stiffness_Nm_per_rad = 4 + i,
+                             .free_angle_rad = 0.3,
+                             .hinge = i ? FW_NONE : 0};
+    }
+    s->m = (fw_mechanism){
+        .body = s->body, .pin = s->pin, .nbody = 2, .npin = 2, .variant = &s->variant};
+    s->variant.material.expansion.value = 1e-5;
+    s->variant.material.modulus_change.value = -2e-4;
+    const double open = (double)NAN;
+    for (int i = 0; i < 3; i++)
+        s->warm[i] = (fw_temperature){100, open, open, open, NULL, {0}};
+    s->scene = (fw_scene){.name = "s", .duration_s = 1, .temperature = s->warm, .ntemperature = 1};
+}
+
+static void compile(stand *s) {
+    const fw_effect_choice choice = {FW_EFFECTS_AUTO, NULL};
+    fw_status status = fw_effects_compile(s->arena, &s->m, &s->scene, &choice, 1e-3, &s->diags,
+                                          &s->ledger, &s->terms);
+    if (status != FW_OK) fail_msg("%s", s->diags.item[0].message);
+}
+
+static void what_is_constant(void **state) {
+    (void)state;
+    stand s;
+    stand_new(&s);
+    compile(&s); /* of one material: no mismatch, softer */
+    assert_false(s.terms.strained);
+    assert_relative(s.terms.torsion[0].stiffness_Nm_per_rad, 4 * 0.98, 1e-14);
+    assert_relative(s.terms.torsion[1].stiffness_Nm_per_rad, 5, 1e-14);
+    assert_int_equal(s.terms.nelement, 0);
+    /* the substrate's own; two changes add */
+    s.scene.ntemperature = 2;
+    s.warm[0].substrate_expansion_per_K = 3e-6;
+    s.warm[1].substrate_expansion_per_K = 3e-6, s.warm[1].change_K = -40;
+    compile(&s);
+    assert_true(s.terms.strained && !s.terms.stretch.law);
+    assert_near(s.terms.strain[2], -7e-6 * 100 / 1.001 + 7e-6 * 40 / (1 - 4e-4), 1e-15);
+    assert_true(s.terms.strain[0] == 0 && s.terms.strain[1] == 0);
+    assert_relative(s.terms.torsion[0].stiffness_Nm_per_rad, 4 * (1 - 2e-4 * 60), 1e-14);
+    s.scene.ntemperature = 1, s.warm[0].change_K = 0;
+    compile(&s);
+    for (int i = 0; i < s.ledger.count; i++)
+        if (strcmp(s.ledger.item[i].id, "temperature") == 0)
+            assert_false(s.ledger.item[i].called_for);
+    fw_arena_free(s.arena);
+}
+
+static void with_a_law(void **state) {
+    (void)state;
+    static const fw_law sine = {
+        .kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 3, .phase_rad = 0.4};
+    stand s;
+    stand_new(&s);
+    s.scene.ntemperature = 2; /* and 40 K less all the time */
+    s.warm[0].law = &sine, s.warm[0].expansion_per_K = 0;
+    s.warm[1].change_K = -40;
+    compile(&s);
+    assert_false(s.terms.strained);
+    assert_true(s.terms.stretch.law == &sine && s.terms.stretch.centre_m.x == 0.25);
+    assert_relative(s.terms.stretch.strain, 1e-3, 1e-14);
+    assert_relative(s.terms.torsion[0].stiffness_Nm_per_rad, 4 * 1.008, 1e-14);
+    assert_int_equal(s.terms.nelement, 1);
+    const fw_force_element *e = &s.terms.element[0];
+    assert_true(e->works && !e->dissipates && e->laws == 1 && e->pin == FW_NONE);
+    uint64_t seed = 9;
+    for (int round = 0; round < 30; round++) {
+        double p[6], w[6], f[6], all[12];
+        for (int i = 0; i < 12; i++) {
+            seed = seed * 6364136223846793005u + 1442695040888963407u;
+            all[i] = 2 * ((double)(seed >> 11) * 0x1p-53) - 1;
+        }
+        memcpy(p, all, sizeof p), memcpy(w, all + 6, sizeof w);
+        const double t = 0.02 * round;
+        const fw_seen seen = {.t_s = t, .piece_s = t + 1e-3, .load = 1, .p = p, .w = w};
+        e->class_->force(e, &seen, f);
+        double k = -0.02 * 4 * sin(6 * 3.14159265358979323846 * t + 0.4);
+        assert_near(f[5], -k * (p[5] - p[2] - 0.3), 1e-15);
+        fw_check_tangent(e, &seen, 1e-3, 1e-3, 1e-9);
+        fw_check_power(e, &seen, 1e-3, 1e-9);
+        fw_check_balance(e, &seen, 1e-12);
+    }
+    fw_arena_free(s.arena);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_constant),
+                                       cmocka_unit_test(with_a_law)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
