@@ -329,6 +329,35 @@ static const fw_law *law_any(fw_arena *arena, uint64_t *seed, double duration) {
     return law;
 }
 
+/* a mass on a line that is drawn by d from t = 0.3 on, at once: x = d (1 - cos w (t - 0.3)) from
+   there; or by d (t - 0.3) / 0.4 up to 0.7: the same of the ramp, d/0.4 (s - sin(w s) / w) */
+static void laws_are_followed(void **state) {
+    (void)state;
+    for (int ramp = 0; ramp < 2; ramp++) {
+        fw_arena *arena = fw_arena_new(0);
+        rig r = rig_new(arena, 1, 0, 0);
+        rig_body(&r, "mass", 2, 1, 0, 0, 0);
+        r.scene.duration_s = 1;
+        fw_terms t = rig_terms(arena, &r);
+        const line d = {.k = 800, .draw = 0.1, .length = 5};
+        const fw_law law = {.kind = ramp ? FW_LAW_RAMP : FW_LAW_STEP,
+                            .start_s = 0.3,
+                            .rise_s = 0.4,
+                            .end_s = (double)INFINITY};
+        fw_force_element *e = line_add(arena, &t, &d, FW_GROUND, 5, 0, 0, 0, 0);
+        e->law[e->laws++] = &law;
+        const fw_motion *m = rig_run(arena, &r, &t, NULL, 1e-11, 101);
+        for (int i = 0; i <= 100; i++) {
+            double s = fmax(0, 0.01 * i - 0.3), w = 20, x = 0.1 * (1 - cos(w * s));
+            if (ramp) x = 0.1 / 0.4 * (s - sin(w * s) / w);
+            if (ramp && s > 0.4) x -= 0.1 / 0.4 * (s - 0.4 - sin(w * (s - 0.4)) / w);
+            assert_near(m->q[3 * i], x, 1e-10);
+        }
+        assert_true(m->stats.energy_error < 1e-10);
+        fw_arena_free(arena);
+    }
+}
+
 /* random mechanisms with drawn, pulled, damped, one-sided lines and bushes in place of pins: what
    is stored, taken and fed in adds up, and switches happen */
 static void energies_add_up(void **state) {
@@ -385,6 +414,55 @@ static void where_it_ends(void **state) {
     assert_int_equal(fw_simulate_terms(arena, &r.m, &r.scene, &o, &t, &diags, &m), FW_SOLVER);
     assert_int_equal(diags.item[diags.count - 1].number, 242);
     fw_arena_free(arena);
+}
+
+/* plates that attract each other with C/g^2 */
+static void plate_force(const fw_force_element *e, const fw_seen *s, double *f) {
+    double g = s->p[0] - s->p[3];
+    memset(f, 0, 6 * sizeof *f);
+    f[3] = *(const double *)e->data / (g * g), f[0] = -f[3];
+}
+
+static void plate_power(const fw_force_element *e, const fw_seen *s, double power[2]) {
+    double f[6];
+    plate_force(e, s, f);
+    power[0] = 0, power[1] = f[3] * s->w[3];
+}
+
+static bool plate_valid(const fw_force_element *e, const fw_seen *s, const char **why) {
+    (void)e;
+    *why = "the plates touch";
+    return s->p[0] - s->p[3] > 1e-3;
+}
+
+static const fw_element_class plate_class = {
+    .effect = "plate", .force = plate_force, .power = plate_power, .valid = plate_valid};
+
+/* from g = 2 with C = m = 1 they meet after pi s with a speed that grows without bound: every
+   integrator gets near enough to see that the formula ends there, and not merely that steps become
+   small */
+static void runs_into_the_plates(void **state) {
+    (void)state;
+    static const char *const names[] = {"dop853", "dopri5", "radau5", "generalised-alpha"};
+    for (int i = 0; i < 8; i++) {
+        fw_arena *arena = fw_arena_new(0);
+        rig r = rig_new(arena, 1, 0, 0);
+        rig_body(&r, "rotor", 1, 1, 0, 0, 0);
+        bool beyond = i % 2;
+        r.scene.duration_s = beyond ? 10 : 3.1;
+        fw_terms t = rig_terms(arena, &r);
+        const double c = 1;
+        fw_force_element *e = fw_terms_add_element(arena, &t, &plate_class, 2);
+        e->port[0] = (fw_port){FW_GROUND, 2, 0}, e->port[1] = (fw_port){0, 0, 0};
+        e->works = true, e->force_N = 0.25, e->data = &c;
+        fw_diags diags = fw_diags_new(arena);
+        fw_motion *m;
+        const fw_motion_options o = {.integrator = names[i / 2], .rtol = 1e-7};
+        fw_status status = fw_simulate_terms(arena, &r.m, &r.scene, &o, &t, &diags, &m);
+        assert_int_equal(status, beyond ? FW_SOLVER : FW_OK);
+        if (beyond) assert_int_equal(diags.item[diags.count - 1].number, 242);
+        fw_arena_free(arena);
+    }
 }
 
 /* a stiff one-sided element that is slack at the start is seen by the choice of the integrator */
@@ -447,7 +525,8 @@ int main(void) {
         cmocka_unit_test(cable_as_element),     cmocka_unit_test(bar_on_a_bush),
         cmocka_unit_test(released_six_bar),     cmocka_unit_test(peak_of_a_released_pin),
         cmocka_unit_test(stiff_bush_is_a_pin),  cmocka_unit_test(start_is_closed),
-        cmocka_unit_test(energies_add_up),      cmocka_unit_test(where_it_ends),
+        cmocka_unit_test(laws_are_followed),    cmocka_unit_test(energies_add_up),
+        cmocka_unit_test(where_it_ends),        cmocka_unit_test(runs_into_the_plates),
         cmocka_unit_test(open_contact_is_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
