@@ -126,6 +126,7 @@ static fw_status state_new(fw_arena *arena, const fw_mechanism *mechanism, const
     if (scene)
         FW_TRY(fw_effects_compile(arena, mechanism, scene, &options->effects, accuracy, diags,
                                   &ledger, &terms));
+    if (scene) terms.nfriction = 0; /* forces as they are without */
     FW_TRY(fw_model_new(arena, mechanism, scene ? &terms : NULL, q, scene ? scene->duration_s : 1,
                         NULL, diags, &s->m));
     s->m->piece = DBL_MIN;

@@ -22,8 +22,28 @@ static fw_status solver_error(fw_status status) {
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
 
+/* friction that has no force, or more than one, at t or within a billionth of the scene from there:
+   FW_OK when it is something else */
+fw_status fw_run_jammed(const fw_run *r, double t) {
+    double at, final = r->end[r->npiece - 1];
+    const char *id;
+    fw_place place;
+    char time[32];
+    if (!fw_friction_jammed(r->model, &at, &id, &place) || !(fabs(at - t) < 1e-9 * final))
+        return FW_OK;
+    return solver_error(fw_diag_error(
+        r->diags, 244, place,
+        "friction of joint %s in scene %s has no single value at %s s: the force that presses "
+        "there "
+        "grows with the friction itself, so that the joint jams or may either hold or slide; lower "
+        "the coefficient or the radius, move the load nearer to the joint, or let a <contact> "
+        "press",
+        id, scene_name(r), fw_number_text(time, sizeof time, t * r->model->scale.time_s, 6)));
+}
+
 static fw_status stopped(const fw_run *r, const fw_stepper *s, fw_ode_result why) {
     const fw_model *m = r->model;
+    FW_TRY(fw_run_jammed(r, s->t));
     int worst = 0;
     double most = -1;
     for (int b = 0; b < m->nbody; b++) {
@@ -115,9 +135,15 @@ static void first_energy(fw_run *r, const double *y) {
 
 /* ---- events ---- */
 
-/* how well switch i fits its flag at theta: >= 0 fits, its value with the sign of the flag */
+/* how well switch i fits its flag at theta: >= 0 fits, its value with the sign of the flag. Behind
+   the switches come the joints with friction. */
 static double fitness(fw_run *r, fw_stepper *s, int i, double theta) {
+    int friction = i - fw_model_switches(r->model);
     fw_stepper_dense(s, theta, r->moved);
+    if (friction >= 0) {
+        fw_friction_fits(r->model, s->t_old + theta * s->h, r->moved, r->fit);
+        return r->fit[friction];
+    }
     fw_model_pose(r->model, r->moved);
     double value = fw_model_switch_value(r->model, i, r->moved);
     if (fw_model_switch_on(r->model, i)) return value > 0 ? value : fmin(value, -DBL_MIN);
@@ -152,14 +178,32 @@ static double dip(fw_run *r, fw_stepper *s, int i, double low, double high) {
     return fx < 0 ? x : fy < 0 ? y : (double)NAN;
 }
 
+/* fitness of all joints with friction at the 17 places: they share their evaluations */
+static void look_at_friction(fw_run *r, fw_stepper *s) {
+    fw_model *m = r->model;
+    int count = fw_friction_count(m);
+    fw_friction_watch(m, s->y);
+    for (int k = 0; k < FW_PLACES && count > 0; k++) {
+        double theta = k / 16.0;
+        fw_stepper_dense(s, theta, r->moved);
+        fw_friction_fits(m, s->t_old + theta * s->h, r->moved, r->friction_fit + k * count);
+    }
+}
+
+static double fitness_at(fw_run *r, fw_stepper *s, int i, int k) {
+    int friction = i - fw_model_switches(r->model);
+    if (friction < 0) return fitness(r, s, i, k / 16.0);
+    return r->friction_fit[k * fw_friction_count(r->model) + friction];
+}
+
 /* first place of the step where switch i does not fit, 1 with *found false when there is none: its
    fitness at 17 places, and between any three of which the middle one is least and so small that a
    parabola through them may reach below 0 */
 static double first_unfit(fw_run *r, fw_stepper *s, int i, bool *found) {
-    double f[17];
+    double f[FW_PLACES];
     *found = true;
-    for (int k = 0; k <= 16; k++) {
-        f[k] = fitness(r, s, i, k / 16.0);
+    for (int k = 0; k < FW_PLACES; k++) {
+        f[k] = fitness_at(r, s, i, k);
         if (k > 1 && f[k - 1] <= f[k - 2] && f[k - 1] <= f[k] && f[k - 1] >= 0 && f[k] >= 0 &&
             f[k - 1] <= f[k - 2] - 2 * f[k - 1] + f[k]) {
             double low = (k - 2) / 16.0, at = dip(r, s, i, low, k / 16.0);
@@ -173,9 +217,10 @@ static double first_unfit(fw_run *r, fw_stepper *s, int i, bool *found) {
 
 /* the earliest event of the last step: its theta, and which switch; 1 and -1 when there is none */
 static double find_event(fw_run *r, fw_stepper *s, int *which) {
-    int count = fw_model_switches(r->model);
+    int count = fw_model_switches(r->model) + fw_friction_count(r->model);
     double first = 1;
     *which = -1;
+    look_at_friction(r, s);
     for (int i = 0; i < count; i++) {
         bool found;
         double at = first_unfit(r, s, i, &found);
@@ -188,14 +233,19 @@ static double find_event(fw_run *r, fw_stepper *s, int *which) {
 static bool pass_event(fw_run *r, fw_stepper *s, int which, double theta) {
     fw_model *m = r->model;
     double t = s->t_old + theta * s->h;
+    int friction = which - fw_model_switches(m);
     fw_stepper_dense(s, theta, r->moved);
-    fw_model_flip(m, which, r->moved);
+    if (friction < 0)
+        fw_model_flip(m, which, r->moved);
+    else
+        fw_friction_meet(m, friction);
     if (m->projecting) {
         fw_model_pose(m, r->moved);
         if (!m->method->factor(m) || !fw_model_project_position(m, t, r->moved) ||
             !m->method->factor(m) || !fw_model_project_velocity(m, t, r->moved + m->nq))
             return false;
     }
+    if (!fw_friction_decide(m, t, r->moved)) return false;
     start_stepper(r, s, t, r->moved, s->t_end);
     return true;
 }
@@ -225,6 +275,7 @@ static fw_status next_piece(fw_run *r, fw_stepper *s, int piece) {
         if (m->worked >= 0) y[m->worked] += after - before;
         m->events += fabs(after - before) > 1e-9 * fmax(after, before); /* a blow */
     }
+    if (!fw_friction_decide(m, t, y)) return stopped(r, s, FW_ODE_SMALL);
     start_stepper(r, s, t, y, r->end[piece]);
     return FW_OK;
 }
@@ -254,6 +305,8 @@ static fw_status begin(fw_run *r, fw_stepper *s) {
     m->stuck = -1;
     m->piece = 0.5 * r->end[0] * m->scale.time_s;
     fw_model_set_switches(m, r->start);
+    fw_friction_begin(m);
+    if (!fw_friction_decide(m, 0, r->start)) return stopped(r, s, FW_ODE_SMALL);
     start_stepper(r, s, 0, r->start, r->end[0]);
     if (!r->full) return FW_OK;
     first_energy(r, s->y);
@@ -275,7 +328,10 @@ fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks) {
             int which;
             double theta = find_event(r, s, &which);
             if (!look(r, s, peaks, theta)) return stopped(r, s, FW_ODE_SMALL);
-            if (which >= 0 && !pass_event(r, s, which, theta)) return stopped(r, s, FW_ODE_SMALL);
+            if (which >= 0 && !pass_event(r, s, which, theta)) {
+                FW_TRY(fw_run_jammed(r, s->t_old + theta * s->h));
+                return stopped(r, s, FW_ODE_SMALL);
+            }
             if (++r->steps > most_steps(r) || m->events > fw_most_events) return too_long(r, s);
             ended = turned_too_far(r, peaks);
         }

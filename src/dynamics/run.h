@@ -42,6 +42,8 @@ typedef struct fw_extreme {
     double end;      /* value where the pass ends */
 } fw_extreme;
 
+enum { FW_PLACES = 17 }; /* of a step at which events are looked for */
+
 typedef struct fw_run {
     fw_arena *arena;
     const fw_mechanism *mechanism;
@@ -76,6 +78,7 @@ typedef struct fw_run {
     double *channel_now;  /* (channels) */
     double *channel_grid; /* (9 channels) along a step */
     double *pin_now, *tie_now;
+    double *fit, *friction_fit; /* (friction), (FW_PLACES x friction) */
 } fw_run;
 
 /* start.c: pieces, assembled state with fitting velocities, size of the motion, output arrays */
@@ -108,7 +111,9 @@ void fw_run_take_extremes(fw_run *r, const fw_extreme *fine, const fw_extreme *c
 /* all of them within the accuracy of the largest of their kind? */
 bool fw_run_extremes_good(const fw_run *r, double accuracy);
 
-/* run.c: from start to end with one stepper; counts and norms are in model and stepper */
+/* run.c: FW-D244 when friction is what ended the run at scaled time t */
+fw_status fw_run_jammed(const fw_run *r, double t);
+/* from start to end with one stepper; counts and norms are in model and stepper */
 fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks);
 
 #endif

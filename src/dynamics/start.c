@@ -192,7 +192,15 @@ static fw_status start_values(fw_run *r, const fw_terms *terms) {
                    : FW_SOLVER;
     warn_velocities(r, given, v);
     fw_model_set_switches(m, r->start);
-    return FW_OK;
+    fw_friction_begin(m);
+    if (fw_friction_decide(m, 0, r->start)) return FW_OK;
+    FW_TRY(fw_run_jammed(r, 0));
+    return fw_diag_error(r->diags, 109, r->scene->place,
+                         "method %s cannot start scene %s: its equations are singular in the "
+                         "assembled position; use --method chain",
+                         m->method->name, scene_name(r)) == FW_NOMEM
+               ? FW_NOMEM
+               : FW_SOLVER;
 }
 
 fw_status fw_run_prepare(fw_run *r, const fw_terms *terms) {
@@ -223,6 +231,9 @@ fw_status fw_run_arrays(fw_run *r) {
     FW_NEED(r->seen_angle = fw_arena_array(r->arena, double, pins));
     FW_NEED(r->seen_force = fw_arena_array(r->arena, double, 2 * pins));
     if (r->options->reactions) FW_TRY(fw_run_extremes_new(r));
+    size_t friction = (size_t)fw_friction_count(r->model);
+    FW_NEED(r->fit = fw_arena_array(r->arena, double, friction));
+    FW_NEED(r->friction_fit = fw_arena_array(r->arena, double, FW_PLACES *friction));
     size_t ny = (size_t)r->model->ny;
     FW_NEED(r->start = fw_arena_array(r->arena, double, ny));
     FW_NEED(r->state = fw_arena_array(r->arena, double, ny));

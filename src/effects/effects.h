@@ -4,6 +4,7 @@
    The list of active effects is compiled once per scene; an absent one costs nothing. */
 #ifndef FW_EFFECTS_EFFECTS_H
 #define FW_EFFECTS_EFFECTS_H
+#include "base/diag.h"
 #include "device/device.h"
 #include "effects/element.h"
 #include "mechanism/mechanism.h"
@@ -109,6 +110,7 @@ typedef struct fw_effect_case { /* what an effect is asked about */
     const fw_mechanism *mechanism;
     const fw_scene *scene;
     const struct fw_envelope *envelope; /* envelope.h: how large the motion can become */
+    fw_diags *diags;                    /* NULL: mistakes are not reported, only returned */
 } fw_effect_case;
 
 typedef struct fw_effect_row { /* one row per effect: adding one is one file and one row */

@@ -50,6 +50,8 @@ typedef struct fw_element_class {
     /* false: the state is one that the formula does not hold for (an electrode that touches); *why
        says so and what to do. NULL: it always holds */
     bool (*valid)(const fw_force_element *e, const fw_seen *s, const char **why);
+    /* N: with what it presses its two surfaces together, >= 0; for friction. NULL: it has none */
+    double (*pressing)(const fw_force_element *e, const fw_seen *s);
 } fw_element_class;
 
 enum { FW_ELEMENT_LAWS = 2 };

@@ -7,7 +7,7 @@
 static const fw_effect_row *const rows[] = {
     &fw_effect_joint_elasticity, &fw_effect_joint_damping, &fw_effect_joint_stop,
     &fw_effect_point_spring,     &fw_effect_applied_load,  &fw_effect_gravity,
-    &fw_effect_initial_velocity,
+    &fw_effect_initial_velocity, &fw_effect_friction, /* behind contact, which may press */
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
@@ -100,7 +100,11 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, con
                              fw_effect_ledger *ledger, fw_terms *terms) {
     fw_envelope envelope;
     FW_TRY(fw_envelope_find(arena, mechanism, scene, &envelope));
-    const fw_effect_case c = {arena, mechanism, scene, &envelope};
+    const fw_effect_case c = {.arena = arena,
+                              .mechanism = mechanism,
+                              .scene = scene,
+                              .envelope = &envelope,
+                              .diags = diags};
     if (choice->mode == FW_EFFECTS_LIST) FW_TRY(check_list(arena, choice->list, diags));
     FW_NEED(ledger->item = fw_arena_array(arena, fw_effect_entry, ROWS));
     ledger->count = ROWS;

@@ -14,7 +14,7 @@ struct fw_kernel {
 
 bool fw_core_plain(const fw_model *m) {
     return m->plain && m->nblock > 0 && !m->driven && m->worked < 0 && m->nload == 0 &&
-           m->ntimed == 0 && m->nspring == 0 && m->nslide == 0 && m->nstop == 0;
+           m->ntimed == 0 && m->nspring == 0 && m->nslide == 0 && m->nstop == 0 && !m->friction;
 }
 
 /* 1/m_a + 1/m_b, the smaller eigenvalue of the pin's own block; where r^2/J makes the block so much

@@ -130,6 +130,19 @@ static fw_status too_large(const fw_rest *w) {
     return status == FW_NOMEM ? FW_NOMEM : FW_LIMIT;
 }
 
+/* dry friction holds a mechanism in a whole range of positions: the one reported is the one that it
+   would rest in without */
+static void leave_out_friction(fw_rest *w, fw_terms *terms) {
+    terms->nfriction = 0;
+    for (int i = 0; i < w->ledger.count; i++) {
+        fw_effect_entry *e = &w->ledger.item[i];
+        if (strcmp(e->id, "friction") != 0 || !e->called_for) continue;
+        e->active = false;
+        e->reason = "left out at rest: friction can hold in a range of positions around the "
+                    "equilibrium without it, which is the one reported";
+    }
+}
+
 fw_status fw_rest_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                       const fw_effect_choice *effects, fw_diags *diags, fw_rest *w) {
     fw_terms terms;
@@ -141,6 +154,7 @@ fw_status fw_rest_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_s
     fw_effect_choice choice = *effects;
     if (choice.mode == FW_EFFECTS_AUTO) choice.mode = FW_EFFECTS_ALL;
     FW_TRY(fw_effects_compile(arena, mechanism, scene, &choice, 1e-3, diags, &w->ledger, &terms));
+    leave_out_friction(w, &terms);
     FW_TRY(freeze(w, &terms));
     FW_NEED(w->q0 = fw_arena_array(arena, double, n));
     for (int b = 0; b < mechanism->nbody; b++) {
