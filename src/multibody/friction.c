@@ -30,7 +30,7 @@
 
 enum { SWEEPS = 50, ITERATIONS = 200, POWERS = 40 };
 static const double fw_beta = 1;            /* per scaled time: of what sticks */
-static const double fw_hold_epsilon = 1e-7; /* of `loose` */
+static const double fw_hold_epsilon = 1e-6; /* of `loose` */
 
 static fw_status arrays(fw_arena *arena, fw_model *m, struct fw_frictions *s) {
     size_t n = (size_t)s->n, nq = 3 * (size_t)m->nbody + 3, rows = 2 * (size_t)m->nblock;
@@ -303,7 +303,7 @@ void fw_friction_holding(struct fw_frictions *s, int count, const int *which, co
                 s->more[i] -= s->gain[which[i] * s->n + which[j]] * x[j];
             worst = fmax(worst, fabs(s->more[i]));
         }
-        if (!(worst > 1e-15 * size) || worst > 0.7 * before) return;
+        if (!(worst > 4e-15 * size) || worst > 0.7 * before) return;
         before = worst;
     }
 }

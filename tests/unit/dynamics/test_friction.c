@@ -214,12 +214,229 @@ static void test_stick_slip(void **state) {
     }
 }
 
+/* ---- a pendulum whose pin rubs ---- */
+
+/* J a = -m g l sin phi + T,  T = -s mu r |R|,  R = m (g + acceleration of the centre): the only
+   solution for J > mu r m l, by iteration */
+typedef struct swing {
+    double m, j, l, mu_s, mu_k, r; /* j about the pin */
+    double phi, omega;
+    int slip, stops;
+    double last; /* when it came to rest for good; NaN */
+} swing;
+
+static double swing_accel(const swing *s, double phi, double omega) {
+    double weight = -s->m * G * s->l * sin(phi), a = weight / s->j, before = INFINITY;
+    for (int k = 0; k < 200 && a != before; k++) {
+        double x = s->l * (a * cos(phi) - omega * omega * sin(phi));
+        double y = s->l * (a * sin(phi) + omega * omega * cos(phi)) + G;
+        before = a;
+        a = (weight - s->slip * s->mu_k * s->r * s->m * hypot(x, y)) / s->j;
+    }
+    return a;
+}
+
+static void swing_step(swing *s, double h) {
+    double p[4], w[4];
+    static const double c[4] = {0, 0.5, 0.5, 1};
+    for (int k = 0; k < 4; k++) {
+        w[k] = s->omega + (k ? c[k] * h * p[k - 1] : 0);
+        double phi = s->phi + (k ? c[k] * h * w[k - 1] : 0);
+        p[k] = swing_accel(s, phi, w[k]);
+    }
+    s->phi += h / 6 * (w[0] + 2 * w[1] + 2 * w[2] + w[3]);
+    s->omega += h / 6 * (p[0] + 2 * p[1] + 2 * p[2] + p[3]);
+}
+
+static void swing_rest(swing *s, double t) {
+    double asks = s->l * sin(s->phi);
+    s->omega = 0;
+    s->slip = fabs(asks) <= s->mu_s * s->r ? 0 : asks > 0 ? -1 : 1;
+    if (!s->slip) s->last = t;
+}
+
+static void swing_to(swing *s, double from, double to) {
+    int n = (int)ceil((to - from) / 1e-4);
+    double h = (to - from) / n;
+    for (int i = 0; i < n && s->slip; i++) {
+        double done = 0;
+        while (done < h && s->slip) { /* a stop inside the step: its length by bisection */
+            swing end = *s;
+            swing_step(&end, h - done);
+            if (end.slip * end.omega >= 0) {
+                *s = end;
+                break;
+            }
+            double low = 0, high = h - done;
+            for (int k = 0; k < 60; k++) {
+                end = *s;
+                swing_step(&end, (low + high) / 2);
+                *(end.slip * end.omega >= 0 ? &low : &high) = (low + high) / 2;
+            }
+            done += low;
+            swing_step(s, low);
+            swing_rest(s, from + i * h + done);
+            s->stops++;
+        }
+    }
+}
+
+static rig pendulum(fw_arena *arena, swing *s) {
+    const double j = 0.25, l = 0.5, m = 1.5, phi = 1.9;
+    *s = (swing){.m = m, .j = j + m * l * l, .l = l, .mu_s = 0.5, .mu_k = 0.3, .r = 0.11};
+    s->phi = phi;
+    s->last = NOT;
+    swing_rest(s, 0);
+    rig r = rig_new(arena, 1, 1, 0);
+    rig_body(&r, "bob", m, j, l * sin(phi), -l * cos(phi), phi);
+    rig_pin_local(&r, "O", FW_GROUND, 0, 0, 0, 0, l);
+    r.scene.gravity = true;
+    r.scene.gy_m_per_s2 = -G;
+    r.scene.duration_s = 12;
+    rub(arena, &r, 0, FW_NONE, s->mu_s, s->mu_k)->radius_m = s->r;
+    return r;
+}
+
+static void test_pendulum(void **state) {
+    (void)state;
+    double off[4];
+    const double rtol[4] = {1e-6, 1e-8, 1e-10, 1e-12};
+    for (int c = 0; c < 4; c++) {
+        fw_arena *arena = fw_arena_new(0);
+        swing s;
+        rig r = pendulum(arena, &s);
+        const fw_motion *m = run(arena, &r, rtol[c], 121);
+        off[c] = 0;
+        for (int k = 0; k < 121; k++) {
+            if (k) swing_to(&s, m->t_s[k - 1], m->t_s[k]);
+            off[c] = fmax(off[c], fabs(m->q[3 * k + 2] - s.phi));
+            off[c] = fmax(off[c], 0.1 * fabs(m->v[3 * k + 2] - s.omega));
+        }
+        assert_true(s.slip == 0 && s.stops > 3);
+        assert_int_equal(m->stats.events, s.stops);
+        assert_true(m->v[3 * 120 + 2] == 0 || fabs(m->v[3 * 120 + 2]) < 1e-14);
+        assert_true(m->stats.energy_error < fmax(10 * rtol[c], 1e-12));
+        print_message("pendulum: rtol %.0e off %.1e, %ld events, energy %.1e\n", rtol[c], off[c],
+                      m->stats.events, m->stats.energy_error);
+        fw_arena_free(arena);
+    }
+    assert_true(off[0] < 1e-4 && off[1] < off[0] / 10 && off[2] < off[1] / 10);
+    assert_true(off[3] < 1e-11);
+}
+
+/* ---- several at once ---- */
+
+/* a four-bar of two equal cranks that hangs (from above) and swings, friction in all four pins: one
+   freedom, so that all of them stop and stick together, each holding what it likes */
+static rig four_bar(fw_arena *arena) {
+    rig r = rig_windows(arena, 1);
+    r.scene.gy_m_per_s2 = 9.81;
+    r.scene.duration_s = 10;
+    for (int i = 0; i < 4; i++)
+        rub(arena, &r, i, FW_NONE, 0.3, 0.2)->radius_m = 0.05;
+    return r;
+}
+
+static void test_all_methods(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    rig r = four_bar(arena);
+    const fw_motion *first = NULL;
+    for (size_t k = 0; fw_method_at(k).name; k++) {
+        const fw_motion *m = run_by(arena, &r, fw_method_at(k).name, "dop853", 1e-12, 41);
+        print_message("%s: %ld events, %ld steps, energy %.1e\n", fw_method_at(k).name,
+                      m->stats.events, m->stats.steps, m->stats.energy_error);
+        assert_true(m->stats.energy_error < 1e-11);
+        for (int i = 0; i < 9; i++)
+            assert_near(m->v[40 * 9 + i], 0, 1e-14);
+        if (!first) first = m;
+        assert_int_equal(m->stats.events, first->stats.events);
+        for (int i = 0; i < 41 * 9; i++) {
+            assert_near(m->q[i], first->q[i], 1e-10);
+            assert_near(m->v[i], first->v[i], 1e-9);
+        }
+        for (int i = 0; i < 41 * 8; i++)
+            assert_near(m->reaction_N[i], first->reaction_N[i], 1e-7);
+    }
+    assert_true(fabs(first->q[40 * 9 + 2]) > 1e-3); /* not where it would hang */
+    fw_arena_free(arena);
+}
+
+static void test_all_integrators(void **state) {
+    (void)state;
+    for (size_t k = 1; fw_integrator_at(k).name; k++) {
+        fw_arena *arena = fw_arena_new(0);
+        swing s;
+        rig r = pendulum(arena, &s);
+        r.scene.duration_s = 8;
+        swing_to(&s, 0, 8);
+        const char *name = fw_integrator_at(k).name;
+        const fw_motion *m = run_by(arena, &r, NULL, name, 1e-9, 2);
+        print_message("%s: off %.1e, %ld events, %ld steps\n", name, m->q[5] - s.phi,
+                      m->stats.events, m->stats.steps);
+        assert_int_equal(m->stats.events, s.stops);
+        assert_near(m->q[5], s.phi,
+                    strcmp(name, "rk4") == 0 || strcmp(name, "generalised-alpha") == 0 ? 1e-4
+                                                                                       : 1e-6);
+        fw_arena_free(arena);
+    }
+}
+
+/* two equal masses on equal springs, mirrored: they stop at the same instants */
+static void test_two_at_once(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    rig r = rig_new(arena, 2, 0, 0);
+    for (int i = 0; i < 2; i++) {
+        rig_body(&r, "mass", 0.5, 1, i ? -0.37 : 0.37, i, 0);
+        fw_tie *t = slide(arena, &r, FW_GROUND, i, 0);
+        t->stiffness_N_per_m = 50, t->ay_m = i;
+        rub(arena, &r, FW_NONE, i, 0.5, 0.4)->preload_N = 3;
+    }
+    r.scene.duration_s = 4;
+    const fw_motion *m = run(arena, &r, 1e-12, 41);
+    for (int k = 0; k < 41; k++)
+        assert_near(m->q[6 * k], -m->q[6 * k + 3], 1e-11);
+    assert_true(m->stats.events >= 7 && m->stats.events <= 14);
+    assert_true(fabs(m->v[6 * 40]) < 1e-14 && fabs(m->v[6 * 40 + 3]) < 1e-14);
+    fw_arena_free(arena);
+}
+
+/* ---- what has no answer ---- */
+
+/* a bar about its end: unit torque takes m l/(J + m l^2) = 1.5 from the pin's force, so that mu r
+   above 2/3 m has no single motion */
+static void test_jam(void **state) {
+    (void)state;
+    for (int jams = 0; jams < 2; jams++) {
+        fw_arena *arena = fw_arena_new(0);
+        rig r = rig_new(arena, 1, 1, 0);
+        rig_body(&r, "bar", 1, 1.0 / 12, 0.5, 0, 0);
+        rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 0, 0);
+        rig_velocity(&r, 0, 0, 0.5, 1);
+        r.scene.duration_s = 1;
+        rub(arena, &r, 0, FW_NONE, NOT, 0.7)->radius_m = jams ? 0.96 : 0.95;
+        fw_diags diags = fw_diags_new(arena);
+        fw_motion_options o = {.effects = {FW_EFFECTS_ALL, NULL}};
+        const fw_motion *m = NULL;
+        fw_status status = fw_simulate(arena, &r.m, &r.scene, &o, &diags, &m);
+        assert_int_equal(status, jams ? FW_SOLVER : FW_OK);
+        assert_true((diags.count > 0 && diags.item[0].number == 244) == jams);
+        fw_arena_free(arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_incline),
         cmocka_unit_test(test_at_the_limit),
         cmocka_unit_test(test_dying_swings),
         cmocka_unit_test(test_stick_slip),
+        cmocka_unit_test(test_pendulum),
+        cmocka_unit_test(test_all_methods),
+        cmocka_unit_test(test_all_integrators),
+        cmocka_unit_test(test_two_at_once),
+        cmocka_unit_test(test_jam),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
