@@ -90,7 +90,7 @@ fw_status fw_friction_new(fw_arena *arena, const fw_mechanism *mechanism, const 
     if (!terms || terms->nfriction == 0) return FW_OK;
     FW_NEED(s = fw_arena_one(arena, struct fw_frictions));
     s->n = terms->nfriction;
-    s->jam = -1;
+    s->jam = s->met = -1;
     FW_NEED(s->item = fw_arena_array(arena, fw_model_friction, (size_t)s->n));
     FW_TRY(arrays(arena, m, s));
     double newton = m->scale.mass_kg * m->scale.length_m / (m->scale.time_s * m->scale.time_s);

@@ -49,7 +49,8 @@ struct fw_frictions {
     double *place, *going;           /* (3 nbody) SI pose and velocities */
     double *seen;                    /* (2 x 3 ports) */
     bool *on;                        /* (switches) */
-    int jam;                         /* entry without a (single) torque, or -1; and when */
+    int met, met_slip; /* entry whose flag no longer fitted, and that flag; -1: none */
+    int jam;           /* entry without a (single) torque, or -1; and when */
     double jam_time;
 };
 

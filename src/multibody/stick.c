@@ -62,10 +62,16 @@ void fw_friction_fits(fw_model *m, double t, const double *y, double *fit) {
     }
 }
 
+static int goes(const fw_model_friction *f) {
+    return f->yields ? 0 : f->slip;
+}
+
 void fw_friction_meet(fw_model *m, int i) {
     fw_model_friction *f = &m->friction->item[i];
-    if (f->slip && !f->yields) f->slip = 0, f->held = (double)NAN; /* comes to rest anew */
-    m->events++;
+    m->friction->met = i;
+    m->friction->met_slip = goes(f);
+    if (f->yields) return;
+    f->slip = 0, f->held = (double)NAN; /* at rest here; where it lets go, without a pull back */
 }
 
 void fw_friction_begin(fw_model *m) {
@@ -73,7 +79,7 @@ void fw_friction_begin(fw_model *m) {
     for (int i = 0; i < m->friction->n; i++)
         m->friction->item[i].slip = 1, m->friction->item[i].yields = false;
     m->friction->speed = 0;
-    m->friction->jam = -1;
+    m->friction->jam = m->friction->met = -1;
 }
 
 /* ---- who is at rest ---- */
@@ -111,7 +117,7 @@ static contradiction wrong(const fw_model *m, int i, double *how) {
         *how = fabs(f->torque) / limit(f, fw_limit_noise);
         return *how > 1 ? ABOVE : NONE;
     }
-    double a = s->accel[i], size = s->size[i];
+    double a = s->accel[i] + s->creep[i], size = s->size[i] + fabs(s->creep[i]);
     for (int j = 0; j < s->n; j++) {
         a += s->gain[i * s->n + j] * s->torque[j];
         size += fabs(s->gain[i * s->n + j] * s->torque[j]);
@@ -217,7 +223,12 @@ bool fw_friction_decide(fw_model *m, double t, double *y) {
         if (s->rests[i] && (!s->held[i] || isnan(s->item[i].held)))
             s->item[i].held = fw_friction_coordinate(m, i, y);
     evaluate(m, t, y);
-    return sort(m);
+    if (!sort(m)) return false;
+    if (s->met >= 0) { /* one that holds after all was no event */
+        m->events += goes(&s->item[s->met]) != s->met_slip;
+        s->met = -1;
+    }
+    return true;
 }
 
 bool fw_friction_jammed(const fw_model *m, double *t, const char **id, fw_place *place) {
