@@ -117,6 +117,8 @@ static contradiction wrong(const fw_model *m, int i, double *how) {
         *how = fabs(f->torque) / limit(f, fw_limit_noise);
         return *how > 1 ? ABOVE : NONE;
     }
+    bool free = s->left[i] > fw_can_move * s->loose[i];
+    if (!free && f->yields) return NONE; /* others hold it: what it would do is round-off */
     double a = s->accel[i] + s->creep[i], size = s->size[i] + fabs(s->creep[i]);
     for (int j = 0; j < s->n; j++) {
         a += s->gain[i * s->n + j] * s->torque[j];
@@ -124,7 +126,7 @@ static contradiction wrong(const fw_model *m, int i, double *how) {
     }
     *how = size > 0 ? -f->slip * a / size : 0;
     if (*how > 1e-9) return BACKWARDS;
-    return f->yields && s->left[i] > fw_can_move * s->loose[i] ? FREE : NONE;
+    return f->yields ? FREE : NONE;
 }
 
 static void mend(struct fw_frictions *s, int i, contradiction what) {
