@@ -2,6 +2,7 @@
 /* What friction does at one instant, on random mechanisms and states: the equations of motion with
    its torques, and the law of every joint with friction, checked from the outside. */
 #include "dynamics/models.h"
+#include "effects/effect.h"
 #include "multibody/friction.h"
 
 static const double NOT = (double)NAN;
@@ -195,9 +196,52 @@ static void laws_hold(void **state) {
     assert_true(refused < 12);
 }
 
+/* a contact presses: it sees its points where the bodies are, in SI, and its own switches */
+static double by_place(const fw_force_element *e, const fw_seen *s) {
+    (void)e;
+    return s->on[0] && !s->on[1] ? 2 + s->p[3] + 10 * s->p[4] - s->p[0] + s->w[4] : -1;
+}
+static double by_side(const fw_force_element *e, const fw_seen *s, int i) {
+    (void)e, (void)s;
+    return i ? -1 : 1;
+}
+
+static void contact_presses(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    const fw_element_class contact = {
+        .effect = "contact", .switch_value = by_side, .pressing = by_place};
+    rig r = rig_new(arena, 1, 1, 0);
+    rig_body(&r, "rotor", 2, 0.5, 3, 4, 0);
+    rig_pin(&r, "O", FW_GROUND, 0, 3, 4, 0, 0);
+    r.scene.duration_s = 3;
+    fw_terms terms;
+    assert_int_equal(fw_terms_new(arena, &r.m, &r.scene, &terms), FW_OK);
+    fw_force_element *e = fw_terms_add_element(arena, &terms, &contact, 2);
+    e->switches = 2;
+    e->port[0] = (fw_port){FW_GROUND, 0.5, 0};
+    e->port[1] = (fw_port){0, 0.25, 0};
+    fw_friction *f = fw_terms_add_friction(arena, &terms);
+    f->pin = 0, f->element = 0, f->kinetic_coefficient = f->static_coefficient = 0.3;
+    f->radius_m = 0.1, f->preload_N = 1;
+    const double q[3] = {3, 4, 0}, omega = 1.5;
+    fw_model *m = NULL;
+    assert_int_equal(fw_model_new(arena, &r.m, &terms, q, 3, NULL, &diags, &m), FW_OK);
+    double y[8] = {0}, out[8];
+    y[5] = omega * m->scale.time_s;
+    fw_friction_begin(m);
+    assert_true(fw_friction_decide(m, 0, y));
+    fw_model_rhs(m, 0, y, out);
+    double n = 1 + 2 + 3.25 + 40 - 0.5 + 0.25 * omega; /* x + 10 y of port b, its upward speed */
+    assert_near(out[5] / m->scale.time_s / m->scale.time_s, -0.3 * 0.1 * n / 0.5, 1e-12);
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(laws_hold),
+        cmocka_unit_test(contact_presses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
