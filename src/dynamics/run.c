@@ -22,22 +22,21 @@ static fw_status solver_error(fw_status status) {
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
 
-/* friction that has no force, or more than one, at t or within a billionth of the scene from there:
+/* friction that has no force, or more than one, at t or within a millionth of the scene from there
+   (towards such a place forces grow without limit, and steps end before it):
    FW_OK when it is something else */
 fw_status fw_run_jammed(const fw_run *r, double t) {
     double at, final = r->end[r->npiece - 1];
     const char *id;
     fw_place place;
     char time[32];
-    if (!fw_friction_jammed(r->model, &at, &id, &place) || !(fabs(at - t) < 1e-9 * final))
+    if (!fw_friction_jammed(r->model, &at, &id, &place) || !(fabs(at - t) < 1e-6 * final))
         return FW_OK;
     return solver_error(fw_diag_error(
         r->diags, 244, place,
-        "friction of joint %s in scene %s has no single value at %s s: the force that presses "
-        "there "
-        "grows with the friction itself, so that the joint jams or may either hold or slide; lower "
-        "the coefficient or the radius, move the load nearer to the joint, or let a <contact> "
-        "press",
+        "friction of joint %s in scene %s has no single value at %s s: what presses there grows "
+        "with the friction itself, so that the joint jams or may either hold or slide; lower the "
+        "coefficient or the radius, move the load nearer to the joint, or let a <contact> press",
         id, scene_name(r), fw_number_text(time, sizeof time, t * r->model->scale.time_s, 6)));
 }
 

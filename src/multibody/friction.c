@@ -86,7 +86,7 @@ fw_status fw_friction_new(fw_arena *arena, const fw_mechanism *mechanism, const 
     if (!terms || terms->nfriction == 0) return FW_OK;
     FW_NEED(s = fw_arena_one(arena, struct fw_frictions));
     s->n = terms->nfriction;
-    s->jam = s->met = -1;
+    s->jam = s->jammed = s->met = -1;
     FW_NEED(s->item = fw_arena_array(arena, fw_model_friction, (size_t)s->n));
     FW_TRY(arrays(arena, m, s));
     double newton = m->scale.mass_kg * m->scale.length_m / (m->scale.time_s * m->scale.time_s);
@@ -276,9 +276,10 @@ void fw_friction_apply(fw_model *m, double t, const double *y) {
     fw_friction_look(m, t, y);
     if (!fw_friction_solve(m)) {
         m->broken = true;
-        s->jam_time = t;
+        if (s->jam >= 0) s->jammed = s->jam, s->jam_time = t;
         return;
     }
+    if (s->tight >= 0) s->jammed = s->tight, s->jam_time = t; /* should the run end here */
     for (int j = 0; j < s->n; j++) {
         const double *a = s->response + (size_t)j * (size_t)(m->nq + 3);
         const double *l = s->react + (size_t)j * 2 * (size_t)m->nblock;

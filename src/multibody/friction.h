@@ -50,7 +50,9 @@ struct fw_frictions {
     double *seen;                    /* (2 x 3 ports) */
     bool *on;                        /* (switches) */
     int met, met_slip; /* entry whose flag no longer fitted, and that flag; -1: none */
-    int jam;           /* entry without a (single) torque, or -1; and when */
+    int jam;           /* entry without a (single) torque, or -1 */
+    int tight;         /* entry next to a jam, or -1 */
+    int jammed;        /* the last such entry, kept, and when */
     double jam_time;
 };
 

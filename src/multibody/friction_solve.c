@@ -10,6 +10,7 @@
 #include <string.h>
 
 enum { SWEEPS = 50, ITERATIONS = 200, POWERS = 40 };
+static const double fw_tight = 0.9999;      /* nearly jammed: forces grow as 1/(1 - radius) */
 static const double fw_hold_epsilon = 1e-6; /* of `loose` */
 
 bool fw_friction_hold(struct fw_frictions *s, int count, const int *which) {
@@ -90,6 +91,8 @@ static void eliminate(struct fw_frictions *s, int stuck, int moving) {
    1942, Wielandt 1950. */
 static bool contracts(struct fw_frictions *s, int moving, int *worst) {
     double *x = s->right, *kx = s->step;
+    bool below = moving == 0;
+    s->tight = -1;
     for (int r = 0; r < moving; r++)
         x[r] = 1;
     for (int k = 0; k < POWERS; k++) {
@@ -104,12 +107,14 @@ static bool contracts(struct fw_frictions *s, int moving, int *worst) {
             if (!(kx[r] / x[r] <= bound)) bound = kx[r] / x[r], *worst = s->moving[r];
             largest = fmax(largest, kx[r]);
         }
-        if (bound < 1) return true;
+        below = bound < 1;
+        if (bound < fw_tight) return true;
         if (!(largest < (double)INFINITY)) return false;
         for (int r = 0; r < moving; r++)
             x[r] = kx[r] / largest + 1e-6;
     }
-    return false;
+    s->tight = *worst;
+    return below;
 }
 
 /* F_r = T_r + sign mu N_r(T) at x, and its largest; with `slopes` the Jacobian too (by columns) */

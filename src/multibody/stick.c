@@ -79,7 +79,7 @@ void fw_friction_begin(fw_model *m) {
     for (int i = 0; i < m->friction->n; i++)
         m->friction->item[i].slip = 1, m->friction->item[i].yields = false;
     m->friction->speed = 0;
-    m->friction->jam = m->friction->met = -1;
+    m->friction->jam = m->friction->jammed = m->friction->met = -1;
 }
 
 /* ---- who is at rest ---- */
@@ -214,7 +214,6 @@ bool fw_friction_decide(fw_model *m, double t, double *y) {
     fw_friction_watch(m, y);
     fw_model_pose(m, y);
     m->broken = !m->method->factor(m);
-    s->jam_time = t;
     if (m->broken) return false;
     for (int i = 0; i < s->n; i++) /* those that stay at rest keep their place */
         s->rests[i] = false, s->held[i] = !s->item[i].slip || s->item[i].yields;
@@ -225,7 +224,10 @@ bool fw_friction_decide(fw_model *m, double t, double *y) {
         if (s->rests[i] && (!s->held[i] || isnan(s->item[i].held)))
             s->item[i].held = fw_friction_coordinate(m, i, y);
     evaluate(m, t, y);
-    if (!sort(m)) return false;
+    if (!sort(m)) {
+        if (s->jam >= 0) s->jammed = s->jam, s->jam_time = t;
+        return false;
+    }
     if (s->met >= 0) { /* one that holds after all was no event */
         m->events += goes(&s->item[s->met]) != s->met_slip;
         s->met = -1;
@@ -235,7 +237,7 @@ bool fw_friction_decide(fw_model *m, double t, double *y) {
 
 bool fw_friction_jammed(const fw_model *m, double *t, const char **id, fw_place *place) {
     const struct fw_frictions *s = m->friction;
-    if (!s || s->jam < 0) return false;
-    *t = s->jam_time, *id = s->item[s->jam].id, *place = s->item[s->jam].place;
+    if (!s || s->jammed < 0) return false;
+    *t = s->jam_time, *id = s->item[s->jammed].id, *place = s->item[s->jammed].place;
     return true;
 }

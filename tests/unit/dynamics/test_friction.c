@@ -426,6 +426,40 @@ static void test_jam(void **state) {
     }
 }
 
+/* A slides along x with friction, B (25 times its mass) along y, a rod of length 1 between them.
+   Unit force along the guide of A changes what presses by m_B c/(m_A + m_B c^2), c = x/y: with mu =
+   0.8 its product reaches 1 at c = (20 + 300^(1/2))/50, on the way in. The run ends there. */
+static void test_jams_on_the_way(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const double c = (20 + sqrt(300)) / 50, x0 = cos(PI / 6), y0 = sin(PI / 6);
+    rig r = rig_new(arena, 2, 0, 0);
+    rig_body(&r, "A", 1, 1, x0, 0, 0);
+    rig_body(&r, "B", 25, 1, 0, y0, 0);
+    slide(arena, &r, FW_GROUND, 0, 0);
+    slide(arena, &r, FW_GROUND, 1, PI / 2);
+    fw_tie *rod = slide(arena, &r, 0, 1, 0);
+    *rod = (fw_tie){.id = "rod", .kind = FW_TIE_DISTANCE, .body_a = 0, .body_b = 1, .length_m = 1};
+    rig_velocity(&r, 0, -1, 0, 0);
+    rig_velocity(&r, 1, 0, x0 / y0, 0);
+    rig_force(&r, 0, -3, 0);
+    rub(arena, &r, FW_NONE, 0, NOT, 0.8)->preload_N = 0.1;
+    r.scene.duration_s = 2;
+    fw_diags diags = fw_diags_new(arena);
+    fw_motion_options o = {.rtol = 1e-10, .effects = {FW_EFFECTS_ALL, NULL}};
+    const fw_motion *m = NULL;
+    assert_int_equal(fw_simulate(arena, &r.m, &r.scene, &o, &diags, &m), FW_SOLVER);
+    assert_int_equal(diags.item[0].number, 244);
+    const char *at = strstr(diags.item[0].message, "single value at ");
+    assert_non_null(at);
+    double when = atof(at + 16);
+    r.scene.duration_s = when * (1 - 1e-5);
+    m = run(arena, &r, 1e-10, 2);
+    assert_near(m->q[6] / m->q[6 + 4], c, 1e-3);
+    assert_true(m->q[6] / m->q[6 + 4] > c);
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_incline),
@@ -437,6 +471,7 @@ int main(void) {
         cmocka_unit_test(test_all_integrators),
         cmocka_unit_test(test_two_at_once),
         cmocka_unit_test(test_jam),
+        cmocka_unit_test(test_jams_on_the_way),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
