@@ -136,6 +136,7 @@ static fw_status state_new(fw_arena *arena, const fw_mechanism *mechanism, const
         if (start != mechanism) FW_TRY(fw_assemble(arena, start, s->q0, &moved, diags));
         mechanism = s->mechanism, q = s->q0;
     }
+    if (scene) terms.nfriction = 0; /* forces as they are without */
     FW_TRY(fw_model_new(arena, mechanism, scene ? &terms : NULL, q, scene ? scene->duration_s : 1,
                         NULL, diags, &s->m));
     s->m->piece = DBL_MIN;

@@ -22,8 +22,27 @@ static fw_status solver_error(fw_status status) {
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
 
+/* friction that has no force, or more than one, at t or within a millionth of the scene from there
+   (towards such a place forces grow without limit, and steps end before it):
+   FW_OK when it is something else */
+fw_status fw_run_jammed(const fw_run *r, double t) {
+    double at, final = r->end[r->npiece - 1];
+    const char *id;
+    fw_place place;
+    char time[32];
+    if (!fw_friction_jammed(r->model, &at, &id, &place) || !(fabs(at - t) < 1e-6 * final))
+        return FW_OK;
+    return solver_error(fw_diag_error(
+        r->diags, 244, place,
+        "friction of joint %s in scene %s has no single value at %s s: what presses there grows "
+        "with the friction itself, so that the joint jams or may either hold or slide; lower the "
+        "coefficient or the radius, move the load nearer to the joint, or let a <contact> press",
+        id, scene_name(r), fw_number_text(time, sizeof time, t * r->model->scale.time_s, 6)));
+}
+
 static fw_status stopped(const fw_run *r, const fw_stepper *s, fw_ode_result why) {
     const fw_model *m = r->model;
+    FW_TRY(fw_run_jammed(r, s->t));
     int worst = 0;
     double most = -1;
     for (int b = 0; b < m->nbody; b++) {
@@ -116,108 +135,24 @@ static void first_energy(fw_run *r, const double *y) {
     r->largest = r->first.kinetic + fabs(r->first.elastic);
 }
 
-/* ---- events ---- */
-
-/* r->moved at theta, posed; returns the time */
-static double stand_at(fw_run *r, fw_stepper *s, double theta) {
-    fw_stepper_dense(s, theta, r->moved);
-    fw_model_at(r->model, s->t_old + theta * s->h);
-    fw_model_pose(r->model, r->moved);
-    return s->t_old + theta * s->h;
-}
-
-/* how well switch i fits its flag: >= 0 fits, its value with the sign of the flag */
-static double fitting(const fw_run *r, int i, double value) {
-    if (fw_model_switch_on(r->model, i)) return value > 0 ? value : fmin(value, -DBL_MIN);
-    return value > 0 ? -value : fabs(value);
-}
-
-static double fitness(fw_run *r, fw_stepper *s, int i, double theta) {
-    double t = stand_at(r, s, theta);
-    return fitting(r, i, fw_model_switch_value(r->model, t, i, r->moved));
-}
-
-/* first place in (low, high] where switch i does not fit, given that it does at low and not at
-   high; to round-off of theta, from above */
-static double bisect(fw_run *r, fw_stepper *s, int i, double low, double high) {
-    for (int k = 0; k < 52 && high - low > 1e-15; k++) {
-        double middle = 0.5 * (low + high);
-        *(fitness(r, s, i, middle) < 0 ? &high : &low) = middle;
-    }
-    return high;
-}
-
-/* a place in (low, high) where switch i does not fit, though it does at both ends: the least fit
-   one, by golden section; NaN when it fits there too. Finds a touch shorter than the spacing. */
-static double dip(fw_run *r, fw_stepper *s, int i, double low, double high) {
-    const double golden = 0.6180339887498949;
-    double x = high - golden * (high - low), y = low + golden * (high - low);
-    double fx = fitness(r, s, i, x), fy = fitness(r, s, i, y);
-    for (int k = 0; k < 60 && fx >= 0 && fy >= 0 && high - low > 1e-12; k++) {
-        if (fx < fy) {
-            high = y, y = x, fy = fx, x = high - golden * (high - low);
-            fx = fitness(r, s, i, x);
-        } else {
-            low = x, x = y, fx = fy, y = low + golden * (high - low);
-            fy = fitness(r, s, i, y);
-        }
-    }
-    return fx < 0 ? x : fy < 0 ? y : (double)NAN;
-}
-
-/* first place up to place k of the step where switch i does not fit, though it did up to k - 1: by
-   its fitness f at the places so far, and between any three of which the middle one is least and so
-   small that a parabola through them may reach below 0. NaN: there is none */
-static double first_unfit(fw_run *r, fw_stepper *s, int i, int k) {
-    const double part = 1.0 / FW_PLACES;
-    size_t count = (size_t)fw_model_switches(r->model);
-    const double *f = r->fit + (size_t)k * count + i;
-    if (k == 0) return (double)NAN;
-    const double *f1 = f - count, *f2 = f1 - (k > 1 ? count : 0);
-    if (k > 1 && *f1 <= *f2 && *f1 <= *f && *f1 >= 0 && *f >= 0 && *f1 <= *f2 - 2 * *f1 + *f) {
-        double low = (k - 2) * part, at = dip(r, s, i, low, k * part);
-        if (!isnan(at)) return bisect(r, s, i, low, at);
-    }
-    return *f < 0 ? bisect(r, s, i, (k - 1) * part, k * part) : (double)NAN;
-}
-
-/* the earliest event of the last step: its theta, and which switch; 1 and -1 when there is none.
-   All switches are looked at in one pose of each place; what is found at the next place lies beyond
-   the place before this one. */
-static double find_event(fw_run *r, fw_stepper *s, int *which) {
-    int count = fw_model_switches(r->model);
-    double first = 1;
-    *which = -1;
-    if (count == 0) return first;
-    memset(r->unfit, 0, (size_t)count * sizeof *r->unfit);
-    for (int k = 0; k <= FW_PLACES && !(*which >= 0 && first <= (k - 2.0) / FW_PLACES); k++) {
-        double *f = r->fit + (size_t)k * (size_t)count, t = stand_at(r, s, (double)k / FW_PLACES);
-        fw_model_switch_values(r->model, t, r->moved, f);
-        for (int i = 0; i < count; i++)
-            f[i] = fitting(r, i, f[i]);
-        for (int i = 0; i < count; i++) {
-            double at = r->unfit[i] ? (double)NAN : first_unfit(r, s, i, k);
-            if (isnan(at)) continue;
-            r->unfit[i] = true;
-            if (*which < 0 || at < first || (at == first && i < *which)) first = at, *which = i;
-        }
-    }
-    return first;
-}
-
 /* goes on from the event with the flag changed */
 static bool pass_event(fw_run *r, fw_stepper *s, int which, double theta) {
     fw_model *m = r->model;
     double t = s->t_old + theta * s->h;
+    int friction = which - fw_model_switches(m);
     fw_stepper_dense(s, theta, r->moved);
     fw_model_at(m, t);
-    fw_model_flip(m, t, which, r->moved);
+    if (friction < 0)
+        fw_model_flip(m, t, which, r->moved);
+    else
+        fw_friction_meet(m, friction);
     if (m->projecting) {
         fw_model_pose(m, r->moved);
         if (!m->method->factor(m) || !fw_model_project_position(m, t, r->moved) ||
             !m->method->factor(m) || !fw_model_project_velocity(m, t, r->moved + m->nq))
             return false;
     }
+    if (!fw_friction_decide(m, t, r->moved)) return false;
     start_stepper(r, s, t, r->moved, s->t_end);
     return true;
 }
@@ -261,6 +196,7 @@ static fw_status next_piece(fw_run *r, fw_stepper *s, int piece) {
         m->events += fabs(after - before) > 1e-9 * fmax(after, before); /* a blow */
     }
     if (m->nelement > 0) jump_of_elements(r, t, y, stored);
+    if (!fw_friction_decide(m, t, y)) return stopped(r, s, FW_ODE_SMALL);
     start_stepper(r, s, t, y, r->end[piece]);
     return FW_OK;
 }
@@ -291,6 +227,8 @@ static fw_status begin(fw_run *r, fw_stepper *s) {
     m->piece = 0.5 * r->end[0] * m->scale.time_s;
     fw_model_at(m, 0);
     fw_model_set_switches(m, 0, r->start);
+    fw_friction_begin(m);
+    if (!fw_friction_decide(m, 0, r->start)) return stopped(r, s, FW_ODE_SMALL);
     start_stepper(r, s, 0, r->start, r->end[0]);
     if (!r->full) return FW_OK;
     first_energy(r, s->y);
@@ -310,9 +248,12 @@ fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks) {
             fw_ode_result result = fw_stepper_step(s);
             if (result != FW_ODE_STEP) return stopped(r, s, result);
             int which;
-            double theta = find_event(r, s, &which);
+            double theta = fw_run_event(r, s, &which);
             if (!look(r, s, peaks, theta)) return stopped(r, s, FW_ODE_SMALL);
-            if (which >= 0 && !pass_event(r, s, which, theta)) return stopped(r, s, FW_ODE_SMALL);
+            if (which >= 0 && !pass_event(r, s, which, theta)) {
+                FW_TRY(fw_run_jammed(r, s->t_old + theta * s->h));
+                return stopped(r, s, FW_ODE_SMALL);
+            }
             FW_TRY(fw_run_valid(r, s->t, s->y));
             if (++r->steps > most_steps(r) || m->events > fw_most_events) return too_long(r, s);
             ended = turned_too_far(r, peaks);

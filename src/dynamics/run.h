@@ -53,15 +53,15 @@ typedef struct fw_run {
     fw_motion *motion;
     fw_model *model;
     const fw_stepper_row *integrator;
-    double uneven;    /* heaviest body over the lightest one between two joints */
-    const char *why;  /* this method though none was asked for; NULL: the default, or asked for */
-    double *q0;       /* (3 nbody) assembled, SI */
-    double *start;    /* (ny) */
-    double *state;    /* (ny) a sample */
-    double *rate;     /* (ny) its derivative */
-    double *moved;    /* (ny) a state at an event */
-    double *fit;      /* (FW_PLACES + 1 x switches) along a step */
-    bool *unfit;      /* (switches) found in this step */
+    double uneven;   /* heaviest body over the lightest one between two joints */
+    const char *why; /* this method though none was asked for; NULL: the default, or asked for */
+    double *q0;      /* (3 nbody) assembled, SI */
+    double *start;   /* (ny) */
+    double *state;   /* (ny) a sample */
+    double *rate;    /* (ny) its derivative */
+    double *moved;   /* (ny) a state at an event */
+    double *fit; /* (FW_PLACES + 1 x entries) along a step: switches, then joints with friction */
+    bool *unfit; /* (entries) found in this step */
     double amplitude; /* scaled size of the motion: the absolute tolerance is rtol times this */
     fw_energy first;
     double drift, largest;
@@ -80,6 +80,7 @@ typedef struct fw_run {
     double *channel_now;  /* (channels) */
     double *channel_grid; /* (9 channels) along a step */
     double *pin_now, *tie_now;
+    double *friction_fit; /* (friction) */
 } fw_run;
 
 /* start.c: pieces, assembled state with fitting velocities, size of the motion, output arrays */
@@ -118,7 +119,12 @@ void fw_run_take_extremes(fw_run *r, const fw_extreme *fine, const fw_extreme *c
 /* all of them within the accuracy of the largest of their kind? */
 bool fw_run_extremes_good(const fw_run *r, double accuracy);
 
-/* run.c: from start to end with one stepper; counts and norms are in model and stepper */
+/* run.c: FW-D244 when friction is what ended the run at scaled time t */
+fw_status fw_run_jammed(const fw_run *r, double t);
+/* event.c: the earliest event of the last step: its theta, and which entry; 1 and -1: there is none
+ */
+double fw_run_event(fw_run *r, fw_stepper *s, int *which);
+/* from start to end with one stepper; counts and norms are in model and stepper */
 fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks);
 
 #endif

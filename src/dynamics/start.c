@@ -191,6 +191,15 @@ static void warn_velocities(fw_run *r, const double *given, const double *v) {
                     fw_number_text(energy, sizeof energy, 100 * (after - before) / before, 3));
 }
 
+static fw_status cannot_start(const fw_run *r) {
+    fw_status status =
+        fw_diag_error(r->diags, 109, r->scene->place,
+                      "method %s cannot start scene %s: its equations are singular in the "
+                      "assembled position; use --method chain",
+                      r->model->method->name, scene_name(r));
+    return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
+}
+
 /* Velocities start as if all pins were joints, also those that elements stand for: they then start
    without a stretch and without its rate, whatever the scene states. */
 static fw_status closed_model(fw_run *r, const fw_terms *terms, fw_model **closed) {
@@ -227,16 +236,14 @@ static fw_status start_values(fw_run *r, const fw_terms *terms) {
     bool good = onto_joints(r, given, v);
     r->model = m;
     if (good && closed != m) good = onto_joints(r, NULL, v);
-    if (!good)
-        return fw_diag_error(r->diags, 109, r->scene->place,
-                             "method %s cannot start scene %s: its equations are singular in the "
-                             "assembled position; use --method chain",
-                             m->method->name, scene_name(r)) == FW_NOMEM
-                   ? FW_NOMEM
-                   : FW_SOLVER;
+    if (!good) return cannot_start(r);
     warn_velocities(r, given, v);
     fw_model_set_switches(m, 0, r->start);
-    return fw_run_valid(r, 0, r->start);
+    FW_TRY(fw_run_valid(r, 0, r->start));
+    fw_friction_begin(m);
+    if (fw_friction_decide(m, 0, r->start)) return FW_OK;
+    FW_TRY(fw_run_jammed(r, 0));
+    return cannot_start(r);
 }
 
 fw_status fw_run_valid(const fw_run *r, double t, const double *y) {
@@ -281,13 +288,15 @@ fw_status fw_run_arrays(fw_run *r) {
     FW_NEED(r->seen_angle = fw_arena_array(r->arena, double, pins));
     FW_NEED(r->seen_force = fw_arena_array(r->arena, double, 2 * pins));
     if (r->options->reactions) FW_TRY(fw_run_extremes_new(r));
+    size_t friction = (size_t)fw_friction_count(r->model);
+    FW_NEED(r->friction_fit = fw_arena_array(r->arena, double, friction));
     size_t ny = (size_t)r->model->ny;
     FW_NEED(r->start = fw_arena_array(r->arena, double, ny));
     FW_NEED(r->state = fw_arena_array(r->arena, double, ny));
     FW_NEED(r->rate = fw_arena_array(r->arena, double, ny));
     FW_NEED(r->moved = fw_arena_array(r->arena, double, ny));
-    size_t switches = (size_t)fw_model_switches(r->model);
-    FW_NEED(r->fit = fw_arena_array(r->arena, double, (FW_PLACES + 1) * switches));
-    FW_NEED(r->unfit = fw_arena_array(r->arena, bool, switches));
+    size_t entries = (size_t)fw_model_switches(r->model) + friction;
+    FW_NEED(r->fit = fw_arena_array(r->arena, double, (FW_PLACES + 1) * entries));
+    FW_NEED(r->unfit = fw_arena_array(r->arena, bool, entries));
     return FW_OK;
 }

@@ -4,6 +4,7 @@
    The list of active effects is compiled once per scene; an absent one costs nothing. */
 #ifndef FW_EFFECTS_EFFECTS_H
 #define FW_EFFECTS_EFFECTS_H
+#include "base/diag.h"
 #include "device/device.h"
 #include "effects/element.h"
 #include "mechanism/mechanism.h"

@@ -19,6 +19,7 @@ bool fw_effect_not_proportional(const fw_effect_case *c) {
     const fw_mechanism *m = c->mechanism;
     if (m->ndriver > 0 || fw_effect_joint_stop.called_for(c)) return true;
     if (c->scene->ntendon > 0 || c->scene->ncomb > 0) return true;
+    if (fw_effect_friction.called_for(c)) return true;
     for (int i = 0; i < m->nspring; i++)
         if (m->spring[i].cable) return true;
     for (int i = 0; i < c->scene->nforce; i++)

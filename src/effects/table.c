@@ -16,6 +16,7 @@ static const fw_effect_row *const rows[] = {
     &fw_effect_base_motion,
     &fw_effect_nonlinear_hinge, /* after joint-elasticity: it takes the spring over */
     &fw_effect_contact,
+    &fw_effect_friction, /* behind contact, which may press */
     &fw_effect_tendon,
     &fw_effect_comb_drive,
     &fw_effect_temperature, /* after what has stiffness: it softens it */

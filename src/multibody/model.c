@@ -287,8 +287,8 @@ static void set_springs(const builder *b) {
 }
 
 /* which quadratures the state carries */
-static void set_books(fw_model *m) {
-    bool loses = false;
+static void set_books(fw_model *m, bool friction) {
+    bool loses = friction;
     for (int i = 0; i < m->ntorsion; i++)
         loses = loses || m->torsion[i].c > 0;
     for (int i = 0; i < m->nspring; i++)
@@ -346,7 +346,8 @@ fw_status fw_model_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_
     m->size = fmax(m->size, 1);
     if (terms) FW_TRY(set_terms(&b));
     if (terms && terms->stretch.law) FW_TRY(fw_stretch_new(arena, &terms->stretch, b.centre, m));
-    set_books(m);
+    set_books(m, terms && terms->nfriction > 0);
+    FW_TRY(fw_friction_new(arena, mechanism, terms, q, m));
     FW_NEED(m->stage = fw_arena_array(arena, double, (size_t)m->ny));
     FW_TRY(fw_chain_compile(arena, m));
     m->method = method ? method : fw_method_find(NULL);

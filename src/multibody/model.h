@@ -129,6 +129,8 @@ typedef struct fw_chain {
     double *block, *factor;   /* (4 blocks) S below the diagonal, then L */
 } fw_chain;
 
+struct fw_frictions; /* friction.h */
+
 typedef struct fw_model {
     fw_scale scale;
     int nbody, nblock, npin, ntie, ndriver;
@@ -167,6 +169,7 @@ typedef struct fw_model {
     double actuation_rate, drive_rate; /* their derivatives by the load factor: 1 */
     double held_s; /* statics: elements see their laws at this time; below 0: as time goes */
     bool special;  /* elements, released pins, friction or a stretching ground: no fast path */
+    struct fw_frictions *friction; /* NULL: none */
     double size;   /* largest |offset| + arms: round-off of Psi is eps times this */
     fw_chain chain;
     const struct fw_method *method;
@@ -312,6 +315,7 @@ const fw_force_element *fw_model_element_invalid(const fw_model *m, double t, co
                                                  const char **why);
 
 /* rhs.c */
+void fw_model_free(fw_model *m, double t, const double *y); /* accel, lambda without friction */
 void fw_model_accelerate(fw_model *m, double t, const double *y, double *f); /* posed, factored */
 void fw_model_rhs(void *model, double t, const double *y, double *f);
 /* the same, and lambda is there afterwards */
@@ -323,6 +327,23 @@ bool fw_model_project_position(fw_model *m, double t, double *u);
 bool fw_model_project_velocity(fw_model *m, double t, double *v); /* factor belongs to the pose */
 bool fw_model_impact(fw_model *m, double t,
                      double *v); /* likewise: least change in the mass metric */
+
+/* friction.c, stick.c: Coulomb friction of joints; where there is none they do nothing */
+/* q (3 nbody): the pose of u = 0, SI */
+fw_status fw_friction_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_terms *terms,
+                          const double *q, fw_model *m);
+int fw_friction_count(const fw_model *m);
+void fw_friction_apply(fw_model *m, double t, const double *y); /* accel, lambda += what it does */
+double fw_friction_power(const fw_model *m);          /* taken away at the last evaluation */
+void fw_friction_settle(fw_model *m, double *y);      /* what sticks to rate 0; posed, factored */
+void fw_friction_begin(fw_model *m);                  /* a run: forget flags */
+void fw_friction_watch(fw_model *m, const double *y); /* velocities that occur */
+/* all flags anew, and velocities of what came to rest to 0; false: none fit, see below */
+bool fw_friction_decide(fw_model *m, double t, double *y);
+void fw_friction_fits(fw_model *m, double t, const double *y, double *fit); /* (count) >= 0: fits */
+void fw_friction_meet(fw_model *m, int i); /* its flag fits no longer; decide follows */
+/* the joint whose friction has no torque, or more than one, and when (scaled) */
+bool fw_friction_jammed(const fw_model *m, double *t, const char **id, fw_place *place);
 
 /* energy.c */
 typedef struct fw_energy {

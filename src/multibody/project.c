@@ -133,6 +133,7 @@ bool fw_model_project(void *model, double t, double *y, double *f) {
         m->worst_velocity = worst_velocity;
         return false;
     }
+    if (m->friction) fw_friction_settle(m, y);
     fw_model_accelerate(m, t, y, f);
     return true;
 }

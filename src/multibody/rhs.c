@@ -16,16 +16,21 @@ static void baumgarte(fw_model *m, double t, const double *y, double *gamma) {
         gamma[i] += alpha * alpha * m->more[i];
 }
 
+void fw_model_free(fw_model *m, double t, const double *y) {
+    fw_model_forces(m, t, y);
+    fw_model_gamma(m, t, y + m->nq, m->right);
+    if (m->baumgarte > 0) baumgarte(m, t, y, m->right);
+    m->method->accelerate(m, m->right, m->accel, m->lambda);
+}
+
 /* f = (v, a, power) with M a + G^T lambda = Q, G a = -gamma, gamma = G' v + Psi_tt. Inputs: state
    y; pose and factor at its u. Output f (ny). Error: round-off times cond(S). Cost: the method's.
    Source: Lagrange multipliers in index-1 form; Garcia de Jalon and Bayo 1994, ch. 5. Test:
    test_simulate.c (reference six-bar). */
 void fw_model_accelerate(fw_model *m, double t, const double *y, double *f) {
     const double *v = y + m->nq;
-    fw_model_forces(m, t, y);
-    fw_model_gamma(m, t, v, m->right);
-    if (m->baumgarte > 0) baumgarte(m, t, y, m->right);
-    m->method->accelerate(m, m->right, m->accel, m->lambda);
+    fw_model_free(m, t, y);
+    if (m->friction) fw_friction_apply(m, t, y);
     for (int i = 0; i < m->nq; i++) {
         f[i] = v[i];
         f[m->nq + i] = m->broken ? (double)NAN : m->accel[i];
@@ -33,6 +38,7 @@ void fw_model_accelerate(fw_model *m, double t, const double *y, double *f) {
     if (m->ny == 2 * m->nq) return;
     double power[2];
     fw_model_power(m, t, y, power);
+    if (m->friction) power[0] += fw_friction_power(m);
     if (m->driven) {
         fw_model_drift(m, t, m->drift);
         for (int i = 0; i < 2 * m->nblock; i++)

@@ -159,6 +159,19 @@ static fw_status too_large(const fw_rest *w) {
     return status == FW_NOMEM ? FW_NOMEM : FW_LIMIT;
 }
 
+/* dry friction holds a mechanism in a whole range of positions: the one reported is the one that it
+   would rest in without */
+static void leave_out_friction(fw_rest *w, fw_terms *terms) {
+    terms->nfriction = 0;
+    for (int i = 0; i < w->ledger.count; i++) {
+        fw_effect_entry *e = &w->ledger.item[i];
+        if (strcmp(e->id, "friction") != 0 || !e->called_for) continue;
+        e->active = false;
+        e->reason = "left out at rest: friction can hold in a range of positions around the "
+                    "equilibrium without it, which is the one reported";
+    }
+}
+
 static fw_status assemble(fw_rest *w, fw_terms *terms) {
     fw_arena *arena = w->arena;
     const fw_mechanism *mechanism = w->mechanism;
@@ -166,6 +179,7 @@ static fw_status assemble(fw_rest *w, fw_terms *terms) {
     fw_diags *diags = w->diags;
     double moved;
     size_t n = 3 * (size_t)mechanism->nbody;
+    leave_out_friction(w, terms);
     FW_TRY(freeze(w, terms));
     FW_TRY(fw_effects_strain(arena, mechanism, terms, &w->mechanism));
     mechanism = w->mechanism;

@@ -226,7 +226,7 @@ static void test_forces(void **state) {
         double y[MOST], work = 0, booked[2];
         state_of(&z, y, 0.7);
         y[m->dissipated] = y[m->worked] = 0;
-        fw_model_set_switches(m, t, y);
+        fw_model_set_switches(m, 0, y);
         assert_int_equal(fw_model_switches(m), 4);
         fw_model_pose(m, y);
         fw_model_forces(m, 1e-3 / m->scale.time_s, y);
@@ -271,7 +271,7 @@ static void test_moving_ground(void **state) {
         state_of(&z, y, 0.7);
         y[m->dissipated] = y[m->worked] = 0;
         fw_model_at(m, t);
-        fw_model_set_switches(m, t, y);
+        fw_model_set_switches(m, 0, y);
         fw_model_pose(m, y);
         fw_model_forces(m, t, y);
         fw_model_power(m, t, y, booked);

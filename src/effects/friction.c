@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Coulomb friction of joints. What is added here is what the scene states; the forces come with the
+   joints' own, in multibody/friction.c and stick.c.
+
+     at rest   |Q| <= mu_s N r      slides   Q = -mu_k N r sign(rate)      r = 1 of a slide
+
+   N = preload + the force of the joint, or of the <contact> of the hinge. Theory:
+   docs/theory/effects/friction.md. Test: test_friction_effect.c, test_friction.c. */
+#include "effects/effect.h"
+#include <math.h>
+#include <string.h>
+
+static double largest(const fw_friction_use *u) {
+    return isnan(u->static_coefficient) ? u->coefficient
+                                        : fmax(u->coefficient, u->static_coefficient);
+}
+
+/* has it a joint that can rub, and a coefficient? */
+static bool rubs(const fw_effect_case *c, const fw_friction_use *u) {
+    const fw_mechanism *m = c->mechanism;
+    bool pin = u->joint != FW_NONE && u->joint < m->npin;
+    bool slide = u->tie != FW_NONE && u->tie < m->ntie && m->tie[u->tie].kind == FW_TIE_PRISMATIC;
+    return (pin || slide) && largest(u) > 0 && (!pin || !(u->radius_m <= 0));
+}
+
+static bool called_for(const fw_effect_case *c) {
+    for (int i = 0; i < c->scene->nfriction; i++)
+        if (rubs(c, &c->scene->friction[i])) return true;
+    return false;
+}
+
+static int count(const fw_effect_case *c) {
+    int sum = 0;
+    for (int i = 0; i < c->scene->nfriction; i++)
+        sum += rubs(c, &c->scene->friction[i]);
+    return sum;
+}
+
+/* The torque stays below mu N r, but N is a joint force of the motion with friction, which linear
+   theory without friction does not bound; and a joint that holds once changes all that follows. */
+static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
+    (void)c;
+    *value = (double)INFINITY;
+    *reason = "dry friction holds or lets go, by joint forces that it changes itself: kept";
+    return FW_OK;
+}
+
+/* of the hinge's convex conjugate surface; NaN: there is none */
+static double surface(const fw_mechanism *m, int pin) {
+    for (int i = 0; i < m->nhinge; i++)
+        if (m->hinge[i].pin == pin && m->hinge[i].surface_radius_m > 0)
+            return m->hinge[i].surface_radius_m;
+    return (double)NAN;
+}
+
+static bool same_point(const fw_port *p, int body, double x, double y) {
+    return p->body == body && p->x_m == x && p->y_m == y;
+}
+
+/* the contact element between the two points of the pin, or FW_NONE */
+static int contact_of(const fw_effect_case *c, const fw_terms *terms, int pin) {
+    const fw_pin *p = &c->mechanism->pin[pin];
+    for (int i = 0; i < terms->nelement; i++) {
+        const fw_force_element *e = &terms->element[i];
+        if (!e->class_->pressing || e->ports < 2 || strcmp(e->class_->effect, "contact") != 0)
+            continue;
+        const fw_port *a = &e->port[0], *b = &e->port[1];
+        bool forth = same_point(a, p->body_a, p->ax_m, p->ay_m) &&
+                     same_point(b, p->body_b, p->bx_m, p->by_m);
+        bool back = same_point(b, p->body_a, p->ax_m, p->ay_m) &&
+                    same_point(a, p->body_b, p->bx_m, p->by_m);
+        if (e->pin == pin || forth || back) return i;
+    }
+    return FW_NONE;
+}
+
+static fw_status unknown_radius(const fw_effect_case *c, const fw_friction_use *u) {
+    const char *id = c->mechanism->pin[u->joint].id;
+    if (!c->diags) return FW_INPUT;
+    return fw_diag_error(c->diags, 245, u->place,
+                         "friction of joint %s needs the radius of what slides: the joint has no "
+                         "conjugate surfaces to take it from; give radius on <friction>",
+                         id ? id : "(unnamed)");
+}
+
+static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+    const fw_mechanism *m = c->mechanism;
+    fw_status status = FW_OK;
+    for (int i = 0; i < c->scene->nfriction; i++) {
+        const fw_friction_use *u = &c->scene->friction[i];
+        if (!rubs(c, u)) continue;
+        bool pin = u->joint != FW_NONE;
+        double radius = !pin ? 1 : isnan(u->radius_m) ? surface(m, u->joint) : u->radius_m;
+        if (isnan(radius)) {
+            status = unknown_radius(c, u); /* all of them are reported */
+            if (status == FW_NOMEM) return status;
+            continue;
+        }
+        fw_friction *f = fw_terms_add_friction(c->arena, terms);
+        FW_NEED(f);
+        *f = (fw_friction){.pin = u->joint,
+                           .tie = pin ? FW_NONE : u->tie,
+                           .element = pin ? contact_of(c, terms, u->joint) : FW_NONE,
+                           .static_coefficient = largest(u),
+                           .kinetic_coefficient = u->coefficient,
+                           .radius_m = radius,
+                           .preload_N = u->preload_N,
+                           .id = pin ? m->pin[u->joint].id : m->tie[u->tie].id,
+                           .place = u->place};
+    }
+    return status;
+}
+
+const fw_effect_row fw_effect_friction = {
+    .id = "friction",
+    .summary = "Coulomb friction of hinges and sliding joints, with sticking",
+    .called_for = called_for,
+    .bound = bound,
+    .add = add,
+    .count = count};

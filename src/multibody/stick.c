@@ -1,0 +1,243 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which joints with friction stick and which slip. Flags are held during a step; run.c looks on the
+   dense output for the first time at which one no longer fits:
+
+     slips   its rate crosses 0
+     sticks  |T| exceeds mu_s r N
+     yields  (at rest because others hold it) it moves
+
+   After an event, at the start, at borders of pieces and after blows all flags are decided
+   together. Joints that move slip the way they go. Those at rest are first brought to rate 0
+   exactly (least change in the mass metric), then sorted: all stick; the one farthest above its
+   limit gives way against the torque that it held; if it then can move it slips, else it yields
+   with its largest static torque; one that would move against its own slip sticks again; until
+   nothing contradicts. With static = kinetic and N constant this is the active-set method of a
+   convex quadratic program, whose accelerations are unique, and it ends; for the other cases the
+   number of rounds is bounded, then all combinations are tried, and where none fits the run ends
+   with FW-D244. A joint that can stick does. Cost at an event: n solutions, rounds times n^3.
+   Source: Lotstedt 1982; Pfeiffer and Glocker, Multibody Dynamics with Unilateral Contacts, 1996.
+   Test: test_friction.c, test_friction_model.c, test_hard_friction.c. */
+#include "multibody/friction.h"
+#include <float.h>
+#include <math.h>
+
+enum { TRY_ALL = 6, KINDS = 5 };
+/* relative to the largest velocity, to mu_s r N; the search for events is twice as patient as the
+   decision, so that no decision is an event at once */
+static const double fw_rate_noise = 1e-13, fw_rest = 1e-12, fw_still = 1e-6;
+static const double fw_limit_noise = 1e-12, fw_floor = 1e-15, fw_can_move = 1e-6;
+
+/* ---- how well flags fit ---- */
+
+void fw_friction_watch(fw_model *m, const double *y) {
+    if (!m->friction) return;
+    for (int i = 0; i < m->nq; i++)
+        m->friction->speed = fmax(m->friction->speed, fabs(y[m->nq + i]));
+}
+
+static double limit(const fw_model_friction *f, double noise) {
+    return f->rest * f->press * (1 + noise) + fw_floor;
+}
+
+void fw_friction_fits(fw_model *m, double t, const double *y, double *fit) {
+    struct fw_frictions *s = m->friction;
+    bool held = false;
+    for (int i = 0; i < s->n; i++)
+        held = held || !s->item[i].slip;
+    fw_model_pose(m, y);
+    if (held) {
+        fw_model_rhs(m, t, y, s->state); /* torques; rates too */
+        if (m->method->closes_stages) fw_model_pose(m, y);
+    }
+    fw_friction_rows(m, y);
+    fw_friction_rates(m, y + m->nq);
+    for (int i = 0; i < s->n; i++) {
+        const fw_model_friction *f = &s->item[i];
+        if (!f->slip)
+            fit[i] = m->broken ? -1 : limit(f, 2 * fw_limit_noise) - fabs(f->torque);
+        else if (f->yields)
+            fit[i] = fw_still * s->speed + fw_floor - fabs(s->rate[i]);
+        else
+            fit[i] = f->slip * s->rate[i] + fw_rate_noise * s->speed + fw_floor;
+    }
+}
+
+static int goes(const fw_model_friction *f) {
+    return f->yields ? 0 : f->slip;
+}
+
+void fw_friction_meet(fw_model *m, int i) {
+    fw_model_friction *f = &m->friction->item[i];
+    m->friction->met = i;
+    m->friction->met_slip = goes(f);
+    if (f->yields) return;
+    f->slip = 0, f->held = (double)NAN; /* at rest here; where it lets go, without a pull back */
+}
+
+void fw_friction_begin(fw_model *m) {
+    if (!m->friction) return;
+    for (int i = 0; i < m->friction->n; i++)
+        m->friction->item[i].slip = 1, m->friction->item[i].yields = false;
+    m->friction->speed = 0;
+    m->friction->jam = m->friction->jammed = m->friction->met = -1;
+}
+
+/* ---- who is at rest ---- */
+
+/* one that sticks or yields is at rest unless something has torn it away; one that slips, when its
+   rate is round-off. Whether further ones came to rest by that. */
+static bool find_rests(struct fw_frictions *s, bool first) {
+    bool more = false;
+    for (int i = 0; i < s->n; i++) {
+        fw_model_friction *f = &s->item[i];
+        bool held = !f->slip || f->yields, was = s->rests[i];
+        double most = (first && held ? fw_still : fw_rest) * s->speed + fw_floor;
+        s->rests[i] = (was && !first) || fabs(s->rate[i]) <= most;
+        more = more || (s->rests[i] && !was);
+    }
+    for (int i = 0; i < s->n; i++) {
+        fw_model_friction *f = &s->item[i];
+        f->yields = false;
+        f->slip = s->rests[i] ? 0 : s->rate[i] > 0 ? 1 : -1;
+    }
+    return more || first;
+}
+
+/* ---- sorting ---- */
+
+typedef enum contradiction { NONE, ABOVE, BACKWARDS, FREE } contradiction;
+
+/* what is wrong with entry i at the torques found, and how much */
+static contradiction wrong(const fw_model *m, int i, double *how) {
+    const struct fw_frictions *s = m->friction;
+    const fw_model_friction *f = &s->item[i];
+    *how = 0;
+    if (!s->rests[i]) return NONE;
+    if (!f->slip) {
+        *how = fabs(f->torque) / limit(f, fw_limit_noise);
+        return *how > 1 ? ABOVE : NONE;
+    }
+    bool free = s->left[i] > fw_can_move * s->loose[i];
+    if (!free && f->yields) return NONE; /* others hold it: what it would do is round-off */
+    double a = s->accel[i] + s->creep[i], size = s->size[i] + fabs(s->creep[i]);
+    for (int j = 0; j < s->n; j++) {
+        a += s->gain[i * s->n + j] * s->torque[j];
+        size += fabs(s->gain[i * s->n + j] * s->torque[j]);
+    }
+    *how = size > 0 ? -f->slip * a / size : 0;
+    if (*how > 1e-9) return BACKWARDS;
+    return f->yields ? FREE : NONE;
+}
+
+static void mend(struct fw_frictions *s, int i, contradiction what) {
+    fw_model_friction *f = &s->item[i];
+    if (what == ABOVE)
+        f->slip = f->torque > 0 ? -1 : 1, f->yields = true;
+    else if (what == BACKWARDS)
+        f->slip = 0, f->yields = false;
+    else
+        f->yields = false;
+}
+
+/* the worst of the most pressing kind; with `lowest` the first entry (no cycles that way) */
+static int choose(const fw_model *m, bool lowest, contradiction *what) {
+    int found = -1;
+    double most = 0;
+    *what = NONE;
+    for (int i = 0; i < m->friction->n; i++) {
+        double how;
+        contradiction now = wrong(m, i, &how);
+        if (now == NONE) continue;
+        bool first = *what == NONE, urgent = now < *what, worse = now == *what && how > most;
+        if (lowest ? !first : !(first || urgent || worse)) continue;
+        found = i, most = how, *what = now;
+    }
+    return found;
+}
+
+static bool nothing_wrong(const fw_model *m) {
+    contradiction what;
+    return choose(m, true, &what) < 0;
+}
+
+/* every combination of the entries at rest */
+static bool try_all(fw_model *m) {
+    struct fw_frictions *s = m->friction;
+    static const int slip[KINDS] = {0, 1, -1, 1, -1};
+    int rests = 0, all = 1;
+    for (int i = 0; i < s->n; i++)
+        if (s->rests[i]) s->moving[rests++] = i;
+    if (rests > TRY_ALL) return false;
+    int at[TRY_ALL] = {0};
+    for (int i = 0; i < rests; i++)
+        at[i] = s->moving[i], all *= KINDS;
+    for (int k = 0; k < all; k++) {
+        for (int i = 0, rest = k; i < rests; i++, rest /= KINDS) {
+            s->item[at[i]].slip = slip[rest % KINDS];
+            s->item[at[i]].yields = rest % KINDS > 2;
+        }
+        if (fw_friction_solve(m) && nothing_wrong(m)) return true;
+    }
+    s->jam = rests > 0 ? at[0] : 0;
+    return false;
+}
+
+static bool sort(fw_model *m) {
+    struct fw_frictions *s = m->friction;
+    int jam = -1;
+    for (int round = 0; round < 8 * s->n + 8; round++) {
+        contradiction what;
+        if (!fw_friction_solve(m)) {
+            jam = s->jam;
+            break;
+        }
+        int i = choose(m, round > 4 * s->n, &what);
+        if (i < 0) return true;
+        jam = i;
+        mend(s, i, what);
+    }
+    if (try_all(m)) return true;
+    s->jam = jam;
+    return false;
+}
+
+/* a0, lambda0, rows, responses at the state; the pose is there already */
+static void evaluate(fw_model *m, double t, const double *y) {
+    fw_model_free(m, t, y);
+    fw_friction_respond(m, y);
+    fw_friction_look(m, t, y);
+}
+
+bool fw_friction_decide(fw_model *m, double t, double *y) {
+    struct fw_frictions *s = m->friction;
+    if (!s) return true;
+    fw_friction_watch(m, y);
+    fw_model_pose(m, y);
+    m->broken = !m->method->factor(m);
+    if (m->broken) return false;
+    for (int i = 0; i < s->n; i++) /* those that stay at rest keep their place */
+        s->rests[i] = false, s->held[i] = !s->item[i].slip || s->item[i].yields;
+    fw_friction_respond(m, y);
+    for (int pass = 0; pass <= s->n && find_rests(s, pass == 0); pass++)
+        fw_friction_settle(m, y);
+    for (int i = 0; i < s->n; i++)
+        if (s->rests[i] && (!s->held[i] || isnan(s->item[i].held)))
+            s->item[i].held = fw_friction_coordinate(m, i, y);
+    evaluate(m, t, y);
+    if (!sort(m)) {
+        if (s->jam >= 0) s->jammed = s->jam, s->jam_time = t;
+        return false;
+    }
+    if (s->met >= 0) { /* one that holds after all was no event */
+        m->events += goes(&s->item[s->met]) != s->met_slip;
+        s->met = -1;
+    }
+    return true;
+}
+
+bool fw_friction_jammed(const fw_model *m, double *t, const char **id, fw_place *place) {
+    const struct fw_frictions *s = m->friction;
+    if (!s || s->jammed < 0) return false;
+    *t = s->jam_time, *id = s->item[s->jammed].id, *place = s->item[s->jammed].place;
+    return true;
+}

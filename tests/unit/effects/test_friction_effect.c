@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the effect `friction` makes of a scene. */
+#include "effects/effect.h"
+#include "test.h"
+
+static const double NOT = (double)NAN;
+
+typedef struct arm {
+    fw_mass body[1];
+    fw_pin pin[2];
+    fw_tie tie[2];
+    fw_hinge hinge[1];
+    fw_friction_use use[4];
+    fw_mechanism m;
+    fw_scene scene;
+} arm;
+
+static void arm_new(arm *s) {
+    memset(s, 0, sizeof *s);
+    s->body[0] = (fw_mass){"arm", 2e-8, 3e-15, 1e-3, 0, 0};
+    for (int i = 0; i < 2; i++)
+        s->pin[i] = (fw_pin){
+            .id = i ? "B" : "A", .body_a = FW_GROUND, .body_b = 0, .bx_m = -1e-3, .hinge = FW_NONE};
+    s->pin[0].hinge = 0;
+    s->hinge[0] = (fw_hinge){.pin = 0, .surface_radius_m = 75e-6};
+    s->tie[0] = (fw_tie){.id = "rail", .kind = FW_TIE_PRISMATIC, .body_a = FW_GROUND};
+    s->tie[1] = (fw_tie){.id = "rod", .kind = FW_TIE_DISTANCE, .body_a = FW_GROUND};
+    s->m = (fw_mechanism){.body = s->body,
+                          .pin = s->pin,
+                          .tie = s->tie,
+                          .hinge = s->hinge,
+                          .nbody = 1,
+                          .npin = 2,
+                          .ntie = 2,
+                          .nhinge = 1};
+    s->scene = (fw_scene){.name = "s", .duration_s = 1e-3, .friction = s->use};
+}
+
+static fw_friction_use *use(arm *s, int joint, int tie, double mu) {
+    fw_friction_use *u = &s->use[s->scene.nfriction++];
+    *u = (fw_friction_use){.joint = joint,
+                           .tie = tie,
+                           .coefficient = mu,
+                           .static_coefficient = NOT,
+                           .radius_m = NOT,
+                           .place = {"device.xml", 7, 3}};
+    return u;
+}
+
+static void test_called_for(void **state) {
+    (void)state;
+    arm s;
+    const fw_effect_case c = {.mechanism = &s.m, .scene = &s.scene};
+    arm_new(&s);
+    assert_false(fw_effect_friction.called_for(&c));
+    use(&s, 0, FW_NONE, 0); /* nothing rubs */
+    use(&s, 1, FW_NONE, 0.3)->radius_m = 0;
+    use(&s, FW_NONE, 1, 0.3); /* a rod does not slide */
+    assert_false(fw_effect_friction.called_for(&c));
+    use(&s, FW_NONE, 0, 0)->static_coefficient = 0.2; /* holds only */
+    assert_true(fw_effect_friction.called_for(&c));
+    assert_int_equal(fw_effect_friction.count(&c), 1);
+    double bound = 0;
+    const char *why = NULL;
+    assert_int_equal(fw_effect_friction.bound(&c, &bound, &why), FW_OK);
+    assert_true(isinf(bound) && why);
+}
+
+static void test_values(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    arm s;
+    arm_new(&s);
+    use(&s, 0, FW_NONE, 0.3)->preload_N = 1e-3; /* the hinge's own radius, static = kinetic */
+    fw_friction_use *u = use(&s, 1, FW_NONE, 0.2);
+    u->radius_m = 2e-5, u->static_coefficient = 0.5;
+    use(&s, FW_NONE, 0, 0.4)->static_coefficient = 0.1; /* not below kinetic */
+    fw_terms terms;
+    assert_int_equal(fw_terms_new(arena, &s.m, &s.scene, &terms), FW_OK);
+    const fw_effect_case c = {.arena = arena, .mechanism = &s.m, .scene = &s.scene};
+    assert_int_equal(fw_effect_friction.add(&c, &terms), FW_OK);
+    assert_int_equal(terms.nfriction, 3);
+    const fw_friction *f = terms.friction;
+    assert_true(f[0].pin == 0 && f[0].tie == FW_NONE && f[0].element == FW_NONE);
+    assert_true(f[0].radius_m == 75e-6 && f[0].static_coefficient == 0.3);
+    assert_true(f[0].preload_N == 1e-3 && f[0].kinetic_coefficient == 0.3);
+    assert_true(f[1].pin == 1 && f[1].radius_m == 2e-5 && f[1].static_coefficient == 0.5);
+    assert_true(f[2].tie == 0 && f[2].pin == FW_NONE && f[2].static_coefficient == 0.4);
+    assert_string_equal(f[2].id, "rail");
+    assert_int_equal(f[2].place.line, 7);
+    fw_arena_free(arena);
+}
+
+/* without surfaces and radius: FW-D245 at the element, also through the whole compilation */
+static void test_unknown_radius(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    arm s;
+    arm_new(&s);
+    use(&s, 1, FW_NONE, 0.3);
+    fw_effect_ledger ledger;
+    fw_terms terms;
+    const fw_effect_choice all = {FW_EFFECTS_ALL, NULL};
+    assert_int_equal(fw_effects_compile(arena, &s.m, &s.scene, &all, 1e-3, &diags, &ledger, &terms),
+                     FW_INPUT);
+    assert_int_equal(diags.count, 1);
+    assert_int_equal(diags.item[0].number, 245);
+    assert_int_equal(diags.item[0].place.line, 7);
+    assert_non_null(strstr(diags.item[0].message, "give radius"));
+    fw_arena_free(arena);
+}
+
+static double ten(const fw_force_element *e, const fw_seen *seen) {
+    (void)e, (void)seen;
+    return 10;
+}
+
+/* a contact between the two points of the pin presses; another one does not */
+static void test_contact_presses(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    arm s;
+    arm_new(&s);
+    use(&s, 0, FW_NONE, 0.3);
+    fw_terms terms;
+    assert_int_equal(fw_terms_new(arena, &s.m, &s.scene, &terms), FW_OK);
+    const fw_element_class contact = {.effect = "contact", .pressing = ten};
+    const fw_element_class other = {.effect = "air", .pressing = ten};
+    for (int i = 0; i < 3; i++) {
+        fw_force_element *e = fw_terms_add_element(arena, &terms, i == 1 ? &other : &contact, 2);
+        e->port[0] = (fw_port){FW_GROUND, i == 0 ? 1e-3 : 0, 0};
+        e->port[1] = (fw_port){0, -1e-3, 0};
+    }
+    const fw_effect_case c = {.arena = arena, .mechanism = &s.m, .scene = &s.scene};
+    assert_int_equal(fw_effect_friction.add(&c, &terms), FW_OK);
+    assert_int_equal(terms.friction[0].element, 2);
+    fw_arena_free(arena);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_called_for),
+        cmocka_unit_test(test_values),
+        cmocka_unit_test(test_unknown_radius),
+        cmocka_unit_test(test_contact_presses),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

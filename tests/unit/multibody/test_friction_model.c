@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What friction does at one instant, on random mechanisms and states: the equations of motion with
+   its torques, and the law of every joint with friction, checked from the outside. */
+#include "dynamics/models.h"
+#include "effects/effect.h"
+#include "multibody/friction.h"
+
+static const double NOT = (double)NAN;
+
+static fw_model *model_of(fw_arena *arena, const rig *r, const char *method) {
+    fw_diags diags = fw_diags_new(arena);
+    fw_effect_ledger ledger;
+    fw_terms *terms = fw_arena_one(arena, fw_terms);
+    const fw_effect_choice all = {FW_EFFECTS_ALL, NULL};
+    double *q = fw_arena_array(arena, double, 3 * (size_t)r->m.nbody);
+    for (int b = 0; b < r->m.nbody; b++) {
+        const fw_mass *p = &r->m.body[b];
+        q[3 * b] = p->x_m, q[3 * b + 1] = p->y_m, q[3 * b + 2] = p->phi_rad;
+    }
+    fw_model *m = NULL;
+    assert_int_equal(
+        fw_effects_compile(arena, &r->m, &r->scene, &all, 1e-3, &diags, &ledger, terms), FW_OK);
+    assert_int_equal(fw_model_new(arena, &r->m, terms, q, r->scene.duration_s,
+                                  fw_method_find(method), &diags, &m),
+                     FW_OK);
+    m->piece = r->scene.duration_s / 2;
+    return m;
+}
+
+/* friction in most pins; sometimes a block on a body, that slides along it */
+static rig any(fw_arena *arena, uint64_t seed) {
+    rig r = rig_any(arena, seed);
+    double strength = pow(10, -3 + 3 * rig_random(&seed)); /* loads of any size */
+    for (int i = 0; i < r.scene.nforce; i++)
+        r.scene.force[i].fx_N *= strength, r.scene.force[i].fy_N *= strength;
+    for (int i = 0; i < r.scene.ntorque; i++)
+        r.scene.torque[i].value_Nm *= strength;
+    for (int i = 0; i < r.m.npin; i++)
+        r.m.pin[i].stiffness_Nm_per_rad *= strength;
+    r.scene.friction = fw_arena_array(arena, fw_friction_use, 16);
+    for (int i = 0; i < r.m.npin; i++) {
+        if (rig_random(&seed) < 0.2) continue;
+        double mu = 0.1 + 0.3 * rig_random(&seed);
+        r.scene.friction[r.scene.nfriction++] =
+            (fw_friction_use){.joint = i,
+                              .tie = FW_NONE,
+                              .coefficient = mu,
+                              .static_coefficient = rig_random(&seed) < 0.5 ? NOT : 1.5 * mu,
+                              .radius_m = 3e-4 * rig_random(&seed),
+                              .preload_N = 3e-3 * rig_random(&seed)};
+        if (rig_random(&seed) < 0.3) r.scene.friction[r.scene.nfriction - 1].preload_N = 0;
+    }
+    if (rig_random(&seed) < 0.5) {
+        int host = r.m.nbody - 1;
+        fw_mass *more = fw_arena_array(arena, fw_mass, (size_t)r.m.nbody + 1);
+        memcpy(more, r.m.body, (size_t)r.m.nbody * sizeof *more);
+        r.m.body = more;
+        double c = cos(r.m.body[host].phi_rad + 0.4), s = sin(r.m.body[host].phi_rad + 0.4);
+        rig_body(&r, "block", 5e-9, 3e-16, r.m.body[host].x_m + 2e-4 * c,
+                 r.m.body[host].y_m + 2e-4 * s, 0.1);
+        r.m.tie = fw_arena_array(arena, fw_tie, 1);
+        r.m.tie[r.m.ntie++] = (fw_tie){.id = "rail",
+                                       .kind = FW_TIE_PRISMATIC,
+                                       .body_a = host,
+                                       .body_b = host + 1,
+                                       .axis_rad = 0.4,
+                                       .angle_rad = 0.1 - r.m.body[host].phi_rad};
+        r.scene.friction[r.scene.nfriction++] = (fw_friction_use){
+            .joint = FW_NONE, .tie = 0, .coefficient = 0.2, .static_coefficient = 0.3};
+    }
+    return r;
+}
+
+/* relative acceleration of an entry by differences of its rate along y + h f, order 4 */
+static double relative(fw_model *m, int i, const double *y, const double *f) {
+    double rate[4], z[128];
+    const double at[4] = {-2, -1, 1, 2}, h = 1e-4;
+    for (int k = 0; k < 4; k++) {
+        double t = at[k] * h; /* q along its parabola */
+        for (int c = 0; c < m->nq; c++) {
+            z[c] = y[c] + t * y[m->nq + c] + t * t / 2 * f[m->nq + c];
+            z[m->nq + c] = y[m->nq + c] + t * f[m->nq + c];
+        }
+        fw_model_pose(m, z);
+        fw_friction_rows(m, z);
+        fw_friction_rates(m, z + m->nq);
+        rate[k] = m->friction->rate[i];
+    }
+    return (8 * (rate[2] - rate[1]) - (rate[3] - rate[0])) / (12 * h);
+}
+
+static double pressing(const fw_model *m, int i) {
+    const fw_model_friction *f = &m->friction->item[i];
+    const double *l = m->lambda + 2 * f->block;
+    return f->preload + (f->slides ? fabs(l[1]) : hypot(l[0], l[1]));
+}
+
+/* M a + G^T lambda = Q + sum h T, by virtual power with random w: no way through the rows */
+static void check_motion(fw_model *m, const double *y, const double *f, uint64_t *seed) {
+    double force[64] = {0}, w[64], left = 0, size = 0, torque[16];
+    const struct fw_frictions *s = m->friction;
+    for (int i = 0; i < s->n; i++)
+        torque[i] = s->torque[i];
+    fw_model_pose(m, y);
+    fw_model_forces(m, 0, y);
+    fw_model_transpose(m, m->lambda, force);
+    for (int c = 0; c < m->nq; c++) {
+        double mass = c % 3 == 2 ? m->inertia[c / 3] : m->mass[c / 3];
+        w[c] = rig_random(seed) - 0.5;
+        double part[2] = {mass * (f[m->nq + c] - m->accel[c]) * w[c], force[c] * w[c]};
+        left += part[0] + part[1];
+        size += fabs(part[0]) + fabs(part[1]);
+    }
+    fw_friction_rows(m, y);
+    fw_friction_rates(m, w);
+    for (int i = 0; i < s->n; i++)
+        left -= torque[i] * s->rate[i];
+    assert_near(left, 0, 1e-11 * (1 + size));
+}
+
+static void check_laws(fw_model *m, const double *y, const double *f, int count[3]) {
+    struct fw_frictions *s = m->friction;
+    double rate[16];
+    fw_model_pose(m, y);
+    fw_friction_rows(m, y);
+    fw_friction_rates(m, y + m->nq);
+    for (int i = 0; i < s->n; i++)
+        rate[i] = s->rate[i];
+    for (int i = 0; i < s->n; i++) {
+        const fw_model_friction *item = &s->item[i];
+        double n = pressing(m, i), t = s->torque[i];
+        assert_near(n, item->press, 1e-11 * (1 + n));
+        if (!s->rests[i]) {
+            assert_true(rate[i] != 0);
+            assert_near(t, -(rate[i] > 0 ? 1 : -1) * item->slide * n, 1e-12 * (1 + n));
+            count[0]++;
+            continue;
+        }
+        assert_near(rate[i], 0, 1e-12);
+        double a = relative(m, i, y, f);
+        fw_model_pose(m, y);
+        assert_true(fabs(t) <= item->rest * n * (1 + 1e-11) + 1e-14);
+        if (fabs(a) < 1e-7 * (1 + s->size[i])) {
+            count[1]++;
+            continue;
+        }
+        assert_near(t, (a > 0 ? -1 : 1) * item->slide * n, 1e-12 * (1 + n));
+        count[2]++;
+    }
+}
+
+/* all moving, some at rest, all at rest */
+static void laws_hold(void **state) {
+    (void)state;
+    int count[3] = {0}, refused = 0;
+    uint64_t seed = 3;
+    for (int c = 0; c < 600; c++) {
+        fw_arena *arena = fw_arena_new(0);
+        rig r = any(arena, 1000 + (uint64_t)c);
+        fw_model *m = model_of(arena, &r, c % 2 ? "chain" : "svd");
+        if (!m->friction) {
+            fw_arena_free(arena);
+            continue;
+        }
+        double y[128] = {0}, f[128];
+        struct fw_frictions *s = m->friction;
+        for (int i = 0; i < m->nq && c % 3; i++)
+            y[m->nq + i] = 0.5 * (rig_random(&seed) - 0.5);
+        fw_model_pose(m, y);
+        assert_true(m->method->factor(m));
+        assert_true(fw_model_project_velocity(m, 0, y + m->nq));
+        fw_friction_begin(m);
+        fw_friction_watch(m, y); /* these velocities have been */
+        if (c % 3 == 1) {        /* bring about half of them to rest */
+            for (int i = 0; i < s->n; i++)
+                s->item[i].slip = rig_random(&seed) < 0.5, s->item[i].held = NOT;
+            fw_friction_settle(m, y);
+        }
+        if (!fw_friction_decide(m, 0, y)) {
+            refused++;
+            fw_arena_free(arena);
+            continue;
+        }
+        fw_model_rhs(m, 0, y, f);
+        assert_false(m->broken);
+        double power = fw_friction_power(m);
+        assert_true(power >= -1e-12);
+        check_laws(m, y, f, count);
+        fw_model_rhs(m, 0, y, f);
+        check_motion(m, y, f, &seed);
+        fw_arena_free(arena);
+    }
+    print_message("%d slip, %d stick, %d begin to slip; %d refused\n", count[0], count[1], count[2],
+                  refused);
+    assert_true(count[0] > 500 && count[1] > 300 && count[2] > 100);
+    assert_true(refused < 12);
+}
+
+/* a contact presses: it sees its points where the bodies are, in SI, and its own switches */
+static double by_place(const fw_force_element *e, const fw_seen *s) {
+    (void)e;
+    return s->on[0] && !s->on[1] ? 2 + s->p[3] + 10 * s->p[4] - s->p[0] + s->w[4] : -1;
+}
+static double by_side(const fw_force_element *e, const fw_seen *s, int i) {
+    (void)e, (void)s;
+    return i ? -1 : 1;
+}
+
+static void contact_presses(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    const fw_element_class contact = {
+        .effect = "contact", .switch_value = by_side, .pressing = by_place};
+    rig r = rig_new(arena, 1, 1, 0);
+    rig_body(&r, "rotor", 2, 0.5, 3, 4, 0);
+    rig_pin(&r, "O", FW_GROUND, 0, 3, 4, 0, 0);
+    r.scene.duration_s = 3;
+    fw_terms terms;
+    assert_int_equal(fw_terms_new(arena, &r.m, &r.scene, &terms), FW_OK);
+    fw_force_element *e = fw_terms_add_element(arena, &terms, &contact, 2);
+    e->switches = 2;
+    e->port[0] = (fw_port){FW_GROUND, 0.5, 0};
+    e->port[1] = (fw_port){0, 0.25, 0};
+    fw_friction *f = fw_terms_add_friction(arena, &terms);
+    f->pin = 0, f->element = 0, f->kinetic_coefficient = f->static_coefficient = 0.3;
+    f->radius_m = 0.1, f->preload_N = 1;
+    const double q[3] = {3, 4, 0}, omega = 1.5;
+    fw_model *m = NULL;
+    assert_int_equal(fw_model_new(arena, &r.m, &terms, q, 3, NULL, &diags, &m), FW_OK);
+    double y[8] = {0}, out[8];
+    y[5] = omega * m->scale.time_s;
+    fw_friction_begin(m);
+    assert_true(fw_friction_decide(m, 0, y));
+    fw_model_rhs(m, 0, y, out);
+    double n = 1 + 2 + 3.25 + 40 - 0.5 + 0.25 * omega; /* x + 10 y of port b, its upward speed */
+    assert_near(out[5] / m->scale.time_s / m->scale.time_s, -0.3 * 0.1 * n / 0.5, 1e-12);
+    fw_arena_free(arena);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(laws_hold),
+        cmocka_unit_test(contact_presses),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
