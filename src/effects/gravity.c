@@ -23,7 +23,9 @@ static double largest(const double *value, int count) {
 
 bool fw_effect_not_proportional(const fw_effect_case *c) {
     const fw_mechanism *m = c->mechanism;
-    if (m->ndriver > 0 || fw_effect_joint_stop.called_for(c)) return true;
+    if (m->ndriver > 0) return true;
+    for (int i = 0; i < m->npin; i++)
+        if (fw_pin_has_stop(&m->pin[i])) return true;
     for (int i = 0; i < m->nspring; i++)
         if (m->spring[i].cable) return true;
     for (int i = 0; i < c->scene->nforce; i++)

@@ -2,13 +2,9 @@
 #include "effects/effect.h"
 #include <math.h>
 
-static bool has_stop(const fw_pin *p) {
-    return p->stop_stiffness_Nm_per_rad > 0 && (!isnan(p->stop_min_rad) || !isnan(p->stop_max_rad));
-}
-
 static bool called_for(const fw_effect_case *c) {
     for (int i = 0; i < c->mechanism->npin; i++)
-        if (has_stop(&c->mechanism->pin[i])) return true;
+        if (fw_pin_has_stop(&c->mechanism->pin[i])) return true;
     return false;
 }
 
@@ -37,7 +33,7 @@ static void add_side(const fw_pin *p, int pin, double side, double at_rad, fw_te
 static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     for (int i = 0; i < c->mechanism->npin; i++) {
         const fw_pin *p = &c->mechanism->pin[i];
-        if (!has_stop(p)) continue;
+        if (!fw_pin_has_stop(p)) continue;
         add_side(p, i, -1, p->stop_min_rad, terms);
         add_side(p, i, 1, p->stop_max_rad, terms);
     }

@@ -4,10 +4,19 @@
 #include <math.h>
 #include <string.h>
 
+/* A build without an effect (-DFW_WITHOUT_EFFECTS of CMake, for measuring what an absent effect
+   costs) defines FW_WITHOUT_<name> as 1. FW_GONE_1 then puts a comma in front, so that FW_SECOND
+   picks the macro that makes no row. */
+#define FW_GONE_1                     ,
+#define FW_SECOND(first, second, ...) second
+#define FW_A_ROW(name)                &fw_effect_##name,
+#define FW_NO_ROW(name)
+#define FW_CHOSEN(gone, name)        FW_SECOND(gone FW_NO_ROW, FW_A_ROW, )(name)
+#define FW_ROW_UNLESS(without, name) FW_CHOSEN(FW_GONE_##without, name)
+#define FW_ROW(without, name)        FW_ROW_UNLESS(without, name)
+#define FW_EFFECT(name)              FW_ROW(FW_WITHOUT_##name, name)
 static const fw_effect_row *const rows[] = {
-    &fw_effect_joint_elasticity, &fw_effect_joint_damping, &fw_effect_joint_stop,
-    &fw_effect_point_spring,     &fw_effect_applied_load,  &fw_effect_gravity,
-    &fw_effect_initial_velocity,
+#include "effects/effects.def"
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
@@ -60,6 +69,7 @@ static fw_status decide(const fw_effect_case *c, const fw_effect_row *row,
     *entry = (fw_effect_entry){.id = row->id, .reason = "not called for by the scene"};
     entry->called_for = row->called_for(c);
     if (!entry->called_for) return FW_OK;
+    entry->cost = row->cost * (row->count ? row->count(c) : 1);
     const char *how = "";
     FW_TRY(row->bound(c, &entry->bound, &how));
     char bound[32], wanted[32];
@@ -107,7 +117,11 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, con
     FW_TRY(fw_terms_new(arena, mechanism, scene, terms));
     for (size_t i = 0; i < ROWS; i++) {
         FW_TRY(decide(&c, rows[i], choice, accuracy, &ledger->item[i]));
-        if (ledger->item[i].active) FW_TRY(rows[i]->add(&c, terms));
+        const fw_effect_entry *entry = &ledger->item[i];
+        if (entry->active)
+            FW_TRY(rows[i]->add(&c, terms));
+        else if (entry->called_for && rows[i]->leave_out)
+            FW_TRY(rows[i]->leave_out(&c, terms));
     }
     return FW_OK;
 }

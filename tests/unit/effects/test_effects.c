@@ -51,7 +51,7 @@ static void test_table(void **state) {
     (void)state;
     size_t count;
     const fw_effect_row *const *row = fw_effect_rows(&count);
-    assert_int_equal(count, 7);
+    assert_int_equal(count, 8);
     for (size_t i = 0; i < count; i++) {
         assert_non_null(row[i]->id);
         assert_non_null(row[i]->summary);
@@ -74,7 +74,10 @@ static void test_absent_effects_cost_nothing(void **state) {
     assert_int_equal(terms.ntorsion + terms.nload + terms.nspring + terms.ntimed + terms.nstop +
                          terms.nslide,
                      0);
+    assert_true(entry(&ledger, "inertia")->active); /* every motion has it until it is left out */
+    assert_false(terms.quasi_static);
     for (int i = 0; i < ledger.count; i++) {
+        if (strcmp(ledger.item[i].id, "inertia") == 0) continue;
         assert_false(ledger.item[i].called_for);
         assert_false(ledger.item[i].active);
         assert_true(ledger.item[i].bound == 0);
