@@ -291,30 +291,47 @@ static fw_status say_method(fw_run *r) {
     return FW_OK;
 }
 
-fw_status fw_simulate(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                      const fw_motion_options *options, fw_diags *diags, const fw_motion **motion) {
-    fw_terms terms;
+fw_status fw_check_request(const fw_mechanism *mechanism, const fw_scene *scene,
+                           const fw_motion_options *options, fw_diags *diags) {
+    fw_motion unused = {0};
+    FW_TRY(fw_check_options(options, diags));
+    FW_TRY(fw_check_motion(mechanism, scene, diags));
+    return fw_check_names(options, diags, &unused);
+}
+
+fw_status fw_simulate_compiled(fw_arena *arena, const fw_mechanism *mechanism,
+                               const fw_scene *scene, const fw_motion_options *options,
+                               const fw_effect_ledger *ledger, const fw_terms *terms,
+                               fw_diags *diags, const fw_motion **motion) {
     fw_run r = {
         .arena = arena, .mechanism = mechanism, .scene = scene, .options = options, .diags = diags};
     *motion = NULL;
-    FW_TRY(fw_check_options(options, diags));
-    FW_TRY(fw_check_motion(mechanism, scene, diags));
     FW_NEED(r.motion = fw_arena_one(arena, fw_motion));
+    r.motion->ledger = *ledger;
     FW_TRY(fw_check_names(options, diags, r.motion));
     FW_TRY(fw_method_choose(&r));
-    double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
-    FW_TRY(fw_effects_compile(arena, mechanism, scene, &options->effects, accuracy, diags,
-                              &r.motion->ledger, &terms));
     FW_TRY(assembled(&r));
-    FW_TRY(fw_model_new(arena, mechanism, &terms, r.q0, scene->duration_s,
+    FW_TRY(fw_model_new(arena, mechanism, terms, r.q0, scene->duration_s,
                         fw_method_find(r.motion->method), diags, &r.model));
     FW_TRY(fw_run_arrays(&r));
     set_stabilisation(&r);
     r.most_angle = options->most_angle_rad > 0 ? options->most_angle_rad : HUGE_VAL;
-    FW_TRY(fw_run_prepare(&r, &terms));
-    FW_TRY(fw_integrator_choose(&r, &terms, options->integrator));
+    FW_TRY(fw_run_prepare(&r, terms));
+    FW_TRY(fw_integrator_choose(&r, terms, options->integrator));
     FW_TRY(solve(&r));
     FW_TRY(say_method(&r));
     *motion = r.motion;
     return FW_OK;
+}
+
+fw_status fw_simulate(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                      const fw_motion_options *options, fw_diags *diags, const fw_motion **motion) {
+    fw_terms terms;
+    fw_effect_ledger ledger;
+    double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
+    *motion = NULL;
+    FW_TRY(fw_check_request(mechanism, scene, options, diags));
+    FW_TRY(fw_effects_compile(arena, mechanism, scene, &options->effects, accuracy, diags, &ledger,
+                              &terms));
+    return fw_simulate_compiled(arena, mechanism, scene, options, &ledger, &terms, diags, motion);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assembly/assembly.h"
 #include "plan/stages.h"
+#include "statics/quasi.h"
 #include <math.h>
 #include <string.h>
 
@@ -98,7 +99,7 @@ fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mec
     fw_motion_options options = plan->options.verdict.motion;
     FW_TRY(fw_plan_start(plan, mechanism, scene, &options.moved_m));
     options.reactions = true;
-    FW_TRY(fw_simulate(plan->arena, *mechanism, *scene, &options, &plan->diags, motion));
+    FW_TRY(fw_move_scene(plan->arena, *mechanism, *scene, &options, &plan->diags, motion));
     note_tolerance(plan, options.rtol, (*motion)->stats.rtol);
     return FW_OK;
 }

@@ -130,31 +130,38 @@ static fw_status too_large(const fw_rest *w) {
     return status == FW_NOMEM ? FW_NOMEM : FW_LIMIT;
 }
 
-fw_status fw_rest_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                      const fw_effect_choice *effects, fw_diags *diags, fw_rest *w) {
-    fw_terms terms;
-    double moved;
+/* the assembled pose, its model and memory */
+fw_status fw_rest_build(fw_rest *w, const fw_terms *terms) {
+    const fw_mechanism *mechanism = w->mechanism;
     size_t n = 3 * (size_t)mechanism->nbody;
-    *w = (fw_rest){.arena = arena, .mechanism = mechanism, .scene = scene, .diags = diags};
-    FW_TRY(fw_check_motion(mechanism, scene, diags));
+    double moved;
     if (n > FW_STATICS_MOST) return too_large(w);
-    fw_effect_choice choice = *effects;
-    if (choice.mode == FW_EFFECTS_AUTO) choice.mode = FW_EFFECTS_ALL;
-    FW_TRY(fw_effects_compile(arena, mechanism, scene, &choice, 1e-3, diags, &w->ledger, &terms));
-    FW_TRY(freeze(w, &terms));
-    FW_NEED(w->q0 = fw_arena_array(arena, double, n));
+    FW_NEED(w->q0 = fw_arena_array(w->arena, double, n));
     for (int b = 0; b < mechanism->nbody; b++) {
         w->q0[3 * b] = mechanism->body[b].x_m;
         w->q0[3 * b + 1] = mechanism->body[b].y_m;
         w->q0[3 * b + 2] = mechanism->body[b].phi_rad;
     }
-    FW_TRY(fw_assemble(arena, mechanism, w->q0, &moved, diags));
-    FW_TRY(
-        fw_model_new(arena, mechanism, &terms, w->q0, scene->duration_s, NULL, diags, &w->model));
+    FW_TRY(fw_assemble(w->arena, mechanism, w->q0, &moved, w->diags));
+    FW_TRY(fw_model_new(w->arena, mechanism, terms, w->q0, w->scene->duration_s, NULL, w->diags,
+                        &w->model));
     FW_TRY(arrays(w));
+    return fw_reduced_new(w->arena, w->model, &w->reduced);
+}
+
+fw_status fw_rest_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                      const fw_effect_choice *effects, fw_diags *diags, fw_rest *w) {
+    fw_terms terms;
+    *w = (fw_rest){.arena = arena, .mechanism = mechanism, .scene = scene, .diags = diags};
+    FW_TRY(fw_check_motion(mechanism, scene, diags));
+    if (3 * (size_t)mechanism->nbody > FW_STATICS_MOST) return too_large(w);
+    fw_effect_choice choice = *effects;
+    if (choice.mode == FW_EFFECTS_AUTO) choice.mode = FW_EFFECTS_ALL;
+    FW_TRY(fw_effects_compile(arena, mechanism, scene, &choice, 1e-3, diags, &w->ledger, &terms));
+    FW_TRY(freeze(w, &terms));
+    FW_TRY(fw_rest_build(w, &terms));
     split_loads(w);
     FW_TRY(split_drivers(w));
-    FW_TRY(fw_reduced_new(arena, w->model, &w->reduced));
     fw_rest_factor(w, 0);
     return FW_OK;
 }
@@ -179,7 +186,7 @@ bool fw_rest_close(fw_rest *w, double *u) {
     fw_model_pose(m, u);
     for (int i = 0; i < m->nq; i++)
         if (!isfinite(u[i])) return false;
-    if (m->nblock > 0 && (!m->method->factor(m) || !fw_model_project_position(m, 0, u)))
+    if (m->nblock > 0 && (!m->method->factor(m) || !fw_model_project_position(m, w->t, u)))
         return false;
     memcpy(w->trial, u, (size_t)m->nq * sizeof *u);
     fw_model_set_switches(m, w->trial); /* at rest: the velocities of trial are 0 */
@@ -246,13 +253,13 @@ fw_status fw_rest_evaluate(fw_rest *w) {
     fw_model *m = w->model;
     if (!fw_rest_close(w, w->y)) return FW_SOLVER;
     FW_TRY(fw_reduced_null(m, &w->reduced));
-    fw_model_forces(m, 0, w->y);
+    fw_model_forces(m, w->t, w->y);
     for (int i = 0; i < m->nq; i++) {
         w->force[i] = inertia_of(m, i) * m->accel[i];
         if (!isfinite(w->force[i])) return FW_SOLVER;
     }
     fw_reduced_multipliers(m, &w->reduced, w->force, w->lambda);
-    fw_tangent(m, 0, w->y, w->lambda, w->stiffness, NULL);
+    fw_tangent(m, w->t, w->y, w->lambda, w->stiffness, NULL);
     FW_TRY(fw_reduced_spectrum(&w->reduced, w->stiffness));
     derivative_by_factor(w);
     project_on_modes(w);
