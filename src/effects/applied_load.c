@@ -46,10 +46,22 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     return FW_OK;
 }
 
+/* constant ones at the centre of mass are added once and for all: what follows a law costs */
+static int count(const fw_effect_case *c) {
+    int many = 0;
+    for (int i = 0; i < c->scene->nforce; i++)
+        many += !fw_law_is_constant(c->scene->force[i].law);
+    for (int i = 0; i < c->scene->ntorque; i++)
+        many += !fw_law_is_constant(c->scene->torque[i].law);
+    return many;
+}
+
 const fw_effect_row fw_effect_applied_load = {
     .id = "applied-load",
     .summary = "forces and torques of the scene with their laws in time",
     .called_for = called_for,
     .bound = bound,
     .add = add,
-    .kept = true};
+    .kept = true,
+    .cost = 467,
+    .count = count};

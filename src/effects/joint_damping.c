@@ -64,9 +64,20 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     return FW_OK;
 }
 
+static int count(const fw_effect_case *c) {
+    int many = 0;
+    for (int i = 0; i < c->mechanism->npin; i++)
+        many += c->mechanism->pin[i].damping_Nms_per_rad > 0;
+    for (int i = 0; i < c->mechanism->ntie; i++)
+        many += c->mechanism->tie[i].damping_Ns_per_m > 0;
+    return many;
+}
+
 const fw_effect_row fw_effect_joint_damping = {
     .id = "joint-damping",
     .summary = "viscous torque of hinges and force of sliding joints, c times rate",
     .called_for = called_for,
     .bound = bound,
-    .add = add};
+    .add = add,
+    .cost = 30,
+    .count = count};

@@ -30,10 +30,21 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     return FW_OK;
 }
 
+static int count(const fw_effect_case *c) {
+    int many = 0;
+    for (int i = 0; i < c->mechanism->npin; i++)
+        many += c->mechanism->pin[i].stiffness_Nm_per_rad > 0;
+    for (int i = 0; i < c->mechanism->ntie; i++)
+        many += c->mechanism->tie[i].stiffness_N_per_m > 0;
+    return many;
+}
+
 const fw_effect_row fw_effect_joint_elasticity = {
     .id = "joint-elasticity",
     .summary = "elastic torque of hinges and force of sliding joints, k times angle or travel",
     .called_for = called_for,
     .bound = bound,
     .add = add,
-    .kept = true};
+    .kept = true,
+    .cost = 49,
+    .count = count};

@@ -27,10 +27,20 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     return FW_OK;
 }
 
+static int count(const fw_effect_case *c) {
+    int many = 0;
+    for (int i = 0; i < c->mechanism->nspring; i++)
+        many += c->mechanism->spring[i].stiffness_N_per_m > 0 ||
+                c->mechanism->spring[i].damping_Ns_per_m > 0;
+    return many;
+}
+
 const fw_effect_row fw_effect_point_spring = {.id = "point-spring",
                                               .summary =
                                                   "springs, dampers and cables between two points",
                                               .called_for = called_for,
                                               .bound = bound,
                                               .add = add,
-                                              .kept = true};
+                                              .kept = true,
+                                              .cost = 312,
+                                              .count = count};
