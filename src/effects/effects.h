@@ -31,6 +31,7 @@ typedef struct fw_effect_entry { /* a line of the ledger */
 typedef struct fw_effect_ledger {
     fw_effect_entry *item; /* (count) */
     int count;
+    double left_out; /* sum of the bounds of what auto left out; 0 where the choice was asked for */
 } fw_effect_ledger;
 
 /* ---- what acts, compiled to plain arrays in SI; an absent effect leaves no entry behind ---- */
@@ -123,11 +124,15 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
     fw_status (*leave_out)(const fw_effect_case *c, fw_terms *terms);
     double cost; /* instructions per right-hand side and instance (callgrind, gcc -O2) */
     int (*count)(const fw_effect_case *c); /* instances; NULL: 1 */
+    bool unbounded_stays; /* not left out where its bound is infinite, whatever was asked for */
+    bool alone_stays;     /* likewise where nothing else moves the mechanism */
     bool kept; /* never left out, whatever was asked for: without it there is nothing to judge */
 } fw_effect_row;
 const fw_effect_row *const *fw_effect_rows(size_t *count);
 
-/* decides and compiles. A list with an unknown id is FW_USAGE (FW-D110 names the known ones). */
+/* decides and compiles. Auto leaves effects out, the smallest bound first, while the sum of their
+   bounds stays below the accuracy; none and lists leave out what is not kept. A list with an
+   unknown id is FW_USAGE (FW-D110 names the known ones). */
 fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                              const fw_effect_choice *choice, double accuracy, fw_diags *diags,
                              fw_effect_ledger *ledger, fw_terms *terms);
@@ -141,7 +146,7 @@ fw_status fw_static_response(fw_arena *arena, const fw_mechanism *mechanism, con
                              const double *force, double *displacement, double *rotation,
                              bool *valid);
 /* generalized forces (3 nbody) of the terms at the initial pose, just behind t = 0: constants,
-   loads, springs, slides, stops */
+   loads, springs, slides, stops, elements */
 void fw_terms_initial_force(const fw_mechanism *mechanism, const fw_terms *terms, double *force);
 /* the same with every timed load at the largest |factor| that it has in (0, end_s) */
 void fw_terms_largest_force(const fw_mechanism *mechanism, const fw_terms *terms, double end_s,

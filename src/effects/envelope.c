@@ -1,20 +1,280 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "effects/envelope.h"
+#include "effects/modal.h"
+#include <float.h>
 #include <math.h>
 
-fw_status fw_envelope_find(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                           fw_envelope *envelope) {
-    (void)arena, (void)mechanism, (void)scene;
-    *envelope = (fw_envelope){.why_not = "not computed"};
+#define PI 3.14159265358979323846
+
+/* Linear theory says nothing beyond; and how much wider its bounds are made per unit of `unsure`:
+   of 100 000 random bounds none was too small with 4 (docs/theory/effects/README.md) */
+static const double unsure_most = 0.5, widening = 4;
+
+double fw_pin_deflection(const fw_mechanism *m, int i) {
+    const fw_pin *p = &m->pin[i];
+    double a = p->body_a == FW_GROUND ? 0 : m->body[p->body_a].phi_rad;
+    double b = p->body_b == FW_GROUND ? 0 : m->body[p->body_b].phi_rad;
+    return b - a - p->free_angle_rad;
+}
+
+static fw_status arrays(fw_arena *arena, const fw_modal *o, fw_envelope *e) {
+    size_t n = (size_t)o->n, m = (size_t)o->modes, pins = (size_t)o->mechanism->npin;
+    e->n = o->n, e->modes = o->modes, e->npin = o->mechanism->npin;
+    e->omega = o->omega, e->shape = o->shape, e->turn = o->turn;
+    double **of[] = {&e->reach, &e->speed, &e->angle,     &e->rate,
+                     &e->force, &e->yield, &e->amplitude, &e->pace};
+    const size_t size[] = {n, n, pins, pins, pins, m, m, m};
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++)
+        FW_NEED(*of[i] = fw_arena_array(arena, double, size[i]));
     return FW_OK;
 }
 
-double fw_envelope_answer(const fw_effect_case *c, const double *force, double variation) {
-    (void)c, (void)force, (void)variation;
-    return (double)INFINITY;
+/* ---- modes ---- */
+
+/* Amplitude and speed of a mode, whatever its damping. By parts
+     q = (f(t) - f(0) cos wt - int f' cos w(t - s) ds) / w^2:  |q| <= (sup|f| + |f(0+)| + var f) /
+   w^2 and plainly |q| <= int |f| / w; of each push the smaller one. */
+static void size_of_modes(const fw_modal *o, const fw_pushes *p, fw_envelope *e) {
+    double end = o->scene->duration_s;
+    size_t m = (size_t)o->modes;
+    for (size_t j = 0; j < m; j++) {
+        double w = o->omega[j], q = fabs(o->velocity[j]) / w, v = fabs(o->velocity[j]);
+        for (int i = 0; i < p->count; i++) {
+            const fw_push *f = &p->item[i];
+            double kick = f->first[j] + f->sway[j];
+            q += fmin((f->sup[j] + kick) / (w * w), f->full[j] / w);
+            v += fmin(kick / w, f->full[j]);
+        }
+        e->amplitude[j] = q, e->pace[j] = v;
+        double zeta = 0.5 * o->damping[j * m + j] / w;
+        e->yield[j] = fmin(end / w, (1 + 2 / (PI * fmax(zeta, 1e-12))) / (w * w));
+    }
+    for (size_t j = 0; j < m; j++) { /* to first order in their damping */
+        double more = 0;
+        for (size_t l = 0; l < m; l++)
+            if (l != j) more += fabs(o->damping[j * m + l]) * e->pace[l];
+        e->amplitude[j] += more * e->yield[j];
+        e->pace[j] += more * e->yield[j] * o->omega[j];
+    }
 }
 
+static void spread(int modes, int count, const double *shape, const double *size, double *out) {
+    for (int i = 0; i < count; i++)
+        for (int j = 0; j < modes; j++)
+            out[i] += fabs(shape[(size_t)j * (size_t)count + (size_t)i]) * size[j];
+}
+
+/* ---- joint forces ---- */
+
+static void add_pins(const fw_modal *o, const double *lambda, double factor, double *force) {
+    const fw_linear *s = &o->linear;
+    for (int i = 0; i < o->mechanism->npin; i++)
+        if (s->pin_row[i] != FW_NONE)
+            force[i] += factor * s->stiffness_N_per_m * s->length_m *
+                        hypot(lambda[s->pin_row[i]], lambda[s->pin_row[i] + 1]);
+}
+
+/* lambda(t) = static multipliers of F(t) less those of M shape q'' of every mode, with
+   |q''| <= |f(0+)| + var f + w |v|, or sup|f| + w^2 |q| */
+static fw_status joint_forces(fw_arena *arena, const fw_modal *o, const fw_pushes *p,
+                              fw_envelope *e) {
+    size_t n = (size_t)o->n;
+    double *work, *lambda, *push;
+    fw_mark mark = fw_arena_mark(arena);
+    FW_NEED(work = fw_arena_array(arena, double, 2 * n));
+    FW_NEED(push = fw_arena_array(arena, double, n));
+    FW_NEED(lambda = fw_arena_array(arena, double, (size_t)o->linear.rows));
+    for (int i = 0; i < p->count; i++) {
+        const fw_push *f = &p->item[i];
+        double most = 1;
+        for (size_t k = 0; k < n; k++)
+            push[k] = f->force[k];
+        if (f->element) { /* its direction as where it pushes most */
+            double t = fw_terms_element_busiest(o->mechanism, f->element, o->scene->duration_s);
+            fw_terms_element_force(o->mechanism, f->element, t, fmax(t, DBL_MIN), push);
+        } else if (f->law)
+            most = fw_law_largest(f->law, o->scene->duration_s);
+        fw_modal_multipliers(o, push, work, lambda);
+        add_pins(o, lambda, most, e->force);
+    }
+    for (int j = 0; j < o->modes; j++) {
+        double w = o->omega[j], soft = w * w * e->amplitude[j], kick = w * fabs(o->velocity[j]);
+        for (int i = 0; i < p->count; i++) {
+            soft += p->item[i].sup[j];
+            kick += p->item[i].first[j] + p->item[i].sway[j];
+        }
+        for (size_t k = 0; k < n; k++) {
+            const fw_mass *b = &o->mechanism->body[k / 3];
+            push[k] = (k % 3 == 2 ? b->inertia_kg_m2 : b->mass_kg) * o->shape[(size_t)j * n + k];
+        }
+        fw_modal_multipliers(o, push, work, lambda);
+        add_pins(o, lambda, fmin(soft, kick), e->force);
+    }
+    for (int i = 0; i < e->npin; i++)
+        if (o->linear.pin_row[i] == FW_NONE) e->force[i] = (double)INFINITY;
+    fw_arena_rewind(arena, mark);
+    return FW_OK;
+}
+
+/* ---- how far linear theory can be trusted ---- */
+
+/* largest turn of a body or a pin, and of the line of a spring, rad */
+static double largest_turn(const fw_modal *o, const fw_envelope *e) {
+    const fw_mechanism *m = o->mechanism;
+    double most = 0;
+    for (int i = 0; i < m->npin; i++)
+        most = fmax(most, e->angle[i]);
+    for (int b = 0; b < m->nbody; b++)
+        most = fmax(most, e->reach[3 * b + 2]);
+    for (int i = 0; i < o->terms->nspring; i++) {
+        const fw_spring *s = &o->terms->spring[i];
+        fw_vec2 a = fw_local_place(m, s->body_a, s->ax_m, s->ay_m);
+        fw_vec2 b = fw_local_place(m, s->body_b, s->bx_m, s->by_m);
+        double moved = 0, length = hypot(b.x - a.x, b.y - a.y);
+        if (s->body_a != FW_GROUND)
+            moved += hypot(e->reach[3 * s->body_a], e->reach[3 * s->body_a + 1]) +
+                     e->reach[3 * s->body_a + 2] * hypot(s->ax_m, s->ay_m);
+        if (s->body_b != FW_GROUND)
+            moved += hypot(e->reach[3 * s->body_b], e->reach[3 * s->body_b + 1]) +
+                     e->reach[3 * s->body_b + 2] * hypot(s->bx_m, s->by_m);
+        if (length > 0) most = fmax(most, moved / length);
+    }
+    return most;
+}
+
+/* turns, and what the loads at their largest with the multipliers that hold them do to the
+   stiffness (twice, because the motion overshoots; a frequency follows by half of it) */
+static fw_status doubt(fw_arena *arena, const fw_modal *o, const fw_envelope *e, double *unsure) {
+    double *force, part;
+    fw_mark mark = fw_arena_mark(arena);
+    FW_NEED(force = fw_arena_array(arena, double, (size_t)o->n));
+    fw_terms_largest_force(o->mechanism, o->terms, o->scene->duration_s, force);
+    FW_TRY(fw_modal_softening(arena, o, force, false, &part));
+    fw_arena_rewind(arena, mark);
+    *unsure = largest_turn(o, e) + part;
+    return FW_OK;
+}
+
+static fw_status fail(fw_envelope *e, const char *why) {
+    e->valid = false;
+    e->why_not = why;
+    return FW_OK;
+}
+
+fw_status fw_envelope_of(fw_arena *arena, const fw_mechanism *m, const fw_scene *scene,
+                         const fw_terms *terms, fw_envelope *e) {
+    fw_modal *o;
+    fw_pushes pushes;
+    double unsure;
+    *e = (fw_envelope){.duration_s = scene->duration_s};
+    if (!(scene->duration_s > 0) || !isfinite(scene->duration_s))
+        return fail(e, "the scene has no duration");
+    FW_NEED(o = fw_arena_one(arena, fw_modal));
+    e->modal = o;
+    FW_TRY(fw_modal_find(arena, m, scene, terms, o));
+    if (o->why_not) return fail(e, o->why_not);
+    FW_TRY(fw_pushes_find(arena, o, &pushes));
+    if (pushes.why_not) return fail(e, pushes.why_not);
+    FW_TRY(arrays(arena, o, e));
+    size_of_modes(o, &pushes, e);
+    spread(e->modes, e->n, e->shape, e->amplitude, e->reach);
+    spread(e->modes, e->n, e->shape, e->pace, e->speed);
+    spread(e->modes, e->npin, e->turn, e->amplitude, e->angle);
+    spread(e->modes, e->npin, e->turn, e->pace, e->rate);
+    FW_TRY(joint_forces(arena, o, &pushes, e));
+    FW_TRY(doubt(arena, o, e, &unsure));
+    if (!(unsure <= unsure_most))
+        return fail(e, "it turns too far, or its loads change its stiffness too much, for linear "
+                       "theory");
+    FW_TRY(fw_modal_floor(arena, o, &pushes, unsure, &e->floor));
+    e->margin = 1 + widening * unsure;
+    double *of[] = {e->reach, e->speed, e->angle, e->rate, e->force};
+    const int size[] = {e->n, e->n, e->npin, e->npin, e->npin};
+    for (int k = 0; k < 5; k++)
+        for (int i = 0; i < size[k]; i++)
+            of[k][i] *= e->margin;
+    for (int i = 0; i < e->npin; i++)
+        e->most = fmax(e->most, fabs(fw_pin_deflection(m, i)) + e->angle[i]);
+    if (!(e->floor > 0)) return fail(e, "no hinge is deflected for sure");
+    e->valid = true;
+    return FW_OK;
+}
+
+/* ---- answers ---- */
+
+/* A mode under a force of size f and variation var f: (1 + var) f / w^2 by parts, or f times the
+   integral of the size of its response to an impulse: T / w, and with damping zeta at most
+   coth(pi zeta / 2 sqrt(1 - zeta^2)) / w^2 <= (1 + 2 / (pi zeta)) / w^2. */
+double fw_envelope_mode_answer(const fw_effect_case *c, const double *mode, double variation) {
+    const fw_envelope *e = c->envelope;
+    if (!e->valid) return (double)INFINITY;
+    double most = 0;
+    for (int i = 0; i < e->npin; i++) {
+        double sum = 0;
+        for (int j = 0; j < e->modes; j++) {
+            double turn = fabs(e->turn[(size_t)j * (size_t)e->npin + (size_t)i]);
+            double w = e->omega[j], f = fabs(mode[j]);
+            if (f != 0) sum += turn * f * fmin((1 + variation) / (w * w), e->yield[j]);
+        }
+        most = fmax(most, sum);
+        if (isnan(sum)) return (double)INFINITY;
+    }
+    return most / e->floor * e->margin;
+}
+
+double fw_envelope_answer(const fw_effect_case *c, const double *force, double variation) {
+    const fw_envelope *e = c->envelope;
+    if (!e->valid) return (double)INFINITY;
+    double most = 0;
+    for (int i = 0; i < e->npin; i++) {
+        double sum = 0;
+        for (int j = 0; j < e->modes; j++) {
+            const double *shape = e->shape + (size_t)j * (size_t)e->n;
+            double turn = fabs(e->turn[(size_t)j * (size_t)e->npin + (size_t)i]);
+            double f = 0, w = e->omega[j];
+            for (int k = 0; k < e->n; k++)
+                f += force[k] != 0 ? fabs(shape[k] * force[k]) : 0;
+            if (f != 0) sum += turn * f * fmin((1 + variation) / (w * w), e->yield[j]);
+        }
+        most = fmax(most, sum);
+        if (isnan(sum)) return (double)INFINITY;
+    }
+    return most / e->floor * e->margin;
+}
+
+/* With dK_jl = part w_j w_l at most between modes: mode j is pushed by part w_j w_l q_l. Its own
+   motion shifts its frequency: part w T of the amplitude, at most twice the amplitude (and the
+   static change). Others push it off resonance, 2/|w_j^2 - w_l^2| + 2/w_j^2 of the force, or T/w_j
+   of it. 1/(1 - part): what the change does to itself. */
 double fw_envelope_stiffness(const fw_effect_case *c, double part) {
-    (void)c, (void)part;
-    return (double)INFINITY;
+    const fw_envelope *e = c->envelope;
+    if (part == 0) return 0;
+    if (!e->valid || !(part < 0.5)) return (double)INFINITY;
+    double most = 0, more = part / (1 - part);
+    for (int i = 0; i < e->npin; i++) {
+        double sum = 0;
+        for (int j = 0; j < e->modes; j++) {
+            double turn = fabs(e->turn[(size_t)j * (size_t)e->npin + (size_t)i]);
+            double w = e->omega[j],
+                   change = e->amplitude[j] *
+                            fmin(2 + more, more * w * fmin(e->duration_s, w * e->yield[j]));
+            for (int l = 0; l < e->modes; l++) {
+                if (l == j) continue;
+                double u = e->omega[l], apart = fabs(w * w - u * u);
+                change +=
+                    more * w * u * e->amplitude[l] * fmin(e->yield[j], 2 / apart + 2 / (w * w));
+            }
+            sum += turn * change;
+        }
+        most = fmax(most, sum);
+    }
+    return most / e->floor * e->margin;
+}
+
+fw_status fw_envelope_softening(const fw_effect_case *c, const double *force, double *part) {
+    *part = (double)INFINITY;
+    if (!c->envelope->valid) return FW_OK;
+    FW_TRY(fw_modal_softening(c->arena, c->envelope->modal, force, true, part));
+    *part *= 2;
+    return FW_OK;
 }

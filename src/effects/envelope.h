@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How large the motion of a scene can become, and what a further force of known size can change in
    it: what the bounds of the effects are made of. Linear theory about the initial pose with the
-   effects that are never left out, in modes; where that theory has nothing to say (free motions,
+   effects that the scene calls for, in modes; where that theory has nothing to say (free motions,
    drivers, stops, cables, large angles, redundant joints), `valid` is false and every effect stays.
    Theory: docs/theory/effects/README.md. */
 #ifndef FW_EFFECTS_ENVELOPE_H
@@ -23,10 +23,23 @@ typedef struct fw_envelope {
     double *force; /* (npin) N: on the joint's force */
     double floor;  /* rad: the largest hinge deflection of the scene is at least this */
     double most;   /* rad: and at most this */
+    /* for the answers */
+    int npin;
+    double duration_s;
+    double margin;            /* that the bounds are widened by, for what is not linear */
+    double *amplitude, *pace; /* (modes) |q| and |q'| of each, without the margin */
+    double *yield;            /* (modes) s^2: |q| under a force of size 1 of any course */
+    const struct fw_modal *modal;
+    bool *taken; /* (rows of the table) it is in this envelope; what is not must not change much */
 } fw_envelope;
 
+/* of the scene with everything that it calls for and that linear theory can take in; what is
+   `kept` first, so that an effect's `add` sees at least that envelope */
 fw_status fw_envelope_find(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                            fw_envelope *envelope);
+/* of given terms */
+fw_status fw_envelope_of(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                         const fw_terms *terms, fw_envelope *envelope);
 
 /* A further force on the mechanism whose every component stays below `force` (n) in size for the
    whole scene: how much any hinge can turn further, relative to `floor`. `variation`: total
@@ -34,9 +47,14 @@ fw_status fw_envelope_find(fw_arena *arena, const fw_mechanism *mechanism, const
    with the motion INFINITY (resonance: it is then bounded by the scene's duration). Infinite where
    the envelope is not valid. Cost modes x n. */
 double fw_envelope_answer(const fw_effect_case *c, const double *force, double variation);
+/* the same for modal forces (modes) that are known: shape . force of what is added */
+double fw_envelope_mode_answer(const fw_effect_case *c, const double *mode, double variation);
 /* A relative change of the generalised stiffness, |dK| <= part K in the sense of quadratic forms:
    how much any hinge can turn further, relative to `floor`: frequencies shift and phases run apart
    over the scene. */
 double fw_envelope_stiffness(const fw_effect_case *c, double part);
+/* that part for constant forces `force` (n) at centres of mass: what the joint forces which hold
+   them take from the stiffness or add to it. A weight along a mast moves nothing and softens it */
+fw_status fw_envelope_softening(const fw_effect_case *c, const double *force, double *part);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "effects/effect.h"
+#include "effects/envelope.h"
 #include <math.h>
 
 static bool called_for(const fw_effect_case *c) {
@@ -10,46 +11,72 @@ static bool called_for(const fw_effect_case *c) {
     return false;
 }
 
-/* adds c/J of a turning damper, c (1/m + r^2/J) of a sliding one to its bodies */
-static void add_rates(const fw_mechanism *m, double *rate) {
-    for (int i = 0; i < m->npin; i++) {
-        const fw_pin *p = &m->pin[i];
-        for (int side = 0; side < 2; side++) {
-            int b = side ? p->body_b : p->body_a;
-            if (b != FW_GROUND) rate[b] += p->damping_Nms_per_rad / m->body[b].inertia_kg_m2;
-        }
+/* rate along the axis of a sliding joint at most, m/s: of both points, and of the line's turning */
+static double slide_rate(const fw_effect_case *c, const fw_tie *t) {
+    const fw_mechanism *m = c->mechanism;
+    fw_vec2 a = fw_local_place(m, t->body_a, t->ax_m, t->ay_m);
+    fw_vec2 b = fw_local_place(m, t->body_b, t->bx_m, t->by_m);
+    const double *v = c->envelope->speed;
+    double rate = 0;
+    for (int side = 0; side < 2; side++) {
+        int body = side ? t->body_b : t->body_a;
+        if (body == FW_GROUND) continue;
+        double arm = hypot(side ? t->bx_m : t->ax_m, side ? t->by_m : t->ay_m);
+        rate += hypot(v[3 * body], v[3 * body + 1]) + arm * v[3 * body + 2];
+        if (!side) rate += hypot(b.x - a.x, b.y - a.y) * v[3 * body + 2];
     }
+    return rate;
+}
+
+/* modal forces (modes) of all dampers at their largest rates */
+static void modal_forces(const fw_effect_case *c, double *mode, double *force) {
+    const fw_mechanism *m = c->mechanism;
+    const fw_envelope *e = c->envelope;
     for (int i = 0; i < m->ntie; i++) {
         const fw_tie *t = &m->tie[i];
+        if (!(t->damping_Ns_per_m > 0)) continue;
+        double f = t->damping_Ns_per_m * slide_rate(c, t);
+        fw_vec2 a = fw_local_place(m, t->body_a, t->ax_m, t->ay_m);
+        fw_vec2 b = fw_local_place(m, t->body_b, t->bx_m, t->by_m);
+        double apart = hypot(b.x - a.x, b.y - a.y);
         for (int side = 0; side < 2; side++) {
-            int b = side ? t->body_b : t->body_a;
-            double x = side ? t->bx_m : t->ax_m, y = side ? t->by_m : t->ay_m;
-            if (b == FW_GROUND) continue;
-            rate[b] += t->damping_Ns_per_m *
-                       (1 / m->body[b].mass_kg + (x * x + y * y) / m->body[b].inertia_kg_m2);
+            int body = side ? t->body_b : t->body_a;
+            if (body == FW_GROUND) continue;
+            double arm = hypot(side ? t->bx_m : t->ax_m, side ? t->by_m : t->ay_m);
+            force[3 * body] += f, force[3 * body + 1] += f;
+            force[3 * body + 2] += f * (arm + (side ? 0 : apart));
         }
+    }
+    for (int j = 0; j < e->modes; j++) {
+        const double *turn = e->turn + (size_t)j * (size_t)e->npin;
+        for (int i = 0; i < m->npin; i++)
+            mode[j] += fabs(turn[i]) * m->pin[i].damping_Nms_per_rad * e->rate[i];
+        for (int k = 0; k < e->n; k++)
+            mode[j] += fabs(e->shape[(size_t)j * (size_t)e->n + (size_t)k]) * force[k];
     }
 }
 
-/* 1 - exp(-sigma T): no mode of amplitude A(t) decays faster than exp(-sigma t), with
-   sigma = phi^T C phi / (2 phi^T M phi) <= max over bodies of the sum of c/J of its turning and
-   c (1/m + r^2/J) of its sliding dampers: (w_b - w_a)^2 <= 2 (w_a^2 + w_b^2), likewise for the
-   speeds of the two points along the axis, and (v + w r)^2 <= (1/m + r^2/J) (m v^2 + J w^2) by
-   Cauchy and Schwarz.
-   Inputs c in N m s/rad and N s/m, m in kg, J in kg m2, arm r of the joint's point in m, T in s;
-   conservative for small motions. Cost O(joints). Test: test_effects.c. */
+/* Without its dampers the motion differs by d with M d'' + C d' + K d = C q', q the motion without
+   them, whose rates the envelope knows: an answer to a force of known size that may go with the
+   motion (resonance). Inputs c in N m s/rad and N s/m; output dimensionless; conservative for small
+   motions. Cost modes times joints. Test: test_effects.c, test_bounds.c. */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
-    const fw_mechanism *m = c->mechanism;
+    const fw_envelope *e = c->envelope;
+    *value = (double)INFINITY;
+    if (!e->valid) {
+        FW_NEED(*reason = fw_arena_printf(
+                    c->arena, "joints have damping, and nothing bounds it: %s", e->why_not));
+        return FW_OK;
+    }
     fw_mark mark = fw_arena_mark(c->arena);
-    double fastest = 0, *rate = fw_arena_array(c->arena, double, (size_t)m->nbody);
-    FW_NEED(rate);
-    add_rates(m, rate);
-    for (int b = 0; b < m->nbody; b++)
-        fastest = fmax(fastest, rate[b]);
+    double *mode, *force;
+    FW_NEED(mode = fw_arena_array(c->arena, double, (size_t)e->modes));
+    FW_NEED(force = fw_arena_array(c->arena, double, (size_t)e->n));
+    modal_forces(c, mode, force);
+    *value = fw_envelope_mode_answer(c, mode, (double)INFINITY);
     fw_arena_rewind(c->arena, mark);
-    *value = -expm1(-fastest * c->scene->duration_s);
-    *reason = "joints have damping: bound 1 - exp(-sigma T) with sigma = max(sum of c/J, and "
-              "c (1/m + r^2/J) where they slide)";
+    *reason = "joints have damping: answer of the modes to c times the largest rates, over the "
+              "scene";
     return FW_OK;
 }
 

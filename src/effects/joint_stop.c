@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "effects/effect.h"
+#include "effects/envelope.h"
 #include <math.h>
 
 static bool called_for(const fw_effect_case *c) {
@@ -8,12 +9,32 @@ static bool called_for(const fw_effect_case *c) {
     return false;
 }
 
-/* whether a stop is reached is known only after the motion, and what it then changes is everything
-   behind */
+/* gap to the stop of one side less what the hinge can turn: below 0, it may be reached. Half of the
+   largest deflection is left for effects that the envelope does not know */
+static double room(const fw_effect_case *c, int i, double side, double at_rad) {
+    if (isnan(at_rad)) return (double)INFINITY;
+    const fw_pin *p = &c->mechanism->pin[i];
+    double a = p->body_a == FW_GROUND ? 0 : c->mechanism->body[p->body_a].phi_rad;
+    double b = p->body_b == FW_GROUND ? 0 : c->mechanism->body[p->body_b].phi_rad;
+    return side * (at_rad - (b - a - p->free_angle_rad)) - c->envelope->angle[i] -
+           0.5 * c->envelope->floor;
+}
+
+/* A stop that the envelope shows is never reached changes nothing: 0. Elsewhere what it changes is
+   everything behind. Angles in rad; conservative for small motions. Cost O(pins). Test:
+   test_envelope.c, test_bounds.c. */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
-    (void)c;
     *value = (double)INFINITY;
     *reason = "joints have stops: where one is reached it is the motion itself";
+    if (!c->envelope->valid) return FW_OK;
+    for (int i = 0; i < c->mechanism->npin; i++) {
+        const fw_pin *p = &c->mechanism->pin[i];
+        if (fw_pin_has_stop(p) &&
+            !(room(c, i, -1, p->stop_min_rad) > 0 && room(c, i, 1, p->stop_max_rad) > 0))
+            return FW_OK;
+    }
+    *value = 0;
+    *reason = "no joint can turn as far as its stops: bound";
     return FW_OK;
 }
 
@@ -56,4 +77,5 @@ const fw_effect_row fw_effect_joint_stop = {
     .bound = bound,
     .add = add,
     .cost = 42,
-    .count = count};
+    .count = count,
+    .unbounded_stays = true};

@@ -1,257 +1,38 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "effects/effect.h"
-#include "maths/dense.h"
+#include "effects/linear.h"
 #include <math.h>
-
-typedef struct system {
-    int n;         /* unknowns */
-    double *a;     /* (n x n) */
-    double length; /* m: rotations weigh like displacements of this size */
-    double force;  /* N per m of displacement: size of the stiffness */
-} system;
-
-static void put(const system *s, int i, int j, double value) {
-    s->a[(size_t)i * (size_t)s->n + (size_t)j] += value;
-}
-
-static fw_vec2 arm(const fw_mechanism *m, int body, double x, double y) {
-    if (body == FW_GROUND) return (fw_vec2){x, y};
-    double c = cos(m->body[body].phi_rad), s = sin(m->body[body].phi_rad);
-    return (fw_vec2){c * x - s * y, s * x + c * y};
-}
-
-static void add_arm(int body, double x, double y, double *sum, int *count) {
-    if (body == FW_GROUND) return;
-    *sum += hypot(x, y);
-    ++*count;
-}
-
-/* mean distance between the centres of mass and the points of joints and springs, m */
-static double typical_length(const fw_mechanism *m) {
-    double sum = 0;
-    int count = 0;
-    for (int i = 0; i < m->npin; i++) {
-        add_arm(m->pin[i].body_a, m->pin[i].ax_m, m->pin[i].ay_m, &sum, &count);
-        add_arm(m->pin[i].body_b, m->pin[i].bx_m, m->pin[i].by_m, &sum, &count);
-    }
-    for (int i = 0; i < m->ntie; i++) {
-        add_arm(m->tie[i].body_a, m->tie[i].ax_m, m->tie[i].ay_m, &sum, &count);
-        add_arm(m->tie[i].body_b, m->tie[i].bx_m, m->tie[i].by_m, &sum, &count);
-    }
-    for (int i = 0; i < m->nspring && sum == 0; i++) {
-        add_arm(m->spring[i].body_a, m->spring[i].ax_m, m->spring[i].ay_m, &sum, &count);
-        add_arm(m->spring[i].body_b, m->spring[i].bx_m, m->spring[i].by_m, &sum, &count);
-    }
-    return sum > 0 ? sum / count : 1;
-}
-
-static void add_torsion(const system *s, const fw_torsion *t) {
-    double k = t->stiffness_Nm_per_rad / (s->force * s->length * s->length);
-    int a = t->body_a == FW_GROUND ? -1 : 3 * t->body_a + 2;
-    int b = t->body_b == FW_GROUND ? -1 : 3 * t->body_b + 2;
-    if (a >= 0) put(s, a, a, k);
-    if (b >= 0) put(s, b, b, k);
-    if (a >= 0 && b >= 0) put(s, a, b, -k), put(s, b, a, -k);
-}
-
-/* what changes a length along the unit vector u between point a and point b: -u on a, u on b, with
-   their arms */
-typedef struct line {
-    int index[6], count;
-    double row[6];
-} line;
-
-static void add_end(const system *s, line *l, int body, fw_vec2 r, double ux, double uy,
-                    double sign) {
-    if (body == FW_GROUND) return;
-    const double part[3] = {sign * ux, sign * uy, sign * (r.x * uy - r.y * ux) / s->length};
-    for (int c = 0; c < 3; c++, l->count++)
-        l->index[l->count] = 3 * body + c, l->row[l->count] = part[c];
-}
-
-/* k u u^T along the line: the material part of the tangent */
-static void add_stiffness(const system *s, const line *l, double k) {
-    for (int i = 0; i < l->count; i++)
-        for (int j = 0; j < l->count; j++)
-            put(s, l->index[i], l->index[j], k * l->row[i] * l->row[j]);
-}
-
-static void add_row(const system *s, int row, const line *l) {
-    for (int i = 0; i < l->count; i++)
-        put(s, row, l->index[i], l->row[i]), put(s, l->index[i], row, l->row[i]);
-}
-
-static void add_spring_along(const system *s, const fw_mechanism *m, const fw_spring *p, double ux,
-                             double uy) {
-    line along = {.count = 0};
-    add_end(s, &along, p->body_a, arm(m, p->body_a, p->ax_m, p->ay_m), ux, uy, -1);
-    add_end(s, &along, p->body_b, arm(m, p->body_b, p->bx_m, p->by_m), ux, uy, 1);
-    add_stiffness(s, &along, p->stiffness_N_per_m / s->force);
-}
-
-/* points that coincide: a spring without length holds them in all directions */
-static void add_spring(const system *s, const fw_mechanism *m, const fw_spring *p) {
-    fw_vec2 a = fw_local_place(m, p->body_a, p->ax_m, p->ay_m);
-    fw_vec2 b = fw_local_place(m, p->body_b, p->bx_m, p->by_m);
-    double dx = b.x - a.x, dy = b.y - a.y, l = hypot(dx, dy);
-    if (l > 0 && !fw_spring_slack(m, p)) add_spring_along(s, m, p, dx / l, dy / l);
-    if (l > 0 || p->length_m != 0) return;
-    add_spring_along(s, m, p, 1, 0);
-    add_spring_along(s, m, p, 0, 1);
-}
-
-/* a direction (ux, uy) fixed in body a: turning it moves the point b, at a distance from a */
-static line tie_line(const system *s, const fw_mechanism *m, const fw_tie *t, double ux, double uy,
-                     bool turns) {
-    fw_vec2 a = fw_local_place(m, t->body_a, t->ax_m, t->ay_m);
-    fw_vec2 b = fw_local_place(m, t->body_b, t->bx_m, t->by_m);
-    fw_vec2 ra = arm(m, t->body_a, t->ax_m, t->ay_m), rb = arm(m, t->body_b, t->bx_m, t->by_m);
-    if (turns) ra.x += b.x - a.x, ra.y += b.y - a.y;
-    line l = {.count = 0};
-    add_end(s, &l, t->body_a, ra, ux, uy, -1);
-    add_end(s, &l, t->body_b, rb, ux, uy, 1);
-    return l;
-}
-
-static line tie_axis(const system *s, const fw_mechanism *m, const fw_tie *t, bool normal) {
-    double turned = t->axis_rad + (t->body_a == FW_GROUND ? 0 : m->body[t->body_a].phi_rad);
-    double c = cos(turned), n = sin(turned);
-    return normal ? tie_line(s, m, t, -n, c, true) : tie_line(s, m, t, c, n, true);
-}
-
-/* phi_b - phi_a held */
-static void hold_angle(const system *s, int row, int body_a, int body_b) {
-    line l = {.count = 0};
-    if (body_a != FW_GROUND) l.index[l.count] = 3 * body_a + 2, l.row[l.count++] = -1;
-    if (body_b != FW_GROUND) l.index[l.count] = 3 * body_b + 2, l.row[l.count++] = 1;
-    add_row(s, row, &l);
-}
-
-static int tie_rows(const fw_tie *t) {
-    return t->kind == FW_TIE_PRISMATIC ? 2 : t->kind == FW_TIE_DISTANCE ? 1 : 3;
-}
-
-/* a driver holds one motion more; that of a rod replaces its length */
-static int driver_rows(const fw_mechanism *m, const fw_driver *d) {
-    return d->tie == FW_NONE || m->tie[d->tie].kind == FW_TIE_PRISMATIC;
-}
-
-static void add_tie(const system *s, const fw_mechanism *m, const fw_tie *t, int row) {
-    fw_vec2 a = fw_local_place(m, t->body_a, t->ax_m, t->ay_m);
-    fw_vec2 b = fw_local_place(m, t->body_b, t->bx_m, t->by_m);
-    double dx = b.x - a.x, dy = b.y - a.y, length = hypot(dx, dy);
-    line l;
-    switch (t->kind) {
-    case FW_TIE_PRISMATIC:
-        l = tie_axis(s, m, t, true);
-        add_row(s, row, &l);
-        hold_angle(s, row + 1, t->body_a, t->body_b);
-        return;
-    case FW_TIE_DISTANCE:
-        l = tie_line(s, m, t, length > 0 ? dx / length : 1, length > 0 ? dy / length : 0, false);
-        add_row(s, row, &l);
-        return;
-    case FW_TIE_WELD:
-    default:
-        l = tie_line(s, m, t, 1, 0, false);
-        add_row(s, row, &l);
-        l = tie_line(s, m, t, 0, 1, false);
-        add_row(s, row + 1, &l);
-        hold_angle(s, row + 2, t->body_a, t->body_b);
-        return;
-    }
-}
-
-static void add_constraints(const system *s, const fw_mechanism *m) {
-    int row = 3 * m->nbody;
-    for (int i = 0; i < m->npin; i++, row += 2) {
-        const fw_pin *p = &m->pin[i];
-        const fw_tie same = {.body_a = p->body_a,
-                             .body_b = p->body_b,
-                             .ax_m = p->ax_m,
-                             .ay_m = p->ay_m,
-                             .bx_m = p->bx_m,
-                             .by_m = p->by_m};
-        line x = tie_line(s, m, &same, 1, 0, false), y = tie_line(s, m, &same, 0, 1, false);
-        add_row(s, row, &x);
-        add_row(s, row + 1, &y);
-    }
-    for (int i = 0; i < m->ntie; row += tie_rows(&m->tie[i]), i++)
-        add_tie(s, m, &m->tie[i], row);
-    for (int i = 0; i < m->ndriver; row += driver_rows(m, &m->driver[i]), i++) {
-        const fw_driver *d = &m->driver[i];
-        if (d->tie == FW_NONE)
-            hold_angle(s, row, m->pin[d->joint].body_a, m->pin[d->joint].body_b);
-        else if (m->tie[d->tie].kind == FW_TIE_PRISMATIC) {
-            line l = tie_axis(s, m, &m->tie[d->tie], false);
-            add_row(s, row, &l);
-        }
-    }
-}
-
-/* largest stiffness, N/m: the unit of the rows of forces; 0 when nothing is elastic */
-static double typical_stiffness(const fw_terms *terms, double length) {
-    double most = 0;
-    for (int i = 0; i < terms->ntorsion; i++)
-        most = fmax(most, terms->torsion[i].stiffness_Nm_per_rad / (length * length));
-    for (int i = 0; i < terms->nspring; i++)
-        most = fmax(most, terms->spring[i].stiffness_N_per_m);
-    for (int i = 0; i < terms->nslide; i++)
-        most = fmax(most, terms->slide[i].stiffness_N_per_m);
-    return most;
-}
-
-static void add_elastic(const system *s, const fw_mechanism *m, const fw_terms *terms) {
-    for (int i = 0; i < terms->ntorsion; i++)
-        add_torsion(s, &terms->torsion[i]);
-    for (int i = 0; i < terms->nspring; i++)
-        add_spring(s, m, &terms->spring[i]);
-    for (int i = 0; i < terms->nslide; i++) {
-        line l = tie_axis(s, m, &m->tie[terms->slide[i].tie], false);
-        add_stiffness(s, &l, terms->slide[i].stiffness_N_per_m / s->force);
-    }
-}
 
 /* [K G^T; G 0] [dq; lambda] = [F; 0] at the initial pose, rows balanced by a length and a
    stiffness. Geometric stiffness (lambda Psi_qq, turning loads) is left out: callers take a factor
    for it. Inputs SI; outputs displacement (3 nbody) in m and rad, rotation (npin) in rad. Cost the
-   cube of 3 nbody + 2 npin + rows of ties and drivers, over 3. Source: standard static condensation
+   cube of 3 nbody + the rows of joints and drivers, over 3. Source: standard static condensation
    of a constrained system. Test: test_effects.c. */
 fw_status fw_static_response(fw_arena *arena, const fw_mechanism *m, const fw_terms *terms,
                              const double *force, double *displacement, double *rotation,
                              bool *valid) {
-    int n = 3 * m->nbody, total = n + 2 * m->npin;
+    int total = fw_linear_size(m, terms);
     *valid = false;
-    for (int i = 0; i < m->ntie && total <= FW_RESPONSE_MOST; i++)
-        total += tie_rows(&m->tie[i]);
-    for (int i = 0; i < m->ndriver && total <= FW_RESPONSE_MOST; i++)
-        total += driver_rows(m, &m->driver[i]);
     if (total > FW_RESPONSE_MOST || total == 0) return FW_OK;
     fw_mark mark = fw_arena_mark(arena);
-    system s = {.n = total, .length = typical_length(m)};
-    s.force = typical_stiffness(terms, s.length);
-    if (!(s.force > 0)) return FW_OK;
-    double *x;
-    FW_NEED(s.a = fw_arena_array(arena, double, (size_t)total *(size_t)total));
-    FW_NEED(x = fw_arena_array(arena, double, (size_t)total));
-    add_elastic(&s, m, terms);
-    add_constraints(&s, m);
-    double largest = 0;
-    for (int i = 0; i < n; i++) {
-        x[i] = force[i] / (s.force * s.length) / (i % 3 == 2 ? s.length : 1);
-        largest = fmax(largest, fabs(x[i]));
-    }
-    for (int i = 0; i < n && largest > 0; i++) /* the answer is linear: solve for a unit load */
-        x[i] /= largest;
-    FW_TRY(fw_dense_solve_symmetric(arena, total, s.a, x, x, valid));
-    for (int i = 0; i < n; i++) {
-        displacement[i] = largest * x[i] * (i % 3 == 2 ? 1 : s.length);
-        *valid = *valid && isfinite(displacement[i]);
-    }
-    for (int i = 0; i < m->npin; i++) {
-        int a = m->pin[i].body_a, b = m->pin[i].body_b;
-        rotation[i] = (b == FW_GROUND ? 0 : displacement[3 * b + 2]) -
-                      (a == FW_GROUND ? 0 : displacement[3 * a + 2]);
+    fw_linear s;
+    bool elastic;
+    FW_TRY(fw_linear_new(arena, m, terms, &s, &elastic));
+    if (elastic) {
+        double *x, *f;
+        FW_NEED(x = fw_arena_array(arena, double, (size_t)total));
+        FW_NEED(f = fw_arena_array(arena, double, (size_t)s.n));
+        for (int i = 0; i < s.n; i++)
+            f[i] = force[i] / fw_linear_force_unit(&s, i);
+        FW_TRY(fw_linear_solve(arena, &s, f, x, valid));
+        for (int i = 0; i < s.n; i++) {
+            displacement[i] = x[i] * fw_linear_unit(&s, i);
+            *valid = *valid && isfinite(displacement[i]);
+        }
+        for (int i = 0; i < m->npin; i++) {
+            int a = m->pin[i].body_a, b = m->pin[i].body_b;
+            rotation[i] = (b == FW_GROUND ? 0 : displacement[3 * b + 2]) -
+                          (a == FW_GROUND ? 0 : displacement[3 * a + 2]);
+        }
     }
     fw_arena_rewind(arena, mark);
     return FW_OK;

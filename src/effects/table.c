@@ -63,64 +63,168 @@ static fw_status check_list(fw_arena *arena, const char *list, fw_diags *diags) 
     return FW_OK;
 }
 
-/* active or not, and in words why */
-static fw_status decide(const fw_effect_case *c, const fw_effect_row *row,
-                        const fw_effect_choice *choice, double accuracy, fw_effect_entry *entry) {
-    *entry = (fw_effect_entry){.id = row->id, .reason = "not called for by the scene"};
-    entry->called_for = row->called_for(c);
-    if (!entry->called_for) return FW_OK;
-    entry->cost = row->cost * (row->count ? row->count(c) : 1);
-    const char *how = "";
-    FW_TRY(row->bound(c, &entry->bound, &how));
-    char bound[32], wanted[32];
+/* ---- bounds ---- */
+
+static double or_infinite(double bound) {
+    return isnan(bound) ? (double)INFINITY : bound;
+}
+
+/* What the envelope does not take in must not change the motion much, or no bound holds that was
+   found without it: all bounds grow by 1/(1 - sum of theirs), and are infinite from 1/2 on. */
+static fw_status settle(const fw_effect_case *c, fw_effect_entry *entry) {
+    double loose = 0;
+    int largest = -1;
+    for (int i = 0; i < ROWS; i++) {
+        if (!entry[i].called_for || rows[i]->kept || c->envelope->taken[i]) continue;
+        loose += entry[i].bound;
+        if (largest < 0 || entry[i].bound > entry[largest].bound) largest = i;
+    }
+    for (int i = 0; i < ROWS && loose > 0; i++) {
+        if (!entry[i].called_for || rows[i]->kept || i == largest) continue;
+        if (loose < 0.5)
+            entry[i].bound /= 1 - loose;
+        else if (isfinite(entry[i].bound)) {
+            entry[i].bound = (double)INFINITY;
+            FW_NEED(entry[i].reason = fw_arena_printf(
+                        c->arena, "kept: no bound holds while %s may change the motion much",
+                        rows[largest]->id));
+        }
+    }
+    return FW_OK;
+}
+
+static fw_status find_bounds(const fw_effect_case *c, fw_effect_entry *entry) {
+    for (int i = 0; i < ROWS; i++) {
+        const fw_effect_row *row = rows[i];
+        entry[i] = (fw_effect_entry){.id = row->id, .reason = "not called for by the scene"};
+        entry[i].called_for = row->called_for(c);
+        if (!entry[i].called_for) continue;
+        FW_TRY(row->bound(c, &entry[i].bound, &entry[i].reason));
+        entry[i].bound = or_infinite(entry[i].bound);
+        entry[i].cost = row->cost * (row->count ? row->count(c) : 1);
+    }
+    return settle(c, entry);
+}
+
+/* ---- decision ---- */
+
+/* how it was found, its number, and what that means */
+static fw_status say(const fw_effect_case *c, fw_effect_entry *entry, double sum, double accuracy,
+                     bool last) {
+    if (isinf(entry->bound)) return FW_OK; /* its reason is the whole of it */
+    char bound[32], wanted[32], all[32];
     fw_number_text(bound, sizeof bound, entry->bound, 3);
     fw_number_text(wanted, sizeof wanted, accuracy, 3);
-    switch (choice->mode) {
-    case FW_EFFECTS_AUTO:
-        entry->active = !(entry->bound < accuracy);
-        if (isinf(entry->bound))
-            entry->reason = how;
-        else
-            FW_NEED(entry->reason =
-                        fw_arena_printf(c->arena, "%s = %s, %s the accuracy wanted %s", how, bound,
-                                        entry->active ? "not below" : "below", wanted));
-        return FW_OK;
-    case FW_EFFECTS_ALL:
-        entry->active = true;
-        entry->reason = "called for, and all effects were asked for";
-        return FW_OK;
-    case FW_EFFECTS_NONE:
-    case FW_EFFECTS_LIST:
-    default:
-        /* loads and stiffness are the motion itself: without them there would be nothing to judge
-         */
-        entry->active = isinf(entry->bound) ||
-                        (choice->mode == FW_EFFECTS_LIST && listed(choice->list, row->id));
-        entry->reason = isinf(entry->bound) ? how
-                        : entry->active     ? "called for, and in the list asked for"
-                        : choice->mode == FW_EFFECTS_NONE
-                            ? "called for, but no effect was asked for"
-                            : "called for, but not in the list";
-        return FW_OK;
+    fw_number_text(all, sizeof all, sum, 3);
+    const char *how = entry->reason;
+    if (!entry->active)
+        entry->reason = fw_arena_printf(
+            c->arena, "%s = %s, left out: %s%s%s below the accuracy wanted %s", how, bound,
+            last ? "" : "together with smaller ones ", last ? "" : all, last ? "" : ",", wanted);
+    else if (entry->bound < accuracy)
+        entry->reason = fw_arena_printf(c->arena,
+                                        "%s = %s, kept: with what is left out already %s, not "
+                                        "below the accuracy wanted %s",
+                                        how, bound, all, wanted);
+    else
+        entry->reason = fw_arena_printf(c->arena, "%s = %s, not below the accuracy wanted %s", how,
+                                        bound, wanted);
+    FW_NEED(entry->reason);
+    return FW_OK;
+}
+
+/* smallest bounds first, while their sum stays below the accuracy */
+static fw_status decide_auto(const fw_effect_case *c, double accuracy, fw_effect_entry *entry) {
+    bool seen[ROWS];
+    double sum = 0;
+    for (int i = 0; i < ROWS; i++)
+        seen[i] = !entry[i].called_for;
+    for (int k = 0; k < ROWS; k++) {
+        int least = -1;
+        for (int i = 0; i < ROWS; i++)
+            if (!seen[i] && (least < 0 || entry[i].bound < entry[least].bound)) least = i;
+        if (least < 0) break;
+        seen[least] = true;
+        double with = sum + entry[least].bound;
+        bool first = sum == 0;
+        entry[least].active = rows[least]->kept || !(with < accuracy);
+        if (!rows[least]->kept) FW_TRY(say(c, &entry[least], with, accuracy, first));
+        if (!entry[least].active) sum = with;
     }
+    return FW_OK;
+}
+
+/* something of the scene or the mechanism moves it, other than weight: what is kept besides springs
+ */
+static bool moved(const fw_effect_case *c) {
+    for (int i = 0; i < ROWS; i++)
+        if (rows[i]->kept && rows[i] != &fw_effect_joint_elasticity &&
+            rows[i] != &fw_effect_point_spring && rows[i]->called_for(c))
+            return true;
+    return c->mechanism->ndriver > 0;
+}
+
+/* stays whatever was asked for: what is kept; a stop that may be reached, as springs do, and
+   inertia where nothing says that it does not matter; weight where nothing else moves the mechanism
+ */
+static bool belongs(const fw_effect_case *c, const fw_effect_row *row,
+                    const fw_effect_entry *entry) {
+    return row->kept || (row->unbounded_stays && isinf(entry->bound)) ||
+           (row->alone_stays && !moved(c));
+}
+
+static void decide_asked(const fw_effect_case *c, const fw_effect_choice *choice,
+                         fw_effect_entry *entry) {
+    bool all = choice->mode == FW_EFFECTS_ALL, list = choice->mode == FW_EFFECTS_LIST;
+    for (int i = 0; i < ROWS; i++) {
+        fw_effect_entry *e = &entry[i];
+        if (!e->called_for) continue;
+        bool in = all || (list && listed(choice->list, e->id)), stays = belongs(c, rows[i], e);
+        e->active = in || stays;
+        if (all)
+            e->reason = "called for, and all effects were asked for";
+        else if (in && !rows[i]->kept)
+            e->reason = "called for, and in the list asked for";
+        else if (!stays)
+            e->reason = list ? "called for, but not in the list"
+                             : "called for, but no effect was asked for";
+        else if (rows[i]->alone_stays)
+            e->reason = "nothing but weight moves the mechanism: it is the motion itself";
+    }
+}
+
+/* the envelope is worth its cost only where something could be left out */
+static fw_status look_around(const fw_effect_case *c, fw_envelope *envelope) {
+    for (int i = 0; i < ROWS; i++)
+        if (!rows[i]->kept && rows[i]->called_for(c))
+            return fw_envelope_find(c->arena, c->mechanism, c->scene, envelope);
+    return FW_OK;
 }
 
 fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                              const fw_effect_choice *choice, double accuracy, fw_diags *diags,
                              fw_effect_ledger *ledger, fw_terms *terms) {
-    fw_envelope envelope;
-    FW_TRY(fw_envelope_find(arena, mechanism, scene, &envelope));
+    fw_envelope envelope = {.why_not = "no effect asked for it"};
     const fw_effect_case c = {arena, mechanism, scene, &envelope};
     if (choice->mode == FW_EFFECTS_LIST) FW_TRY(check_list(arena, choice->list, diags));
     FW_NEED(ledger->item = fw_arena_array(arena, fw_effect_entry, ROWS));
     ledger->count = ROWS;
+    ledger->left_out = 0;
     FW_TRY(fw_terms_new(arena, mechanism, scene, terms));
-    for (size_t i = 0; i < ROWS; i++) {
-        FW_TRY(decide(&c, rows[i], choice, accuracy, &ledger->item[i]));
-        const fw_effect_entry *entry = &ledger->item[i];
-        if (entry->active)
+    FW_NEED(envelope.taken = fw_arena_array(arena, bool, ROWS));
+    FW_TRY(look_around(&c, &envelope));
+    FW_TRY(find_bounds(&c, ledger->item));
+    if (choice->mode == FW_EFFECTS_AUTO)
+        FW_TRY(decide_auto(&c, accuracy, ledger->item));
+    else
+        decide_asked(&c, choice, ledger->item);
+    for (int i = 0; i < ROWS; i++) {
+        const fw_effect_entry *e = &ledger->item[i];
+        if (choice->mode == FW_EFFECTS_AUTO && e->called_for && !e->active)
+            ledger->left_out += e->bound;
+        if (e->active)
             FW_TRY(rows[i]->add(&c, terms));
-        else if (entry->called_for && rows[i]->leave_out)
+        else if (e->called_for && rows[i]->leave_out)
             FW_TRY(rows[i]->leave_out(&c, terms));
     }
     return FW_OK;

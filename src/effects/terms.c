@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "effects/effect.h"
+#include "effects/linear.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -166,6 +166,10 @@ static void add_all(const fw_mechanism *m, const fw_terms *terms, double end_s, 
     add_torques(m, terms, force);
     add_springs(m, terms, force);
     add_slides(m, terms, force);
+    for (int i = 0; i < terms->nelement; i++) {
+        double t_s = fw_terms_element_busiest(m, &terms->element[i], end_s);
+        fw_terms_element_force(m, &terms->element[i], t_s, fmax(t_s, DBL_MIN), force);
+    }
 }
 
 void fw_terms_initial_force(const fw_mechanism *m, const fw_terms *terms, double *force) {

@@ -11,6 +11,7 @@ void fw_json_effects(json_t *list, const fw_effect_ledger *ledger, const char *s
         fw_json_put(o, "bound", fw_json_real(e->bound), failed); /* null: it is the motion */
         fw_json_put(o, "reason", fw_json_text(e->reason), failed);
         fw_json_put(o, "called_for", json_boolean(e->called_for), failed);
+        fw_json_put(o, "cost", fw_json_real(e->cost), failed); /* instructions per evaluation */
         if (scene) fw_json_put(o, "scene", fw_json_text(scene), failed);
         if (flow) fw_json_put(o, "flow", fw_json_text(flow), failed);
         fw_json_push(list, o, failed);

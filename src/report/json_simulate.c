@@ -117,6 +117,7 @@ fw_status fw_report_simulate_json(const fw_mechanism *mechanism, const fw_motion
     json_t *effects = json_array();
     fw_json_effects(effects, &motion->ledger, NULL, NULL, &failed);
     fw_json_put(root, "effects", effects, &failed);
+    fw_json_put(root, "left_out", fw_json_real(motion->ledger.left_out), &failed);
     fw_json_put(root, "peaks", peaks(mechanism, motion, &failed), &failed);
     fw_json_put(root, "travels", travels(mechanism, motion, &failed), &failed);
     fw_json_put(root, "reactions", reactions(mechanism, motion, &failed), &failed);

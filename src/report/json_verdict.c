@@ -145,6 +145,7 @@ fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out) {
     json_t *accuracy = json_object();
     fw_json_put(accuracy, "wanted", fw_json_real(v->accuracy_wanted), &failed);
     fw_json_put(accuracy, "estimated", fw_json_real(v->accuracy_estimated), &failed);
+    fw_json_put(accuracy, "left_out", fw_json_real(v->accuracy_left_out), &failed);
     fw_json_put(root, "accuracy", accuracy, &failed);
     fw_json_put(root, "advice", advice(v, &failed), &failed);
     fw_json_put(root, "advice_verified", json_boolean(v->advice_verified), &failed);

@@ -13,9 +13,14 @@ static void effect_rows(fw_text *out, const char *flow, const char *scene,
                          "<td class=\"n\">",
                          e->id, scene, flow, e->active ? "<strong>active</strong>" : "left out");
         if (isinf(e->bound))
-            fw_text_add(out, "is the motion");
+            fw_text_add(out, "none");
         else
             fw_report_markup(out, "{p}", e->bound);
+        fw_text_add(out, "</td><td class=\"n\">");
+        if (e->cost > 0)
+            fw_report_markup(out, "{n}", e->cost);
+        else
+            fw_text_add(out, "\u2013");
         fw_report_markup(out, "</td><td>{s}</td></tr>\n", e->reason);
     }
 }
@@ -37,18 +42,32 @@ static void effects_of(fw_text *out, const char *flow, const char *scene, const 
     effect_rows(out, flow, scene, &motion->ledger);
 }
 
+static void sum_of(fw_text *out, const char *flow, const char *scene, const fw_motion *motion) {
+    if (!(motion->ledger.left_out > 0)) return;
+    fw_report_markup(out, "<li>{s}, {s}: {e}</li>\n", scene, flow, motion->ledger.left_out);
+}
+
 fw_status fw_report_section_effects(fw_page *page) {
     fw_text_add(
         page->out,
-        "<p>An effect is simulated when the scene calls for it and leaving it out could change "
-        "the peak hinge deflection by more than the accuracy wanted.</p>\n<div "
+        "<p>An effect is simulated when the scene calls for it; those with the smallest bounds are "
+        "left out as long as the sum of their bounds stays below the accuracy wanted.</p>\n<div "
         "class=\"wide\"><table><caption>Ledger of effects. Bound: the most that leaving it out "
-        "changes the peak hinge deflection.</caption><thead><tr><th scope=\"col\">Effect</th>"
-        "<th scope=\"col\">Scene</th><th scope=\"col\">Flow</th><th scope=\"col\">State</th>"
-        "<th scope=\"col\" class=\"n\">Bound</th><th scope=\"col\">Reason</th></tr></thead>"
+        "changes the peak hinge deflection; none: it is the motion itself, or nothing bounds it. "
+        "Cost: instructions per evaluation of the forces.</caption><thead><tr><th "
+        "scope=\"col\">Effect</th><th scope=\"col\">Scene</th><th scope=\"col\">Flow</th>"
+        "<th scope=\"col\">State</th><th scope=\"col\" class=\"n\">Bound</th>"
+        "<th scope=\"col\" class=\"n\">Cost</th><th scope=\"col\">Reason</th></tr></thead>"
         "<tbody>\n");
     each_motion(page, effects_of);
-    fw_text_add(page->out, "</tbody></table></div>\n");
+    fw_report_markup(page->out,
+                     "</tbody></table></div>\n<p>What was left out in sum, where the accuracy "
+                     "wanted is {e}; it is part of the angles' errors:</p>\n<ul class=\"plain\">\n",
+                     page->in->verdict->accuracy_wanted);
+    each_motion(page, sum_of);
+    fw_text_add(page->out,
+                "<li class=\"soft\">Scenes that are not listed leave out nothing that has a "
+                "bound above 0.</li>\n</ul>\n");
     return fw_text_end(page->out);
 }
 
@@ -75,7 +94,8 @@ fw_status fw_report_section_accuracy(fw_page *page) {
     fw_report_markup(
         out,
         "<p>Relative error wanted on the peak hinge deflection: <strong>{e}</strong>; "
-        "estimated: <strong>{e}</strong>. This is the error of the computation; what the "
+        "estimated: <strong>{e}</strong>. This is the error of the computation and the sum of the "
+        "bounds of effects that were left out; what the "
         "model itself leaves open is in the error bands and under <a "
         "href=\"#assumptions\">assumptions</a>.</p>\n",
         v->accuracy_wanted, v->accuracy_estimated);

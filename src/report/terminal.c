@@ -208,10 +208,18 @@ fw_status fw_report_simulate_text(const fw_scene *scene, const fw_mechanism *m,
     if (motion->method_report) fw_text_printf(out, "%s\n", motion->method_report);
     statistics(out, &motion->stats);
     peaks(m, motion, time, out);
-    fw_text_add(out, "\n  effect             active  why\n");
+    fw_text_add(out, "\n  effect             active  cost    why\n");
     for (int i = 0; i < motion->ledger.count; i++) {
         const fw_effect_entry *e = &motion->ledger.item[i];
-        fw_text_printf(out, "  %-18s %-6s  %s\n", e->id, e->active ? "yes" : "no", e->reason);
+        fw_text_printf(out, "  %-18s %-6s  ", e->id, e->active ? "yes" : "no");
+        if (e->cost > 0)
+            fw_text_real(out, "%-6.0f  ", e->cost);
+        else
+            fw_text_add(out, "-       ");
+        fw_text_printf(out, "%s\n", e->reason);
     }
+    if (motion->ledger.left_out > 0)
+        fw_text_real(out, "  sum of the bounds of what is left out: %.2g\n",
+                     motion->ledger.left_out);
     return fw_text_end(out);
 }

@@ -24,10 +24,11 @@ static const char *integration_asked_for(const fw_motion_options *o) {
     return o->rtol > 0 ? "a tolerance was asked for: inertia acts" : NULL;
 }
 
-static void keep_inertia(const fw_effect_ledger *ledger, fw_terms *terms, const char *why) {
+static void keep_inertia(fw_effect_ledger *ledger, fw_terms *terms, const char *why) {
     fw_effect_entry *entry = inertia_of(ledger);
     terms->quasi_static = false;
     if (!entry) return;
+    ledger->left_out = fmax(0, ledger->left_out - entry->bound);
     entry->active = true;
     entry->reason = why;
 }
@@ -68,8 +69,6 @@ fw_status fw_move_scene(fw_arena *arena, const fw_mechanism *mechanism, const fw
                                 "scene %s cannot do without inertia, though it was not among the "
                                 "effects asked for: %s",
                                 scene->name ? scene->name : "(unnamed)", why);
-            fw_effect_entry *entry = inertia_of(&ledger);
-            if (entry) entry->bound = (double)INFINITY;
         }
         keep_inertia(&ledger, &terms, why);
     }

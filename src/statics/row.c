@@ -280,6 +280,8 @@ static double cpu_seconds(void) {
 
 /* what this room knows how to take at one time: no history, no laws inside of elements */
 static const char *not_at_rest(const fw_terms *t) {
+    for (int i = 0; i < 3 * t->nbody; i++)
+        if (t->velocity[i] != 0) return "the scene starts with velocities: inertia carries them on";
     if (t->nfriction > 0) return "friction has no equilibrium of its own: inertia acts";
     if (t->stretch.law) return "the ground stretches with time: inertia acts";
     for (int i = 0; i < t->nelement; i++)

@@ -48,6 +48,11 @@ static fw_status combine(fw_arena *arena, const fw_device *device, double accura
                 fmax(verdict->accuracy_estimated, h->angle_error_rad / fabs(h->peak_angle_rad));
     }
     for (int i = 0; i < verdict->nvariant; i++)
+        for (int k = 0; k < device->nscene; k++)
+            if (verdict->variant[i].motion[k])
+                verdict->accuracy_left_out = fmax(verdict->accuracy_left_out,
+                                                  verdict->variant[i].motion[k]->ledger.left_out);
+    for (int i = 0; i < verdict->nvariant; i++)
         if (verdict->variant[i].decision > verdict->decision)
             verdict->decision = verdict->variant[i].decision;
     return FW_OK;

@@ -55,6 +55,15 @@ static void collide(const fw_hinge_layout *drawn, fw_hinge_verdict *out) {
     if (out->touches && out->decision == FW_ACCEPT) out->decision = FW_INCONCLUSIVE;
 }
 
+/* of a hinge's peak angle, rad: the run's own, and the sum of the bounds of effects that auto left
+   out, which are relative to the largest deflection of any hinge */
+static double angle_error(const fw_motion *motion, int pin) {
+    double largest = 0, out = motion->ledger.left_out;
+    for (int i = 0; i < motion->npin; i++)
+        largest = fmax(largest, fabs(motion->peak[i].angle_rad));
+    return motion->peak[pin].error_rad + (out < 1 ? out / (1 - out) : HUGE_VAL) * largest;
+}
+
 /* utilisation = peak strain (rotation and joint force, fillets included) over the limit strain, and
    never less than peak angle / limit angle; band = model errors of it, and the numerical errors of
    the angle over the limit angle and of the search for the strain */
@@ -72,15 +81,15 @@ static void judge_scene(const fw_mechanism *m, const fw_hinge *hinge, const fw_h
                               .flow = m->variant->flow,
                               .scene = scene,
                               .peak_angle_rad = peak->angle_rad,
-                              .angle_error_rad = peak->error_rad};
+                              .angle_error_rad = angle_error(motion, hinge->pin)};
     out->utilisation = fmax(by_angle, by_strain);
     out->peak_strain = out->utilisation * out->strain_limit;
     out->force_share = by_strain > by_angle ? 1.0 - by_angle / by_strain : 0.0;
     out->t_s = by_strain > by_angle ? strain->t_s : peak->t_s;
     /* a run that was ended went a whole turn: no error of its own changes that */
-    double numeric =
-        motion->ended ? 0.0
-                      : peak->error_rad / c->limit_angle_rad + strain->between / out->strain_limit;
+    double numeric = motion->ended ? 0.0
+                                   : out->angle_error_rad / c->limit_angle_rad +
+                                         strain->between / out->strain_limit;
     double model = fw_verdict_model_error.motion + fw_verdict_model_error.strain + beyond_fit(c);
     out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - model) - numeric);
     out->utilisation_high = out->utilisation * (1.0 + model) + numeric;

@@ -50,6 +50,8 @@ typedef struct fw_verdict {
     int nhinge;
     int governing; /* index into hinge, or FW_NONE */
     double accuracy_wanted, accuracy_estimated;
+    double accuracy_left_out; /* largest sum of bounds that a scene leaves out by itself (auto); it
+                                 is part of the estimate */
     fw_advice *advice; /* (nadvice) for a rejected or inconclusive design */
     int nadvice;
     bool advice_verified; /* the advised values together were run and accepted */

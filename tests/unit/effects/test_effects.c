@@ -87,8 +87,8 @@ static void test_absent_effects_cost_nothing(void **state) {
     fw_arena_free(arena);
 }
 
-/* the lever under a torque T: static angle T/k; weight at arm l: m g l / k, and it can take s = m g
-   l / k of the stiffness. Bound = 2 m g l / T + s / (1 - s) */
+/* the lever under a torque T turns by 2 T/k at its peak, and the weight at arm l by 2 m g l/k: the
+   bound is at least m g l/T and, for small angles, not much more */
 static void test_gravity_bound(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
@@ -99,32 +99,85 @@ static void test_gravity_bound(void **state) {
     lever_new(&s, 1e-6, 0);
     s.scene.gravity = true;
     s.scene.gy_m_per_s2 = -9.81;
-    s.torque[0] = (fw_torque){.body = 0, .value_Nm = 1e-7};
+    s.torque[0] = (fw_torque){.body = 0, .value_Nm = 2e-9};
     s.scene.ntorque = 1;
-    double soft = 2e-8 * 9.81 * 1e-3 / 1e-6,
-           exact = 2 * 2e-8 * 9.81 * 1e-3 / 1e-7 + soft / (1 - soft);
-    assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1e-3, &diags, &ledger, &terms),
-                     FW_OK);
-    const fw_effect_entry *g = entry(&ledger, "gravity");
-    assert_near(g->bound, exact, 1e-9 * exact);
-    assert_true(g->called_for && g->active); /* 0.0039 > 0.001 */
-    assert_near(terms.constant[1], -2e-8 * 9.81, 1e-20);
-    assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1e-2, &diags, &ledger, &terms),
-                     FW_OK);
-    g = entry(&ledger, "gravity");
-    assert_true(g->called_for && !g->active);
-    assert_non_null(strstr(g->reason, "below the accuracy wanted"));
-    assert_true(terms.constant[1] == 0);
+    for (double g = 1e-4; g < 1; g *= 10) { /* the weight's moment over the torque */
+        s.scene.gy_m_per_s2 = -g * 2e-9 / (2e-8 * 1e-3);
+        assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 3e-2, &diags, &ledger, &terms),
+                         FW_OK);
+        const fw_effect_entry *e = entry(&ledger, "gravity");
+        /* the whole motion is that of T - m g l, and 2 of them in a half period */
+        assert_true(e->bound >= g / (1 - g));
+        assert_true(e->bound < 1.2 * g / (1 - g));
+        assert_true(e->called_for && e->active == (e->bound >= 3e-2));
+        assert_true((terms.constant[1] != 0) == e->active);
+        if (!e->active) assert_non_null(strstr(e->reason, "below the accuracy wanted"));
+        assert_near(ledger.left_out, e->active ? 0 : e->bound, 1e-15);
+    }
     assert_true(entry(&ledger, "applied-load")->active);
     assert_true(isinf(entry(&ledger, "applied-load")->bound));
-    /* without a spring or another load there is nothing to compare with */
-    s.scene.ntorque = 0;
-    assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1, &diags, &ledger, &terms), FW_OK);
-    assert_true(entry(&ledger, "gravity")->active);
-    s.scene.ntorque = 1;
+    /* without a spring there is no linear motion to compare with */
     s.pin[0].stiffness_Nm_per_rad = 0;
     assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1, &diags, &ledger, &terms), FW_OK);
     assert_true(isinf(entry(&ledger, "gravity")->bound));
+    assert_non_null(strstr(entry(&ledger, "gravity")->reason, "elastic"));
+    fw_arena_free(arena);
+}
+
+/* two effects each below the accuracy wanted and both together not: only the smaller is left out */
+static void test_sum_rule(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    fw_effect_ledger ledger;
+    fw_terms terms;
+    lever s;
+    lever_new(&s, 1e-6, 1e-15);
+    s.scene.gravity = true;
+    s.scene.gy_m_per_s2 = -1e-4 * 9.81;
+    s.torque[0] = (fw_torque){.body = 0, .value_Nm = 2e-9};
+    s.scene.ntorque = 1;
+    assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 0.2, &diags, &ledger, &terms), FW_OK);
+    double g = entry(&ledger, "gravity")->bound, d = entry(&ledger, "joint-damping")->bound;
+    assert_true(g > 0 && d > 0 && g + d < 0.2);
+    assert_near(ledger.left_out, g + d, 1e-15);
+    double between = fmax(g, d) + 0.5 * fmin(g, d);
+    assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, between, &diags, &ledger, &terms),
+                     FW_OK);
+    const char *small = g < d ? "gravity" : "joint-damping";
+    const char *large = g < d ? "joint-damping" : "gravity";
+    assert_false(entry(&ledger, small)->active);
+    assert_true(entry(&ledger, large)->active);
+    assert_non_null(strstr(entry(&ledger, large)->reason, "with what is left out already"));
+    assert_near(ledger.left_out, fmin(g, d), 1e-15);
+    fw_arena_free(arena);
+}
+
+/* a stop out of reach has the bound 0 and is left out; one within reach stays, and with it
+   everything else */
+static void test_stop_bound(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    fw_effect_ledger ledger;
+    fw_terms terms;
+    lever s;
+    lever_new(&s, 1e-6, 1e-18);
+    s.torque[0] = (fw_torque){.body = 0, .value_Nm = 2e-9}; /* peak 4e-3 rad */
+    s.scene.ntorque = 1;
+    s.pin[0].stop_stiffness_Nm_per_rad = 1e-3;
+    s.pin[0].stop_min_rad = (double)NAN;
+    for (double at = 1e-3; at < 0.1; at *= 2) {
+        s.pin[0].stop_max_rad = at;
+        assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1e-2, &diags, &ledger, &terms),
+                         FW_OK);
+        bool out = !entry(&ledger, "joint-stop")->active;
+        if (at < 4.1e-3) assert_false(out);
+        if (at > 8e-3) assert_true(out);
+        assert_int_equal(terms.nstop, !out);
+        assert_true(entry(&ledger, "joint-stop")->bound == (out ? 0 : (double)INFINITY));
+        assert_int_equal(isinf(entry(&ledger, "joint-damping")->bound), !out);
+    }
     fw_arena_free(arena);
 }
 
@@ -153,7 +206,8 @@ static void test_weight_along_a_mast(void **state) {
     fw_arena_free(arena);
 }
 
-/* the lever decays with c / (2 (j + m l^2)); the bound must not be below 1 - exp of that */
+/* the lever under a torque from rest swings to 1 + exp(-z pi) of the static angle, z = zeta over
+   sqrt(1 - zeta^2); the bound is not below that change, and not a hundred times above it */
 static void test_damping_bound(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
@@ -161,14 +215,18 @@ static void test_damping_bound(void **state) {
     fw_effect_ledger ledger;
     fw_terms terms;
     lever s;
-    for (double c = 1e-18; c < 1e-9; c *= 10) {
+    for (double c = 1e-18; c < 1e-10; c *= 10) {
         lever_new(&s, 1e-6, c);
+        s.torque[0] = (fw_torque){.body = 0, .value_Nm = 2e-9};
+        s.scene.ntorque = 1;
         assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1e-3, &diags, &ledger, &terms),
                          FW_OK);
         const fw_effect_entry *d = entry(&ledger, "joint-damping");
-        double rate = c / (2 * (3e-15 + 2e-8 * 1e-6));
-        assert_true(d->bound >= -expm1(-rate * 1e-3));
-        assert_true(d->bound <= 1);
+        double j = 3e-15 + 2e-8 * 1e-6, zeta = c / (2 * sqrt(j * 1e-6));
+        double change = -expm1(-zeta / sqrt(1 - zeta * zeta) * acos(-1.0)) /
+                        (2 + expm1(-zeta / sqrt(1 - zeta * zeta) * acos(-1.0)));
+        assert_true(d->bound >= change);
+        assert_true(d->bound <= 100 * change);
         assert_int_equal(d->active, d->bound >= 1e-3);
         assert_true((terms.torsion[0].damping_Nms_per_rad > 0) == d->active);
     }
@@ -293,7 +351,8 @@ static void test_out_of_memory(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_table),           cmocka_unit_test(test_absent_effects_cost_nothing),
-        cmocka_unit_test(test_gravity_bound),   cmocka_unit_test(test_weight_along_a_mast),
+        cmocka_unit_test(test_gravity_bound),   cmocka_unit_test(test_sum_rule),
+        cmocka_unit_test(test_stop_bound),      cmocka_unit_test(test_weight_along_a_mast),
         cmocka_unit_test(test_damping_bound),   cmocka_unit_test(test_choices),
         cmocka_unit_test(test_static_response), cmocka_unit_test(test_out_of_memory),
     };

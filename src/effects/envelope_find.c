@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which effects the envelope takes in: those whose terms are loads, springs, dampers and elements
+   that act on both sides. */
+#include "effects/effect.h"
+#include "effects/envelope.h"
+
+static bool linear(const fw_terms *t) {
+    for (int i = 0; i < t->nelement; i++)
+        if (t->element[i].switches > 0) return false;
+    return t->nstop == 0 && t->nfriction == 0 && t->nreleased == 0 && !t->strained &&
+           !t->stretch.law && !t->quasi_static;
+}
+
+/* does its `add` stay within what linear theory takes in? */
+static fw_status can_take(const fw_effect_case *c, const fw_effect_row *row, bool *taken) {
+    fw_terms scratch;
+    fw_mark mark = fw_arena_mark(c->arena);
+    FW_TRY(fw_terms_new(c->arena, c->mechanism, c->scene, &scratch));
+    FW_TRY(row->add(c, &scratch));
+    *taken = linear(&scratch);
+    fw_arena_rewind(c->arena, mark);
+    return FW_OK;
+}
+
+static fw_status add_taken(const fw_effect_case *c, const bool *taken, fw_terms *terms) {
+    size_t count;
+    const fw_effect_row *const *row = fw_effect_rows(&count);
+    FW_TRY(fw_terms_new(c->arena, c->mechanism, c->scene, terms));
+    for (size_t i = 0; i < count; i++)
+        if (taken[i]) FW_TRY(row[i]->add(c, terms));
+    return FW_OK;
+}
+
+fw_status fw_envelope_find(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                           fw_envelope *envelope) {
+    size_t count;
+    const fw_effect_row *const *row = fw_effect_rows(&count);
+    fw_envelope first = {.why_not = "not computed yet"};
+    const fw_effect_case c = {arena, mechanism, scene, &first};
+    fw_terms *terms, all;
+    bool *taken, more = false;
+    FW_NEED(taken = fw_arena_array(arena, bool, count));
+    FW_NEED(terms = fw_arena_one(arena, fw_terms));
+    for (size_t i = 0; i < count; i++)
+        taken[i] = row[i]->kept && row[i]->called_for(&c);
+    FW_TRY(add_taken(&c, taken, &all));
+    FW_TRY(fw_envelope_of(arena, mechanism, scene, &all, &first));
+    for (size_t i = 0; i < count; i++)
+        if (!row[i]->kept && row[i]->called_for(&c)) {
+            FW_TRY(can_take(&c, row[i], &taken[i]));
+            more = more || taken[i];
+        }
+    *envelope = first;
+    if (more) {
+        FW_TRY(add_taken(&c, taken, terms));
+        FW_TRY(fw_envelope_of(arena, mechanism, scene, terms, envelope));
+    }
+    envelope->taken = taken;
+    return FW_OK;
+}

@@ -1,0 +1,310 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "effects/linear.h"
+#include "maths/dense.h"
+#include <math.h>
+
+static void put(const fw_linear *s, int i, int j, double value) {
+    s->a[(size_t)i * (size_t)s->total + (size_t)j] += value;
+}
+
+static fw_vec2 arm(const fw_mechanism *m, int body, double x, double y) {
+    if (body == FW_GROUND) return (fw_vec2){x, y};
+    double c = cos(m->body[body].phi_rad), s = sin(m->body[body].phi_rad);
+    return (fw_vec2){c * x - s * y, s * x + c * y};
+}
+
+static void add_arm(int body, double x, double y, double *sum, int *count) {
+    if (body == FW_GROUND) return;
+    *sum += hypot(x, y);
+    ++*count;
+}
+
+/* mean distance between the centres of mass and the points of joints and springs, m */
+static double typical_length(const fw_mechanism *m) {
+    double sum = 0;
+    int count = 0;
+    for (int i = 0; i < m->npin; i++) {
+        add_arm(m->pin[i].body_a, m->pin[i].ax_m, m->pin[i].ay_m, &sum, &count);
+        add_arm(m->pin[i].body_b, m->pin[i].bx_m, m->pin[i].by_m, &sum, &count);
+    }
+    for (int i = 0; i < m->ntie; i++) {
+        add_arm(m->tie[i].body_a, m->tie[i].ax_m, m->tie[i].ay_m, &sum, &count);
+        add_arm(m->tie[i].body_b, m->tie[i].bx_m, m->tie[i].by_m, &sum, &count);
+    }
+    for (int i = 0; i < m->nspring && sum == 0; i++) {
+        add_arm(m->spring[i].body_a, m->spring[i].ax_m, m->spring[i].ay_m, &sum, &count);
+        add_arm(m->spring[i].body_b, m->spring[i].bx_m, m->spring[i].by_m, &sum, &count);
+    }
+    return sum > 0 ? sum / count : 1;
+}
+
+static void add_torsion(const fw_linear *s, const fw_torsion *t) {
+    double k = t->stiffness_Nm_per_rad / (s->stiffness_N_per_m * s->length_m * s->length_m);
+    int a = t->body_a == FW_GROUND ? -1 : 3 * t->body_a + 2;
+    int b = t->body_b == FW_GROUND ? -1 : 3 * t->body_b + 2;
+    if (a >= 0) put(s, a, a, k);
+    if (b >= 0) put(s, b, b, k);
+    if (a >= 0 && b >= 0) put(s, a, b, -k), put(s, b, a, -k);
+}
+
+/* what changes a length along the unit vector u between point a and point b: -u on a, u on b, with
+   their arms */
+typedef struct line {
+    int index[6], count;
+    double row[6];
+} line;
+
+static void add_end(const fw_linear *s, line *l, int body, fw_vec2 r, double ux, double uy,
+                    double sign) {
+    if (body == FW_GROUND) return;
+    const double part[3] = {sign * ux, sign * uy, sign * (r.x * uy - r.y * ux) / s->length_m};
+    for (int c = 0; c < 3; c++, l->count++)
+        l->index[l->count] = 3 * body + c, l->row[l->count] = part[c];
+}
+
+/* k u u^T along the line: the material part of the tangent */
+static void add_stiffness(const fw_linear *s, const line *l, double k) {
+    for (int i = 0; i < l->count; i++)
+        for (int j = 0; j < l->count; j++)
+            put(s, l->index[i], l->index[j], k * l->row[i] * l->row[j]);
+}
+
+/* where the rows of the constraints go: into the matrix, or with lambda to their forces */
+typedef struct holding {
+    const fw_linear *s;
+    const double *lambda; /* (rows) or NULL */
+    double *force;        /* (n) += G^T lambda */
+} holding;
+
+static void add_row(const holding *h, int row, const line *l) {
+    const fw_linear *s = h->s;
+    for (int i = 0; i < l->count; i++)
+        if (h->lambda)
+            h->force[l->index[i]] += h->lambda[row] * l->row[i];
+        else
+            put(s, s->n + row, l->index[i], l->row[i]), put(s, l->index[i], s->n + row, l->row[i]);
+}
+
+static void add_spring_along(const fw_linear *s, const fw_mechanism *m, const fw_spring *p,
+                             double ux, double uy) {
+    line along = {.count = 0};
+    add_end(s, &along, p->body_a, arm(m, p->body_a, p->ax_m, p->ay_m), ux, uy, -1);
+    add_end(s, &along, p->body_b, arm(m, p->body_b, p->bx_m, p->by_m), ux, uy, 1);
+    add_stiffness(s, &along, p->stiffness_N_per_m / s->stiffness_N_per_m);
+}
+
+/* points that coincide: a spring without length holds them in all directions */
+static void add_spring(const fw_linear *s, const fw_mechanism *m, const fw_spring *p) {
+    fw_vec2 a = fw_local_place(m, p->body_a, p->ax_m, p->ay_m);
+    fw_vec2 b = fw_local_place(m, p->body_b, p->bx_m, p->by_m);
+    double dx = b.x - a.x, dy = b.y - a.y, l = hypot(dx, dy);
+    if (l > 0 && !fw_spring_slack(m, p)) add_spring_along(s, m, p, dx / l, dy / l);
+    if (l > 0 || p->length_m != 0) return;
+    add_spring_along(s, m, p, 1, 0);
+    add_spring_along(s, m, p, 0, 1);
+}
+
+/* a direction (ux, uy) fixed in body a: turning it moves the point b, at a distance from a */
+static line tie_line(const fw_linear *s, const fw_mechanism *m, const fw_tie *t, double ux,
+                     double uy, bool turns) {
+    fw_vec2 a = fw_local_place(m, t->body_a, t->ax_m, t->ay_m);
+    fw_vec2 b = fw_local_place(m, t->body_b, t->bx_m, t->by_m);
+    fw_vec2 ra = arm(m, t->body_a, t->ax_m, t->ay_m), rb = arm(m, t->body_b, t->bx_m, t->by_m);
+    if (turns) ra.x += b.x - a.x, ra.y += b.y - a.y;
+    line l = {.count = 0};
+    add_end(s, &l, t->body_a, ra, ux, uy, -1);
+    add_end(s, &l, t->body_b, rb, ux, uy, 1);
+    return l;
+}
+
+static line tie_axis(const fw_linear *s, const fw_mechanism *m, const fw_tie *t, bool normal) {
+    double turned = t->axis_rad + (t->body_a == FW_GROUND ? 0 : m->body[t->body_a].phi_rad);
+    double c = cos(turned), n = sin(turned);
+    return normal ? tie_line(s, m, t, -n, c, true) : tie_line(s, m, t, c, n, true);
+}
+
+/* phi_b - phi_a held */
+static void hold_angle(const holding *h, int row, int body_a, int body_b) {
+    line l = {.count = 0};
+    if (body_a != FW_GROUND) l.index[l.count] = 3 * body_a + 2, l.row[l.count++] = -1;
+    if (body_b != FW_GROUND) l.index[l.count] = 3 * body_b + 2, l.row[l.count++] = 1;
+    add_row(h, row, &l);
+}
+
+static int tie_rows(const fw_tie *t) {
+    return t->kind == FW_TIE_PRISMATIC ? 2 : t->kind == FW_TIE_DISTANCE ? 1 : 3;
+}
+
+/* a driver holds one motion more; that of a rod replaces its length */
+static int driver_rows(const fw_mechanism *m, const fw_driver *d) {
+    return d->tie == FW_NONE || m->tie[d->tie].kind == FW_TIE_PRISMATIC;
+}
+
+static void add_tie(const holding *h, const fw_mechanism *m, const fw_tie *t, int row) {
+    fw_vec2 a = fw_local_place(m, t->body_a, t->ax_m, t->ay_m);
+    fw_vec2 b = fw_local_place(m, t->body_b, t->bx_m, t->by_m);
+    double dx = b.x - a.x, dy = b.y - a.y, length = hypot(dx, dy);
+    line l;
+    switch (t->kind) {
+    case FW_TIE_PRISMATIC:
+        l = tie_axis(h->s, m, t, true);
+        add_row(h, row, &l);
+        hold_angle(h, row + 1, t->body_a, t->body_b);
+        return;
+    case FW_TIE_DISTANCE:
+        l = tie_line(h->s, m, t, length > 0 ? dx / length : 1, length > 0 ? dy / length : 0, false);
+        add_row(h, row, &l);
+        return;
+    case FW_TIE_WELD:
+    default:
+        l = tie_line(h->s, m, t, 1, 0, false);
+        add_row(h, row, &l);
+        l = tie_line(h->s, m, t, 0, 1, false);
+        add_row(h, row + 1, &l);
+        hold_angle(h, row + 2, t->body_a, t->body_b);
+        return;
+    }
+}
+
+static void add_constraints(const holding *h, const fw_mechanism *m) {
+    int row = 0;
+    for (int i = 0; i < m->npin; i++) {
+        const fw_pin *p = &m->pin[i];
+        if (h->s->pin_row[i] == FW_NONE) continue;
+        const fw_tie same = {.body_a = p->body_a,
+                             .body_b = p->body_b,
+                             .ax_m = p->ax_m,
+                             .ay_m = p->ay_m,
+                             .bx_m = p->bx_m,
+                             .by_m = p->by_m};
+        line x = tie_line(h->s, m, &same, 1, 0, false), y = tie_line(h->s, m, &same, 0, 1, false);
+        add_row(h, row, &x);
+        add_row(h, row + 1, &y);
+        row += 2;
+    }
+    for (int i = 0; i < m->ntie; row += tie_rows(&m->tie[i]), i++)
+        add_tie(h, m, &m->tie[i], row);
+    for (int i = 0; i < m->ndriver; row += driver_rows(m, &m->driver[i]), i++) {
+        const fw_driver *d = &m->driver[i];
+        if (d->tie == FW_NONE)
+            hold_angle(h, row, m->pin[d->joint].body_a, m->pin[d->joint].body_b);
+        else if (m->tie[d->tie].kind == FW_TIE_PRISMATIC) {
+            line l = tie_axis(h->s, m, &m->tie[d->tie], false);
+            add_row(h, row, &l);
+        }
+    }
+}
+
+/* largest stiffness, N/m: the unit of the rows of forces; 0 when nothing is elastic */
+static double typical_stiffness(const fw_terms *terms, double length) {
+    double most = 0;
+    for (int i = 0; i < terms->ntorsion; i++)
+        most = fmax(most, terms->torsion[i].stiffness_Nm_per_rad / (length * length));
+    for (int i = 0; i < terms->nspring; i++)
+        most = fmax(most, terms->spring[i].stiffness_N_per_m);
+    for (int i = 0; i < terms->nslide; i++)
+        most = fmax(most, terms->slide[i].stiffness_N_per_m);
+    for (int i = 0; i < terms->nelement; i++)
+        most = fmax(most, terms->element[i].size_N_per_m);
+    return most;
+}
+
+static void add_elastic(const fw_linear *s, const fw_mechanism *m, const fw_terms *terms) {
+    for (int i = 0; i < terms->ntorsion; i++)
+        add_torsion(s, &terms->torsion[i]);
+    for (int i = 0; i < terms->nspring; i++)
+        add_spring(s, m, &terms->spring[i]);
+    for (int i = 0; i < terms->nslide; i++) {
+        line l = tie_axis(s, m, &m->tie[terms->slide[i].tie], false);
+        add_stiffness(s, &l, terms->slide[i].stiffness_N_per_m / s->stiffness_N_per_m);
+    }
+}
+
+static fw_status add_elements(fw_arena *arena, const fw_linear *s, const fw_mechanism *m,
+                              const fw_terms *terms) {
+    if (terms->nelement == 0) return FW_OK;
+    fw_mark mark = fw_arena_mark(arena);
+    size_t n = (size_t)s->n;
+    double *whole;
+    FW_NEED(whole = fw_arena_array(arena, double, n *n));
+    FW_TRY(fw_terms_element_tangent(arena, m, terms, whole, NULL));
+    for (int i = 0; i < s->n; i++)
+        for (int j = 0; j < s->n; j++)
+            put(s, i, j,
+                whole[(size_t)i * n + (size_t)j] * fw_linear_unit(s, j) /
+                    fw_linear_force_unit(s, i));
+    fw_arena_rewind(arena, mark);
+    return FW_OK;
+}
+
+static int rows_of(const fw_mechanism *m, const fw_terms *terms) {
+    int rows = 0;
+    for (int i = 0; i < m->npin; i++)
+        rows += terms->released && terms->released[i] ? 0 : 2;
+    for (int i = 0; i < m->ntie; i++)
+        rows += tie_rows(&m->tie[i]);
+    for (int i = 0; i < m->ndriver; i++)
+        rows += driver_rows(m, &m->driver[i]);
+    return rows;
+}
+
+int fw_linear_size(const fw_mechanism *m, const fw_terms *terms) {
+    return m->nbody > FW_RESPONSE_MOST ? 3 * m->nbody : 3 * m->nbody + rows_of(m, terms);
+}
+
+double fw_linear_unit(const fw_linear *s, int i) {
+    return i % 3 == 2 ? 1 : s->length_m;
+}
+
+double fw_linear_force_unit(const fw_linear *s, int i) {
+    return s->stiffness_N_per_m * s->length_m * (i % 3 == 2 ? s->length_m : 1);
+}
+
+/* K of torsions, springs along their lines, slides and elements, and the rows G of joints and
+   drivers. Geometric stiffness of what already pulls (lambda Psi_qq, turning loads, springs across
+   their lines) is left out but for the elements'. Cost (3 nbody + rows)^2. Source: linearisation of
+   the equations in docs/theory/dynamics.md. Test: test_effects.c, test_envelope.c. */
+fw_status fw_linear_new(fw_arena *arena, const fw_mechanism *m, const fw_terms *terms, fw_linear *s,
+                        bool *elastic) {
+    *s = (fw_linear){.n = 3 * m->nbody, .rows = rows_of(m, terms), .length_m = typical_length(m)};
+    s->total = s->n + s->rows;
+    s->stiffness_N_per_m = typical_stiffness(terms, s->length_m);
+    *elastic = s->stiffness_N_per_m > 0;
+    FW_NEED(s->pin_row = fw_arena_array(arena, int, (size_t)m->npin));
+    for (int i = 0, row = 0; i < m->npin; i++) {
+        bool released = terms->released && terms->released[i];
+        s->pin_row[i] = released ? FW_NONE : row;
+        row += released ? 0 : 2;
+    }
+    if (!*elastic) return FW_OK;
+    FW_NEED(s->a = fw_arena_array(arena, double, (size_t)s->total *(size_t)s->total));
+    add_elastic(s, m, terms);
+    FW_TRY(add_elements(arena, s, m, terms));
+    const holding rows = {.s = s};
+    add_constraints(&rows, m);
+    return FW_OK;
+}
+
+void fw_linear_hold(const fw_linear *s, const fw_mechanism *m, const double *lambda,
+                    double *force) {
+    const holding held = {s, lambda, force};
+    add_constraints(&held, m);
+}
+
+/* LU of the whole; error round-off times condition; cost total^3 / 3 */
+fw_status fw_linear_solve(fw_arena *arena, const fw_linear *s, const double *force, double *x,
+                          bool *valid) {
+    double largest = 0;
+    for (int i = 0; i < s->total; i++) {
+        x[i] = i < s->n ? force[i] : 0;
+        largest = fmax(largest, fabs(x[i]));
+    }
+    for (int i = 0; i < s->n && largest > 0; i++) /* the answer is linear: solve for a unit load */
+        x[i] /= largest;
+    FW_TRY(fw_dense_solve_symmetric(arena, s->total, s->a, x, x, valid));
+    for (int i = 0; i < s->total; i++) {
+        x[i] *= largest;
+        *valid = *valid && isfinite(x[i]);
+    }
+    return FW_OK;
+}

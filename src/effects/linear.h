@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The mechanism at its initial pose as a linear system: stiffness of what is elastic, rows of what
+   holds. Private to the room.
+
+   Scaled so that rows balance: x of a displacement is metres over length_m, of a rotation rad; a
+   stiffness is over stiffness_N_per_m (and length_m where it turns). */
+#ifndef FW_EFFECTS_LINEAR_H
+#define FW_EFFECTS_LINEAR_H
+#include "effects/effect.h"
+
+typedef struct fw_linear {
+    int n, rows;  /* 3 nbody; constraint rows: pins that are not released, ties, drivers */
+    int total;    /* n + rows */
+    double *a;    /* (total x total) [K G^T; G 0], scaled; symmetric unless elements are not */
+    int *pin_row; /* (npin) first of the two rows of a pin, counted from 0; FW_NONE: released */
+    double length_m, stiffness_N_per_m;
+} fw_linear;
+
+/* unknowns of the whole; beyond FW_RESPONSE_MOST nobody should go on */
+int fw_linear_size(const fw_mechanism *mechanism, const fw_terms *terms);
+/* *elastic false: nothing has stiffness, and there is no system */
+fw_status fw_linear_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_terms *terms,
+                        fw_linear *system, bool *elastic);
+/* SI per scaled: of a coordinate, and of its force. Multipliers of rows that hold points have
+   stiffness_N_per_m * length_m */
+double fw_linear_unit(const fw_linear *system, int coordinate);
+double fw_linear_force_unit(const fw_linear *system, int coordinate);
+/* force (n, scaled) += G^T lambda (rows, scaled) at the pose of `mechanism`, which is the one that
+   `system` was made for, moved */
+void fw_linear_hold(const fw_linear *system, const fw_mechanism *mechanism, const double *lambda,
+                    double *force);
+/* x (total) with scaled force (n) as the right-hand side; *valid false: singular */
+fw_status fw_linear_solve(fw_arena *arena, const fw_linear *system, const double *force, double *x,
+                          bool *valid);
+
+/* tangents of the elements at the pose of `mechanism`, at rest, at t = 0: whole_stiffness and
+   whole_damping (n x n, SI; NULL: not wanted) += */
+fw_status fw_terms_element_tangent(fw_arena *arena, const fw_mechanism *mechanism,
+                                   const fw_terms *terms, double *whole_stiffness,
+                                   double *whole_damping);
+/* generalised forces (n, SI) += of one element at rest at time t_s of the piece around piece_s */
+void fw_terms_element_force(const fw_mechanism *mechanism, const fw_force_element *element,
+                            double t_s, double piece_s, double *force);
+
+/* when it pushes most: with its laws, in (0, end_s); 0 without */
+double fw_terms_element_busiest(const fw_mechanism *mechanism, const fw_force_element *element,
+                                double end_s);
+/* false: more ports or switches than these helpers take; they then leave it out */
+bool fw_terms_element_fits(const fw_force_element *element);
+
+#endif

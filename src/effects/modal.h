@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Linear modes of the constrained mechanism about its initial pose, and what pushes them. Private
+   to the room; the steps of envelope.c. SI. */
+#ifndef FW_EFFECTS_MODAL_H
+#define FW_EFFECTS_MODAL_H
+#include "effects/linear.h"
+#include "maths/singular.h"
+
+typedef struct fw_modal {
+    const fw_mechanism *mechanism;
+    const fw_scene *scene;
+    const fw_terms *terms;
+    fw_linear linear;
+    int n, modes;
+    double *omega;       /* (modes) rad/s, ascending */
+    double *shape;       /* (modes x n) shape^T M shape = 1 */
+    double *turn;        /* (modes x npin) */
+    double *damping;     /* (modes x modes) shape^T C shape, 1/s */
+    double *velocity;    /* (modes) at the start */
+    double *inertia;     /* (n) masses in the scaled coordinates of `linear` */
+    fw_singular holding; /* of G M^-1/2 */
+    const char *why_not; /* NULL: all of this is there */
+} fw_modal;
+
+fw_status fw_modal_find(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                        const fw_terms *terms, fw_modal *modal);
+/* scaled multipliers (rows) that hold the mechanism where forces `force` (n, SI) act and inertia
+   does not; work (2 n) */
+void fw_modal_multipliers(const fw_modal *modal, const double *force, double *work, double *lambda);
+/* Frobenius norm of shape^T dK shape / (omega omega): what the forces `force` (n, SI; as they are
+   at the initial pose; none of `terms` when `dead`) and the multipliers that hold them take from
+   or add to the stiffness, relative */
+fw_status fw_modal_softening(fw_arena *arena, const fw_modal *modal, const double *force, bool dead,
+                             double *part);
+
+/* ---- what pushes: a constant part, loads with laws, elements with laws ---- */
+/* angle of a pin as drawn less its free angle */
+double fw_pin_deflection(const fw_mechanism *mechanism, int pin);
+
+typedef struct fw_push {
+    const fw_law *law;                 /* NULL: constant, or an element */
+    const fw_force_element *element;   /* NULL: force times law */
+    double *force;                     /* (n) of one unit of the law */
+    double *mode;                      /* (modes) shape . force */
+    double *sup, *first, *sway, *full; /* (modes) of its modal force over the scene: largest size,
+                                          size at 0+, total variation, integral of the size */
+} fw_push;
+
+typedef struct fw_pushes {
+    fw_push *item;
+    int count;
+    double *work;        /* (n) */
+    const char *why_not; /* a law that cannot be followed; NULL: fine */
+} fw_pushes;
+fw_status fw_pushes_find(fw_arena *arena, const fw_modal *modal, fw_pushes *pushes);
+/* modal force (modes) += of one push */
+void fw_push_at(const fw_modal *modal, const fw_pushes *pushes, const fw_push *push, double t_s,
+                double piece_s, double *force);
+/* times in (0, duration) at which some law breaks, ascending, and the duration; *count < 0: too
+   many */
+fw_status fw_pushes_breaks(fw_arena *arena, const fw_modal *modal, const fw_pushes *pushes,
+                           double **t_s, int *count);
+
+/* lower bound of the largest hinge deflection. `unsure`: the relative error of the frequencies
+   that is to be expected, and of the geometry */
+fw_status fw_modal_floor(fw_arena *arena, const fw_modal *modal, const fw_pushes *pushes,
+                         double unsure, double *floor_rad);
+
+#endif

@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "bounds.h"
+
+static void test_bounds_are_honest(void **state) {
+    (void)state;
+    bounds_check(1, 300);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_bounds_are_honest)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
