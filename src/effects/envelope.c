@@ -155,6 +155,34 @@ static fw_status doubt(fw_arena *arena, const fw_modal *o, const fw_envelope *e,
     return FW_OK;
 }
 
+/* largest of value[from], value[from + step], ... */
+static double largest(const double *value, int from, int step, int count) {
+    double most = 0;
+    for (int i = from; i < count; i += step)
+        most = fmax(most, value[i]);
+    return most;
+}
+
+/* Bounds grow by the margin, and by a share of the largest of their kind: what does not move in
+   linear theory moves with the square of what does */
+static void widen(fw_envelope *e, double unsure) {
+    double *of[] = {e->reach, e->speed, e->angle, e->rate, e->force};
+    e->margin = 1 + widening * unsure;
+    for (int k = 0; k < 2; k++) {
+        double x = fmax(largest(of[k], 0, 3, e->n), largest(of[k], 1, 3, e->n));
+        double turn = largest(of[k], 2, 3, e->n);
+        for (int i = 0; i < e->n; i++)
+            of[k][i] = of[k][i] * e->margin + unsure * (i % 3 == 2 ? turn : x);
+    }
+    for (int k = 2; k < 5; k++) {
+        double most = 0;
+        for (int i = 0; i < e->npin; i++)
+            if (isfinite(of[k][i])) most = fmax(most, of[k][i]);
+        for (int i = 0; i < e->npin; i++)
+            of[k][i] = of[k][i] * e->margin + unsure * most;
+    }
+}
+
 static fw_status fail(fw_envelope *e, const char *why) {
     e->valid = false;
     e->why_not = why;
@@ -187,12 +215,7 @@ fw_status fw_envelope_of(fw_arena *arena, const fw_mechanism *m, const fw_scene 
         return fail(e, "it turns too far, or its loads change its stiffness too much, for linear "
                        "theory");
     FW_TRY(fw_modal_floor(arena, o, &pushes, unsure, &e->floor));
-    e->margin = 1 + widening * unsure;
-    double *of[] = {e->reach, e->speed, e->angle, e->rate, e->force};
-    const int size[] = {e->n, e->n, e->npin, e->npin, e->npin};
-    for (int k = 0; k < 5; k++)
-        for (int i = 0; i < size[k]; i++)
-            of[k][i] *= e->margin;
+    widen(e, unsure);
     for (int i = 0; i < e->npin; i++)
         e->most = fmax(e->most, fabs(fw_pin_deflection(m, i)) + e->angle[i]);
     if (!(e->floor > 0)) return fail(e, "no hinge is deflected for sure");
