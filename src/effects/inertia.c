@@ -224,6 +224,44 @@ static void spread_start(const fw_pushes *p, modal *m) {
     spread(m, m->e->modal->velocity, &jump, true);
 }
 
+/* ---- how far it moves at least ---- */
+
+static double largest_deflection(const fw_effect_case *c, const fw_pushes *p, const modal *m,
+                                 double t_s, double piece_s) {
+    double most = 0;
+    memset(m->push, 0, (size_t)m->modes * sizeof(double));
+    for (int i = 0; i < p->count; i++)
+        fw_push_at(m->e->modal, p, &p->item[i], t_s, piece_s, m->push);
+    for (int pin = 0; pin < m->pins; pin++) {
+        double turn = 0;
+        for (int j = 0; j < m->modes; j++)
+            turn += m->e->turn[j * m->pins + pin] * m->push[j] / pow(m->e->omega[j], 2);
+        /* what is not linear could make the turn smaller */
+        double less = fabs(turn) * (1 - 1 / m->e->margin);
+        most = fmax(most, fabs(fw_pin_deflection(c->mechanism, pin) + turn) - less);
+    }
+    return most;
+}
+
+/* The envelope's floor looks at the first periods of every load; that of slow loads is what the
+   equilibria reach at any time, less what the motion may be off by there (off_rad). Times: ends and
+   insides of the smooth pieces. Any set of times gives a floor. */
+static fw_status find_floor(const fw_effect_case *c, const fw_pushes *p, const modal *m,
+                            double off_rad, double *floor_rad) {
+    enum { LOOKS = 16 };
+    double *end, from = 0, most = 0;
+    int count;
+    FW_TRY(fw_pushes_breaks(c->arena, m->e->modal, p, &end, &count));
+    for (int i = 0; i < count; i++) {
+        for (int k = 0; k <= LOOKS; k++)
+            most = fmax(most, largest_deflection(c, p, m, from + (end[i] - from) * k / LOOKS,
+                                                 0.5 * (from + end[i])));
+        from = end[i];
+    }
+    *floor_rad = fmax(m->e->floor, most - off_rad);
+    return FW_OK;
+}
+
 /* ---- what has no bound ---- */
 
 /* NULL: the sums know all that moves the mechanism */
@@ -243,11 +281,11 @@ static const char *reason_to_keep(const fw_effect_case *c) {
      (|F|/omega^2) (sum of jumps of f) + (|F|/omega^3) (|f'(0+)| + total variation of f')
    by integrating Duhamel's integral by parts twice, loads of one law together, laws added; viscous
    damping makes the free part smaller and adds a lag (see spread). Inputs: the envelope's modes,
-   SI. Output dimensionless, against envelope->floor; infinite where there is no envelope. What the
-   envelope does not take in widens it like all bounds (table.c). Valid in the linear theory of the
-   envelope, with its margin for what is not linear. Cost modes x (n + npin) per law. Source:
-   Duhamel's integral, e.g. Clough and Penzien, Dynamics of Structures 1993, ch. 6; the integration
-   by parts is ours. Test: test_inertia.c. */
+   SI. Output dimensionless, against the least that the largest deflection can be; infinite where
+   there is no envelope. What the envelope does not take in widens it like all bounds (table.c).
+   Valid in the linear theory of the envelope, with its margin for what is not linear. Cost modes x
+   (n + npin) per law. Source: Duhamel's integral, e.g. Clough and Penzien, Dynamics of Structures
+   1993, ch. 6; the integration by parts is ours. Test: test_inertia.c. */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
     const fw_envelope *e = c->envelope;
     const char *keep = reason_to_keep(c);
@@ -269,8 +307,11 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     FW_TRY(spread_laws(c->arena, &pushes, c->scene->duration_s, &m));
     for (int p = 0; p < m.pins; p++)
         most = fmax(most, isnan(m.rotation[p]) ? (double)INFINITY : m.rotation[p]);
+    double least;
+    most *= e->margin;
+    FW_TRY(find_floor(c, &pushes, &m, most, &least));
     fw_arena_rewind(c->arena, mark);
-    *value = most / e->floor * e->margin;
+    *value = most / least;
     *reason = "bound from the jumps of the loads and the changes of their slope against a row of "
               "equilibria";
     return FW_OK;

@@ -44,6 +44,21 @@ static void take_messages(const fw_diags *from, fw_diags *diags) {
     }
 }
 
+/* effects chosen by hand: what that may have cost is said where it is more than was asked for */
+static void say_cost(const fw_scene *scene, const fw_effect_ledger *ledger, double accuracy,
+                     fw_diags *diags) {
+    const fw_effect_entry *entry = inertia_of(ledger);
+    char text[32];
+    if (!entry || entry->bound < accuracy) return;
+    fw_number_text(text, sizeof text, 100 * entry->bound, 2);
+    fw_diag_warning(diags, 254, scene->place,
+                    "scene %s is a row of equilibria, because inertia is not among the effects "
+                    "asked for: deflections may be wrong by %s%s",
+                    scene->name ? scene->name : "(unnamed)",
+                    isinf(entry->bound) ? "any amount" : text,
+                    isinf(entry->bound) ? "; --effects all or auto knows better" : " %");
+}
+
 fw_status fw_move_scene(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                         const fw_motion_options *options, fw_diags *diags,
                         const fw_motion **motion) {
@@ -62,6 +77,8 @@ fw_status fw_move_scene(fw_arena *arena, const fw_mechanism *mechanism, const fw
                                                     &terms, &own, motion, &why);
             if (status != FW_SOLVER) {
                 take_messages(&own, diags);
+                if (status == FW_OK && options->effects.mode != FW_EFFECTS_AUTO)
+                    say_cost(scene, &ledger, accuracy, diags);
                 return diags->failed ? FW_NOMEM : status;
             }
             if (options->effects.mode != FW_EFFECTS_AUTO)
