@@ -284,6 +284,76 @@ static void moved(void **state) {
     fw_arena_free(f.arena);
 }
 
+static const fw_motion *move(fixture *f, const rig *r, const fw_motion_options *o) {
+    const fw_motion *m = NULL;
+    assert_int_equal(fw_move_scene(f->arena, &r->m, &r->scene, o, &f->diags, &m), FW_OK);
+    return m;
+}
+
+static const fw_effect_entry *inertia(const fw_motion *m) {
+    for (int i = 0; i < m->ledger.count; i++)
+        if (strcmp(m->ledger.item[i].id, "inertia") == 0) return &m->ledger.item[i];
+    fail_msg("no inertia");
+    return NULL;
+}
+
+/* auto leaves inertia out of a slow scene, within its bound; not where integration was asked for */
+static void left_out_by_itself(void **state) {
+    (void)state;
+    fixture f = begin();
+    rig r = rig_six_bar(f.arena, false);
+    const fw_law ramp = {.kind = FW_LAW_RAMP, .rise_s = 0.5};
+    put_law(&r, &ramp);
+    r.scene.force[0].fx_N *= 0.1, r.scene.force[0].fy_N *= 0.1, r.scene.ntorque = 0;
+    r.scene.duration_s = 0.7;
+    const fw_motion_options o = {.samples = 2, .accuracy = 2e-2};
+    fw_motion_options named = o, all = o;
+    named.integrator = "dop853", all.effects.mode = FW_EFFECTS_ALL;
+    const fw_motion *row = move(&f, &r, &o), *full = move(&f, &r, &all);
+    assert_string_equal(row->method, "quasi-static");
+    assert_false(inertia(row)->active);
+    assert_true(row->ledger.left_out >= inertia(row)->bound && row->ledger.left_out < 2e-2);
+    double most = 0, apart = 0;
+    for (int i = 0; i < r.m.npin; i++) {
+        most = fmax(most, fabs(full->peak[i].angle_rad));
+        apart = fmax(apart, fabs(fabs(full->peak[i].angle_rad) - fabs(row->peak[i].angle_rad)));
+    }
+    assert_true(apart > 0 && apart <= inertia(row)->bound * most);
+    row = move(&f, &r, &named);
+    assert_string_equal(row->method, "chain");
+    assert_true(inertia(row)->active && row->ledger.left_out < inertia(row)->bound);
+    assert_non_null(strstr(inertia(row)->reason, "integrator"));
+    fw_arena_free(f.arena);
+}
+
+/* none: a row where there is one, with a word on what it may cost; else the full motion */
+static void left_out_by_hand(void **state) {
+    (void)state;
+    fixture f = begin();
+    rig r = rig_six_bar(f.arena, false);
+    const fw_motion_options none = {.samples = 2, .effects = {FW_EFFECTS_NONE, NULL}};
+    assert_string_equal(move(&f, &r, &none)->method, "quasi-static"); /* a step */
+    assert_true(said(&f, 254));
+    fw_diags quiet = fw_diags_new(f.arena);
+    f.diags = quiet;
+    double fold = truss_load(1, 0.3, 100, truss_fold(1, 0.3));
+    rig truss = rig_truss(&f, 1, 0.3, 100, 1.2 * fold);
+    const fw_law ramp = {.kind = FW_LAW_RAMP, .rise_s = 5};
+    put_law(&truss, &ramp);
+    truss.scene.duration_s = 5;
+    const fw_motion *m = move(&f, &truss, &none);
+    assert_string_equal(m->integrator, "dop853");
+    assert_true(inertia(m)->active && said(&f, 254));
+    assert_non_null(strstr(inertia(m)->reason, "ends"));
+    rig swing = rig_pendulum(f.arena);
+    rig_velocity(&swing, 0, 0, 0, 1);
+    swing.scene.duration_s = 0.1;
+    m = move(&f, &swing, &none);
+    assert_string_equal(m->method, "chain");
+    assert_non_null(strstr(inertia(m)->reason, "velocities"));
+    fw_arena_free(f.arena);
+}
+
 static void out_of_memory(void **state) {
     (void)state;
     for (long n = 1; n < 4000; n++) {
@@ -325,6 +395,8 @@ int main(void) {
         cmocka_unit_test(driven),
         cmocka_unit_test(where_it_ends),
         cmocka_unit_test(moved),
+        cmocka_unit_test(left_out_by_itself),
+        cmocka_unit_test(left_out_by_hand),
         cmocka_unit_test(out_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
