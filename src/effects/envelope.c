@@ -7,7 +7,7 @@
 #define PI 3.14159265358979323846
 
 /* Linear theory says nothing beyond; and how much wider its bounds are made per unit of `unsure`.
-   None of 54 000 random bounds was too small with these; with 1.5 and 0 one was
+   None of 16 400 random bounds was too small with these; with 1.5 and 0 one of a stop was
    (docs/theory/effects/README.md) */
 static const double unsure_most = 0.8, widening = 4;
 
