@@ -92,12 +92,12 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
 }
 
 static int count(const fw_effect_case *c) {
-    int many = 0;
+    int n = 0;
     for (int i = 0; i < c->mechanism->npin; i++)
-        many += c->mechanism->pin[i].damping_Nms_per_rad > 0;
+        n += c->mechanism->pin[i].damping_Nms_per_rad > 0;
     for (int i = 0; i < c->mechanism->ntie; i++)
-        many += c->mechanism->tie[i].damping_Ns_per_m > 0;
-    return many;
+        n += c->mechanism->tie[i].damping_Ns_per_m > 0;
+    return n;
 }
 
 const fw_effect_row fw_effect_joint_damping = {
@@ -106,5 +106,5 @@ const fw_effect_row fw_effect_joint_damping = {
     .called_for = called_for,
     .bound = bound,
     .add = add,
-    .cost = 30,
+    .cost = 32,
     .count = count};

@@ -28,11 +28,11 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
 }
 
 static int count(const fw_effect_case *c) {
-    int many = 0;
+    int n = 0;
     for (int i = 0; i < c->mechanism->nspring; i++)
-        many += c->mechanism->spring[i].stiffness_N_per_m > 0 ||
-                c->mechanism->spring[i].damping_Ns_per_m > 0;
-    return many;
+        n += c->mechanism->spring[i].stiffness_N_per_m > 0 ||
+             c->mechanism->spring[i].damping_Ns_per_m > 0;
+    return n;
 }
 
 const fw_effect_row fw_effect_point_spring = {.id = "point-spring",
@@ -41,6 +41,6 @@ const fw_effect_row fw_effect_point_spring = {.id = "point-spring",
                                               .called_for = called_for,
                                               .bound = bound,
                                               .add = add,
-                                              .kept = true,
-                                              .cost = 312,
-                                              .count = count};
+                                              .cost = 304,
+                                              .count = count,
+                                              .kept = true};

@@ -91,10 +91,12 @@ static void count_sample(tally *t, double value, double h, bool new_piece) {
     }
 }
 
-/* a sine goes through 4 in every period: exact where samples may be too few */
+/* a sine varies by 2/pi per radian, over part of a period by up to 0.43 more, and jumps where it
+   begins and ends: exact where samples may be too few */
 static double sine_sway(const fw_law *law, double end_s) {
     double time = fmin(end_s, law->end_s) - fmax(0, law->start_s);
-    return time > 0 ? 4 * law->frequency_Hz * time + 4 : 0;
+    double jumps = (law->start_s > 0) + (law->end_s < end_s);
+    return time > 0 ? 4 * law->frequency_Hz * time + 0.43 + jumps : 0;
 }
 
 /* Total variation by samples is too small by what lies between them; where half as many samples say

@@ -265,6 +265,9 @@ static void test_choices(void **state) {
     assert_int_equal(compile(arena, &s, FW_EFFECTS_ALL, NULL, 1e-3, &diags, &ledger, &terms),
                      FW_OK);
     assert_int_equal(terms.nload, 1);
+    assert_true(entry(&ledger, "joint-damping")->cost > 0);
+    assert_true(entry(&ledger, "applied-load")->cost > 0);
+    assert_true(entry(&ledger, "point-spring")->cost == 0); /* not called for */
     assert_true(terms.constant[2] == 1e-7);
     assert_true(terms.torsion[0].damping_Nms_per_rad == 1e-12);
     /* a mistake names what there is */
