@@ -32,10 +32,29 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
                                 "-mavx512f;-mavx512dq;-mavx512vl;-ffp-contract=off")
 endif()
 
+# What an absent effect costs is measured against a build without it (tests/build/effects.py): its file
+# is not compiled and it has no row. A scene's elements of such an effect are then not looked at, so
+# that such a build is good for nothing else.
+set(FW_WITHOUT_EFFECTS "" CACHE STRING "ids of effects to build without, for measurements only")
+set(effects_gone)
+set(effects_without)
+foreach(id ${FW_WITHOUT_EFFECTS})
+    string(REPLACE "-" "_" name ${id})
+    if(NOT EXISTS ${PROJECT_SOURCE_DIR}/src/effects/${name}.c)
+        message(FATAL_ERROR "FW_WITHOUT_EFFECTS: there is no effect ${id}")
+    endif()
+    list(APPEND effects_gone "/effects/${name}\\.c$")
+    list(APPEND effects_without FW_WITHOUT_${name}=1)
+endforeach()
+set_source_files_properties(${PROJECT_SOURCE_DIR}/src/effects/table.c PROPERTIES COMPILE_DEFINITIONS
+                            "${effects_without}")
+
 set(below)
 foreach(room ${FW_ROOMS})
     file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${room}/*.c)
-    list(FILTER sources EXCLUDE REGEX "/cli/main\\.c$")
+    foreach(gone "/cli/main\\.c$" ${effects_gone})
+        list(FILTER sources EXCLUDE REGEX ${gone})
+    endforeach()
     if(sources)
         add_library(fw_${room} STATIC ${sources})
         target_link_libraries(fw_${room} PUBLIC ${below} ${FW_EXTERN_${room}})

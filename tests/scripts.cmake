@@ -29,10 +29,14 @@ fw_script_test(accept.masks COMMAND tests/accept/gallery.sh ${FW_PROGRAM} TIMEOU
 fw_script_test(docs.readme COMMAND ${Python3_EXECUTABLE} tests/docs/readme.py ${FW_PROGRAM})
 fw_script_test(build.clang COMMAND tests/build/clang.sh TIMEOUT 600)
 fw_script_test(build.sanitized COMMAND tests/build/sanitized.sh TIMEOUT 900)
+fw_script_test(effects.costs COMMAND ${Python3_EXECUTABLE} tests/build/effects.py costs $<TARGET_FILE:effect_cost>)
+fw_script_test(effects.absent COMMAND ${Python3_EXECUTABLE} tests/build/effects.py absent
+               ${PROJECT_BINARY_DIR}/effects TIMEOUT 1200)
+set_tests_properties(effects.costs effects.absent PROPERTIES SKIP_RETURN_CODE 77)
 fw_script_test(fuzz.device COMMAND tests/build/fuzz.sh TIMEOUT 600)
 fw_script_test(hard.valgrind LABEL hard COMMAND tests/build/valgrind.sh ${PROJECT_BINARY_DIR}/tests TIMEOUT 600)
 set_tests_properties(hard.valgrind PROPERTIES SKIP_RETURN_CODE 77)
-set_tests_properties(build.clang build.sanitized fuzz.device PROPERTIES RUN_SERIAL ON)
+set_tests_properties(build.clang build.sanitized fuzz.device effects.absent PROPERTIES RUN_SERIAL ON)
 
 add_executable(fault_memory fault/memory.c)
 target_link_libraries(fault_memory PRIVATE fw_plan)

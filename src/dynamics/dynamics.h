@@ -61,7 +61,8 @@ typedef struct fw_motion_stats {
     double cpu_s;                   /* of the integration */
     double max_constraint_norm;     /* |Psi| over the scene's length, after projection, all steps */
     double max_velocity_norm;       /* |G q'| likewise, scaled */
-    double energy_error;     /* |T + V + dissipated - work| / largest energy; dimensionless */
+    double energy_error;     /* |T + V + dissipated - work| / largest energy; dimensionless. Of a
+                                row of equilibria: the largest T, which is left out, / largest V */
     double rtol;             /* used */
     double largest_energy_J; /* that energy */
     double assembly_moved_m; /* largest correction of the initial position */
@@ -93,9 +94,20 @@ typedef struct fw_motion {
     const char *stabilise, *method_report; /* what the method has to say, or NULL */
 } fw_motion;
 
-/* one scene from the assembled position. FW_SOLVER when the steps become too small. */
+/* one scene from the assembled position, with inertia. FW_SOLVER when the steps become too small.
+ */
 fw_status fw_simulate(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                       const fw_motion_options *options, fw_diags *diags, const fw_motion **motion);
+
+/* the same with effects that were compiled before (statics/quasi.h decides between the two kinds of
+   motion by them) */
+fw_status fw_simulate_compiled(fw_arena *arena, const fw_mechanism *mechanism,
+                               const fw_scene *scene, const fw_motion_options *options,
+                               const fw_effect_ledger *ledger, const fw_terms *terms,
+                               fw_diags *diags, const fw_motion **motion);
+/* what both check first: numbers, names of methods, mechanism and scene */
+fw_status fw_check_request(const fw_mechanism *mechanism, const fw_scene *scene,
+                           const fw_motion_options *options, fw_diags *diags);
 
 /* the i-th one; name NULL behind the last */
 fw_method_row fw_integrator_at(size_t i);

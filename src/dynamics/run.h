@@ -90,10 +90,6 @@ fw_status fw_run_valid(const fw_run *r, double t, const double *y);
 /* longest scaled step from scaled time t on that leaps over nothing in any law, each of whose
    strides may be `factor` times as long */
 double fw_run_stride(const fw_run *r, double factor, double t);
-/* simulate.c: fw_simulate with effects that are compiled already; its ledger is then empty */
-fw_status fw_simulate_terms(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                            const fw_motion_options *options, const fw_terms *terms,
-                            fw_diags *diags, fw_motion **motion);
 /* what differences of the two runs are multiplied with to be errors */
 double fw_run_margin(const fw_run *r);
 fw_status fw_run_arrays(fw_run *r);

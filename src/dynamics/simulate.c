@@ -292,14 +292,24 @@ static fw_status say_method(fw_run *r) {
     return FW_OK;
 }
 
-fw_status fw_simulate_terms(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                            const fw_motion_options *options, const fw_terms *given,
-                            fw_diags *diags, fw_motion **motion) {
+fw_status fw_check_request(const fw_mechanism *mechanism, const fw_scene *scene,
+                           const fw_motion_options *options, fw_diags *diags) {
+    fw_motion unused = {0};
+    FW_TRY(fw_check_options(options, diags));
+    FW_TRY(fw_check_motion(mechanism, scene, diags));
+    return fw_check_names(options, diags, &unused);
+}
+
+fw_status fw_simulate_compiled(fw_arena *arena, const fw_mechanism *mechanism,
+                               const fw_scene *scene, const fw_motion_options *options,
+                               const fw_effect_ledger *ledger, const fw_terms *given,
+                               fw_diags *diags, const fw_motion **motion) {
     fw_terms own = *given, *terms = &own;
     fw_run r = {
         .arena = arena, .mechanism = mechanism, .scene = scene, .options = options, .diags = diags};
     *motion = NULL;
     FW_NEED(r.motion = fw_arena_one(arena, fw_motion));
+    r.motion->ledger = *ledger;
     FW_TRY(fw_check_names(options, diags, r.motion));
     FW_TRY(fw_method_choose(&r, terms));
     FW_TRY(fw_effects_strain(arena, mechanism, terms, &r.mechanism));
@@ -322,16 +332,10 @@ fw_status fw_simulate(fw_arena *arena, const fw_mechanism *mechanism, const fw_s
                       const fw_motion_options *options, fw_diags *diags, const fw_motion **motion) {
     fw_terms terms;
     fw_effect_ledger ledger;
-    fw_motion names = {0}, *out;
-    *motion = NULL;
-    FW_TRY(fw_check_options(options, diags));
-    FW_TRY(fw_check_motion(mechanism, scene, diags));
-    FW_TRY(fw_check_names(options, diags, &names));
     double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
+    *motion = NULL;
+    FW_TRY(fw_check_request(mechanism, scene, options, diags));
     FW_TRY(fw_effects_compile(arena, mechanism, scene, &options->effects, accuracy, diags, &ledger,
                               &terms));
-    FW_TRY(fw_simulate_terms(arena, mechanism, scene, options, &terms, diags, &out));
-    out->ledger = ledger;
-    *motion = out;
-    return FW_OK;
+    return fw_simulate_compiled(arena, mechanism, scene, options, &ledger, &terms, diags, motion);
 }

@@ -3,12 +3,11 @@
 #ifndef FW_EFFECTS_EFFECT_H
 #define FW_EFFECTS_EFFECT_H
 #include "effects/effects.h"
+#include <math.h>
 
-extern const fw_effect_row fw_effect_joint_elasticity, fw_effect_joint_damping,
-    fw_effect_joint_stop, fw_effect_point_spring, fw_effect_applied_load, fw_effect_gravity,
-    fw_effect_initial_velocity, fw_effect_nonlinear_hinge, fw_effect_contact, fw_effect_friction,
-    fw_effect_material_damping, fw_effect_inertia, fw_effect_base_motion, fw_effect_temperature,
-    fw_effect_residual_stress, fw_effect_air, fw_effect_tendon, fw_effect_comb_drive;
+#define FW_EFFECT(name) extern const fw_effect_row fw_effect_##name;
+#include "effects/effects.def"
+#undef FW_EFFECT
 
 /* a new element of the terms, zeroed, with memory for its ports; NULL without memory */
 fw_force_element *fw_terms_add_element(fw_arena *arena, fw_terms *terms,
@@ -48,6 +47,9 @@ double fw_line_contact(double youngs_Pa, double poisson, double depth_m, double 
    part of the loads says nothing about the whole (loads that go with time, drivers, stops, cables)
  */
 bool fw_effect_not_proportional(const fw_effect_case *c);
+static inline bool fw_pin_has_stop(const fw_pin *p) {
+    return p->stop_stiffness_Nm_per_rad > 0 && (!isnan(p->stop_min_rad) || !isnan(p->stop_max_rad));
+}
 /* a cable that is not stretched in the drawn pose */
 bool fw_spring_slack(const fw_mechanism *mechanism, const fw_spring *spring);
 /* empty terms with room for everything that mechanism and scene can ask for */

@@ -26,7 +26,7 @@ typedef struct fw_effect_entry { /* a line of the ledger */
     double bound; /* on the relative change of the peak hinge deflection when left out; inf when
                      the effect is the motion itself; 0 when it is not called for */
     double cost;  /* instructions per right-hand side that it takes when it is on, as measured once
-                     (docs/theory/effects/README.md); 0 when it is not called for */
+                     (docs/theory/effects/costs.md); 0 when it is not called for */
     const char *reason;
 } fw_effect_entry;
 typedef struct fw_effect_ledger {
@@ -121,10 +121,15 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
     fw_status (*bound)(const fw_effect_case *c, double *bound, const char **reason);
     /* adds to the terms; sizes of the plain arrays were reserved */
     fw_status (*add)(const fw_effect_case *c, fw_terms *terms);
+    /* for what acts until it is left out: changes the terms when the effect was called for and is
+       not active. NULL: nothing is to be done */
+    fw_status (*leave_out)(const fw_effect_case *c, fw_terms *terms);
     double cost; /* instructions per right-hand side and instance (callgrind, gcc -O2) */
     int (*count)(const fw_effect_case *c); /* instances; NULL: 1 */
     /* of an active effect, before add: errors and warnings on what is asked of it; NULL: none */
     fw_status (*check)(const fw_effect_case *c, fw_diags *diags);
+    bool unbounded_stays; /* not left out where its bound is infinite, whatever was asked for */
+    bool alone_stays;     /* likewise where nothing else moves the mechanism */
     bool kept; /* never left out, whatever was asked for: without it there is nothing to judge */
 } fw_effect_row;
 const fw_effect_row *const *fw_effect_rows(size_t *count);

@@ -17,9 +17,10 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
 
 bool fw_effect_not_proportional(const fw_effect_case *c) {
     const fw_mechanism *m = c->mechanism;
-    if (m->ndriver > 0 || fw_effect_joint_stop.called_for(c)) return true;
-    if (c->scene->ntendon > 0 || c->scene->ncomb > 0) return true;
-    if (fw_effect_friction.called_for(c)) return true;
+    if (m->ndriver > 0) return true;
+    for (int i = 0; i < m->npin; i++)
+        if (fw_pin_has_stop(&m->pin[i])) return true;
+    if (c->scene->nfriction > 0) return true;
     for (int i = 0; i < m->nspring; i++)
         if (m->spring[i].cable) return true;
     for (int i = 0; i < c->scene->nforce; i++)
@@ -67,4 +68,5 @@ const fw_effect_row fw_effect_gravity = {.id = "gravity",
                                          .summary = "weight of the bodies",
                                          .called_for = called_for,
                                          .bound = bound,
-                                         .add = add};
+                                         .add = add,
+                                         .alone_stays = true};

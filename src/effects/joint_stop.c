@@ -3,13 +3,9 @@
 #include "effects/envelope.h"
 #include <math.h>
 
-static bool has_stop(const fw_pin *p) {
-    return p->stop_stiffness_Nm_per_rad > 0 && (!isnan(p->stop_min_rad) || !isnan(p->stop_max_rad));
-}
-
 static bool called_for(const fw_effect_case *c) {
     for (int i = 0; i < c->mechanism->npin; i++)
-        if (has_stop(&c->mechanism->pin[i])) return true;
+        if (fw_pin_has_stop(&c->mechanism->pin[i])) return true;
     return false;
 }
 
@@ -33,7 +29,7 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     if (!c->envelope->valid) return FW_OK;
     for (int i = 0; i < c->mechanism->npin; i++) {
         const fw_pin *p = &c->mechanism->pin[i];
-        if (has_stop(p) &&
+        if (fw_pin_has_stop(p) &&
             !(room(c, i, -1, p->stop_min_rad) > 0 && room(c, i, 1, p->stop_max_rad) > 0))
             return FW_OK;
     }
@@ -58,7 +54,7 @@ static void add_side(const fw_pin *p, int pin, double side, double at_rad, fw_te
 static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     for (int i = 0; i < c->mechanism->npin; i++) {
         const fw_pin *p = &c->mechanism->pin[i];
-        if (!has_stop(p)) continue;
+        if (!fw_pin_has_stop(p)) continue;
         add_side(p, i, -1, p->stop_min_rad, terms);
         add_side(p, i, 1, p->stop_max_rad, terms);
     }
@@ -69,7 +65,7 @@ static int count(const fw_effect_case *c) {
     int n = 0;
     for (int i = 0; i < c->mechanism->npin; i++) {
         const fw_pin *p = &c->mechanism->pin[i];
-        if (has_stop(p)) n += !isnan(p->stop_min_rad) + !isnan(p->stop_max_rad);
+        if (fw_pin_has_stop(p)) n += !isnan(p->stop_min_rad) + !isnan(p->stop_max_rad);
     }
     return n;
 }
@@ -82,4 +78,5 @@ const fw_effect_row fw_effect_joint_stop = {
     .bound = bound,
     .add = add,
     .cost = 81,
-    .count = count};
+    .count = count,
+    .unbounded_stays = true};

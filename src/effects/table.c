@@ -4,24 +4,19 @@
 #include <math.h>
 #include <string.h>
 
+/* A build without an effect (-DFW_WITHOUT_EFFECTS of CMake, for measuring what an absent effect
+   costs) defines FW_WITHOUT_<name> as 1. FW_GONE_1 then puts a comma in front, so that FW_SECOND
+   picks the macro that makes no row. */
+#define FW_GONE_1                     ,
+#define FW_SECOND(first, second, ...) second
+#define FW_A_ROW(name)                &fw_effect_##name,
+#define FW_NO_ROW(name)
+#define FW_CHOSEN(gone, name)        FW_SECOND(gone FW_NO_ROW, FW_A_ROW, )(name)
+#define FW_ROW_UNLESS(without, name) FW_CHOSEN(FW_GONE_##without, name)
+#define FW_ROW(without, name)        FW_ROW_UNLESS(without, name)
+#define FW_EFFECT(name)              FW_ROW(FW_WITHOUT_##name, name)
 static const fw_effect_row *const rows[] = {
-    &fw_effect_joint_elasticity,
-    &fw_effect_joint_damping,
-    &fw_effect_material_damping, /* before nonlinear-hinge, which takes it over */
-    &fw_effect_joint_stop,
-    &fw_effect_point_spring,
-    &fw_effect_applied_load,
-    &fw_effect_gravity,
-    &fw_effect_initial_velocity,
-    &fw_effect_base_motion,
-    &fw_effect_nonlinear_hinge, /* after joint-elasticity: it takes the spring over */
-    &fw_effect_contact,
-    &fw_effect_friction, /* behind contact, which may press */
-    &fw_effect_tendon,
-    &fw_effect_comb_drive,
-    &fw_effect_temperature, /* after what has stiffness: it softens it */
-    &fw_effect_residual_stress,
-    &fw_effect_air,
+#include "effects/effects.def"
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
@@ -169,12 +164,13 @@ static bool moved(const fw_effect_case *c) {
     return c->mechanism->ndriver > 0;
 }
 
-/* stays whatever was asked for: what is kept; a stop that may be reached, as springs do; weight
-   where nothing else moves the mechanism */
+/* stays whatever was asked for: what is kept; a stop that may be reached, as springs do, and
+   inertia where nothing says that it does not matter; weight where nothing else moves the mechanism
+ */
 static bool belongs(const fw_effect_case *c, const fw_effect_row *row,
                     const fw_effect_entry *entry) {
-    return row->kept || (row == &fw_effect_joint_stop && isinf(entry->bound)) ||
-           (row == &fw_effect_gravity && !moved(c));
+    return row->kept || (row->unbounded_stays && isinf(entry->bound)) ||
+           (row->alone_stays && !moved(c));
 }
 
 static void decide_asked(const fw_effect_case *c, const fw_effect_choice *choice,
@@ -192,7 +188,7 @@ static void decide_asked(const fw_effect_case *c, const fw_effect_choice *choice
         else if (!stays)
             e->reason = list ? "called for, but not in the list"
                              : "called for, but no effect was asked for";
-        else if (rows[i] == &fw_effect_gravity)
+        else if (rows[i]->alone_stays)
             e->reason = "nothing but weight moves the mechanism: it is the motion itself";
     }
 }
@@ -226,9 +222,11 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, con
         const fw_effect_entry *e = &ledger->item[i];
         if (choice->mode == FW_EFFECTS_AUTO && e->called_for && !e->active)
             ledger->left_out += e->bound;
-        if (!e->active) continue;
-        if (rows[i]->check) FW_TRY(rows[i]->check(&c, diags));
-        FW_TRY(rows[i]->add(&c, terms));
+        if (e->active) {
+            if (rows[i]->check) FW_TRY(rows[i]->check(&c, diags));
+            FW_TRY(rows[i]->add(&c, terms));
+        } else if (e->called_for && rows[i]->leave_out)
+            FW_TRY(rows[i]->leave_out(&c, terms));
     }
     return FW_OK;
 }

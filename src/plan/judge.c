@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assembly/assembly.h"
 #include "plan/stages.h"
+#include "statics/quasi.h"
 #include <math.h>
 #include <string.h>
 
@@ -101,7 +102,7 @@ fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mec
     const fw_pull_in *pull_in; /* only its warning: it says why a run may end early */
     FW_TRY(
         fw_pull_in_find(plan->arena, *mechanism, *scene, &options.effects, &plan->diags, &pull_in));
-    FW_TRY(fw_simulate(plan->arena, *mechanism, *scene, &options, &plan->diags, motion));
+    FW_TRY(fw_move_scene(plan->arena, *mechanism, *scene, &options, &plan->diags, motion));
     note_tolerance(plan, options.rtol, (*motion)->stats.rtol);
     return FW_OK;
 }

@@ -172,31 +172,34 @@ static void leave_out_friction(fw_rest *w, fw_terms *terms) {
     }
 }
 
-static fw_status assemble(fw_rest *w, fw_terms *terms) {
-    fw_arena *arena = w->arena;
+/* the assembled pose, its model and memory */
+fw_status fw_rest_build(fw_rest *w, const fw_terms *terms) {
     const fw_mechanism *mechanism = w->mechanism;
-    const fw_scene *scene = w->scene;
-    fw_diags *diags = w->diags;
-    double moved;
     size_t n = 3 * (size_t)mechanism->nbody;
-    leave_out_friction(w, terms);
-    FW_TRY(freeze(w, terms));
-    FW_TRY(fw_effects_strain(arena, mechanism, terms, &w->mechanism));
-    mechanism = w->mechanism;
-    FW_NEED(w->q0 = fw_arena_array(arena, double, n));
+    double moved;
+    if (n > FW_STATICS_MOST) return too_large(w);
+    FW_NEED(w->q0 = fw_arena_array(w->arena, double, n));
     for (int b = 0; b < mechanism->nbody; b++) {
         w->q0[3 * b] = mechanism->body[b].x_m;
         w->q0[3 * b + 1] = mechanism->body[b].y_m;
         w->q0[3 * b + 2] = mechanism->body[b].phi_rad;
     }
-    FW_TRY(fw_assemble(arena, mechanism, w->q0, &moved, diags));
-    FW_TRY(fw_model_new(arena, mechanism, terms, w->q0, scene->duration_s, NULL, diags, &w->model));
+    FW_TRY(fw_assemble(w->arena, mechanism, w->q0, &moved, w->diags));
+    FW_TRY(fw_model_new(w->arena, mechanism, terms, w->q0, w->scene->duration_s, NULL, w->diags,
+                        &w->model));
+    w->drive_unit = w->reach = 1;
     FW_TRY(arrays(w));
+    return fw_reduced_new(w->arena, w->model, &w->reduced);
+}
+
+static fw_status assemble(fw_rest *w, fw_terms *terms) {
+    leave_out_friction(w, terms);
+    FW_TRY(freeze(w, terms));
+    FW_TRY(fw_effects_strain(w->arena, w->mechanism, terms, &w->mechanism));
+    FW_TRY(fw_rest_build(w, terms));
     FW_TRY(freeze_elements(w));
     split_loads(w);
     FW_TRY(split_drivers(w));
-    FW_TRY(fw_reduced_new(arena, w->model, &w->reduced));
-    w->drive_unit = w->reach = 1;
     fw_rest_factor(w, 0);
     return FW_OK;
 }
@@ -250,7 +253,7 @@ bool fw_rest_close(fw_rest *w, double *u) {
     fw_model_pose(m, u);
     for (int i = 0; i < m->nq; i++)
         if (!isfinite(u[i])) return false;
-    if (m->nblock > 0 && (!m->method->factor(m) || !fw_model_project_position(m, 0, u)))
+    if (m->nblock > 0 && (!m->method->factor(m) || !fw_model_project_position(m, w->t, u)))
         return false;
     memcpy(w->trial, u, (size_t)m->nq * sizeof *u);
     fw_model_set_switches(m, 0, w->trial); /* at rest: the velocities of trial are 0 */
@@ -323,13 +326,13 @@ fw_status fw_rest_evaluate(fw_rest *w) {
     fw_model *m = w->model;
     if (!fw_rest_close(w, w->y)) return FW_SOLVER;
     FW_TRY(fw_reduced_null(m, &w->reduced));
-    fw_model_forces(m, 0, w->y);
+    fw_model_forces(m, w->t, w->y);
     for (int i = 0; i < m->nq; i++) {
         w->force[i] = inertia_of(m, i) * m->accel[i];
         if (!isfinite(w->force[i])) return FW_SOLVER;
     }
     fw_reduced_multipliers(m, &w->reduced, w->force, w->lambda);
-    fw_tangent(m, 0, w->y, w->lambda, w->stiffness, NULL);
+    fw_tangent(m, w->t, w->y, w->lambda, w->stiffness, NULL);
     FW_TRY(fw_reduced_spectrum(&w->reduced, w->stiffness));
     derivative_by_factor(w);
     project_on_modes(w);

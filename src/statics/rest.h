@@ -47,6 +47,12 @@ typedef struct fw_rest {
     const fw_force_element *invalid; /* its formula does not hold at the pose closed last */
     const char *why;
     double *away, *pull; /* (ny) (n) work of the potential of driven elements */
+    /* in time (in_time.c): laws are taken at t, scaled; `slope`, `follow` and `push` are then
+       derivatives by it */
+    double t;
+    const fw_timed_load *timed; /* (ntimed) load[first_timed + i] is what i pushes with */
+    int ntimed, first_timed;
+    const fw_law **law; /* (nblock) of drivers */
 } fw_rest;
 
 /* model of the scene's end at the assembled pose, s = 0, not evaluated */
@@ -60,6 +66,14 @@ fw_status fw_rest_new_terms(fw_arena *arena, const fw_mechanism *mechanism, cons
 fw_status fw_rest_statics(fw_rest *w, const fw_static_options *options, const fw_statics **statics);
 fw_status fw_rest_modes(fw_rest *w, const fw_mode_options *options, const fw_modes **modes);
 void fw_rest_factor(fw_rest *w, double s);
+/* in_time.c: a model of the scene whose loads and drivers follow their laws, and these at one time;
+   piece_s: a time in the smooth piece that is meant. arena, mechanism, scene and diags are set */
+fw_status fw_rest_in_time(fw_rest *w, const fw_terms *terms);
+void fw_rest_at(fw_rest *w, double t_s, double piece_s);
+/* du/dt (n) along the equilibria, at an evaluated one, per scaled time */
+void fw_rest_rate(const fw_rest *w, double *rate);
+/* assembled pose, model and memory for both */
+fw_status fw_rest_build(fw_rest *w, const fw_terms *terms);
 /* u onto the constraints at the present s; leaves the model posed, the switches set. false: no */
 bool fw_rest_close(fw_rest *w, double *u);
 /* potential energy at a closed u, that of driven elements counted from w->y; *size: sum of its

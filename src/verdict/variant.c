@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "statics/quasi.h"
 #include "verdict/compare.h"
 #include "verdict/watch.h"
 #include <math.h>
@@ -150,7 +151,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         FW_TRY(fw_watch_new(arena, m, layout, &watch[i]));
         motion.observe = fw_watch_see;
         motion.context = &watch[i];
-        FW_TRY(fw_simulate(arena, m, scene, &motion, diags, &v->motion[i]));
+        FW_TRY(fw_move_scene(arena, m, scene, &motion, diags, &v->motion[i]));
         if (v->motion[i]->ended) warn_ended(scene, v->motion[i], diags);
     }
     return FW_OK;

@@ -237,7 +237,7 @@ static inline bool bounds_make(fw_arena *arena, uint64_t seed, bounds_device *d)
     memset(d, 0, sizeof *d);
     size_t kinds = sizeof bounds_devices / sizeof bounds_devices[0];
     d->r = bounds_devices[(size_t)((double)kinds * rig_random(&seed))](arena, &seed);
-    d->turn = bounds_log(&seed, 1e-4, 0.3);
+    d->turn = bounds_log(&seed, 1e-4, 0.5);
     d->r.scene.duration_s = 1;
     d->omega = 1;
     for (int i = 0; i < d->r.m.npin; i++) { /* most are drawn free of force */

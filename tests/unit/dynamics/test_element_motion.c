@@ -231,9 +231,9 @@ static void peak_of_a_released_pin(void **state) {
     fw_terms t = rig_terms(arena, &r);
     bush_release(arena, &r.m, &t, 0, &d);
     fw_diags diags = fw_diags_new(arena);
-    fw_motion *m;
+    const fw_motion *m;
     const fw_motion_options o = {.rtol = 1e-9, .samples = 4001, .reactions = true};
-    assert_int_equal(fw_simulate_terms(arena, &r.m, &r.scene, &o, &t, &diags, &m), FW_OK);
+    assert_int_equal(fw_simulate_compiled(arena, &r.m, &r.scene, &o, &(fw_effect_ledger){0}, &t, &diags, &m), FW_OK);
     double most = 0, at = 0;
     for (int i = 0; i < m->nsample; i++) {
         double now = hypot(m->reaction_N[2 * i], m->reaction_N[2 * i + 1]);
@@ -403,15 +403,15 @@ static void where_it_ends(void **state) {
     line d = {.pull = 0.1};
     line_add(arena, &t, &d, FW_GROUND, 0, 0, 0, 0, 0)->id = "winch";
     fw_diags diags = fw_diags_new(arena);
-    fw_motion *m;
+    const fw_motion *m;
     const fw_motion_options o = {.rtol = 1e-8};
-    assert_int_equal(fw_simulate_terms(arena, &r.m, &r.scene, &o, &t, &diags, &m), FW_SOLVER);
+    assert_int_equal(fw_simulate_compiled(arena, &r.m, &r.scene, &o, &(fw_effect_ledger){0}, &t, &diags, &m), FW_SOLVER);
     assert_int_equal(diags.item[diags.count - 1].number, 242);
     assert_non_null(strstr(diags.item[diags.count - 1].message, "winch"));
     assert_non_null(strstr(diags.item[diags.count - 1].message, "ends of the line meet"));
     r.m.body[0].x_m = 0; /* at the start already */
     diags = fw_diags_new(arena);
-    assert_int_equal(fw_simulate_terms(arena, &r.m, &r.scene, &o, &t, &diags, &m), FW_SOLVER);
+    assert_int_equal(fw_simulate_compiled(arena, &r.m, &r.scene, &o, &(fw_effect_ledger){0}, &t, &diags, &m), FW_SOLVER);
     assert_int_equal(diags.item[diags.count - 1].number, 242);
     fw_arena_free(arena);
 }
@@ -456,9 +456,9 @@ static void runs_into_the_plates(void **state) {
         e->port[0] = (fw_port){FW_GROUND, 2, 0}, e->port[1] = (fw_port){0, 0, 0};
         e->works = true, e->force_N = 0.25, e->data = &c;
         fw_diags diags = fw_diags_new(arena);
-        fw_motion *m;
+        const fw_motion *m;
         const fw_motion_options o = {.integrator = names[i / 2], .rtol = 1e-7};
-        fw_status status = fw_simulate_terms(arena, &r.m, &r.scene, &o, &t, &diags, &m);
+        fw_status status = fw_simulate_compiled(arena, &r.m, &r.scene, &o, &(fw_effect_ledger){0}, &t, &diags, &m);
         assert_int_equal(status, beyond ? FW_SOLVER : FW_OK);
         if (beyond) assert_int_equal(diags.item[diags.count - 1].number, 242);
         fw_arena_free(arena);

@@ -1,0 +1,338 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Inertia against a motion that is a row of equilibria. Theory: docs/theory/effects/inertia.md. */
+#include "effects/effect.h"
+#include "effects/envelope.h"
+#include "effects/modal.h"
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+
+static bool called_for(const fw_effect_case *c) {
+    return c->mechanism->nbody > 0;
+}
+
+/* ---- how unsteady a law is ---- */
+
+typedef struct unrest { /* over the scene */
+    double jumps;       /* sum of |jumps| of the value behind t = 0 */
+    double slope;       /* 1/s: |f'(0+)| + total variation of f' behind it, its jumps included */
+    double wave; /* rad/s of a sine; 0: none. It begins, and ends, at `ends` times in the scene */
+    int ends;
+} unrest;
+
+/* int |f''| of f = sin(a) over phases a of length `turned` from `from`, per angular frequency */
+static double sine_variation(double from, double turned) {
+    double whole = floor(turned / PI), rest = turned - whole * PI;
+    double start = from - PI * floor(from / PI), end = start + rest; /* |sin| has the period pi */
+    double part = end <= PI ? cos(start) - cos(end) : cos(start) + 2 + cos(end);
+    return 2 * whole + part;
+}
+
+/* total variation of f' inside (a, b), where f is smooth, by sampling every `step`: the midpoint
+   rule of |f''|. A sign change of f'' inside a cell hides less than its share of one cell. */
+static double sampled_variation(const fw_law *law, double a, double b, double piece, double step) {
+    double count = fmin(fmax(ceil((b - a) / step), 64), 1e6), sum = 0, value[3];
+    for (double i = 0; i < count; i++) {
+        fw_law_value(law, a + (b - a) * (i + 0.5) / count, piece, value);
+        sum += fabs(value[2]);
+    }
+    return 1.01 * sum * (b - a) / count;
+}
+
+/* shortest step that sees all of an expression between a and b */
+static double finest(const fw_law_strides *strides, double a, double b) {
+    double most = (double)INFINITY;
+    for (int i = 0; i < strides->n; i++) {
+        double end = i + 1 < strides->n ? strides->t_s[i + 1] : (double)INFINITY;
+        if (strides->t_s[i] < b && end > a) most = fmin(most, strides->most_s[i]);
+    }
+    return most;
+}
+
+/* inside the piece (a, b), for every row of strides with the step that it asks for */
+static double expression_variation(const fw_law *law, const fw_law_strides *strides, double a,
+                                   double b, double end_s) {
+    double sum = 0, piece = 0.5 * (a + b);
+    double from = a;
+    for (int i = 0; i <= strides->n; i++) {
+        double to = i < strides->n ? fmin(b, strides->t_s[i]) : b;
+        if (!(to > from)) continue;
+        double step = fmin(finest(strides, from, to) / 16, end_s / 4096);
+        sum += sampled_variation(law, from, to, piece, step);
+        from = to;
+    }
+    return sum;
+}
+
+static double smooth_variation(const fw_law *law, const fw_law_strides *strides, double a, double b,
+                               double end_s) {
+    double w = 2 * PI * law->frequency_Hz, piece = 0.5 * (a + b);
+    switch (law->kind) {
+    case FW_LAW_STEP:
+    case FW_LAW_RAMP:
+    case FW_LAW_TABLE:
+        return 0;
+    case FW_LAW_SINE:
+        if (piece < law->start_s || piece >= law->end_s) return 0;
+        return w * sine_variation(w * (a - law->start_s) + law->phase_rad, w * (b - a));
+    case FW_LAW_HALF_SINE:
+        if (piece < law->start_s || piece >= law->start_s + law->rise_s) return 0;
+        w = PI / law->rise_s;
+        return w * sine_variation(w * (a - law->start_s), w * (b - a));
+    case FW_LAW_RANDOM:
+        return sampled_variation(law, a, b, piece,
+                                 1 / (64 * fmax(law->frequency_Hz, law->frequency_most_Hz)));
+    case FW_LAW_EXPRESSION:
+    default:
+        return expression_variation(law, strides, a, b, end_s);
+    }
+}
+
+static int by_size(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Jumps and the variation of the slope of a law over (0, end_s). Exact for steps, ramps, tables,
+   sines and half sines; random and expressions by midpoint sums with a hundredth on top. */
+static fw_status look_at_law(fw_arena *arena, const fw_law *law, double end_s, unrest *out) {
+    *out = (unrest){0};
+    if (fw_law_is_constant(law)) return FW_OK;
+    fw_law_strides strides = {0};
+    int count = fw_law_breaks(law, end_s, NULL, 0);
+    double *at, value[3], next[3];
+    FW_NEED(at = fw_arena_array(arena, double, (size_t)count + 1));
+    count = fw_law_breaks(law, end_s, at, count);
+    if (count > 1) qsort(at, (size_t)count, sizeof *at, by_size);
+    if (law->kind == FW_LAW_EXPRESSION)
+        FW_TRY(fw_law_look(arena, law, false, end_s, at, count, &strides));
+    at[count] = end_s;
+    double from = 0;
+    for (int i = 0; i <= count; i++) {
+        double to = at[i], piece = 0.5 * (from + to);
+        if (!(to > from)) continue;
+        fw_law_value(law, from, piece, next); /* the limit from the right */
+        out->jumps += from > 0 ? fabs(next[0] - value[0]) : 0;
+        out->slope += from > 0 ? fabs(next[1] - value[1]) : fabs(next[1]);
+        out->slope += smooth_variation(law, &strides, from, to, end_s);
+        fw_law_value(law, to, piece, value);
+        from = to;
+    }
+    if (!isfinite(out->jumps) || !isfinite(out->slope))
+        *out = (unrest){.jumps = (double)INFINITY, .slope = (double)INFINITY};
+    if (law->kind == FW_LAW_SINE) out->wave = 2 * PI * law->frequency_Hz;
+    if (law->kind == FW_LAW_HALF_SINE) out->wave = PI / law->rise_s;
+    double end = law->kind == FW_LAW_SINE ? law->end_s : law->start_s + law->rise_s;
+    out->ends = 1 + (end < end_s);
+    return FW_OK;
+}
+
+/* What the slope of a law moves a mode off its equilibrium, over |F|/w^2; lag: of all modes, s. Of
+   a sine W the motion that it settles to is off by a = x/(1 - x), x = (W/w)^2 + W lag, at most, and
+   what rings from each of its ends by a and b = W/(w (1 - x)) together: that does not grow with its
+   number of waves. */
+static double off_by_slope(const unrest *u, double lag, double w) {
+    double off = (lag + hypot(lag, 1 / w)) * u->slope;
+    double x = u->wave / w * (u->wave / w) + u->wave * lag;
+    if (!(u->wave > 0) || !(x < 1)) return off;
+    double a = x / (1 - x), b = u->wave / (w * (1 - x));
+    return fmin(off, a + u->ends * hypot(a, b));
+}
+
+/* ---- sums over modes ---- */
+
+typedef struct modal {
+    const fw_envelope *e;
+    int pins, modes;
+    double lowest;    /* rad/s */
+    double *push;     /* (modes) work: modal force of one group of loads */
+    double *rotation; /* (npin) bound, rad */
+    double *flexible; /* (npin) sqrt(sum turn^2 / omega^2) */
+    double lag;       /* s: |W^-1 D W^-1| from above, D: modal damping; 0: none */
+} modal;
+
+static fw_status start(fw_arena *arena, const fw_envelope *e, int pins, modal *m) {
+    *m = (modal){.e = e, .pins = pins, .modes = e->modes, .lowest = (double)INFINITY};
+    FW_NEED(m->push = fw_arena_array(arena, double, (size_t)e->modes));
+    FW_NEED(m->rotation = fw_arena_array(arena, double, (size_t)pins));
+    FW_NEED(m->flexible = fw_arena_array(arena, double, (size_t)pins));
+    double sum = 0;
+    for (int j = 0; j < e->modes; j++) {
+        m->lowest = fmin(m->lowest, e->omega[j]);
+        for (int k = 0; k < e->modes; k++)
+            sum += pow(e->modal->damping[j * e->modes + k] / (e->omega[j] * e->omega[k]), 2);
+    }
+    m->lag = sqrt(sum);
+    for (int p = 0; p < pins; p++) {
+        sum = 0;
+        for (int j = 0; j < e->modes; j++)
+            sum += pow(e->turn[j * pins + p] / e->omega[j], 2);
+        m->flexible[p] = sqrt(sum);
+    }
+    return FW_OK;
+}
+
+/* What one group of loads with modal forces `push` that share a law can move every pin off its
+   equilibrium. Undamped, mode by mode: (|F|/omega^2) (jumps + slope/omega). Damped, in the energy
+   norm of all modes: |turn/omega| |F/omega| (jumps + (kappa + sqrt(kappa^2 + 1/omega_1^2)) slope).
+   `speed`: push is a velocity, which moves by v/omega. */
+static void spread(modal *m, const double *push, const unrest *u, bool speed) {
+    const double *omega = m->e->omega;
+    double size = 0;
+    for (int j = 0; j < m->modes; j++)
+        size += pow(push[j] / (speed ? 1 : omega[j]), 2);
+    double whole = sqrt(size) * (u->jumps + off_by_slope(u, m->lag, m->lowest));
+    for (int p = 0; p < m->pins; p++) {
+        double sum = 0;
+        for (int j = 0; j < m->modes && m->lag == 0; j++) {
+            double w = omega[j], f = fabs(push[j]) / (speed ? w : w * w);
+            sum += fabs(m->e->turn[j * m->pins + p]) * f * (u->jumps + off_by_slope(u, 0, w));
+        }
+        m->rotation[p] += m->lag > 0 ? m->flexible[p] * whole : sum;
+    }
+}
+
+/* loads that share a law go together */
+static fw_status spread_laws(fw_arena *arena, const fw_pushes *p, double end_s, modal *m) {
+    for (int i = 0; i < p->count; i++) {
+        const fw_law *law = p->item[i].law;
+        bool done = fw_law_is_constant(law);
+        for (int k = 0; k < i; k++)
+            done = done || p->item[k].law == law;
+        if (done) continue;
+        unrest u;
+        memset(m->push, 0, (size_t)m->modes * sizeof(double));
+        for (int k = i; k < p->count; k++)
+            for (int j = 0; j < m->modes && p->item[k].law == law; j++)
+                m->push[j] += p->item[k].mode[j];
+        FW_TRY(look_at_law(arena, law, end_s, &u));
+        spread(m, m->push, &u, false);
+    }
+    return FW_OK;
+}
+
+/* what acts behind t = 0 is put on at once, constants and laws together: one jump; velocities */
+static void spread_start(const fw_pushes *p, modal *m) {
+    const unrest jump = {.jumps = 1};
+    memset(m->push, 0, (size_t)m->modes * sizeof(double));
+    for (int i = 0; i < p->count; i++)
+        fw_push_at(m->e->modal, p, &p->item[i], 0, DBL_MIN, m->push);
+    spread(m, m->push, &jump, false);
+    spread(m, m->e->modal->velocity, &jump, true);
+}
+
+/* ---- how far it moves at least ---- */
+
+static double largest_deflection(const fw_effect_case *c, const fw_pushes *p, const modal *m,
+                                 double t_s, double piece_s) {
+    double most = 0;
+    memset(m->push, 0, (size_t)m->modes * sizeof(double));
+    for (int i = 0; i < p->count; i++)
+        fw_push_at(m->e->modal, p, &p->item[i], t_s, piece_s, m->push);
+    for (int pin = 0; pin < m->pins; pin++) {
+        double turn = 0;
+        for (int j = 0; j < m->modes; j++)
+            turn += m->e->turn[j * m->pins + pin] * m->push[j] / pow(m->e->omega[j], 2);
+        /* what is not linear could make the turn smaller */
+        double less = fabs(turn) * (1 - 1 / m->e->margin);
+        most = fmax(most, fabs(fw_pin_deflection(c->mechanism, pin) + turn) - less);
+    }
+    return most;
+}
+
+/* The envelope's floor looks at the first periods of every load; that of slow loads is what the
+   equilibria reach at any time, less what the motion may be off by there (off_rad). Times: ends and
+   insides of the smooth pieces. Any set of times gives a floor. */
+static fw_status find_floor(const fw_effect_case *c, const fw_pushes *p, const modal *m,
+                            double off_rad, double *floor_rad) {
+    enum { LOOKS = 16 };
+    double *end, from = 0, most = 0;
+    int count;
+    FW_TRY(fw_pushes_breaks(c->arena, m->e->modal, p, &end, &count));
+    for (int i = 0; i < count; i++) {
+        for (int k = 0; k <= LOOKS; k++)
+            most = fmax(most, largest_deflection(c, p, m, from + (end[i] - from) * k / LOOKS,
+                                                 0.5 * (from + end[i])));
+        from = end[i];
+    }
+    *floor_rad = fmax(m->e->floor, most - off_rad);
+    return FW_OK;
+}
+
+/* ---- what has no bound ---- */
+
+/* NULL: the sums know all that moves the mechanism */
+static const char *reason_to_keep(const fw_effect_case *c) {
+    const fw_envelope *e = c->envelope;
+    if (c->mechanism->ndriver > 0)
+        return "drivers move the mechanism, and its joint forces are those of inertia too: kept";
+    if (!e->valid || !e->modal) return e->why_not ? e->why_not : "the motion has no linear theory";
+    for (int i = 0; i < e->modal->terms->nelement; i++)
+        if (e->modal->terms->element[i].laws > 0)
+            return "the force of an actuator depends on the pose and on time at once";
+    return NULL;
+}
+
+/* Relative change of the largest hinge deflection when the motion is taken as a row of equilibria:
+   in each mode q'' + omega^2 q = F f(t) moves off q = F f / omega^2 by at most
+     (|F|/omega^2) (sum of jumps of f) + (|F|/omega^3) (|f'(0+)| + total variation of f')
+   by integrating Duhamel's integral by parts twice, loads of one law together, laws added; viscous
+   damping makes the free part smaller and adds a lag (see spread). Inputs: the envelope's modes,
+   SI. Output dimensionless, against the least that the largest deflection can be; infinite where
+   there is no envelope. What the envelope does not take in widens it like all bounds (table.c).
+   Valid in the linear theory of the envelope, with its margin for what is not linear. Cost modes x
+   (n + npin) per law. Source: Duhamel's integral, e.g. Clough and Penzien, Dynamics of Structures
+   1993, ch. 6; the integration by parts is ours. Test: test_inertia.c. */
+static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
+    const fw_envelope *e = c->envelope;
+    const char *keep = reason_to_keep(c);
+    *value = (double)INFINITY;
+    if (keep) {
+        FW_NEED(*reason = fw_arena_printf(c->arena,
+                                          "no bound on a row of equilibria (%s): inertia "
+                                          "acts",
+                                          keep));
+        return FW_OK;
+    }
+    fw_mark mark = fw_arena_mark(c->arena);
+    fw_pushes pushes;
+    modal m;
+    double most = 0;
+    FW_TRY(start(c->arena, e, c->mechanism->npin, &m));
+    FW_TRY(fw_pushes_find(c->arena, e->modal, &pushes));
+    spread_start(&pushes, &m);
+    FW_TRY(spread_laws(c->arena, &pushes, c->scene->duration_s, &m));
+    for (int p = 0; p < m.pins; p++)
+        most = fmax(most, isnan(m.rotation[p]) ? (double)INFINITY : m.rotation[p]);
+    double least;
+    most *= e->margin;
+    FW_TRY(find_floor(c, &pushes, &m, most, &least));
+    fw_arena_rewind(c->arena, mark);
+    *value = most / least;
+    *reason = "bound from the jumps of the loads and the changes of their slope against a row of "
+              "equilibria";
+    return FW_OK;
+}
+
+static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+    (void)c;
+    terms->quasi_static = false;
+    return FW_OK;
+}
+
+static fw_status leave_out(const fw_effect_case *c, fw_terms *terms) {
+    (void)c;
+    terms->quasi_static = true;
+    return FW_OK;
+}
+
+const fw_effect_row fw_effect_inertia = {
+    .id = "inertia",
+    .summary = "masses resist changes of motion; without, the motion is a row of equilibria",
+    .called_for = called_for,
+    .bound = bound,
+    .add = add,
+    .leave_out = leave_out};

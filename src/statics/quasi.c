@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "statics/quasi.h"
+#include "statics/row.h"
+#include <math.h>
+#include <string.h>
+
+/* the line of the ledger that says whether inertia acts; NULL in a build without it */
+static fw_effect_entry *inertia_of(const fw_effect_ledger *ledger) {
+    for (int i = 0; i < ledger->count; i++)
+        if (strcmp(ledger->item[i].id, "inertia") == 0) return &ledger->item[i];
+    return NULL;
+}
+
+static bool asked(const char *name, const char *usual) {
+    return name && strcmp(name, usual) != 0;
+}
+
+/* what only an integration of the motion can follow */
+static const char *integration_asked_for(const fw_motion_options *o) {
+    if (o->effects.mode != FW_EFFECTS_AUTO) return NULL; /* the effects were chosen by hand */
+    if (asked(o->integrator, "auto")) return "an integrator was asked for: inertia acts";
+    if (asked(o->method, "chain")) return "a method was asked for: inertia acts";
+    if (asked(o->stabilise, "projection")) return "a stabilisation was asked for: inertia acts";
+    return o->rtol > 0 ? "a tolerance was asked for: inertia acts" : NULL;
+}
+
+static void keep_inertia(fw_effect_ledger *ledger, fw_terms *terms, const char *why) {
+    fw_effect_entry *entry = inertia_of(ledger);
+    terms->quasi_static = false;
+    if (!entry) return;
+    ledger->left_out = fmax(0, ledger->left_out - entry->bound);
+    entry->active = true;
+    entry->reason = why;
+}
+
+/* what a try that counts had to say */
+static void take_messages(const fw_diags *from, fw_diags *diags) {
+    for (size_t i = 0; i < from->count; i++) {
+        const fw_diag *d = &from->item[i];
+        if (d->severity == FW_ERROR)
+            fw_diag_error(diags, d->number, d->place, "%s", d->message);
+        else if (d->severity == FW_WARNING)
+            fw_diag_warning(diags, d->number, d->place, "%s", d->message);
+    }
+}
+
+/* effects chosen by hand: what that may have cost is said where it is more than was asked for */
+static void say_cost(const fw_scene *scene, const fw_effect_ledger *ledger, double accuracy,
+                     fw_diags *diags) {
+    const fw_effect_entry *entry = inertia_of(ledger);
+    char text[32];
+    if (!entry || entry->bound < accuracy) return;
+    fw_number_text(text, sizeof text, 100 * entry->bound, 2);
+    fw_diag_warning(diags, 254, scene->place,
+                    "scene %s is a row of equilibria, because inertia is not among the effects "
+                    "asked for: deflections may be wrong by %s%s",
+                    scene->name ? scene->name : "(unnamed)",
+                    isinf(entry->bound) ? "any amount" : text,
+                    isinf(entry->bound) ? "; --effects all or auto knows better" : " %");
+}
+
+fw_status fw_move_scene(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                        const fw_motion_options *options, fw_diags *diags,
+                        const fw_motion **motion) {
+    fw_terms terms;
+    fw_effect_ledger ledger;
+    double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
+    *motion = NULL;
+    FW_TRY(fw_check_request(mechanism, scene, options, diags));
+    FW_TRY(fw_effects_compile(arena, mechanism, scene, &options->effects, accuracy, diags, &ledger,
+                              &terms));
+    if (terms.quasi_static) {
+        const char *why = integration_asked_for(options);
+        if (!why) {
+            fw_diags own = fw_diags_new(arena);
+            fw_status status = fw_row_of_equilibria(arena, mechanism, scene, options, &ledger,
+                                                    &terms, &own, motion, &why);
+            if (status != FW_SOLVER) {
+                take_messages(&own, diags);
+                if (status == FW_OK && options->effects.mode != FW_EFFECTS_AUTO)
+                    say_cost(scene, &ledger, accuracy, diags);
+                return diags->failed ? FW_NOMEM : status;
+            }
+            if (options->effects.mode != FW_EFFECTS_AUTO)
+                fw_diag_warning(diags, 254, scene->place,
+                                "scene %s cannot do without inertia, though it was not among the "
+                                "effects asked for: %s",
+                                scene->name ? scene->name : "(unnamed)", why);
+        }
+        keep_inertia(&ledger, &terms, why);
+    }
+    return fw_simulate_compiled(arena, mechanism, scene, options, &ledger, &terms, diags, motion);
+}

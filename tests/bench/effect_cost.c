@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One right-hand side of a scene again and again, for instruction counts (tests/build/effects.py):
+
+     valgrind --tool=callgrind --toggle-collect=measured ./effect_cost FILE SCENE COUNT [options]
+
+   --off ID       as if the scene did not call for this effect
+   --general      the code for all joints and effects, even where the fast kernel would do
+   --stir SIZE    how far the state is from the assembled pose, scaled; default 0.01
+   ./effect_cost --list   the effects of this build: id, kept or not, instructions as stated */
+#include "effects/effect.h"
+#include "layout/layout.h"
+#include "multibody/model.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct request {
+    const char *file, *scene, *off;
+    long count;
+    bool general;
+    double stir;
+} request;
+
+static void fail(const char *what) {
+    fprintf(stderr, "effect_cost: %s\n", what);
+    exit(1);
+}
+
+static void need(fw_status status, const fw_diags *diags, const char *what) {
+    if (status == FW_OK) return;
+    for (size_t i = 0; i < diags->count; i++)
+        fprintf(stderr, "%s\n", diags->item[i].message);
+    fail(what);
+}
+
+static char *read_all(fw_arena *arena, const char *name, size_t *n) {
+    FILE *file = fopen(name, "rb");
+    size_t room = (size_t)1 << 20;
+    char *text = fw_arena_array(arena, char, room);
+    if (!file || !text) fail(name);
+    *n = fread(text, 1, room - 1, file);
+    fclose(file);
+    return text;
+}
+
+/* the material of the description, at 50 um where it states no thickness */
+static fw_variant variant_of(fw_arena *arena, const fw_device *d, fw_diags *diags) {
+    fw_variant v = {.thickness_m = 1,
+                    .explicit_mass_scale = 1,
+                    .explicit_stiffness_scale = 1,
+                    .explicit_damping_scale = 1};
+    fw_materials all;
+    size_t n;
+    if (!d->material_ref) return v;
+    const char *file = FW_SOURCE_DATA_DIR "/processes/base.xml", *xml = read_all(arena, file, &n);
+    need(fw_materials_read(arena, file, xml, n, diags, &all), diags, file);
+    const fw_material *found = fw_material_find(&all, d->material_ref);
+    if (!found) fail("unknown material");
+    v.material = fw_material_with(found, &d->material);
+    v.thickness_m = isnan(d->thickness_m) ? 50e-6 : d->thickness_m;
+    return v;
+}
+
+static const fw_mechanism *mechanism_of(fw_arena *arena, const fw_device *d, fw_diags *diags) {
+    const fw_layout *layout = NULL;
+    const fw_mechanism *m = NULL;
+    fw_variant *variant = fw_arena_one(arena, fw_variant);
+    if (!variant) fail("memory");
+    *variant = variant_of(arena, d, diags);
+    fw_diags drawing = fw_diags_new(arena);
+    if (fw_layout_build(arena, d, &drawing, &layout) != FW_OK) layout = NULL;
+    need(fw_mechanism_build(arena, d, layout, variant, diags, &m), diags, "mechanism");
+    return m;
+}
+
+/* all that the scene calls for, but for one effect; says what that is */
+static void compile(const fw_effect_case *c, const char *off, fw_terms *terms) {
+    size_t count;
+    const fw_effect_row *const *row = fw_effect_rows(&count);
+    if (fw_terms_new(c->arena, c->mechanism, c->scene, terms) != FW_OK) fail("memory");
+    for (size_t i = 0; i < count; i++) {
+        if (!row[i]->called_for(c)) continue;
+        printf("calls %s %d\n", row[i]->id, row[i]->count ? row[i]->count(c) : 1);
+        if (off && strcmp(row[i]->id, off) == 0) continue;
+        if (row[i]->add(c, terms) != FW_OK) fail(row[i]->id);
+    }
+}
+
+static fw_model *model_of(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                          const request *r, fw_diags *diags) {
+    const fw_effect_case c = {.arena = arena, .mechanism = mechanism, .scene = scene};
+    fw_terms *terms = fw_arena_one(arena, fw_terms);
+    double *q = fw_arena_array(arena, double, 3 * (size_t)mechanism->nbody);
+    fw_model *m = NULL;
+    if (!terms || !q) fail("memory");
+    compile(&c, r->off, terms);
+    for (int b = 0; b < mechanism->nbody; b++) {
+        const fw_mass *from = &mechanism->body[b];
+        q[3 * b] = from->x_m, q[3 * b + 1] = from->y_m, q[3 * b + 2] = from->phi_rad;
+    }
+    need(fw_model_new(arena, mechanism, terms, q, scene->duration_s, NULL, diags, &m), diags,
+         "model");
+    if (r->general) m->kernel = NULL;
+    m->piece = 0.4 * scene->duration_s;
+    return m;
+}
+
+void measured(fw_model *m, double t, const double *y, double *f, long count);
+__attribute__((noinline)) void measured(fw_model *m, double t, const double *y, double *f,
+                                        long count) {
+    for (long i = 0; i < count; i++)
+        fw_model_rhs(m, t, y, f);
+}
+
+static void run(fw_model *m, double t, const request *r, fw_arena *arena) {
+    double *y = fw_arena_array(arena, double, (size_t)m->ny), sum = 0;
+    double *f = fw_arena_array(arena, double, (size_t)m->ny);
+    uint64_t z = 5;
+    if (!y || !f) fail("memory");
+    for (int i = 0; i < 2 * m->nq; i++) {
+        z = z * 6364136223846793005u + 1442695040888963407u;
+        y[i] = r->stir * ((double)(z >> 11) * 0x1p-53 - 0.5);
+    }
+    fw_model_set_switches(m, 0, y);
+    measured(m, t / m->scale.time_s, y, f, r->count);
+    for (int i = 0; i < 2 * m->nq; i++)
+        sum += fabs(f[i]);
+    printf("kernel %s\nsum %.17g\n", m->kernel ? "yes" : "no", sum);
+}
+
+static int list(void) {
+    size_t count;
+    const fw_effect_row *const *row = fw_effect_rows(&count);
+    for (size_t i = 0; i < count; i++)
+        printf("%s %s %.9g\n", row[i]->id, row[i]->kept ? "kept" : "removable", row[i]->cost);
+    return 0;
+}
+
+static request request_of(int argc, char **argv) {
+    request r = {
+        .file = argv[1], .scene = argv[2], .count = strtol(argv[3], NULL, 10), .stir = 0.01};
+    for (int i = 4; i < argc; i++)
+        if (strcmp(argv[i], "--general") == 0)
+            r.general = true;
+        else if (strcmp(argv[i], "--off") == 0 && i + 1 < argc)
+            r.off = argv[++i];
+        else if (strcmp(argv[i], "--stir") == 0 && i + 1 < argc)
+            r.stir = strtod(argv[++i], NULL);
+        else
+            fail("unknown option");
+    return r;
+}
+
+int main(int argc, char **argv) {
+    if (argc == 2 && strcmp(argv[1], "--list") == 0) return list();
+    if (argc < 4) fail("FILE SCENE COUNT [--off ID] [--general] [--stir SIZE], or --list");
+    const request r = request_of(argc, argv);
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    const fw_device *device = NULL;
+    size_t n;
+    const char *xml = read_all(arena, r.file, &n);
+    need(fw_device_read(arena, r.file, xml, n, NULL, 0, &diags, &device), &diags, r.file);
+    const fw_mechanism *mechanism = mechanism_of(arena, device, &diags);
+    const fw_scene *scene = NULL;
+    for (int i = 0; i < device->nscene; i++)
+        if (strcmp(device->scene[i].name, r.scene) == 0) scene = &device->scene[i];
+    if (!scene) fail("no such scene");
+    fw_model *m = model_of(arena, mechanism, scene, &r, &diags);
+    run(m, 0.4 * scene->duration_s, &r, arena);
+    fw_arena_free(arena);
+    return 0;
+}
