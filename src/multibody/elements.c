@@ -245,3 +245,9 @@ const fw_force_element *fw_model_element_invalid(const fw_model *m, double t, co
     }
     return NULL;
 }
+
+double fw_model_element_pressing(const fw_model *m, int i, double t, const double *y) {
+    const fw_model_element *e = &m->element[i];
+    const fw_seen seen = look(m, e, t, y);
+    return e->own->class_->pressing(e->own, &seen) / fw_newton(m);
+}

@@ -60,28 +60,8 @@ static int index_of(const fw_model *m, int body) {
     return body == FW_GROUND ? m->nbody : body;
 }
 
-/* what it takes to look at contacts that press, in SI */
-static fw_status see(fw_arena *arena, const fw_model *m, const fw_terms *terms, const double *q,
-                     struct fw_frictions *s) {
-    size_t ports = 0, switches = 0, n = (size_t)m->nq;
-    for (int i = 0; i < s->n; i++) {
-        if (s->item[i].element == FW_NONE) continue;
-        const fw_force_element *e = &terms->element[s->item[i].element];
-        ports = (size_t)e->ports > ports ? (size_t)e->ports : ports;
-        switches = (size_t)e->switches > switches ? (size_t)e->switches : switches;
-    }
-    s->element = terms->element;
-    for (int c = 0; c < 2; c++)
-        s->shift_m[c] = q[c] - m->origin[c] * m->scale.length_m;
-    FW_NEED(s->place = fw_arena_array(arena, double, n));
-    FW_NEED(s->going = fw_arena_array(arena, double, n));
-    FW_NEED(s->seen = fw_arena_array(arena, double, 6 * ports));
-    FW_NEED(s->on = fw_arena_array(arena, bool, switches));
-    return FW_OK;
-}
-
 fw_status fw_friction_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_terms *terms,
-                          const double *q, fw_model *m) {
+                          fw_model *m) {
     struct fw_frictions *s = NULL;
     if (!terms || terms->nfriction == 0) return FW_OK;
     FW_NEED(s = fw_arena_one(arena, struct fw_frictions));
@@ -110,7 +90,7 @@ fw_status fw_friction_new(fw_arena *arena, const fw_mechanism *mechanism, const 
         s->item[i].b = index_of(m, t ? t->body_b : mechanism->pin[f->pin].body_b);
     }
     m->friction = s;
-    return see(arena, m, terms, q, s);
+    return FW_OK;
 }
 
 int fw_friction_count(const fw_model *m) {
@@ -218,25 +198,6 @@ static void presses(const fw_model *m, int i, const double *lambda, double rho[2
     rho[1] = own ? lambda[2 * f->block + 1] : 0;
 }
 
-/* the contact as it is at the state, scaled: what presses does not depend on T */
-static double contact(fw_model *m, int i, double t, const double *y) {
-    struct fw_frictions *s = m->friction;
-    const fw_force_element *e = &s->element[s->item[i].element];
-    const fw_scale unit = m->scale;
-    for (int c = 0; c < m->nq; c++) {
-        double size = c % 3 == 2 ? 1 : unit.length_m;
-        s->place[c] = (m->origin[c] + y[c]) * size + (c % 3 == 2 ? 0 : s->shift_m[c % 3]);
-        s->going[c] = y[m->nq + c] * size / unit.time_s;
-    }
-    double *p = s->seen, *w = p + 3 * e->ports;
-    const fw_seen seen = {t * unit.time_s, m->piece, 1, p, w, s->on};
-    fw_element_look(e, s->place, s->going, p, w);
-    for (int k = 0; k < e->switches; k++)
-        s->on[k] = e->class_->switch_value(e, &seen, k) > 0;
-    double newton = unit.mass_kg * unit.length_m / (unit.time_s * unit.time_s);
-    return e->class_->pressing(e, &seen) / newton;
-}
-
 double fw_friction_press(const fw_model *m, int i) {
     const struct fw_frictions *s = m->friction;
     const double *turn = s->turn + 2 * i * s->n;
@@ -260,7 +221,7 @@ void fw_friction_look(fw_model *m, double t, const double *y) {
         double gone = fw_friction_coordinate(m, i, y) - f->held;
         s->creep[i] = 2 * fw_beta * s->rate[i] + fw_beta * fw_beta * gone;
         s->push[i] = f->preload;
-        if (f->element != FW_NONE) s->push[i] += contact(m, i, t, y);
+        if (f->element != FW_NONE) s->push[i] += fw_model_element_pressing(m, f->element, t, y);
         for (int j = 0; j < s->n; j++)
             presses(m, i, s->react + (size_t)j * 2 * (size_t)m->nblock,
                     s->turn + 2 * (i * s->n + j));

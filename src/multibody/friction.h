@@ -44,11 +44,6 @@ struct fw_frictions {
     int *stuck, *moving, *pivot;     /* (n) */
     double *state;                   /* (ny) a derivative nobody reads */
     double speed;                    /* largest velocity seen: what round-off of a rate is */
-    const fw_force_element *element; /* of the terms: contacts that press */
-    double shift_m[2];               /* SI place less scaled place times the length */
-    double *place, *going;           /* (3 nbody) SI pose and velocities */
-    double *seen;                    /* (2 x 3 ports) */
-    bool *on;                        /* (switches) */
     int met, met_slip; /* entry whose flag no longer fitted, and that flag; -1: none */
     int jam;           /* entry without a (single) torque, or -1 */
     int tight;         /* entry next to a jam, or -1 */

@@ -347,7 +347,7 @@ fw_status fw_model_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_
     if (terms) FW_TRY(set_terms(&b));
     if (terms && terms->stretch.law) FW_TRY(fw_stretch_new(arena, &terms->stretch, b.centre, m));
     set_books(m, terms && terms->nfriction > 0);
-    FW_TRY(fw_friction_new(arena, mechanism, terms, q, m));
+    FW_TRY(fw_friction_new(arena, mechanism, terms, m));
     FW_NEED(m->stage = fw_arena_array(arena, double, (size_t)m->ny));
     FW_TRY(fw_chain_compile(arena, m));
     m->method = method ? method : fw_method_find(NULL);

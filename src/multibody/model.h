@@ -170,7 +170,7 @@ typedef struct fw_model {
     double held_s; /* statics: elements see their laws at this time; below 0: as time goes */
     bool special;  /* elements, released pins, friction or a stretching ground: no fast path */
     struct fw_frictions *friction; /* NULL: none */
-    double size;   /* largest |offset| + arms: round-off of Psi is eps times this */
+    double size;                   /* largest |offset| + arms: round-off of Psi is eps times this */
     fw_chain chain;
     const struct fw_method *method;
     void *work;               /* the method's */
@@ -306,6 +306,8 @@ double fw_model_element_energy(const fw_model *m, double t, const double *y, boo
 /* -dQ/du and -dQ/dv (nq x nq, may be NULL): += */
 void fw_model_element_tangent(const fw_model *m, double t, const double *y, double *stiffness,
                               double *damping);
+/* scaled force with which the surfaces of element i, a contact, press on each other */
+double fw_model_element_pressing(const fw_model *m, int i, double t, const double *y);
 /* the i-th switch of all elements: its element, and which one there */
 fw_model_element *fw_model_element_switch(const fw_model *m, int i, int *which);
 double fw_model_element_switch_value(const fw_model *m, const fw_model_element *e, double t, int i,
@@ -331,7 +333,7 @@ bool fw_model_impact(fw_model *m, double t,
 /* friction.c, stick.c: Coulomb friction of joints; where there is none they do nothing */
 /* q (3 nbody): the pose of u = 0, SI */
 fw_status fw_friction_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_terms *terms,
-                          const double *q, fw_model *m);
+                          fw_model *m);
 int fw_friction_count(const fw_model *m);
 void fw_friction_apply(fw_model *m, double t, const double *y); /* accel, lambda += what it does */
 double fw_friction_power(const fw_model *m);          /* taken away at the last evaluation */

@@ -49,10 +49,6 @@ static void counts_once(void **state) {
     rig_chain(&r, &use); /* joint-damping has nothing left to do */
     compile(&r);
     assert_false(fw_effect_joint_damping.called_for(&r.c));
-    double bound;
-    const char *why;
-    assert_int_equal(fw_effect_joint_damping.bound(&r.c, &bound, &why), FW_OK);
-    assert_near(bound, 0, 0);
     /* pins that are no flexures keep theirs */
     r.pin[1].hinge = FW_NONE;
     compile(&r);

@@ -196,10 +196,14 @@ static void laws_hold(void **state) {
     assert_true(refused < 12);
 }
 
-/* a contact presses: it sees its points where the bodies are, in SI, and its own switches */
+/* a contact presses: it sees its points as the model has them, and its switches as they are held */
+static void without_force(const fw_force_element *e, const fw_seen *s, double *f) {
+    (void)s;
+    memset(f, 0, 3 * (size_t)e->ports * sizeof *f);
+}
 static double by_place(const fw_force_element *e, const fw_seen *s) {
     (void)e;
-    return s->on[0] && !s->on[1] ? 2 + s->p[3] + 10 * s->p[4] - s->p[0] + s->w[4] : -1;
+    return s->on[0] && !s->on[1] ? 2 + s->p[3] - s->p[0] + 10 * (s->p[4] - s->p[1]) + s->w[4] : -1;
 }
 static double by_side(const fw_force_element *e, const fw_seen *s, int i) {
     (void)e, (void)s;
@@ -211,7 +215,7 @@ static void contact_presses(void **state) {
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
     const fw_element_class contact = {
-        .effect = "contact", .switch_value = by_side, .pressing = by_place};
+        .effect = "contact", .force = without_force, .switch_value = by_side, .pressing = by_place};
     rig r = rig_new(arena, 1, 1, 0);
     rig_body(&r, "rotor", 2, 0.5, 3, 4, 0);
     rig_pin(&r, "O", FW_GROUND, 0, 3, 4, 0, 0);
@@ -230,10 +234,12 @@ static void contact_presses(void **state) {
     assert_int_equal(fw_model_new(arena, &r.m, &terms, q, 3, NULL, &diags, &m), FW_OK);
     double y[8] = {0}, out[8];
     y[5] = omega * m->scale.time_s;
+    fw_model_set_switches(m, 0, y);
     fw_friction_begin(m);
     assert_true(fw_friction_decide(m, 0, y));
     fw_model_rhs(m, 0, y, out);
-    double n = 1 + 2 + 3.25 + 40 - 0.5 + 0.25 * omega; /* x + 10 y of port b, its upward speed */
+    /* x + 10 y from port a to port b, upward speed of b */
+    double n = 1 + 2 + 3.25 - 0.5 + 40 + 0.25 * omega;
     assert_near(out[5] / m->scale.time_s / m->scale.time_s, -0.3 * 0.1 * n / 0.5, 1e-12);
     fw_arena_free(arena);
 }
