@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "effects/modal.h"
+#include "maths/jacobi.h"
 #include "maths/lapack.h"
 #include <math.h>
 #include <string.h>
@@ -51,8 +52,7 @@ static fw_status solve(fw_arena *arena, fw_modal *o) {
     const fw_linear *s = &o->linear;
     int n = s->n, m = n - s->rows;
     size_t size = (size_t)n, total = (size_t)s->total;
-    double *reduced, *value, *product;
-    fw_lapack_space space;
+    double *reduced, *value, *product, *mix;
     FW_NEED(reduced = fw_arena_array(arena, double, (size_t)m *(size_t)m));
     FW_NEED(value = fw_arena_array(arena, double, (size_t)m));
     FW_NEED(product = fw_arena_array(arena, double, size));
@@ -75,8 +75,8 @@ static fw_status solve(fw_arena *arena, fw_modal *o) {
             reduced[(size_t)j * (size_t)m + (size_t)l] = sum;
         }
     }
-    FW_TRY(fw_eigen_space(arena, m, &space));
-    if (!fw_eigen(m, reduced, value, &space) || !(value[0] > 1e-12 * value[m - 1])) {
+    FW_NEED(mix = fw_arena_array(arena, double, (size_t)m *(size_t)m));
+    if (!fw_jacobi(m, reduced, value, mix) || !(value[0] > 1e-12 * value[m - 1])) {
         o->why_not = "it can move freely, or is not stable where it is drawn";
         return FW_OK;
     }
@@ -88,7 +88,7 @@ static fw_status solve(fw_arena *arena, fw_modal *o) {
         o->omega[j] = sqrt(value[j]);
         for (int l = 0; l < m; l++)
             for (size_t i = 0; i < size; i++)
-                to[i] += reduced[(size_t)j * (size_t)m + (size_t)l] * z[(size_t)l * size + i];
+                to[i] += mix[(size_t)j * (size_t)m + (size_t)l] * z[(size_t)l * size + i];
         for (int i = 0; i < n; i++)
             to[i] *= fw_linear_unit(s, i) / sqrt(o->inertia[i] * energy_unit(s));
     }
