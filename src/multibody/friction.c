@@ -72,7 +72,8 @@ fw_status fw_friction_new(fw_arena *arena, const fw_mechanism *mechanism, const 
     double newton = m->scale.mass_kg * m->scale.length_m / (m->scale.time_s * m->scale.time_s);
     for (int i = 0; i < s->n; i++) {
         const fw_friction *f = &terms->friction[i];
-        bool slides = f->pin == FW_NONE, gone = !slides && terms->released[f->pin];
+        bool slides = f->pin == FW_NONE, gone = false;
+        if (!slides && terms->released) gone = terms->released[f->pin];
         double arm = slides ? 1 : f->radius_m / m->scale.length_m;
         s->item[i] =
             (fw_model_friction){.block = slides ? m->tie_block[f->tie]

@@ -145,6 +145,8 @@ static void hinge_labels(const fw_device *device, const fw_layout *layout,
              : side < 0.0 ? fmax(tx, room)
                           : fmax(0.6 * room, fmin(view->width - 0.6 * room, tx));
         double ty = fmax(14.0, fmin(view->height - 8.0, y + away * dy + 4.0));
+        double bar = fw_report_scale_bar(view) * view->scale + 32.0; /* the scale bar's corner */
+        if (tx + room > view->width - bar) ty = fmin(ty, view->height - 42.0);
         double u = fw_report_joint_utilisation(verdict, j);
         fw_report_markup(out,
                          "<text x=\"{c}\" y=\"{c}\" font-size=\"13\" text-anchor=\"{r}\" "
@@ -184,7 +186,7 @@ fw_status fw_report_drawing(const fw_device *device, const fw_layout *layout,
     } else
         FW_TRY(schematic(device, verdict, view, ids, out));
     hinges(device, layout, verdict, view, out);
-    fw_report_actuators(device, layout, view, out);
+    fw_report_actuators_svg(device, layout, view, out);
     body_labels(device, layout, view, out);
     hinge_labels(device, layout, verdict, view, out);
     fw_report_scale_bar_svg(out, view);

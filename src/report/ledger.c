@@ -4,28 +4,34 @@
 #include "report/page.h"
 #include <math.h>
 
-static void effect_rows(fw_text *out, const char *flow, const char *scene,
-                        const fw_effect_ledger *ledger) {
-    for (int i = 0; i < ledger->count; i++) {
-        const fw_effect_entry *e = &ledger->item[i];
-        fw_report_markup(out,
-                         "<tr><th scope=\"row\">{s}</th><td>{s}</td><td>{s}</td><td>{r}</td>"
-                         "<td class=\"n\">",
-                         e->id, scene, flow, e->active ? "<strong>active</strong>" : "left out");
-        if (isinf(e->bound))
-            fw_text_add(out, "none");
-        else
-            fw_report_markup(out, "{p}", e->bound);
-        fw_text_add(out, "</td><td class=\"n\">");
-        if (e->cost > 0)
-            fw_report_markup(out, "{n}", e->cost);
-        else
-            fw_text_add(out, "\u2013");
-        fw_report_markup(out, "</td><td>{s}</td></tr>\n", e->reason);
-    }
+static void effect_row(fw_text *out, const fw_effect_entry *e) {
+    fw_report_markup(out, "<tr><th scope=\"row\">{s}</th><td>{r}</td><td class=\"n\">", e->id,
+                     e->active ? "<strong>active</strong>" : "left out");
+    if (isinf(e->bound))
+        fw_text_add(out, "none");
+    else
+        fw_report_markup(out, "{p}", e->bound);
+    fw_text_add(out, "</td><td class=\"n\">");
+    if (e->cost > 0)
+        fw_report_markup(out, "{n}", e->cost);
+    else
+        fw_text_add(out, "\u2013");
+    fw_report_markup(out, "</td><td>{s}</td></tr>\n", e->reason);
 }
 
-typedef void (*motion_rows)(fw_text *out, const char *flow, const char *scene,
+static void not_called_for(fw_text *out, const fw_effect_ledger *ledger) {
+    bool any = false;
+    for (int i = 0; i < ledger->count; i++) {
+        if (ledger->item[i].called_for) continue;
+        fw_report_markup(out,
+                         any ? ", {s}" : "<tr><td class=\"soft\" colspan=\"5\">Not called for: {s}",
+                         ledger->item[i].id);
+        any = true;
+    }
+    if (any) fw_text_add(out, "</td></tr>\n");
+}
+
+typedef void (*motion_rows)(fw_text *out, const char *flow, const char *scene, double wanted,
                             const fw_motion *motion);
 
 static void each_motion(fw_page *page, motion_rows rows) {
@@ -34,44 +40,102 @@ static void each_motion(fw_page *page, motion_rows rows) {
         const fw_variant_verdict *v = &verdict->variant[i];
         const char *flow = v->variant && v->variant->flow ? v->variant->flow : "\u2013";
         for (int k = 0; v->motion && k < page->in->device->nscene; k++)
-            if (v->motion[k]) rows(page->out, flow, page->in->device->scene[k].name, v->motion[k]);
+            if (v->motion[k])
+                rows(page->out, flow, page->in->device->scene[k].name, verdict->accuracy_wanted,
+                     v->motion[k]);
     }
 }
 
-static void effects_of(fw_text *out, const char *flow, const char *scene, const fw_motion *motion) {
-    effect_rows(out, flow, scene, &motion->ledger);
+/* of one scene in one flow: what it calls for, then in one line what it does not */
+static void effects_of(fw_text *out, const char *flow, const char *scene, double wanted,
+                       const fw_motion *motion) {
+    const fw_effect_ledger *ledger = &motion->ledger;
+    fw_report_markup(out,
+                     "<tbody><tr><th scope=\"rowgroup\" colspan=\"5\">{s} <span class=\"soft\">"
+                     "({s})</span></th></tr>\n",
+                     scene, flow);
+    for (int i = 0; i < ledger->count; i++)
+        if (ledger->item[i].called_for) effect_row(out, &ledger->item[i]);
+    not_called_for(out, ledger);
+    fw_report_markup(out,
+                     "<tr><td class=\"soft\" colspan=\"5\">Sum of the bounds of what is left out: "
+                     "{e}, accuracy wanted: {e}</td></tr></tbody>\n",
+                     ledger->left_out, wanted);
 }
 
-static void sum_of(fw_text *out, const char *flow, const char *scene, const fw_motion *motion) {
-    if (!(motion->ledger.left_out > 0)) return;
-    fw_report_markup(out, "<li>{s}, {s}: {e}</li>\n", scene, flow, motion->ledger.left_out);
+/* ---- pull-in ---- */
+
+static void pull_in_row(fw_text *out, const char *flow, const char *scene, const fw_pull_in *p) {
+    static const char *const what[] = {[FW_PULL_IN_NONE] = "none found",
+                                       [FW_PULL_IN_FOLD] = "fold: snaps along the drive",
+                                       [FW_PULL_IN_SIDE] = "side: moves aside between the fingers",
+                                       [FW_PULL_IN_TILT] = "tilt: turns between the fingers"};
+    bool none = p->kind == FW_PULL_IN_NONE;
+    fw_report_markup(out,
+                     "<tr{r}><th scope=\"row\">{s}</th><td>{s}</td><td>{s}</td><td class=\"n\">",
+                     !none && p->margin < 1 ? " class=\"bad\"" : "", scene, flow, p->comb);
+    if (none && isinf(p->voltage_V))
+        fw_text_add(out, "none");
+    else
+        fw_report_markup(out, "{r}{u}", none ? "above " : "", p->voltage_V, "V");
+    fw_report_markup(out, "</td><td>{r}", what[p->kind]);
+    if (none && p->why) fw_report_markup(out, " ({s})", p->why);
+    fw_report_markup(out, "</td><td class=\"n\">{u}</td><td class=\"n\">", p->largest_V, "V");
+    if (isfinite(p->margin))
+        fw_report_markup(out, "{n}", p->margin);
+    else
+        fw_text_add(out, "\u2013");
+    fw_report_markup(out, "</td><td class=\"n\">{p}</td></tr>\n", p->fringe);
+}
+
+static void pull_ins(fw_page *page) {
+    const fw_verdict *verdict = page->in->verdict;
+    fw_text *out = page->out;
+    bool any = false;
+    for (int i = 0; i < verdict->nvariant; i++) {
+        const fw_variant_verdict *v = &verdict->variant[i];
+        const char *flow = v->variant && v->variant->flow ? v->variant->flow : "\u2013";
+        for (int k = 0; v->pull_in && k < page->in->device->nscene; k++) {
+            if (!v->pull_in[k]) continue;
+            if (!any)
+                fw_text_add(
+                    out, "<div class=\"wide\"><table><caption>Pull-in: the voltage at which a comb "
+                         "drive loses its equilibrium when all drives of the scene grow together, "
+                         "slowly; one that is put on at once does so earlier. Margin: that over "
+                         "the largest voltage of the scene. Fringe fields, which are not counted, "
+                         "lower it by about half of their share.</caption><thead><tr><th "
+                         "scope=\"col\">Scene</th><th scope=\"col\">Flow</th><th scope=\"col\">"
+                         "Comb</th><th scope=\"col\" class=\"n\">Pull-in</th><th scope=\"col\">"
+                         "Kind</th><th scope=\"col\" class=\"n\">Scene asks for</th><th "
+                         "scope=\"col\" class=\"n\">Margin</th><th scope=\"col\" class=\"n\">"
+                         "Fringe</th></tr></thead><tbody>\n");
+            any = true;
+            pull_in_row(out, flow, page->in->device->scene[k].name, v->pull_in[k]);
+        }
+    }
+    if (any) fw_text_add(out, "</tbody></table></div>\n");
 }
 
 fw_status fw_report_section_effects(fw_page *page) {
     fw_text_add(
         page->out,
         "<p>An effect is simulated when the scene calls for it; those with the smallest bounds are "
-        "left out as long as the sum of their bounds stays below the accuracy wanted.</p>\n<div "
-        "class=\"wide\"><table><caption>Ledger of effects. Bound: the most that leaving it out "
-        "changes the peak hinge deflection; none: it is the motion itself, or nothing bounds it. "
-        "Cost: instructions per evaluation of the forces.</caption><thead><tr><th "
-        "scope=\"col\">Effect</th><th scope=\"col\">Scene</th><th scope=\"col\">Flow</th>"
-        "<th scope=\"col\">State</th><th scope=\"col\" class=\"n\">Bound</th>"
-        "<th scope=\"col\" class=\"n\">Cost</th><th scope=\"col\">Reason</th></tr></thead>"
-        "<tbody>\n");
+        "left out as long as the sum of their bounds stays below the accuracy wanted. That sum is "
+        "part of the angles' errors.</p>\n<div class=\"wide\"><table><caption>Ledger of effects. "
+        "Bound: the most that leaving it out changes the peak hinge deflection; none: it is the "
+        "motion itself, or nothing bounds it. Cost: instructions per evaluation of the forces."
+        "</caption><thead><tr><th scope=\"col\">Effect</th><th scope=\"col\">State</th><th "
+        "scope=\"col\" class=\"n\">Bound</th><th scope=\"col\" class=\"n\">Cost</th><th "
+        "scope=\"col\">Reason</th></tr></thead>\n");
     each_motion(page, effects_of);
-    fw_report_markup(page->out,
-                     "</tbody></table></div>\n<p>What was left out in sum, where the accuracy "
-                     "wanted is {e}; it is part of the angles' errors:</p>\n<ul class=\"plain\">\n",
-                     page->in->verdict->accuracy_wanted);
-    each_motion(page, sum_of);
-    fw_text_add(page->out,
-                "<li class=\"soft\">Scenes that are not listed leave out nothing that has a "
-                "bound above 0.</li>\n</ul>\n");
+    fw_text_add(page->out, "</table></div>\n");
+    pull_ins(page);
     return fw_text_end(page->out);
 }
 
-static void stats_of(fw_text *out, const char *flow, const char *scene, const fw_motion *motion) {
+static void stats_of(fw_text *out, const char *flow, const char *scene, double wanted,
+                     const fw_motion *motion) {
+    (void)wanted;
     const fw_motion_stats *s = &motion->stats;
     fw_report_markup(
         out,
@@ -83,7 +147,9 @@ static void stats_of(fw_text *out, const char *flow, const char *scene, const fw
         s->projections, s->max_constraint_norm, s->max_velocity_norm, s->energy_error);
 }
 
-static void reason_of(fw_text *out, const char *flow, const char *scene, const fw_motion *motion) {
+static void reason_of(fw_text *out, const char *flow, const char *scene, double wanted,
+                      const fw_motion *motion) {
+    (void)wanted;
     if (motion->reason && motion->reason[0])
         fw_report_markup(out, "<li>{s}, {s}: {s}</li>\n", scene, flow, motion->reason);
 }

@@ -148,10 +148,22 @@ void fw_report_body_path(const fw_layout *layout, int body, const fw_report_view
 double fw_report_joint_utilisation(const fw_verdict *verdict, int joint); /* NaN: none */
 
 /* ---- actuators.c ---- */
+typedef struct fw_report_canvas { /* where shapes are drawn; coordinates of the picture */
+    /* through n points xy (2 n), closed and filled where `fill` is not NULL */
+    void (*path)(void *to, const double *xy, int n, const char *fill, const char *ink, double width,
+                 bool dashed);
+    void (*circle)(void *to, double x, double y, double r, const char *fill, const char *ink,
+                   double width);
+    void (*label)(void *to, double x, double y, const char *text); /* NULL: without names */
+    void *to;
+    double px; /* what a pixel of the usual picture of 640 is here */
+} fw_report_canvas;
 /* tendons and electrodes of all scenes, over the drawing */
 void fw_report_actuators(const fw_device *device, const fw_layout *layout,
-                         const fw_report_view *view, fw_text *out);
-/* adds where tendons lead */
+                         const fw_report_view *view, const fw_report_canvas *canvas);
+void fw_report_actuators_svg(const fw_device *device, const fw_layout *layout,
+                             const fw_report_view *view, fw_text *out);
+/* adds where tendons and electrodes lead */
 void fw_report_actuators_reach(const fw_device *device, const fw_layout *layout, fw_box *box);
 
 /* ---- sections of the page ---- */

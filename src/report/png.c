@@ -94,6 +94,36 @@ static void points(cairo_t *c, const fw_device *device, const fw_layout *layout,
     }
 }
 
+static void png_path(void *to, const double *xy, int n, const char *inside, const char *ink,
+                     double width, bool dashed) {
+    cairo_t *c = to;
+    for (int i = 0; i < n; i++)
+        (i ? cairo_line_to : cairo_move_to)(c, xy[2 * i], xy[2 * i + 1]);
+    if (inside) {
+        cairo_close_path(c);
+        paint(c, inside);
+        cairo_fill_preserve(c);
+    }
+    paint(c, ink);
+    cairo_set_line_width(c, width);
+    cairo_set_line_cap(c, CAIRO_LINE_CAP_BUTT);
+    const double dash[] = {3.75 * width, 1.875 * width};
+    cairo_set_dash(c, dash, dashed ? 2 : 0, 0.0);
+    if (width > 0.0)
+        cairo_stroke(c);
+    else
+        cairo_new_path(c);
+    cairo_set_dash(c, dash, 0, 0.0);
+}
+
+static void png_circle(void *to, double x, double y, double r, const char *inside, const char *ink,
+                       double width) {
+    cairo_t *c = to;
+    cairo_new_sub_path(c);
+    cairo_arc(c, x, y, r, 0.0, 6.283185307179586);
+    fill(c, inside, ink, width);
+}
+
 static cairo_status_t collect(void *closure, const unsigned char *data, unsigned int length) {
     fw_text *out = closure;
     fw_text_bytes(out, data, length);
@@ -117,6 +147,8 @@ fw_status fw_report_device_png(fw_arena *arena, const fw_device *device, const f
     else
         sticks(c, device, &view, px);
     points(c, device, layout, verdict, &view, px);
+    const fw_report_canvas canvas = {.path = png_path, .circle = png_circle, .to = c, .px = px};
+    fw_report_actuators(device, layout, &view, &canvas);
     cairo_status_t drawn = cairo_status(c);
     cairo_destroy(c);
     cairo_surface_flush(surface);

@@ -104,6 +104,27 @@ static fw_box rest_box(const fw_device *device, const fw_layout *layout) {
     return box;
 }
 
+/* what moves, as drawn, and where the names of hinges stand: beside the circle that each keeps free
+ */
+static void add_outlines(const fw_device *device, const fw_layout *layout, double label_m,
+                         fw_box *box) {
+    if (!fw_report_drawn(layout)) return;
+    for (int i = 0; i < layout->npiece; i++) {
+        const fw_piece *p = &layout->piece[i];
+        if (p->role != FW_ROLE_STRUCTURE || p->body < 0) continue;
+        fw_box b = fw_contour_box(&p->contour);
+        fw_report_box_add(box, b.x0 - 0.2 * label_m, b.y0 - 0.2 * label_m);
+        fw_report_box_add(box, b.x1 + 0.2 * label_m, b.y1 + 0.2 * label_m);
+    }
+    for (int j = 0; layout->hinge && j < device->njoint; j++) {
+        if (!layout->hinge[j].drawn || !isfinite(layout->hinge[j].keep_out_m)) continue;
+        fw_vec2 p = layout->hinge[j].centre;
+        double x = layout->hinge[j].keep_out_m + label_m;
+        fw_report_box_add(box, p.x - x, p.y);
+        fw_report_box_add(box, p.x + x, p.y);
+    }
+}
+
 /* hinge points, centres of the bodies, and room for links around them, less where they only pass;
    tethers, which reach to the frame, run out of the picture */
 fw_report_view fw_report_device_view(const fw_device *device, const fw_layout *layout,
@@ -113,6 +134,7 @@ fw_report_view fw_report_device_view(const fw_device *device, const fw_layout *l
     if (!isfinite(size) || !(size > 0.0)) return fw_report_view_fit(box, width, 0.0);
     double pad = 0.2 * size, less = 0.1 * size;
     box = (fw_box){box.x0 - pad, box.y0 - pad, box.x1 + pad, box.y1 + pad};
+    add_outlines(device, layout, 0.18 * size, &box);
     fw_box led = fw_report_box_empty();
     fw_report_actuators_reach(device, layout, &led);
     if (led.x1 >= led.x0) {

@@ -69,6 +69,24 @@ static void flow(fw_text *out, const fw_report_flow *rf, int detail) {
     fw_text_printf(out, " h; %d steps not computable\n", f->not_computable);
 }
 
+static void pull_ins(fw_text *out, const fw_report_input *in) {
+    const fw_verdict *v = in->verdict;
+    for (int i = 0; i < v->nvariant; i++)
+        for (int k = 0; v->variant[i].pull_in && k < in->device->nscene; k++) {
+            const fw_pull_in *p = v->variant[i].pull_in[k];
+            if (!p || p->kind == FW_PULL_IN_NONE) continue;
+            const fw_variant *variant = v->variant[i].variant;
+            fw_text_printf(out, "\npull-in in %s", in->device->scene[k].name);
+            if (variant && variant->flow) fw_text_printf(out, " (%s)", variant->flow);
+            fw_text_printf(out, ": comb drive %s at ", p->comb);
+            fw_text_number(out, p->voltage_V, 4);
+            fw_text_printf(out, " V (%s); the scene asks for up to ",
+                           fw_pull_in_kind_text(p->kind));
+            fw_text_number(out, p->largest_V, 4);
+            fw_text_add(out, " V\n");
+        }
+}
+
 static void advice(fw_text *out, const fw_verdict *v) {
     if (v->nadvice == 0 && !v->advice_note) return;
     fw_text_add(out, "\nwhat to change:\n");
@@ -87,6 +105,7 @@ fw_status fw_report_verdict_text(const fw_report_input *input, fw_terminal_style
                    word[v->decision], style.colour ? "\033[0m" : "");
     if (v->governing != FW_NONE) governing(out, &v->hinge[v->governing]);
     if (style.detail >= 0) hinges(out, v);
+    if (style.detail >= 0) pull_ins(out, input);
     advice(out, v);
     for (int i = 0; style.detail >= 0 && v->decision != FW_REJECT && i < input->nflow; i++)
         if (input->flow[i].flow) flow(out, &input->flow[i], style.detail);
@@ -196,6 +215,30 @@ static void peaks(const fw_mechanism *m, const fw_motion *motion, fw_magnitude t
     tie_peaks(m, motion, time, force, out);
 }
 
+/* what the scene calls for, line by line; the rest in one */
+static void ledger(fw_text *out, const fw_effect_ledger *l) {
+    fw_text_add(out, "\n  effect             active  cost    why\n");
+    for (int i = 0; i < l->count; i++) {
+        const fw_effect_entry *e = &l->item[i];
+        if (!e->called_for) continue;
+        fw_text_printf(out, "  %-18s %-6s  ", e->id, e->active ? "yes" : "no");
+        if (e->cost > 0)
+            fw_text_real(out, "%-6.0f  ", e->cost);
+        else
+            fw_text_add(out, "-       ");
+        fw_text_printf(out, "%s\n", e->reason);
+    }
+    bool any = false;
+    for (int i = 0; i < l->count; i++) {
+        if (l->item[i].called_for) continue;
+        fw_text_printf(out, any ? ", %s" : "  not called for: %s", l->item[i].id);
+        any = true;
+    }
+    if (any) fw_text_add(out, "\n");
+    if (l->left_out > 0)
+        fw_text_real(out, "  sum of the bounds of what is left out: %.2g\n", l->left_out);
+}
+
 fw_status fw_report_simulate_text(const fw_scene *scene, const fw_mechanism *m,
                                   const fw_motion *motion, fw_text *out) {
     fw_text_printf(out, "scene %s over ", scene->name);
@@ -208,18 +251,6 @@ fw_status fw_report_simulate_text(const fw_scene *scene, const fw_mechanism *m,
     if (motion->method_report) fw_text_printf(out, "%s\n", motion->method_report);
     statistics(out, &motion->stats);
     peaks(m, motion, time, out);
-    fw_text_add(out, "\n  effect             active  cost    why\n");
-    for (int i = 0; i < motion->ledger.count; i++) {
-        const fw_effect_entry *e = &motion->ledger.item[i];
-        fw_text_printf(out, "  %-18s %-6s  ", e->id, e->active ? "yes" : "no");
-        if (e->cost > 0)
-            fw_text_real(out, "%-6.0f  ", e->cost);
-        else
-            fw_text_add(out, "-       ");
-        fw_text_printf(out, "%s\n", e->reason);
-    }
-    if (motion->ledger.left_out > 0)
-        fw_text_real(out, "  sum of the bounds of what is left out: %.2g\n",
-                     motion->ledger.left_out);
+    ledger(out, &motion->ledger);
     return fw_text_end(out);
 }

@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# gallery.sh PROGRAM [--update]: the committed masks, recipes, drawings and verdicts of the gallery are
-# what the program makes today, byte for byte (verdicts: the words and the percentages that it prints).
+# gallery.sh PROGRAM [--update]: the committed masks, recipes, drawings, verdicts and ledgers of effects
+# of the gallery are what the program makes today, byte for byte (verdicts: the words and the percentages
+# that it prints; ledgers: the table of simulate for every scene).
 set -eu
 program=$1
 update=${2:-}
@@ -24,6 +25,11 @@ for device in docs/gallery/*/device.xml; do
     sed '/^results:/d' "$work/$name.all" >"$work/$name.txt"
     keep "$work/$name.txt" "docs/gallery/$name/verdict.txt"
     keep "$work/$name/device.svg" "docs/gallery/$name/device.svg"
+    sed -n 's/.*<scene name="\([^"]*\)".*/\1/p' "$device" | while read -r scene; do
+        echo "scene $scene"
+        "$program" simulate "$device" --scene "$scene" 2>/dev/null | sed -n '/^  effect  /,$p'
+    done >"$work/$name.ledger"
+    keep "$work/$name.ledger" "docs/gallery/$name/ledger.txt"
     for file in "$work/$name"/masks/*.gds "$work/$name"/masks/*.svg "$work/$name"/masks/*.lyp; do
         [ -f "$file" ] && keep "$file" "masks/gallery/$name/$(basename "$file")"
     done

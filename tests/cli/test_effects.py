@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every scene of tests/data/effects runs in simulate and statics, with the effects that it is about."""
+import json
+import re
+import unittest
+
+from common import ROOT, run
+
+EXAMPLES = ROOT / "tests/data/effects"
+ABOUT = {
+    ("tendons", "pulled"): {"tendon"},
+    ("tendons", "drawn"): {"tendon"},
+    ("comb", "drive"): {"comb-drive", "air", "material-damping"},
+    ("comb", "oscillate"): {"comb-drive", "material-damping"},
+    ("comb", "pull-back"): {"comb-drive", "joint-damping"},
+    ("shaken", "shock"): {"base-motion", "gravity", "air"},
+    ("shaken", "vibration"): {"base-motion", "air"},
+    ("shaken", "warm"): {"temperature", "residual-stress", "applied-load"},
+    ("shaken", "cold"): {"temperature"},
+    ("rubbing", "pressed"): {"contact", "friction", "nonlinear-hinge"},
+    ("rubbing", "slipping"): {"friction", "gravity"},
+    ("rubbing", "bumping"): {"contact"},
+}
+BEYOND = ("comb", "pull-in")
+
+
+def example(name):
+    return EXAMPLES / f"{name}.xml"
+
+
+class Effects(unittest.TestCase):
+    def result(self, done):
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(done.stdout)
+
+    def test_every_scene_is_here(self):
+        found = {(f.stem, scene) for f in EXAMPLES.glob("*.xml")
+                 for scene in re.findall(r'<scene name="([^"]+)"', f.read_text())}
+        self.assertEqual(found, set(ABOUT) | {BEYOND})
+
+    def test_simulate(self):
+        for (name, scene), about in ABOUT.items():
+            with self.subTest(device=name, scene=scene):
+                r = self.result(run("simulate", example(name), "--scene", scene, "--json"))
+                self.assertLess(r["stats"]["energy_error"], 1e-3)
+                ledger = {e["id"]: e for e in r["effects"]}
+                self.assertEqual(len(ledger), 18)
+                self.assertEqual({i for i in about if ledger[i]["active"] and ledger[i]["called_for"]}, about)
+                self.assertTrue(any(p["angle_rad"] != 0 for p in r["peaks"]))
+
+    def test_statics(self):
+        for name, scene in ABOUT:
+            with self.subTest(device=name, scene=scene):
+                r = self.result(run("statics", example(name), "--scene", scene, "--json"))
+                for entry in r["pull_in"]:
+                    self.assertGreater(entry["margin"], 2)
+
+    def test_pull_in(self):
+        name, scene = BEYOND
+        done = run("simulate", example(name), "--scene", scene, "--json")
+        self.assertEqual(done.returncode, 7)
+        self.assertIn("FW-D242", done.stderr)
+        self.assertIn("FW-D248", done.stderr)
+        text = run("statics", example(name), "--scene", scene).stderr
+        self.assertIn("FW-D248", text)
+
+    def test_table_groups_what_is_not_called_for(self):
+        text = run("simulate", example("tendons"), "--scene", "pulled").stdout
+        table = text[text.index("  effect "):].splitlines()
+        self.assertTrue(table[-1].startswith("  not called for: ") or table[-2].startswith("  not called for: "))
+        self.assertFalse([line for line in table if "not called for by the scene" in line])
+        self.assertIn("friction", [line for line in table if line.startswith("  not called for: ")][0])
+        self.assertIn("  tendon             yes", text)
+
+
+if __name__ == "__main__":
+    unittest.main()

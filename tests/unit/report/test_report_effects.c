@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a reader sees of effects: ledger and pull-in in the page and in the terminal, actuators in
+   the drawing and in the preview. */
+#include "test.h"
+#include "report/fixture.h"
+#include "report/terminal.h"
+
+typedef struct whole { /* with fewer allocations than matter */
+    fw_arena *arena;
+    fixture *f;
+} whole;
+
+static whole whole_new(void) {
+    fw_arena *arena = fw_arena_new(0);
+    return (whole){arena, fixture_new(arena, 0.3)};
+}
+
+static char *page_of(const whole *w) {
+    fw_text out = fw_text_new(w->arena);
+    assert_int_equal(fw_report_write_html(w->arena, &w->f->input, &out), FW_OK);
+    return out.data;
+}
+
+static int times(const char *text, const char *what) {
+    int n = 0;
+    for (const char *at = text; (at = strstr(at, what)); at += strlen(what))
+        n++;
+    return n;
+}
+
+/* `first` stands before `second` in the text */
+static void assert_order(const char *text, const char *first, const char *second) {
+    const char *a = strstr(text, first), *b = a ? strstr(a, second) : NULL;
+    if (!b) fail_msg("%s does not stand before %s", first, second);
+}
+
+static fw_motion *motion_of(const whole *w) {
+    return (fw_motion *)(uintptr_t)w->f->variant_verdict[0].motion[0];
+}
+
+static void ledger_on_the_page(void **state) {
+    (void)state;
+    whole w = whole_new();
+    fw_effect_ledger *l = &motion_of(&w)->ledger;
+    l->item[2].active = false, l->left_out = 2.5e-4;
+    fw_effect_entry swap = l->item[0]; /* what is not called for comes first in the ledger */
+    l->item[0] = l->item[3], l->item[3] = swap;
+    w.f->verdict.accuracy_wanted = 1e-3;
+    const char *section = strstr(page_of(&w), "Ledger of effects");
+    assert_non_null(section);
+    assert_order(section, ">applied-load<", "Not called for: gravity");
+    assert_order(section, ">joint-damping</th><td>left out<", "Not called for: gravity");
+    assert_order(section, "0.00025", "accuracy wanted: 0.001");
+    assert_null(strstr(section, "<th scope=\"row\">gravity"));
+    assert_null(strstr(section, "Pull-in")); /* no comb drive */
+    fw_arena_free(w.arena);
+}
+
+static void pull_in_on_the_page(void **state) {
+    (void)state;
+    whole w = whole_new();
+    static const fw_pull_in beyond = {.kind = FW_PULL_IN_SIDE,
+                                      .comb = "right<",
+                                      .voltage_V = 31.25,
+                                      .largest_V = 40,
+                                      .margin = 0.78125,
+                                      .fringe = 0.16},
+                            never = {.kind = FW_PULL_IN_NONE,
+                                     .comb = "left",
+                                     .voltage_V = HUGE_VAL,
+                                     .largest_V = 5,
+                                     .margin = HUGE_VAL,
+                                     .why = "nothing moves"};
+    static const fw_pull_in *list[2] = {&beyond, &never};
+    w.f->variant_verdict[0].pull_in = list;
+    const char *section = strstr(page_of(&w), "Pull-in");
+    assert_non_null(section);
+    assert_order(section, "class=\"bad\"><th scope=\"row\">step-load", "right&lt;");
+    assert_order(section, "31.25", "side: moves aside between the fingers");
+    assert_order(section, ">40", "0.781");
+    assert_order(section, "gentle-step", "none found (nothing moves)");
+    fw_text out = fw_text_new(w.arena);
+    const fw_terminal_style style = {0};
+    assert_int_equal(fw_report_verdict_text(&w.f->input, style, &out), FW_OK);
+    assert_non_null(
+        strstr(out.data, "comb drive right< at 31.25 V (side); the scene asks for up to 40 V"));
+    assert_int_equal(times(out.data, "pull-in in"), 1);
+    fw_arena_free(w.arena);
+}
+
+static void ledger_in_the_terminal(void **state) {
+    (void)state;
+    whole w = whole_new();
+    fw_motion *motion = motion_of(&w);
+    motion->stabilise = "projection";
+    fw_text out = fw_text_new(w.arena);
+    assert_int_equal(
+        fw_report_simulate_text(&w.f->device.scene[0], &w.f->mechanism[0], motion, &out), FW_OK);
+    assert_order(out.data, "\n  applied-load       yes", "\n  not called for: gravity\n");
+    assert_null(strstr(out.data, "the scene has no <gravity>"));
+    fw_arena_free(w.arena);
+}
+
+/* a cable from the platform over the frame, a comb and a plate on it */
+static void actuate(whole *w) {
+    static fw_eyelet eyelet[3] = {{.body = 2, .x_m = 0.4e-3},
+                                  {.body = FW_GROUND, .x_m = 3.5e-3, .y_m = 3.6e-3},
+                                  {.body = FW_GROUND, .x_m = 3.5e-3, .y_m = 4.6e-3}};
+    static fw_tendon tendon[2];
+    static fw_comb comb[2];
+    tendon[0] = (fw_tendon){.id = "cable&1", .eyelet = eyelet, .neyelet = 3};
+    comb[0] = (fw_comb){.id = "teeth",
+                        .body_a = FW_GROUND,
+                        .body_b = 2,
+                        .fingers = 30,
+                        .gap_m = 5e-6,
+                        .overlap_m = 20e-6,
+                        .length_m = (double)NAN};
+    comb[1] = (fw_comb){.id = "faces",
+                        .kind = FW_ELECTRODES_PLATE,
+                        .body_a = FW_GROUND,
+                        .body_b = 0,
+                        .gap_m = 5e-6,
+                        .length_m = 200e-6,
+                        .direction_rad = 2};
+    for (int s = 0; s < 2; s++) { /* both scenes have the same */
+        w->f->device.scene[s].tendon = tendon, w->f->device.scene[s].ntendon = 1;
+        w->f->device.scene[s].comb = comb, w->f->device.scene[s].ncomb = 2;
+    }
+}
+
+static void actuators_are_drawn(void **state) {
+    (void)state;
+    whole w = whole_new(), bare = whole_new();
+    actuate(&w);
+    fw_text out = fw_text_new(w.arena), without = fw_text_new(w.arena);
+    assert_int_equal(fw_report_device_svg(w.arena, &w.f->device, &w.f->layout, &w.f->verdict, &out),
+                     FW_OK);
+    assert_int_equal(
+        fw_report_device_svg(w.arena, &bare.f->device, &bare.f->layout, &bare.f->verdict, &without),
+        FW_OK);
+    assert_int_equal(times(out.data, "stroke-dasharray=\"6 3\""), 2); /* two parts of one cable */
+    assert_int_equal(times(out.data, ">cable&amp;1<"), 1);
+    assert_int_equal(times(out.data, ">teeth<"), 1);
+    assert_int_equal(times(out.data, ">faces<"), 1);
+    /* rotor: root and 12 fingers, a plate; a dot and an arrow head of the cable */
+    assert_int_equal(times(out.data, "Z\" fill=\"#7b3294\""), 13 + 1 + 1);
+    assert_int_equal(times(out.data, "Z\" fill=\"#ffffff\""), 14 + 1); /* stator: one finger more */
+    assert_null(strstr(without.data, "#7b3294"));
+
+    fw_text picture = fw_text_new(w.arena), plain = fw_text_new(w.arena);
+    assert_int_equal(
+        fw_report_device_png(w.arena, &w.f->device, &w.f->layout, &w.f->verdict, 320, &picture),
+        FW_OK);
+    w.f->device.scene[0].ncomb = w.f->device.scene[1].ncomb = 0; /* the same view, without combs */
+    assert_int_equal(
+        fw_report_device_png(w.arena, &w.f->device, &w.f->layout, &w.f->verdict, 320, &plain),
+        FW_OK);
+    assert_true(picture.length != plain.length ||
+                memcmp(picture.data, plain.data, plain.length) != 0);
+    fw_arena_free(w.arena);
+    fw_arena_free(bare.arena);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ledger_on_the_page),
+        cmocka_unit_test(pull_in_on_the_page),
+        cmocka_unit_test(ledger_in_the_terminal),
+        cmocka_unit_test(actuators_are_drawn),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
