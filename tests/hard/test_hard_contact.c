@@ -75,8 +75,9 @@ static void agree(fw_arena *arena, trial *c) {
         {"generalised-alpha", "qr"},  {"rk4", "chain"}};
     for (size_t i = 0; i < sizeof by / sizeof by[0]; i++) {
         if (c->r.m.npin == 0 && strcmp(by[i][1], "minimal") == 0) continue; /* knows pins only */
+        if (hard_quick() && i % 4) continue;
         bool fixed = strcmp(by[i][0], "rk4") == 0, low = strcmp(by[i][0], "generalised-alpha") == 0;
-        fw_motion_options o = {.rtol = low || fixed ? 1e-8 : 1e-10,
+        fw_motion_options o = {.rtol = low ? 1e-8 : fixed && c->r.m.npin ? 1e-12 : 1e-10,
                                .integrator = by[i][0],
                                .method = by[i][1],
                                .samples = SAMPLES};
