@@ -70,9 +70,17 @@ static double dip(fw_run *r, fw_stepper *s, int i, double low, double high) {
     return fx < 0 ? x : fy < 0 ? y : (double)NAN;
 }
 
+/* does entry i, which fits least at an end of the step (f: there, beside it, and beyond), become
+   less fit on its way in, so far that a parabola through the three may reach below 0? */
+static bool dips_at_end(fw_run *r, fw_stepper *s, int i, double f, double beside, double beyond,
+                        double theta, double inward) {
+    if (!(f >= 0 && f <= beside && 2 * f <= f - 2 * beside + beyond)) return false;
+    return fitness(r, s, i, theta + 1e-3 * inward) < f;
+}
+
 /* first place up to place k of the step where entry i does not fit, though it did up to k - 1: by
-   its fitness f at the places so far, and between any three of which the middle one is least and so
-   small that a parabola through them may reach below 0. NaN: there is none */
+   its fitness f at the places so far, between any three of which the middle one is least and so
+   small that a parabola through them may reach below 0, and at the ends of the step. NaN: none */
 static double first_unfit(fw_run *r, fw_stepper *s, int i, int count, int k) {
     const double part = 1.0 / FW_PLACES;
     const double *f = r->fit + (size_t)k * (size_t)count + i;
@@ -81,6 +89,14 @@ static double first_unfit(fw_run *r, fw_stepper *s, int i, int count, int k) {
     if (k > 1 && *f1 <= *f2 && *f1 <= *f && *f1 >= 0 && *f >= 0 && *f1 <= *f2 - 2 * *f1 + *f) {
         double low = (k - 2) * part, at = dip(r, s, i, low, k * part);
         if (!isnan(at)) return bisect(r, s, i, low, at);
+    }
+    if (k == 2 && dips_at_end(r, s, i, *f2, *f1, *f, 0, part)) {
+        double at = dip(r, s, i, 0, part);
+        if (!isnan(at)) return bisect(r, s, i, 0, at);
+    }
+    if (k == FW_PLACES && dips_at_end(r, s, i, *f, *f1, *f2, 1, -part)) {
+        double at = dip(r, s, i, 1 - part, 1);
+        if (!isnan(at)) return bisect(r, s, i, 1 - part, at);
     }
     return *f < 0 ? bisect(r, s, i, (k - 1) * part, k * part) : (double)NAN;
 }

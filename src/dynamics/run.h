@@ -74,6 +74,7 @@ typedef struct fw_run {
     int *stride_row;        /* (nstride) where each search stands */
     int nstride;
     bool sudden;          /* a load or driver may begin at any time: an expression limits steps */
+    int aims;             /* steps made again for the event at hand */
     int row;              /* next sample */
     bool full;            /* samples, observer and energy too */
     fw_extreme *extreme;  /* (channels) of this pass; NULL: not asked for */

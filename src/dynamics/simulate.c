@@ -49,11 +49,14 @@ typedef struct pass {
  * = rtol^(1/4) scaled makes its error go with rtol, too */
 static fw_status run_once(fw_run *r, double rtol, const pass *fine, pass *p) {
     fw_model *m = r->model;
+    /* a multistep method chooses its order by what it controls: where the motion is a straight line
+       (a joint that sticks to a belt) it would integrate the energies by order 1 */
+    bool energies = r->integrator->variable_order && !r->integrator->implicit;
     const fw_ode ode = {.context = m,
                         .rhs = fw_model_rhs,
                         .project = fw_model_project,
                         .n = m->ny,
-                        .controlled = 2 * m->nq,
+                        .controlled = energies ? m->ny : 2 * m->nq,
                         .positions = m->nq};
     double *atol;
     FW_NEED(atol = fw_arena_array(r->arena, double, (size_t)m->ny));

@@ -30,9 +30,9 @@ static const double fw_beta = 1; /* per scaled time: of what sticks */
 
 static fw_status arrays(fw_arena *arena, fw_model *m, struct fw_frictions *s) {
     size_t n = (size_t)s->n, nq = 3 * (size_t)m->nbody + 3, rows = 2 * (size_t)m->nblock;
-    double **const vector[] = {&s->bias,   &s->rate, &s->accel, &s->size,  &s->loose,
-                               &s->torque, &s->left, &s->more,  &s->start, &s->right,
-                               &s->step,   &s->push, &s->creep};
+    double **const vector[] = {&s->bias,  &s->rate,  &s->accel, &s->size,   &s->loose, &s->torque,
+                               &s->left,  &s->more,  &s->start, &s->right,  &s->step,  &s->push,
+                               &s->creep, &s->shift, &s->most,  &s->centre, &s->before};
     double **const square[] = {&s->gain, &s->factor, &s->hold, &s->jacobian};
     for (size_t i = 0; i < sizeof vector / sizeof vector[0]; i++)
         FW_NEED(*vector[i] = fw_arena_array(arena, double, n));
@@ -49,6 +49,10 @@ static fw_status arrays(fw_arena *arena, fw_model *m, struct fw_frictions *s) {
     FW_NEED(s->value = fw_arena_array(arena, double, 2 * n));
     FW_NEED(s->rests = fw_arena_array(arena, bool, n));
     FW_NEED(s->held = fw_arena_array(arena, bool, n));
+    FW_NEED(s->slid = fw_arena_array(arena, bool, n));
+    FW_NEED(s->side = fw_arena_array(arena, int, n));
+    FW_NEED(s->free = fw_arena_array(arena, int, n));
+    FW_NEED(s->inside = fw_arena_array(arena, int, n));
     FW_NEED(s->stuck = fw_arena_array(arena, int, n));
     FW_NEED(s->moving = fw_arena_array(arena, int, n));
     FW_NEED(s->pivot = fw_arena_array(arena, int, n));

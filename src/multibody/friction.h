@@ -40,10 +40,14 @@ struct fw_frictions {
     /* work of the small system */
     double *factor, *hold, *jacobian, *reach;            /* (n x n); reach (2 n x n) */
     double *start, *right, *more, *step, *press, *value; /* (n), the last two (2 n) */
-    double *push, *creep;            /* (n) N but for the joint's force; what pulls back to rest */
-    int *stuck, *moving, *pivot;     /* (n) */
-    double *state;                   /* (ny) a derivative nobody reads */
-    double speed;                    /* largest velocity seen: what round-off of a rate is */
+    double *push, *creep;        /* (n) N but for the joint's force; what pulls back to rest */
+    int *stuck, *moving, *pivot; /* (n) */
+    /* work of the sorting: */
+    double *shift, *most, *centre, *before; /* (n) */
+    int *side, *free, *inside;              /* (n) */
+    bool *slid;                             /* (n) cannot hold */
+    double *state;                          /* (ny) a derivative nobody reads */
+    double speed;                           /* largest velocity seen: what round-off of a rate is */
     int met, met_slip; /* entry whose flag no longer fitted, and that flag; -1: none */
     int jam;           /* entry without a (single) torque, or -1 */
     int tight;         /* entry next to a jam, or -1 */
@@ -63,6 +67,9 @@ double fw_friction_press(const fw_model *m, int i);
 bool fw_friction_hold(struct fw_frictions *s, int count, const int *which);
 void fw_friction_holding(struct fw_frictions *s, int count, const int *which, const double *right,
                          double *x);
+/* box.c: flags and torques of the entries at rest for the limits of the `press` that they have;
+   the others keep their torques */
+bool fw_friction_box(struct fw_frictions *s);
 double fw_friction_coordinate(const fw_model *m, int i, const double *u);
 void fw_friction_rates(fw_model *m, const double *v);
 void fw_friction_rows(fw_model *m, const double *y); /* posed */

@@ -8,20 +8,20 @@
 
    After an event, at the start, at borders of pieces and after blows all flags are decided
    together. Joints that move slip the way they go. Those at rest are first brought to rate 0
-   exactly (least change in the mass metric), then sorted: all stick; the one farthest above its
-   limit gives way against the torque that it held; if it then can move it slips, else it yields
-   with its largest static torque; one that would move against its own slip sticks again; until
-   nothing contradicts. With static = kinetic and N constant this is the active-set method of a
-   convex quadratic program, whose accelerations are unique, and it ends; for the other cases the
-   number of rounds is bounded, then all combinations are tried, and where none fits the run ends
-   with FW-D244. A joint that can stick does. Cost at an event: n solutions, rounds times n^3.
+   exactly (least change in the mass metric). If all of them can hold they do. Else they are sorted
+   by a convex problem for the forces that press now (friction_box.c, which always has an answer),
+   and what presses is found for that answer (friction_solve.c), in turns until both agree: a fixed
+   point of N, plain at first, then by halves. It exists and is unique while N depends on T weakly
+   enough (friction.c); where it is not found the run ends with FW-D244. A joint that can stick
+   does. Cost at an event: n solutions, rounds times n^3.
    Source: Lotstedt 1982; Pfeiffer and Glocker, Multibody Dynamics with Unilateral Contacts, 1996.
    Test: test_friction.c, test_friction_model.c, test_hard_friction.c. */
 #include "multibody/friction.h"
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
-enum { TRY_ALL = 6, KINDS = 5 };
+enum { ROUNDS = 60, PLAIN = 8 };
 /* relative to the largest velocity, to mu_s r N; the search for events is twice as patient as the
    decision, so that no decision is an event at once */
 static const double fw_rate_noise = 1e-13, fw_rest = 1e-12, fw_still = 1e-6;
@@ -160,44 +160,58 @@ static bool nothing_wrong(const fw_model *m) {
     return choose(m, true, &what) < 0;
 }
 
-/* every combination of the entries at rest */
-static bool try_all(fw_model *m) {
+/* the flags at hand, the worst contradiction mended one after the other: after the box problem only
+   who is held by others and who can move by itself, told apart by what is left of it while those
+   that stick hold */
+static bool mended(fw_model *m) {
     struct fw_frictions *s = m->friction;
-    static const int slip[KINDS] = {0, 1, -1, 1, -1};
-    int rests = 0, all = 1;
-    for (int i = 0; i < s->n; i++)
-        if (s->rests[i]) s->moving[rests++] = i;
-    if (rests > TRY_ALL) return false;
-    int at[TRY_ALL] = {0};
-    for (int i = 0; i < rests; i++)
-        at[i] = s->moving[i], all *= KINDS;
-    for (int k = 0; k < all; k++) {
-        for (int i = 0, rest = k; i < rests; i++, rest /= KINDS) {
-            s->item[at[i]].slip = slip[rest % KINDS];
-            s->item[at[i]].yields = rest % KINDS > 2;
-        }
-        if (fw_friction_solve(m) && nothing_wrong(m)) return true;
+    for (int round = 0; round < 8 * s->n + 8; round++) {
+        contradiction what;
+        int i = choose(m, round > 4 * s->n, &what);
+        if (i < 0) return true;
+        mend(s, i, what);
+        if (!fw_friction_solve(m)) return false;
     }
-    s->jam = rests > 0 ? at[0] : 0;
+    return false;
+}
+
+/* flags by the box problem, forces by the flags, until both agree */
+static bool agree(fw_model *m, int *jam) {
+    struct fw_frictions *s = m->friction;
+    for (int round = 0; round < ROUNDS; round++) {
+        for (int i = 0; i < s->n; i++)
+            s->before[i] = s->item[i].press;
+        if (!fw_friction_box(s)) return false;
+        bool solved = fw_friction_solve(m);
+        if (solved && mended(m)) return true;
+        if (!solved) *jam = s->jam;
+        for (int i = 0; i < s->n; i++) {
+            fw_model_friction *f = &s->item[i];
+            if (!s->rests[i]) s->torque[i] = -f->slip * f->slide * s->before[i];
+            if (!solved) f->press = fw_friction_press(m, i);
+            if (round >= PLAIN) f->press = 0.5 * (f->press + s->before[i]);
+        }
+    }
     return false;
 }
 
 static bool sort(fw_model *m) {
     struct fw_frictions *s = m->friction;
     int jam = -1;
-    for (int round = 0; round < 8 * s->n + 8; round++) {
-        contradiction what;
-        if (!fw_friction_solve(m)) {
-            jam = s->jam;
-            break;
-        }
-        int i = choose(m, round > 4 * s->n, &what);
-        if (i < 0) return true;
-        jam = i;
-        mend(s, i, what);
+    bool solved = fw_friction_solve(m);
+    if (solved && nothing_wrong(m)) return true;
+    if (!solved) {
+        jam = s->jam;
+        if (jam < 0) return false;
+        memset(s->torque, 0, (size_t)s->n * sizeof *s->torque);
+        for (int i = 0; i < s->n; i++)
+            s->item[i].press = fw_friction_press(m, i);
     }
-    if (try_all(m)) return true;
-    s->jam = jam;
+    if (agree(m, &jam)) return true;
+    for (int i = 0; i < s->n; i++) /* where torques are not unique, others may do */
+        if (s->rests[i]) s->item[i].slip = 0, s->item[i].yields = false;
+    if (fw_friction_solve(m) && mended(m)) return true;
+    s->jam = jam >= 0 ? jam : 0;
     return false;
 }
 

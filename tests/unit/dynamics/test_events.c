@@ -34,8 +34,8 @@ static void test_elastic_stops(void **state) {
     r.scene.duration_s = 50 * period;
     const fw_motion *m = run(arena, &r, 1e-12, 201);
     for (int k = 0; k < 201; k += 4) {
-        assert_near(m->q[3 * k + 2], 0, 1e-10);
-        assert_near(m->v[3 * k + 2], 2, 1e-10);
+        assert_near(m->q[3 * k + 2], 0, 1e-9); /* 200 events, some rtol each */
+        assert_near(m->v[3 * k + 2], 2, 1e-9);
     }
     assert_int_equal(m->stats.events, 200);
     assert_near(m->peak[0].angle_rad, 0.3 + 2 / 100.0, 1e-11);
