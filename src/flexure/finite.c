@@ -21,6 +21,9 @@
 #include "flexure/finite.h"
 #include <math.h>
 
+/* so that what is not asked for is not worked out, at any level of optimisation */
+#define INLINE static inline __attribute__((always_inline))
+
 /* below this the quotients cancel and the power series are used */
 static const double small = 1.0;
 
@@ -66,9 +69,9 @@ static fw_series of_square(double x, double p, double slope, double curve) {
 }
 
 /* sinc(x) = sin(x)/x below |x| = 1; sinc'' = -sinc - 2 sinc'/x */
-static inline fw_series sinc_near(double x, bool second) {
+INLINE fw_series sinc_near(double x, bool second) {
     double t = x * x, p = 0, slope = 0, curve = 0; /* curve: of p''/2 */
-    for (int n = OF_SINC - 1; n >= 0; n--) {
+    _Pragma("GCC unroll 10") for (int n = OF_SINC - 1; n >= 0; n--) {
         if (second) curve = curve * t + slope;
         slope = slope * t + p;
         p = p * t + sinc_of[n];
@@ -94,15 +97,14 @@ typedef struct shape { /* what the law is made of, at x: sinc, z = sinc(2x), g a
     fw_series s, z, g, h;
 } shape;
 
-static inline void shape_near(double x, bool second, shape *at) {
+INLINE void shape_near(double x, bool second, shape *at) {
     double t = x * x, p[2] = {0}, slope[2] = {0}, curve[2] = {0};
     at->s = sinc_near(x, second);
-    for (int n = OF_BEND - 1; n >= 0; n--)
-        for (int i = 0; i < 2; i++) {
-            if (second) curve[i] = curve[i] * t + slope[i];
-            slope[i] = slope[i] * t + p[i];
-            p[i] = p[i] * t + bend_of[n][i];
-        }
+    _Pragma("GCC unroll 12") for (int n = OF_BEND - 1; n >= 0; n--) for (int i = 0; i < 2; i++) {
+        if (second) curve[i] = curve[i] * t + slope[i];
+        slope[i] = slope[i] * t + p[i];
+        p[i] = p[i] * t + bend_of[n][i];
+    }
     const fw_series g = at->g = of_square(x, p[0], slope[0], 2 * curve[0]);
     at->h = of_square(x, p[1], slope[1], 2 * curve[1]);
     at->z = (fw_series){{1 - t * g.d[0], -2 * x * g.d[0] - t * g.d[1],
@@ -132,8 +134,8 @@ static inline fw_hinge_jet inverse(const double c[3], double q) {
 }
 
 /* `second` is a constant where this is expanded: without it no second derivative is worked out */
-static inline void law_at(const fw_hinge_law *law, const fw_hinge_rest *rest, double th,
-                          bool second, fw_hinge_at *at) {
+INLINE void law_at(const fw_hinge_law *law, const fw_hinge_rest *rest, double th, bool second,
+                   fw_hinge_at *at) {
     double q = 0.5 * law->share, x = law->half_angle_rad + q * th;
     double p = law->axial_m_per_N, v = law->shear_m_per_N;
     double bend = law->bend_m_per_N, root = law->root_m_per_N, share = root * law->share;
