@@ -51,6 +51,7 @@ static fw_status run_once(fw_run *r, double rtol, const pass *fine, pass *p) {
     fw_model *m = r->model;
     const fw_ode ode = {.context = m,
                         .rhs = fw_model_rhs,
+                        .lean = fw_model_lean_rhs,
                         .project = fw_model_project,
                         .n = m->ny,
                         .controlled = 2 * m->nq,

@@ -96,8 +96,8 @@ static bool residual(radau5 *s, double h) {
     for (int i = 0; i < 3; i++) {
         for (int c = 0; c < n; c++)
             s->work[c] = b->y[c] + (c < b->ode.controlled ? s->z[i][c] : 0);
-        fw_ode_evaluate(b, b->t + radau_c[i] * h, s->work, s->r[i]);
-        if (!fw_ode_finite(s->r[i], n)) return false;
+        fw_ode_evaluate_lean(b, b->t + radau_c[i] * h, s->work, s->r[i]);
+        if (!fw_ode_finite(s->r[i], b->ode.controlled)) return false;
     }
     const double real = radau_gamma / h, alpha = radau_alpha / h, beta = radau_beta / h;
     for (int c = 0; c < b->ode.controlled; c++) {
@@ -193,7 +193,7 @@ static double error(radau5 *s, double h) {
         if (!isfinite(size) || size < 1 || !(s->first || s->rejected_last) || pass == 1) break;
         for (int c = 0; c < n; c++)
             s->work[c] = b->y[c] + e[c];
-        fw_ode_evaluate(b, b->t, s->work, g);
+        fw_ode_evaluate_lean(b, b->t, s->work, g);
     }
     return size;
 }
