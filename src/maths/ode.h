@@ -38,6 +38,7 @@ typedef enum fw_ode_result {
 
 typedef struct fw_stepper fw_stepper;
 
+enum { FW_ODE_OWN = 4 };
 typedef struct fw_stepper_row { /* one row per integrator; feeds --help and the reference page */
     const char *name, *summary;
     /* order p: the error at the end falls with h^p. dense_order q: in a step from exact values the
@@ -56,6 +57,9 @@ typedef struct fw_stepper_row { /* one row per integrator; feeds --help and the 
     /* value and d/dtheta of w_a y[a] + w_b y[b] (b < 0: only a): for peaks and events */
     void (*component)(const fw_stepper *s, int a, double wa, int b, double wb, double theta,
                       double *value, double *slope);
+    /* where inside the last step states are the method's own and not interpolated, if only these
+       fit what is stiff: theta (FW_ODE_OWN), how many of them; 0: all are equally good. NULL: 0 */
+    int (*own)(const fw_stepper *s, double *theta);
     void (*destroy)(fw_stepper *s); /* gives back what is not in the arena; NULL: nothing */
 } fw_stepper_row;
 
