@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { ROUNDS = 12, IMPLICIT_MOST = 300 }; /* components: a factorisation costs their cube */
+enum { ROUNDS = 12 };
 
 /* a dense method's time goes with the cube of the bodies */
 static const int fw_dense_most = 60;
@@ -67,17 +67,17 @@ static double norm(const double *x, int n) {
     return sqrt(sum);
 }
 
-/* out = J z by a central difference of the right-hand side at y */
-static void product(fw_run *r, const double *y, const double *z, double *at, double *more,
-                    double *out) {
+/* out = J z by a central difference of the right-hand side at y, over 2 `reach` */
+static void product(fw_run *r, const double *y, const double *z, double reach, double *at,
+                    double *more, double *out) {
     fw_model *m = r->model;
     int n = 2 * m->nq;
-    double e = 1e-6 / fmax(norm(z, n), 1e-300);
+    double e = reach / fmax(norm(z, n), 1e-300);
     for (int sign = -1; sign <= 1; sign += 2) {
         memcpy(at, y, (size_t)m->ny * sizeof *at);
         for (int i = 0; i < n; i++)
             at[i] += sign * e * z[i];
-        fw_model_rhs(m, 0, at, sign < 0 ? more : out);
+        fw_model_lean_rhs(m, 0, at, sign < 0 ? more : out);
     }
     for (int i = 0; i < n; i++)
         out[i] = (out[i] - more[i]) / (2 * e);
@@ -87,7 +87,7 @@ static void product(fw_run *r, const double *y, const double *z, double *at, dou
    with J^2, whose dominant eigenvalues are real for oscillations too. A lower bound that is within
    a few per cent when the spectrum has a gap; a choice needs no more. Cost 48 evaluations. Source:
    Golub and Van Loan, ch. 7. Test: test_choose.c. */
-static fw_status fastest(fw_run *r, double *rate) {
+static fw_status fastest(fw_run *r, double reach, double *rate) {
     fw_model *m = r->model;
     size_t n = (size_t)m->ny;
     double *work[5];
@@ -103,8 +103,8 @@ static fw_status fastest(fw_run *r, double *rate) {
         if (!(before > 0) || !isfinite(before)) break;
         for (size_t i = 0; i < n; i++)
             z[i] /= before;
-        product(r, r->start, z, work[2], work[3], w);
-        product(r, r->start, w, work[2], work[3], work[4]);
+        product(r, r->start, z, reach, work[2], work[3], w);
+        product(r, r->start, w, reach, work[2], work[3], work[4]);
         double *swap = z;
         z = work[4], work[4] = swap;
         if (k > 1) *rate = fmax(*rate, sqrt(norm(z, 2 * m->nq)));
@@ -114,31 +114,37 @@ static fw_status fastest(fw_run *r, double *rate) {
     return FW_OK;
 }
 
-/* rad per scaled time of a body that hangs on an element's stated stiffness: for those whose
-   formula has no stiffness where the scene starts */
-static double stated_rate(const fw_model *m, const fw_force_element *e) {
+/* rad^2 per scaled time^2 that an element's stated stiffness can add: 1/m and r^2/J of its ports */
+static double stated_square(const fw_model *m, const fw_force_element *e) {
     double free = 0, unit = m->scale.time_s * m->scale.time_s / m->scale.mass_kg;
-    for (int i = 0; i < e->ports; i++)
-        if (e->port[i].body != FW_GROUND) free += m->minv[e->port[i].body];
-    return sqrt(e->size_N_per_m * unit * free);
+    for (int i = 0; i < e->ports; i++) {
+        const fw_port *p = &e->port[i];
+        double arm = hypot(p->x_m, p->y_m) / m->scale.length_m;
+        if (p->body != FW_GROUND) free += m->minv[p->body] + arm * arm * m->jinv[p->body];
+    }
+    return e->size_N_per_m * unit * free;
 }
 
 /* the same with all switches of elements on: a stiff contact may be open at the start. 0: none is
-   off. Where the formula of one means nothing there, what it states counts. */
+   off. Where the formula of one means nothing there (two points that coincide have no direction),
+   the rate depends on how far it is looked at; then what they state counts. */
 static fw_status fastest_in_touch(fw_run *r, double before, double *rate) {
     fw_model *m = r->model;
-    double stated = 0;
+    double stated = 0, farther;
     bool idle = false;
     *rate = 0;
     for (int i = 0; i < m->nelement; i++)
         for (int k = 0; k < m->element[i].own->switches; k++) {
             if (m->element[i].on[k]) continue;
-            stated = fmax(stated, stated_rate(m, m->element[i].own));
+            stated += stated_square(m, m->element[i].own);
             m->element[i].on[k] = idle = true;
         }
     if (!idle) return FW_OK;
-    FW_TRY(fastest(r, rate));
-    if (!(*rate > 1.01 * before)) *rate = stated;
+    stated = sqrt(before * before + stated);
+    FW_TRY(fastest(r, 1e-6, rate));
+    FW_TRY(fastest(r, 1e-5, &farther));
+    bool sound = fabs(farther - *rate) <= 0.2 * *rate;
+    if (!sound || !(*rate > 1.01 * before)) *rate = stated;
     fw_model_set_switches(m, 0, r->start);
     return FW_OK;
 }
@@ -158,10 +164,32 @@ static fw_status rayleigh(fw_run *r, const fw_terms *terms, const double *force,
     return FW_OK;
 }
 
+/* 1 per scaled time at which motion along the last response u (SI) dies away, by damping: half of
+   the quotient of power and kinetic energy */
+static fw_status dying(fw_run *r, const double *u, double *rate) {
+    const fw_model *m = r->model;
+    double *work[4], power = 0, mass = 0;
+    size_t n = (size_t)m->nq;
+    fw_mark mark = fw_arena_mark(r->arena);
+    for (int i = 0; i < 4; i++)
+        FW_NEED(work[i] = fw_arena_array(r->arena, double, (size_t)m->ny));
+    for (size_t i = 0; i < n; i++)
+        work[0][n + i] = i % 3 == 2 ? u[i] : u[i] / m->scale.length_m;
+    product(r, r->start, work[0], 1e-6, work[1], work[2], work[3]);
+    for (size_t i = 0; i < n; i++) {
+        double v = work[0][n + i], b = i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3];
+        power -= b * v * work[3][n + i];
+        mass += b * v * v;
+    }
+    *rate = mass > 0 && power > 0 ? 0.5 * power / mass : 0;
+    fw_arena_rewind(r->arena, mark);
+    return FW_OK;
+}
+
 /* rad per scaled unit of time of the motion that is excited: by the loads at their largest, else by
-   the starting velocities, whose momenta stand in for forces; 0 for a free motion. Source:
-   Rayleigh's quotient. */
-static fw_status excited(fw_run *r, const fw_terms *terms, double *rate) {
+   the starting velocities, whose momenta stand in for forces; 0 for a free motion. And how it dies
+   away. Source: Rayleigh's quotient. */
+static fw_status excited(fw_run *r, const fw_terms *terms, double *rate, double *dies) {
     const fw_mechanism *m = r->mechanism;
     size_t n = 3 * (size_t)m->nbody;
     double *force, *u, *rotation;
@@ -178,44 +206,94 @@ static fw_status excited(fw_run *r, const fw_terms *terms, double *rate) {
             (i % 3 == 2 ? m->body[i / 3].inertia_kg_m2 : m->body[i / 3].mass_kg * s.length_m) /
             s.time_s;
     if (*rate == 0) FW_TRY(rayleigh(r, terms, force, u, rotation, rate));
+    *dies = 0;
+    if (*rate > 0) FW_TRY(dying(r, u, dies));
     fw_arena_rewind(r->arena, mark);
     return FW_OK;
 }
 
-/* Explicit steps of order 8 are stable up to |eigenvalue| h of about 6 and need about one step per
-   radian of the motion wanted. Where stability alone asks for twenty times as many steps, an
-   implicit method that passes over the fast modes is cheaper, unless the model is so large that
-   its dense factorisations are not. */
+/* instructions, roughly */
+typedef struct price {
+    double explicit_, implicit; /* of a step */
+} price;
+
+/* A right-hand side costs what its effects state (docs/theory/effects/costs.md) and 1300 per body,
+   300 on the fast kernel, and in dense methods a factorisation. A step of dop853 takes 12, three
+   more for dense output, and nine looks at joint forces; one of radau5, as measured, 12 of lean
+   ones, its Jacobian included, and the same nine, besides one real and one complex
+   factorisation of size n every second step and five solutions. */
+static price prices(const fw_run *r) {
+    const fw_model *m = r->model;
+    const fw_effect_ledger *l = &r->motion->ledger;
+    double n = m->nq, rhs = (m->kernel ? 300 : 1300) * (1 + n / 3);
+    for (int i = 0; i < l->count && !m->kernel; i++)
+        if (l->item[i].active) rhs += l->item[i].cost;
+    if (m->method->independent) rhs += n * n * n;
+    double looks = r->options->reactions ? 9 : 0;
+    return (price){.explicit_ = (15 + looks) * rhs,
+                   .implicit = (12 + looks) * rhs + 2.5 * n * n * n + 50 * n * n};
+}
+
+typedef struct spectrum {  /* rad per scaled time */
+    double fast, touching; /* the fastest motion; once all contacts touch, 0: none is open */
+    double slow, dying;    /* what is excited, and how it dies away */
+} spectrum;
+
+/* Steps of radau5: 8 per rad at a tolerance of 1e-7, as measured on one undamped mode, twice as
+   many where faster modes are excited besides: 12 are taken. The error of a motion that dies away
+   grows with its fourth power, so that it counts for four of its times. Contacts excite what they
+   are as stiff as, for as long as an impact takes: in between, the geometric mean. */
+static double implicit_steps(const fw_run *r, const spectrum *s, double time) {
+    double count = fmin(time, s->dying > 0 ? 4 / s->dying : time) * s->slow;
+    if (s->touching > 0) count = fmax(count, time * sqrt(s->slow * s->touching));
+    double tolerance = r->options->rtol > 0 ? r->options->rtol : 1e-7;
+    return fmax(200, 12 * count * pow(tolerance / 1e-7, -0.2));
+}
+
+static fw_status say_choice(fw_run *r, const spectrum *s, bool stiff, double stable, double most) {
+    double unit = r->model->scale.time_s;
+    bool later = s->touching > s->fast;
+    char a[32], b[32], c[32], d[32];
+    fw_number_text(c, sizeof c, ceil(stable), 2);
+    fw_number_text(d, sizeof d, most, 2);
+    const char *but = stiff ? "implicit ones pass over the fast motion"
+                            : "which cost less than implicit ones that pass over it";
+    if (!stiff && stable < 5 * fmax(200, r->scene->duration_s / unit * s->slow))
+        r->motion->reason = fw_arena_printf(
+            r->arena, "auto: not stiff (%s explicit steps would be stable), so order 8", c);
+    else
+        r->motion->reason = fw_arena_printf(
+            r->arena,
+            "auto: stiff, the fastest motion has %s rad/s%s where %s rad/s are excited; explicit "
+            "steps need %s for stability, %s (a step costs %s explicit ones)",
+            fw_number_text(a, sizeof a, fmax(s->fast, s->touching) / unit, 2),
+            later ? " (once all contacts touch)" : "",
+            fw_number_text(b, sizeof b, s->slow / unit, 2), c, but, d);
+    FW_NEED(r->motion->reason);
+    return FW_OK;
+}
+
+/* The cheaper of two costs, each a number of steps times instructions of a step. Explicit steps of
+   order 8 are stable up to |eigenvalue| h of about 6 and need about one per radian of the motion
+   wanted; those of radau5 pass over fast modes. Right within a factor of 1.5 of the better one on
+   the scenes of docs/theory/integrators.md. Test: test_choose.c. */
 static fw_status choose(fw_run *r, const fw_terms *terms) {
     const fw_model *m = r->model;
-    double fast, slow, touching, unit = m->scale.time_s, time = r->scene->duration_s / unit;
-    FW_TRY(fastest(r, &fast));
-    FW_TRY(fastest_in_touch(r, fast, &touching));
-    bool later = touching > fast;
-    fast = fmax(fast, touching);
-    FW_TRY(excited(r, terms, &slow));
-    slow = fmin(slow, fast); /* a nearly rigid response says nothing */
-    double stable = time * fast / 6, needed = fmax(200, time * (slow > 0 ? slow : fast));
-    bool stiff = stable > 20 * needed, large = m->ny > IMPLICIT_MOST;
-    r->integrator = fw_stepper_find(stiff && !large ? "radau5" : "dop853");
-    char a[32], b[32], c[32];
-    fw_number_text(c, sizeof c, ceil(stable), 2);
-    if (!stiff) {
-        FW_NEED(
-            r->motion->reason = fw_arena_printf(
-                r->arena, "auto: not stiff (%s explicit steps would be stable), so order 8", c));
-        return FW_OK;
-    }
-    FW_NEED(r->motion->reason = fw_arena_printf(
-                r->arena,
-                "auto: stiff, the fastest motion has %s rad/s%s where %s rad/s are excited; "
-                "explicit steps need %s for stability, %s",
-                fw_number_text(a, sizeof a, fast / unit, 2),
-                later ? " (once all contacts touch)" : "",
-                fw_number_text(b, sizeof b, slow / unit, 2), c,
-                large ? "but the model is too large for implicit ones"
-                      : "implicit ones pass over the fast motion"));
-    return FW_OK;
+    double time = r->scene->duration_s / m->scale.time_s;
+    spectrum s;
+    FW_TRY(fastest(r, 1e-6, &s.fast));
+    FW_TRY(fastest_in_touch(r, s.fast, &s.touching));
+    FW_TRY(excited(r, terms, &s.slow, &s.dying));
+    double most = fmax(s.fast, s.touching);
+    if (!(s.slow > 0) || s.slow > most) s.slow = most; /* a nearly rigid response says nothing */
+    const price p = prices(r);
+    double stable = time * most / 6, explicit_ = fmax(100, time * s.slow);
+    /* contacts that are open at the start touch for a part of the time: half */
+    explicit_ = fmax(explicit_, s.touching > s.fast ? fmax(time * s.fast / 6, stable / 2) : stable);
+    double implicit = implicit_steps(r, &s, time);
+    bool stiff = implicit * p.implicit < explicit_ * p.explicit_;
+    r->integrator = fw_stepper_find(stiff ? "radau5" : "dop853");
+    return say_choice(r, &s, stiff, stable, p.implicit / p.explicit_);
 }
 
 fw_status fw_integrator_choose(fw_run *r, const fw_terms *terms, const char *name) {

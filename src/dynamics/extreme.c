@@ -59,38 +59,63 @@ static void offer(fw_extreme *extreme, double value, double t) {
     if (fabs(value) > fabs(extreme->value)) extreme->value = value, extreme->t = t;
 }
 
-/* Chebyshev-Lobatto points of [0, 1]: a polynomial through values there does not swing */
-static double place(int k) {
+/* places in a step and the weights of the polynomial through them */
+typedef struct grid {
+    int last;
+    double at[GRID + 1], weight[GRID + 1];
+} grid;
+
+/* Chebyshev-Lobatto points of the way to theta_end: a polynomial through values there does not
+   swing. Where a method's interpolated states would be multiplied with large stiffnesses, its own
+   ones: the polynomial is then one of forces, which are smooth. */
+static void places(const fw_stepper *s, double theta_end, grid *g) {
     static const double PI = 3.14159265358979323846;
-    return 0.5 - 0.5 * cos(PI * k / GRID);
+    double own[FW_ODE_OWN];
+    int count = s->row->own ? s->row->own(s, own) : 0;
+    g->last = count > 0 ? 0 : GRID;
+    g->at[0] = 0;
+    for (int k = 0; k <= GRID && count == 0; k++) {
+        g->at[k] = 0.5 - 0.5 * cos(PI * k / GRID);
+        g->weight[k] = (k % 2 ? -1.0 : 1.0) * (k % GRID ? 1 : 0.5);
+    }
+    if (count == 0) return;
+    for (int k = 0; k < count; k++) /* before an event */
+        if (own[k] < 0.99 * theta_end) g->at[++g->last] = own[k] / theta_end;
+    g->at[++g->last] = 1;
+    for (int k = 0; k <= g->last; k++) {
+        g->weight[k] = 1;
+        for (int i = 0; i <= g->last; i++)
+            if (i != k) g->weight[k] /= g->at[k] - g->at[i];
+    }
 }
 
-/* the polynomial of degree 8 through one channel at the nine places (a column of the grid), by the
-   barycentric formula; its error in a step of one radian is some 1e-10. Source: Berrut and
+/* the polynomial through one channel at the places (a column of values), by the barycentric
+   formula; its error at nine places in a step of one radian is some 1e-10. Source: Berrut and
    Trefethen 2004. */
-static double between(const double *column, int stride, double x) {
+static double between(const grid *g, const double *column, int stride, double x) {
     double above = 0, below = 0;
-    for (int k = 0; k <= GRID; k++) {
-        double distance = x - place(k), weight = (k % 2 ? -1.0 : 1.0) * (k % GRID ? 1 : 0.5);
+    for (int k = 0; k <= g->last; k++) {
+        double distance = x - g->at[k];
         if (distance == 0) return column[k * stride];
-        above += weight / distance * column[k * stride];
-        below += weight / distance;
+        above += g->weight[k] / distance * column[k * stride];
+        below += g->weight[k] / distance;
     }
     return above / below;
 }
 
 /* extreme of that polynomial between two places, by golden section; evaluates nothing else */
-static double highest(const double *column, int stride, double a, double b, double *at) {
+static double highest(const grid *g, const double *column, int stride, double a, double b,
+                      double *at) {
     const double golden = 0.6180339887498949;
     double x = b - golden * (b - a), y = a + golden * (b - a);
-    double fx = between(column, stride, x), fy = between(column, stride, y);
+    double fx = between(g, column, stride, x), fy = between(g, column, stride, y);
     for (int i = 0; i < 40 && b - a > 1e-8; i++) {
         if (fabs(fx) > fabs(fy)) {
             b = y, y = x, fy = fx, x = b - golden * (b - a);
-            fx = between(column, stride, x);
+            fx = between(g, column, stride, x);
         } else {
             a = x, x = y, fx = fy, y = a + golden * (b - a);
-            fy = between(column, stride, y);
+            fy = between(g, column, stride, y);
         }
     }
     bool first = fabs(fx) > fabs(fy);
@@ -98,42 +123,46 @@ static double highest(const double *column, int stride, double a, double b, doub
     return first ? fx : fy;
 }
 
-/* grid cells [*low, *high] around the largest of the places, if they may hide a larger one: next to
-   an end of the step the polynomial must rise inwards. A parabola rises above the middle of three
+/* cells [*low, *high] around the largest of the places, if they may hide a larger one: next to an
+   end of the step the polynomial must rise inwards. A parabola rises above the middle of three
    places by less than its bend. */
-static bool worth_a_search(const double *grid, int count, int best, double so_far, int *low,
-                           int *high) {
-    int inwards = best == 0 ? 1 : best == GRID ? -1 : 0, middle = best + inwards;
-    double f[3], top = fabs(grid[best * count]);
+static bool worth_a_search(const grid *g, const double *column, int count, int best, double so_far,
+                           int *low, int *high) {
+    int inwards = best == 0 ? 1 : best == g->last ? -1 : 0, middle = best + inwards;
+    double f[3], top = fabs(column[best * count]);
+    if (g->last < 2) return false;
     for (int k = -1; k <= 1; k++)
-        f[k + 1] = fabs(grid[(middle + k) * count]);
-    double bend = fabs(f[0] - 2 * f[1] + f[2]), near = 0.75 * place(best) + 0.25 * place(middle);
-    *low = best > 0 ? best - 1 : 0, *high = best < GRID ? best + 1 : GRID;
+        f[k + 1] = fabs(column[(middle + k) * count]);
+    double bend = fabs(f[0] - 2 * f[1] + f[2]), near = 0.75 * g->at[best] + 0.25 * g->at[middle];
+    *low = best > 0 ? best - 1 : 0, *high = best < g->last ? best + 1 : g->last;
     if (!(bend > 0 && top + bend >= so_far)) return false;
-    return !inwards || fabs(between(grid, count, near)) > top;
+    return !inwards || fabs(between(g, column, count, near)) > top;
 }
 
-/* every channel at nine places of the step; where the largest of them comes near the extreme so
-   far, its maximum is searched. Cost nine evaluations per step, whatever the number of joints. */
+/* every channel at the places of the step; where the largest of them comes near the extreme so
+   far, its maximum is searched. Cost up to nine evaluations per step, whatever the number of
+   joints. */
 void fw_run_extremes(fw_run *r, fw_stepper *s, double theta_end) {
     if (!r->extreme) return;
     int count = fw_run_channels(r), low, high;
-    double *grid = r->channel_grid, span = theta_end * s->h, at;
-    for (int k = 0; k <= GRID; k++) {
-        channels_at(r, s, theta_end * place(k));
+    double *value = r->channel_grid, span = theta_end * s->h, at;
+    grid g;
+    places(s, theta_end, &g);
+    for (int k = 0; k <= g.last; k++) {
+        channels_at(r, s, theta_end * g.at[k]);
         for (int i = 0; i < count; i++)
-            grid[k * count + i] = r->channel_now[i];
+            value[k * count + i] = r->channel_now[i];
     }
     for (int i = 0; i < count; i++) {
         int best = 0;
-        for (int k = 1; k <= GRID; k++)
-            if (fabs(grid[k * count + i]) > fabs(grid[best * count + i])) best = k;
-        offer(&r->extreme[i], grid[best * count + i], s->t_old + place(best) * span);
-        if (worth_a_search(grid + i, count, best, fabs(r->extreme[i].value), &low, &high)) {
-            double top = highest(grid + i, count, place(low), place(high), &at);
+        for (int k = 1; k <= g.last; k++)
+            if (fabs(value[k * count + i]) > fabs(value[best * count + i])) best = k;
+        offer(&r->extreme[i], value[best * count + i], s->t_old + g.at[best] * span);
+        if (worth_a_search(&g, value + i, count, best, fabs(r->extreme[i].value), &low, &high)) {
+            double top = highest(&g, value + i, count, g.at[low], g.at[high], &at);
             offer(&r->extreme[i], top, s->t_old + at * span);
         }
-        r->extreme[i].end = grid[GRID * count + i];
+        r->extreme[i].end = value[g.last * count + i];
     }
 }
 

@@ -45,15 +45,16 @@ typedef struct pass {
     fw_extreme *extreme; /* (channels) or NULL */
 } pass;
 
-/* fine: the run that this one is compared with, NULL: this is it. A fixed step has no tolerance: h
- * = rtol^(1/4) scaled makes its error go with rtol, too */
-static fw_status run_once(fw_run *r, double rtol, const pass *fine, pass *p) {
+/* other: the run that this one is compared with, NULL: it is the first. full: the answer. A fixed
+ * step has no tolerance: h = rtol^(1/4) scaled makes its error go with rtol, too */
+static fw_status run_once(fw_run *r, double rtol, const pass *other, bool full, pass *p) {
     fw_model *m = r->model;
     /* a multistep method chooses its order by what it controls: where the motion is a straight line
        (a joint that sticks to a belt) it would integrate the energies by order 1 */
     bool energies = r->integrator->variable_order && !r->integrator->implicit;
     const fw_ode ode = {.context = m,
                         .rhs = fw_model_rhs,
+                        .lean = fw_model_lean_rhs,
                         .project = fw_model_project,
                         .n = m->ny,
                         .controlled = energies ? m->ny : 2 * m->nq,
@@ -63,14 +64,14 @@ static fw_status run_once(fw_run *r, double rtol, const pass *fine, pass *p) {
     for (int i = 0; i < m->ny; i++)
         atol[i] = fmax(rtol * r->amplitude, 2e-15);
     FW_TRY(fw_peaks_new(r->arena, r->mechanism, r->q0, &p->peaks));
-    p->peaks.marked = fine ? &fine->peaks : NULL;
+    p->peaks.marked = other ? &other->peaks : NULL;
     r->extreme = NULL;
     if (r->options->reactions)
         FW_NEED(r->extreme = fw_arena_array(r->arena, fw_extreme, (size_t)fw_run_channels(r)));
     FW_TRY(fw_stepper_new(r->arena, r->integrator, &ode, rtol, atol, &p->stepper));
     p->stepper->h_fixed = pow(rtol, 0.25);
     p->extreme = r->extreme;
-    r->full = !fine;
+    r->full = full;
     fw_status status = fw_run_pass(r, p->stepper, &p->peaks);
     fw_stepper_free(p->stepper); /* what a library holds for it; its results stay */
     return status;
@@ -237,15 +238,18 @@ static fw_status solve(fw_run *r) {
     const fw_motion_options *o = r->options;
     double rtol = chosen_rtol(o, r), tightest = fmax(fw_tightest, noise_floor(r));
     int rows = r->motion->nsample;
+    bool again = false; /* coarse: the answer at a hundred times the tolerance, not good enough */
+    pass fine, coarse;
     for (;;) {
         r->motion->nsample = rows;
-        pass fine, coarse;
         double began = cpu_seconds();
-        FW_TRY(run_once(r, rtol, NULL, &fine));
+        FW_TRY(run_once(r, rtol, again ? &coarse : NULL, true, &fine));
         double between = cpu_seconds();
         take_statistics(r, fine.stepper, rtol, between - began);
-        FW_TRY(run_once(r, 100 * rtol, &fine, &coarse));
-        r->motion->stats.estimate_cpu_s = cpu_seconds() - between;
+        if (!again) {
+            FW_TRY(run_once(r, 100 * rtol, &fine, false, &coarse));
+            r->motion->stats.estimate_cpu_s = cpu_seconds() - between;
+        }
         estimate_errors(r, &fine, &coarse);
         /* a tolerance of our own choosing is tightened until the estimate is good enough */
         bool enough = o->rtol > 0 || r->motion->ended || good_enough(r);
@@ -254,6 +258,10 @@ static fw_status solve(fw_run *r) {
             warn_energy(r);
             return FW_OK;
         }
+        /* the next estimate has this run to compare with, unless laws limit its steps (which are
+           longer in runs that only serve the estimate) */
+        again = rtol / 100 >= tightest && r->nstride == 0;
+        if (again) coarse = fine, r->motion->stats.estimate_cpu_s = r->motion->stats.cpu_s;
         rtol = fmax(tightest, rtol / 100);
     }
 }

@@ -11,7 +11,8 @@
    tau = c/K of the pin's own viscous damper, which goes on acting on th (joint-damping,
    material-damping); a damping stated in the file is for the rotation only.
    Inputs p in m and rad, w in m/s and rad/s; outputs N, N m. Valid until the arc closes to a full
-   circle. Error: see flexure/finite.c. Cost some 0.4 us. Source: docs/theory/effects/
+   circle. Error: see flexure/finite.c. Cost of a force some 600 instructions, of a tangent ten
+   times that. Source: docs/theory/effects/
    nonlinear-hinge.md. Test: test_nonlinear_hinge.c. */
 #include "effects/effect.h"
 #include <math.h>
@@ -22,7 +23,69 @@ typedef struct flexed { /* data of an element; ports: pin on body a, pin on body
     double sense;              /* o */
     double axis_rad, free_rad; /* axis less half of the drawn turns */
     double loss_s;             /* tau */
+    fw_hinge_rest rest;        /* what does not depend on the rotation */
 } flexed;
+
+typedef struct bent {               /* values and rates, for what needs no second derivative */
+    double c, n, x, y;              /* of psi, and e.D, n.D */
+    double th, w, v;                /* deformations */
+    double th_rate, w_rate, v_rate; /* and their rates */
+    double kx, kx_slope, ky, ky_slope, drift_slope;
+} bent;
+
+static inline bent bend(const flexed *f, const fw_seen *s) {
+    const double *a = s->p, *b = s->p + 3, *va = s->w, *vb = s->w + 3, o = f->sense;
+    double psi = f->axis_rad + 0.5 * (a[2] + b[2]), c = cos(psi), n = sin(psi);
+    double dx = b[0] - a[0], dy = b[1] - a[1], x = c * dx + n * dy, y = c * dy - n * dx;
+    double ux = vb[0] - va[0], uy = vb[1] - va[1], turning = 0.5 * (va[2] + vb[2]);
+    double th = b[2] - a[2] - f->free_rad, th_rate = vb[2] - va[2];
+    fw_hinge_at law;
+    fw_hinge_law_slopes(&f->law, &f->rest, o * th, &law);
+    return (bent){.c = c,
+                  .n = n,
+                  .x = x,
+                  .y = y,
+                  .th = th,
+                  .w = x,
+                  .v = y - o * law.drift_m.value,
+                  .th_rate = th_rate,
+                  .w_rate = c * ux + n * uy + y * turning,
+                  .v_rate = c * uy - n * ux - x * turning - law.drift_m.slope * th_rate,
+                  .kx = law.kx_N_per_m.value,
+                  .kx_slope = o * law.kx_N_per_m.slope,
+                  .ky = law.ky_N_per_m.value,
+                  .ky_slope = o * law.ky_N_per_m.slope,
+                  .drift_slope = law.drift_m.slope};
+}
+
+/* -(M dth + X dw + Y dv), with the gradients of th, w and v written out */
+static void force(const fw_force_element *e, const fw_seen *s, double *f) {
+    const flexed *h = e->data;
+    const bent b = bend(h, s);
+    double moment = h->law.stiffness_Nm_per_rad * b.th +
+                    0.5 * (b.kx_slope * b.w * b.w + b.ky_slope * b.v * b.v);
+    double X = b.kx * (b.w + h->loss_s * b.w_rate), Y = b.ky * (b.v + h->loss_s * b.v_rate);
+    double both = 0.5 * (Y * b.x - X * b.y); /* half of the couple that the offset makes */
+    f[0] = X * b.c - Y * b.n, f[1] = X * b.n + Y * b.c;
+    f[3] = -f[0], f[4] = -f[1];
+    f[2] = both + moment - Y * b.drift_slope;
+    f[5] = both - moment + Y * b.drift_slope;
+}
+
+static double energy(const fw_force_element *e, const fw_seen *s) {
+    const flexed *h = e->data;
+    const bent b = bend(h, s);
+    return 0.5 * (h->law.stiffness_Nm_per_rad * b.th * b.th + b.kx * b.w * b.w + b.ky * b.v * b.v);
+}
+
+static void power(const fw_force_element *e, const fw_seen *s, double power[2]) {
+    const flexed *h = e->data;
+    const bent b = bend(h, s);
+    power[0] = h->loss_s * (b.kx * b.w_rate * b.w_rate + b.ky * b.v_rate * b.v_rate);
+    power[1] = 0;
+}
+
+/* ---- the tangent: all second derivatives ---- */
 
 enum { N = 6 };
 
@@ -31,7 +94,6 @@ typedef struct strain { /* one of w and v: value, rate, gradient by the ports, s
 } strain;
 
 typedef struct state {
-    double th, w_th; /* rotation and its rate */
     fw_hinge_jet kx, ky, drift;
     strain w, v;
 } state;
@@ -48,56 +110,40 @@ static fw_hinge_jet seen_from_a(fw_hinge_jet j, double sense, bool odd) {
 /* x = u.D, y = its partner a quarter turn on, so that dx/dpsi = side y: gradient and second
    derivative without the drift. line: d(u.D) by the places, cross: the same of the partner */
 static void project(strain *s, double x, double y, double side, const double *line,
-                    const double *cross, bool second) {
+                    const double *cross) {
     s->value = x;
     for (int i = 0; i < N; i++)
         s->slope[i] = line[i] + side * y * half[i];
-    if (!second) return;
     for (int i = 0; i < N; i++)
         for (int j = 0; j < N; j++)
             s->curve[i][j] =
                 -x * half[i] * half[j] + side * (cross[i] * half[j] + half[i] * cross[j]);
 }
 
-static void look(const fw_force_element *e, const fw_seen *s, bool second, state *at) {
+static void look(const fw_force_element *e, const fw_seen *s, state *at) {
     const flexed *f = e->data;
     const double *a = s->p, *b = s->p + 3;
     double psi = f->axis_rad + 0.5 * (a[2] + b[2]), c = cos(psi), n = sin(psi);
     double dx = b[0] - a[0], dy = b[1] - a[1], x = c * dx + n * dy, y = c * dy - n * dx;
     const double along[N] = {-c, -n, 0, c, n, 0}, across[N] = {n, -c, 0, -n, c, 0};
     fw_hinge_at law;
-    at->th = b[2] - a[2] - f->free_rad;
-    fw_hinge_law_at(&f->law, f->sense * at->th, &law);
+    fw_hinge_law_at(&f->law, f->sense * (b[2] - a[2] - f->free_rad), &law);
     at->kx = seen_from_a(law.kx_N_per_m, f->sense, false);
     at->ky = seen_from_a(law.ky_N_per_m, f->sense, false);
     at->drift = seen_from_a(law.drift_m, f->sense, true);
-    project(&at->w, x, y, 1, along, across, second);
-    project(&at->v, y, x, -1, across, along, second);
+    project(&at->w, x, y, 1, along, across);
+    project(&at->v, y, x, -1, across, along);
     at->v.value -= at->drift.value;
     for (int i = 0; i < N; i++)
         at->v.slope[i] -= at->drift.slope * turns[i];
-    for (int i = 0; i < N && second; i++)
+    for (int i = 0; i < N; i++)
         for (int j = 0; j < N; j++)
             at->v.curve[i][j] -= at->drift.curve * turns[i] * turns[j];
-    at->w.rate = at->v.rate = at->w_th = 0;
+    at->w.rate = at->v.rate = 0;
     for (int i = 0; i < N; i++) {
         at->w.rate += at->w.slope[i] * s->w[i];
         at->v.rate += at->v.slope[i] * s->w[i];
-        at->w_th += turns[i] * s->w[i];
     }
-}
-
-static void force(const fw_force_element *e, const fw_seen *s, double *f) {
-    const flexed *h = e->data;
-    state at;
-    look(e, s, false, &at);
-    double w = at.w.value, v = at.v.value;
-    double moment =
-        h->law.stiffness_Nm_per_rad * at.th + 0.5 * at.kx.slope * w * w + 0.5 * at.ky.slope * v * v;
-    double x = at.kx.value * (w + h->loss_s * at.w.rate);
-    double y = at.ky.value * (v + h->loss_s * at.v.rate);
-    for (int i = 0; i < N; i++)
-        f[i] = -moment * turns[i] - x * at.w.slope[i] - y * at.v.slope[i];
 }
 
 /* of k (s + tau s') ds/dp: stiffness and damping, += */
@@ -121,30 +167,13 @@ static void tangent(const fw_force_element *e, const fw_seen *s, double *stiffne
                     double *damping) {
     const flexed *h = e->data;
     state at;
-    look(e, s, true, &at);
+    look(e, s, &at);
     memset(damping, 0, N * N * sizeof *damping);
     for (int i = 0; i < N; i++)
         for (int j = 0; j < N; j++)
             stiffness[N * i + j] = h->law.stiffness_Nm_per_rad * turns[i] * turns[j];
     add_strain(&at.w, at.kx, h->loss_s, s->w, stiffness, damping);
     add_strain(&at.v, at.ky, h->loss_s, s->w, stiffness, damping);
-}
-
-static double energy(const fw_force_element *e, const fw_seen *s) {
-    const flexed *h = e->data;
-    state at;
-    look(e, s, false, &at);
-    return 0.5 * (h->law.stiffness_Nm_per_rad * at.th * at.th +
-                  at.kx.value * at.w.value * at.w.value + at.ky.value * at.v.value * at.v.value);
-}
-
-static void power(const fw_force_element *e, const fw_seen *s, double power[2]) {
-    const flexed *h = e->data;
-    state at;
-    look(e, s, false, &at);
-    power[0] =
-        h->loss_s * (at.kx.value * at.w.rate * at.w.rate + at.ky.value * at.v.rate * at.v.rate);
-    power[1] = 0;
 }
 
 static bool valid(const fw_force_element *e, const fw_seen *s, const char **why) {
@@ -208,6 +237,7 @@ fw_status fw_hinge_release(const fw_effect_case *c, fw_terms *terms, int hinge) 
         if (!h->damping_stated && pin->stiffness_Nm_per_rad > 0)
             f->loss_s = t->damping_Nms_per_rad / pin->stiffness_Nm_per_rad;
     }
+    f->rest = fw_hinge_rest_of(&f->law);
     fw_hinge_at at;
     fw_hinge_law_at(&f->law, 0, &at);
     e->data = f;

@@ -21,98 +21,160 @@
 #include "flexure/finite.h"
 #include <math.h>
 
+/* so that what is not asked for is not worked out, at any level of optimisation */
+#define INLINE static inline __attribute__((always_inline))
+
 /* below this the quotients cancel and the power series are used */
 static const double small = 1.0;
 
-/* sum of c_n x^(2n + shift), c from ratio(n) = c_n/c_(n-1), and its derivatives 0..3 */
+/* a function and its derivatives 0..3; the last ones only where they were asked for */
 typedef struct fw_series {
     double d[4];
 } fw_series;
 
-static void add_power(fw_series *s, double c, double x, int power) {
-    for (int k = 0; k < 4 && k <= power; k++) {
-        s->d[k] += c * pow(x, power - k);
-        c *= power - k;
-    }
+/* of t = x^2, below |x| = 1; the first one left out changes the second derivative by 1e-16 of it */
+enum { OF_SINC = 10, OF_BEND = 12 };
+/* (-1)^n/(2n + 1)! */
+static const double sinc_of[OF_SINC] = {
+    1,
+    -1 / 6.0,
+    1 / 120.0,
+    -1 / 5040.0,
+    1 / 362880.0,
+    -1 / 39916800.0,
+    1 / 6227020800.0,
+    -1 / 1307674368000.0,
+    1 / 355687428096000.0,
+    -1 / 121645100408832000.0,
+};
+/* g: -(-4)^n/(2n + 1)! t^(n-1);  h: (-4)^n (2n - 2)/(2n + 2)! t^(n-1);  n from 1 on */
+static const double bend_of[OF_BEND][2] = {
+    {4 / 6.0, 0},
+    {-16 / 120.0, 16 / 120.0 / 3},
+    {64 / 5040.0, -64 / 5040.0 * 2 / 4},
+    {-256 / 362880.0, 256 / 362880.0 * 3 / 5},
+    {1024 / 39916800.0, -1024 / 39916800.0 * 4 / 6},
+    {-4096 / 6227020800.0, 4096 / 6227020800.0 * 5 / 7},
+    {16384 / 1307674368000.0, -16384 / 1307674368000.0 * 6 / 8},
+    {-65536 / 355687428096000.0, 65536 / 355687428096000.0 * 7 / 9},
+    {262144 / 121645100408832000.0, -262144 / 121645100408832000.0 * 8 / 10},
+    {-1048576 / 51090942171709440000.0, 1048576 / 51090942171709440000.0 * 9 / 11},
+    {4194304 / 25852016738884976640000.0, -4194304 / 25852016738884976640000.0 * 10 / 12},
+    {-16777216 / 15511210043330985984000000.0, 16777216 / 15511210043330985984000000.0 * 11 / 13},
+};
+
+/* p(t) and its derivatives to those of p(x^2) by x */
+static fw_series of_square(double x, double p, double slope, double curve) {
+    return (fw_series){{p, 2 * x * slope, 2 * slope + 4 * x * x * curve, 0}};
 }
 
-enum { TERMS = 13 }; /* the first one left out is below 2^26/27! of the sum */
-
-/* sinc(x) = sin(x)/x and three derivatives */
-static fw_series sinc(double x) {
-    fw_series s = {{0}};
-    if (fabs(x) < small) {
-        double c = 1;
-        for (int n = 0; n < TERMS; n++) {
-            add_power(&s, c, x, 2 * n);
-            c /= -(2.0 * n + 2) * (2.0 * n + 3);
-        }
-        return s;
+/* sinc(x) = sin(x)/x below |x| = 1; sinc'' = -sinc - 2 sinc'/x */
+INLINE fw_series sinc_near(double x, bool second) {
+    double t = x * x, p = 0, slope = 0, curve = 0; /* curve: of p''/2 */
+    _Pragma("GCC unroll 10") for (int n = OF_SINC - 1; n >= 0; n--) {
+        if (second) curve = curve * t + slope;
+        slope = slope * t + p;
+        p = p * t + sinc_of[n];
     }
-    s.d[0] = sin(x) / x;
-    s.d[1] = (cos(x) - s.d[0]) / x;
-    s.d[2] = -s.d[0] - 2 * s.d[1] / x;
-    s.d[3] = -s.d[1] - 2 * s.d[2] / x + 2 * s.d[1] / (x * x);
+    return (fw_series){{p, 2 * x * slope, -p - 4 * slope, -2 * x * (slope + 8 * curve)}};
+}
+
+/* the same where x is large enough to divide by */
+static inline fw_series sinc_far(double over, double sine, double cosine) {
+    fw_series s;
+    s.d[0] = sine * over;
+    s.d[1] = (cosine - s.d[0]) * over;
+    s.d[2] = -s.d[0] - 2 * s.d[1] * over;
+    s.d[3] = -s.d[1] - 2 * over * (s.d[2] - s.d[1] * over);
     return s;
 }
 
-/* n(x)/x^2 from the derivatives 0..2 of n */
-static fw_series over_square(const double n[3], double x) {
-    double x2 = x * x;
-    return (fw_series){{n[0] / x2, n[1] / x2 - 2 * n[0] / (x2 * x),
-                        n[2] / x2 - 4 * n[1] / (x2 * x) + 6 * n[0] / (x2 * x2), 0}};
+static fw_series sinc(double x) {
+    return fabs(x) < small ? sinc_near(x, true) : sinc_far(1 / x, sin(x), cos(x));
 }
 
-/* g: sum over n >= 1 of -(-4)^n x^(2n-2)/(2n+1)!; h: over n >= 2 of (-4)^n (2n-2) x^(2n-2)/(2n+2)!
- */
-static void bending(double x, const fw_series *s, const double z[3], fw_series *g, fw_series *h) {
-    *g = *h = (fw_series){{0}};
-    if (fabs(x) < small) {
-        double c = 1; /* (-4)^n/(2n+1)! */
-        for (int n = 1; n < TERMS; n++) {
-            c *= -4 / ((2.0 * n) * (2.0 * n + 1));
-            add_power(g, -c, x, 2 * n - 2);
-            if (n > 1) add_power(h, c * (2.0 * n - 2) / (2.0 * n + 2), x, 2 * n - 2);
-        }
-        return;
+typedef struct shape { /* what the law is made of, at x: sinc, z = sinc(2x), g and h */
+    fw_series s, z, g, h;
+} shape;
+
+INLINE void shape_near(double x, bool second, shape *at) {
+    double t = x * x, p[2] = {0}, slope[2] = {0}, curve[2] = {0};
+    at->s = sinc_near(x, second);
+    _Pragma("GCC unroll 12") for (int n = OF_BEND - 1; n >= 0; n--) for (int i = 0; i < 2; i++) {
+        if (second) curve[i] = curve[i] * t + slope[i];
+        slope[i] = slope[i] * t + p[i];
+        p[i] = p[i] * t + bend_of[n][i];
     }
-    const double square[3] = {s->d[0] * s->d[0], 2 * s->d[0] * s->d[1],
-                              2 * (s->d[1] * s->d[1] + s->d[0] * s->d[2])};
-    const double ng[3] = {1 - z[0], -z[1], -z[2]};
-    const double nh[3] = {1 + z[0] - 2 * square[0], z[1] - 2 * square[1], z[2] - 2 * square[2]};
-    *g = over_square(ng, x);
-    *h = over_square(nh, x);
+    const fw_series g = at->g = of_square(x, p[0], slope[0], 2 * curve[0]);
+    at->h = of_square(x, p[1], slope[1], 2 * curve[1]);
+    at->z = (fw_series){{1 - t * g.d[0], -2 * x * g.d[0] - t * g.d[1],
+                         -2 * g.d[0] - 4 * x * g.d[1] - t * g.d[2], 0}};
+}
+
+/* n(x)/x^2 from n and its first two derivatives */
+static inline fw_series over_square(double n, double slope, double curve, double over) {
+    double square = over * over, q = n * square, d = slope * square - 2 * q * over;
+    return (fw_series){{q, d, (curve - 2 * q) * square - 4 * d * over, 0}};
+}
+
+static inline void shape_far(double x, shape *at) {
+    double over = 1 / x, sine = sin(x), cosine = cos(x);
+    const fw_series s = at->s = sinc_far(over, sine, cosine);
+    const fw_series z = at->z = (fw_series){{s.d[0] * cosine, s.d[1] * cosine - s.d[0] * sine,
+                                             (s.d[2] - s.d[0]) * cosine - 2 * s.d[1] * sine, 0}};
+    at->g = over_square(1 - z.d[0], -z.d[1], -z.d[2], over);
+    at->h = over_square(1 + z.d[0] - 2 * s.d[0] * s.d[0], z.d[1] - 4 * s.d[0] * s.d[1],
+                        z.d[2] - 4 * (s.d[1] * s.d[1] + s.d[0] * s.d[2]), over);
 }
 
 /* 1/c with its derivatives by the rotation, c by x = a + q th */
-static fw_hinge_jet inverse(const double c[3], double q) {
-    double k = 1 / c[0];
-    return (fw_hinge_jet){k, -q * c[1] * k * k, q * q * (2 * c[1] * c[1] * k - c[2]) * k * k};
+static inline fw_hinge_jet inverse(const double c[3], double q) {
+    double k = 1 / c[0], slope = q * c[1] * k;
+    return (fw_hinge_jet){k, -slope * k, (2 * slope * slope - q * q * c[2] * k) * k};
 }
 
-void fw_hinge_law_at(const fw_hinge_law *law, double th, fw_hinge_at *at) {
-    double a = law->half_angle_rad, q = 0.5 * law->share, x = a + q * th;
-    fw_series s = sinc(x), free_ = sinc(a), twice = sinc(2 * x), g, h;
-    const double z[3] = {twice.d[0], 2 * twice.d[1], 4 * twice.d[2]};
-    bending(x, &s, z, &g, &h);
-    const double end[3] = {s.d[0] * s.d[0], 2 * s.d[0] * s.d[1],
-                           2 * (s.d[1] * s.d[1] + s.d[0] * s.d[2])};
-    const double side[3] = {s.d[1] * s.d[1], 2 * s.d[1] * s.d[2],
-                            2 * (s.d[2] * s.d[2] + s.d[1] * s.d[3])};
-    double cx[3], cy[3];
-    for (int k = 0; k < 3; k++) {
-        double p = law->axial_m_per_N, v = law->shear_m_per_N, one = k == 0 ? p + v : 0;
-        cx[k] = law->bend_m_per_N * g.d[k] + law->root_m_per_N * end[k] + one + (v - p) * z[k];
-        cy[k] = law->bend_m_per_N * h.d[k] + law->root_m_per_N * law->share * side[k] + one +
-                (p - v) * z[k];
+/* `second` is a constant where this is expanded: without it no second derivative is worked out */
+INLINE void law_at(const fw_hinge_law *law, const fw_hinge_rest *rest, double th, bool second,
+                   fw_hinge_at *at) {
+    double q = 0.5 * law->share, x = law->half_angle_rad + q * th;
+    double p = law->axial_m_per_N, v = law->shear_m_per_N;
+    double bend = law->bend_m_per_N, root = law->root_m_per_N, share = root * law->share;
+    shape f;
+    if (fabs(x) < small)
+        shape_near(x, second, &f);
+    else
+        shape_far(x, &f);
+    const double *s = f.s.d, *g = f.g.d, *h = f.h.d, *z = f.z.d;
+    double cx[3] = {bend * g[0] + root * s[0] * s[0] + (p + v) + (v - p) * z[0],
+                    bend * g[1] + 2 * root * s[0] * s[1] + (v - p) * z[1], 0};
+    double cy[3] = {bend * h[0] + share * s[1] * s[1] + (p + v) - (v - p) * z[0],
+                    bend * h[1] + 2 * share * s[1] * s[2] - (v - p) * z[1], 0};
+    if (second) {
+        cx[2] = bend * g[2] + 2 * root * (s[1] * s[1] + s[0] * s[2]) + (v - p) * z[2];
+        cy[2] = bend * h[2] + 2 * share * (s[2] * s[2] + s[1] * s[3]) - (v - p) * z[2];
     }
     at->kx_N_per_m = inverse(cx, q);
     at->ky_N_per_m = inverse(cy, q);
-    double L = law->length_m, c2 = cos(0.5 * th), s2 = sin(0.5 * th),
-           turn = law->share * free_.d[1];
-    at->drift_m.value = L * (s.d[0] - c2 * free_.d[0] - s2 * turn);
-    at->drift_m.slope = L * (q * s.d[1] + 0.5 * s2 * free_.d[0] - 0.5 * c2 * turn);
-    at->drift_m.curve = L * (q * q * s.d[2] + 0.25 * c2 * free_.d[0] + 0.25 * s2 * turn);
+    double L = law->length_m, c2 = cos(0.5 * th), s2 = sin(0.5 * th);
+    at->drift_m.value = L * (s[0] - c2 * rest->sinc - s2 * rest->turn);
+    at->drift_m.slope = L * (q * s[1] + 0.5 * s2 * rest->sinc - 0.5 * c2 * rest->turn);
+    at->drift_m.curve =
+        second ? L * (q * q * s[2] + 0.25 * c2 * rest->sinc + 0.25 * s2 * rest->turn) : 0;
+}
+
+fw_hinge_rest fw_hinge_rest_of(const fw_hinge_law *law) {
+    const fw_series a = sinc(law->half_angle_rad);
+    return (fw_hinge_rest){a.d[0], law->share * a.d[1]};
+}
+
+void fw_hinge_law_at(const fw_hinge_law *law, double th, fw_hinge_at *at) {
+    const fw_hinge_rest rest = fw_hinge_rest_of(law);
+    law_at(law, &rest, th, true, at);
+}
+
+void fw_hinge_law_slopes(const fw_hinge_law *law, const fw_hinge_rest *rest, double th,
+                         fw_hinge_at *at) {
+    law_at(law, rest, th, false, at);
 }
 
 /* EI is what makes K = EI/(L + 2 dL) the stiffness of the closed form, so that depth and curvature

@@ -16,6 +16,11 @@ typedef struct fw_hinge_law {
     double axial_m_per_N, shear_m_per_N; /* L/(2 EA), L/(2 kGA) */
 } fw_hinge_law;
 
+/* what the free arc gives to the drift at every rotation: sinc(a) and share sinc'(a) */
+typedef struct fw_hinge_rest {
+    double sinc, turn;
+} fw_hinge_rest;
+
 /* value, first and second derivative by the rotation */
 typedef struct fw_hinge_jet {
     double value, slope, curve;
@@ -29,6 +34,10 @@ typedef struct fw_hinge_at {
 void fw_hinge_law_of(const fw_flexure_input *in, const fw_flexure_result *closed_form,
                      fw_hinge_law *law);
 void fw_hinge_law_at(const fw_hinge_law *law, double rotation_rad, fw_hinge_at *at);
+/* values and first derivatives alone, for forces; the second ones are not */
+fw_hinge_rest fw_hinge_rest_of(const fw_hinge_law *law);
+void fw_hinge_law_slopes(const fw_hinge_law *law, const fw_hinge_rest *rest, double rotation_rad,
+                         fw_hinge_at *at);
 /* least rotation, of either sign, at which a pure moment makes W drift by `gap_m`; NaN: at none
    below half a turn */
 double fw_hinge_drift_reaches(const fw_hinge_law *law, double gap_m);

@@ -107,6 +107,11 @@ void fw_ode_evaluate(fw_stepper *s, double t, const double *y, double *f) {
     s->rhs++;
 }
 
+void fw_ode_evaluate_lean(fw_stepper *s, double t, const double *y, double *f) {
+    (s->ode.lean ? s->ode.lean : s->ode.rhs)(s->ode.context, t, y, f);
+    s->rhs++;
+}
+
 bool fw_ode_finite(const double *y, int n) {
     double sum[4] = {0};
     int c = 0;

@@ -16,6 +16,9 @@ typedef struct fw_ode { /* the problem */
     /* moves y (n) onto the manifold and sets f = f(t, y) there; false: the step is not acceptable.
        NULL: no manifold */
     bool (*project)(void *context, double t, double *y, double *f);
+    /* the same without the rates of the quadratures, whose places in f stay as they are: for
+       iterations that do not look at them. NULL: rhs */
+    void (*lean)(void *context, double t, const double *y, double *f);
     int n;          /* components */
     int controlled; /* the first ones count in the error; the rest are quadratures: f does not
                        depend on them */
@@ -35,6 +38,7 @@ typedef enum fw_ode_result {
 
 typedef struct fw_stepper fw_stepper;
 
+enum { FW_ODE_OWN = 4 };
 typedef struct fw_stepper_row { /* one row per integrator; feeds --help and the reference page */
     const char *name, *summary;
     /* order p: the error at the end falls with h^p. dense_order q: in a step from exact values the
@@ -53,6 +57,9 @@ typedef struct fw_stepper_row { /* one row per integrator; feeds --help and the 
     /* value and d/dtheta of w_a y[a] + w_b y[b] (b < 0: only a): for peaks and events */
     void (*component)(const fw_stepper *s, int a, double wa, int b, double wb, double theta,
                       double *value, double *slope);
+    /* where inside the last step states are the method's own and not interpolated, if only these
+       fit what is stiff: theta (FW_ODE_OWN), how many of them; 0: all are equally good. NULL: 0 */
+    int (*own)(const fw_stepper *s, double *theta);
     void (*destroy)(fw_stepper *s); /* gives back what is not in the arena; NULL: nothing */
 } fw_stepper_row;
 
@@ -101,6 +108,8 @@ double fw_ode_norm(const fw_stepper *s, const double *e, const double *y, const 
 /* first step for a method of this order: Hairer, Norsett and Wanner I, II.4; work: 2 padded */
 double fw_ode_first_step(fw_stepper *s, int order, double *work);
 void fw_ode_evaluate(fw_stepper *s, double t, const double *y, double *f); /* counts */
+/* f of the controlled components alone; counts */
+void fw_ode_evaluate_lean(fw_stepper *s, double t, const double *y, double *f);
 bool fw_ode_finite(const double *y, int n);
 /* where a step of about h ends: t_end when it comes close, else t + h; h becomes the difference of
    the two times as they are stored, so that rounding t does not shift the phase of long runs */

@@ -24,12 +24,12 @@ bool fw_ode_jacobian(fw_stepper *s, double t, const double *y, const double *f, 
         double size = fmax(fabs(y[c]), fmax(s->tolerance[c] / s->rtol, least));
         at[c] = y[c] + (f[c] < 0 ? -least : least) * size; /* the way the state is going */
         double d = at[c] - y[c];
-        fw_ode_evaluate(s, t, at, g);
+        fw_ode_evaluate_lean(s, t, at, g);
         at[c] = y[c];
-        for (int i = 0; i < n; i++)
+        for (int i = 0; i < columns; i++)
             j[(size_t)i * (size_t)columns + (size_t)c] = (g[i] - f[i]) / d;
     }
-    return fw_ode_finite(j, n * columns);
+    return fw_ode_finite(j, columns * columns);
 }
 
 fw_status fw_ode_shifted_new(fw_arena *arena, const fw_ode *ode, bool complex, fw_ode_shifted *m) {

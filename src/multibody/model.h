@@ -189,6 +189,7 @@ typedef struct fw_model {
     const double *posed; /* (3 nbody) the u of the last fw_model_pose */
     double *stage;       /* (ny) a closed state, for methods that want one */
     double piece;        /* s: a time inside the smooth piece of the laws */
+    bool lean;           /* powers are not asked for */
     bool broken;         /* no factor: the state is not usable */
     /* kept over a run */
     long projections, events;
@@ -320,7 +321,9 @@ const fw_force_element *fw_model_element_invalid(const fw_model *m, double t, co
 void fw_model_free(fw_model *m, double t, const double *y); /* accel, lambda without friction */
 void fw_model_accelerate(fw_model *m, double t, const double *y, double *f); /* posed, factored */
 void fw_model_rhs(void *model, double t, const double *y, double *f);
-/* the same, and lambda is there afterwards */
+/* the same without the rates of energies, which stay as they are in f */
+void fw_model_lean_rhs(void *model, double t, const double *y, double *f);
+/* that, and lambda is there afterwards */
 void fw_model_react(fw_model *m, double t, const double *y, double *f);
 
 /* project.c */

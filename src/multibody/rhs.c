@@ -35,7 +35,7 @@ void fw_model_accelerate(fw_model *m, double t, const double *y, double *f) {
         f[i] = v[i];
         f[m->nq + i] = m->broken ? (double)NAN : m->accel[i];
     }
-    if (m->ny == 2 * m->nq) return;
+    if (m->ny == 2 * m->nq || m->lean) return;
     double power[2];
     fw_model_power(m, t, y, power);
     if (m->friction) power[0] += fw_friction_power(m);
@@ -72,8 +72,15 @@ void fw_model_rhs(void *model, double t, const double *y, double *f) {
     fw_model_accelerate(m, t, y, f);
 }
 
-void fw_model_react(fw_model *m, double t, const double *y, double *f) {
+void fw_model_lean_rhs(void *model, double t, const double *y, double *f) {
+    fw_model *m = model;
+    m->lean = true;
     fw_model_rhs(m, t, y, f);
+    m->lean = false;
+}
+
+void fw_model_react(fw_model *m, double t, const double *y, double *f) {
+    fw_model_lean_rhs(m, t, y, f);
     if (m->kernel && m->baumgarte == 0)
         memcpy(m->lambda, fw_kernel_lambda(m->kernel), 2 * (size_t)m->nblock * sizeof(double));
 }

@@ -62,10 +62,49 @@ static void test_ordinary_scenes(void **state) {
     fw_arena_free(arena);
 }
 
+/* the two costs meet where the stiffness is some thousand times larger; wherever it is, the choice
+   is near the better one */
+static void test_the_border(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    for (int k = 2; k <= 6; k++) {
+        rig r = two_bars(arena, pow(10, k));
+        rig_torque(&r, 0, 2e-7);
+        const fw_motion *m = run(arena, &r, NULL);
+        const fw_motion *a = run(arena, &r, "dop853"), *b = run(arena, &r, "radau5");
+        long least = a->stats.steps < b->stats.steps ? a->stats.steps : b->stats.steps;
+        assert_true(m->stats.steps <= 2 * least); /* of about equal cost each */
+        if (k != 3 && k != 4) assert_string_equal(m->integrator, k > 4 ? "radau5" : "dop853");
+    }
+    fw_arena_free(arena);
+}
+
+/* the same motion, damped: in a long scene nothing is left that needs accurate steps, but explicit
+   ones must stay stable */
+static void test_what_dies_away(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    for (int damped = 0; damped < 2; damped++) {
+        rig r = two_bars(arena, 100);
+        rig_torque(&r, 0, 2e-7);
+        r.m.pin[0].damping_Nms_per_rad = damped ? 1e-8 : 0;
+        r.m.pin[1].damping_Nms_per_rad = 0;
+        r.scene.duration_s = 1;
+        const fw_motion *m = run(arena, &r, NULL);
+        assert_string_equal(m->integrator, damped ? "radau5" : "dop853");
+        if (!damped) continue;
+        const fw_motion *other = run(arena, &r, "dop853");
+        assert_true(m->stats.steps < other->stats.steps);
+    }
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_stiff_scenes),
         cmocka_unit_test(test_ordinary_scenes),
+        cmocka_unit_test(test_the_border),
+        cmocka_unit_test(test_what_dies_away),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
