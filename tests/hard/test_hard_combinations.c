@@ -231,14 +231,15 @@ static rig any_scene(fw_arena *arena, int c, char *what) {
 
 /* ---- the lot of them ---- */
 
+/* gsl-bsimp is left out: its dense output, which events need, takes some 30 ms a step */
 typedef struct tool {
     const char *name;
     double least, allowed; /* rtol; energy_error / rtol */
 } tool;
-static const tool integrator[] = {{"dop853", 1e-11, 3e4},   {"dop853", 1e-8, 3e4},
-                                  {NULL, 1e-8, 3e4},        {"dopri5", 1e-8, 3e4},
-                                  {"radau5", 1e-8, 1e5},    {"gsl-rk8pd", 1e-9, 1e5},
-                                  {"gsl-rkf45", 1e-8, 1e5}, {"gsl-bsimp", 1e-8, 1e6}};
+static const tool integrator[] = {{"dop853", 1e-11, 3e4},  {"dop853", 1e-8, 3e4},
+                                  {NULL, 1e-8, 3e4},       {"dopri5", 1e-8, 3e4},
+                                  {"radau5", 1e-8, 1e5},   {"gsl-rk8pd", 1e-9, 1e5},
+                                  {"gsl-rkf45", 1e-8, 1e5}};
 static const char *const method[] = {"chain", "chain",     "coordinate-partitioning",
                                      "svd",   "qr",        "udwadia-kalaba",
                                      "schur", "augmented", "block-least-squares"};
@@ -270,7 +271,7 @@ static void combinations(void **state) {
         fw_motion_options o = {.integrator = by->name,
                                .method = method[(int)lot(0, METHODS)],
                                .rtol = by->least * decades(0, 1),
-                               .most_steps = getenv("STEPS")?atoi(getenv("STEPS")):100000,
+                               .most_steps = 100000,
                                .samples = 21};
         outcome out = hard_try(arena, &r, o);
         if (out.status != FW_OK) {
