@@ -179,6 +179,11 @@ static bool pass_event(fw_run *r, fw_stepper *s, int which, double theta, double
 /* a law that jumps changes what its element stores: that is its work. Switches fit the new law. */
 static void jump_of_elements(fw_run *r, double t, double *y, double stored) {
     fw_model *m = r->model;
+    fw_model_pose(m, y);
+    /* a blow may tear a damped stop or cable loose: what it holds is lost then */
+    for (int i = 0; i < m->nstop + m->ncable; i++)
+        if ((fw_model_switch_value(m, t, i, y) > 0) != fw_model_switch_on(m, i))
+            fw_model_flip(m, t, i, y);
     fw_model_set_switches(m, t, y);
     fw_model_pose(m, y);
     if (m->worked >= 0) y[m->worked] += fw_model_element_energy(m, t, y, true) - stored;
