@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "effects/effect.h"
 #include "effects/envelope.h"
+#include "effects/modal.h"
 #include <math.h>
 
 /* of a pin: as the file or the mechanism has it, unless the scene's <material-damping> replaces it
@@ -34,8 +35,18 @@ static double slide_rate(const fw_effect_case *c, const fw_tie *t) {
     return rate;
 }
 
-/* modal forces (modes) of all dampers at their largest rates */
-static void modal_forces(const fw_effect_case *c, double *mode, double *force) {
+static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+    for (int i = 0; i < c->mechanism->npin; i++)
+        if (damping_of(c, i) > 0)
+            fw_terms_torsion(c->mechanism, terms, i)->damping_Nms_per_rad = damping_of(c, i);
+    for (int i = 0; i < c->mechanism->ntie; i++)
+        if (c->mechanism->tie[i].damping_Ns_per_m > 0)
+            fw_terms_slide(terms, i)->damping_Ns_per_m = c->mechanism->tie[i].damping_Ns_per_m;
+    return FW_OK;
+}
+
+/* modal forces (modes) of dampers along sliding joints at their largest rates */
+static void slides(const fw_effect_case *c, double *mode, double *force) {
     const fw_mechanism *m = c->mechanism;
     const fw_envelope *e = c->envelope;
     for (int i = 0; i < m->ntie; i++) {
@@ -53,13 +64,31 @@ static void modal_forces(const fw_effect_case *c, double *mode, double *force) {
             force[3 * body + 2] += f * (arm + (side ? 0 : apart));
         }
     }
-    for (int j = 0; j < e->modes; j++) {
-        const double *turn = e->turn + (size_t)j * (size_t)e->npin;
-        for (int i = 0; i < m->npin; i++)
-            mode[j] += fabs(turn[i]) * damping_of(c, i) * e->rate[i];
+    for (int j = 0; j < e->modes; j++)
         for (int k = 0; k < e->n; k++)
             mode[j] += fabs(e->shape[(size_t)j * (size_t)e->n + (size_t)k]) * force[k];
+}
+
+/* of the joints: between the modes as they are, and where the motion is not linear by their largest
+   rates */
+static fw_status of_joints(const fw_effect_case *c, fw_terms *terms, double *mode) {
+    const fw_envelope *e = c->envelope;
+    size_t m = (size_t)e->modes, pins = (size_t)e->npin;
+    double *damping, fastest = 0;
+    FW_NEED(damping = fw_arena_array(c->arena, double, m *m));
+    for (int i = 0; i < terms->nslide; i++)
+        terms->slide[i].damping_Ns_per_m = 0; /* see slides */
+    FW_TRY(fw_modal_damping(c->arena, e->modal, terms, damping));
+    for (size_t i = 0; i < pins; i++)
+        fastest = fmax(fastest, e->rate[i]);
+    for (size_t j = 0; j < m; j++) {
+        for (size_t l = 0; l < m; l++)
+            mode[j] += fabs(damping[j * m + l]) * e->pace[l] * e->margin;
+        for (size_t i = 0; i < pins; i++)
+            mode[j] += fabs(e->turn[j * pins + i]) * damping_of(c, (int)i) * fastest * 0.25 *
+                       (e->margin - 1);
     }
+    return FW_OK;
 }
 
 /* Without its dampers the motion differs by d with M d'' + C d' + K d = C q', q the motion without
@@ -78,21 +107,16 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     double *mode, *force;
     FW_NEED(mode = fw_arena_array(c->arena, double, (size_t)e->modes));
     FW_NEED(force = fw_arena_array(c->arena, double, (size_t)e->n));
-    modal_forces(c, mode, force);
+    fw_terms terms;
+    slides(c, mode, force);
+    FW_TRY(fw_terms_new(c->arena, c->mechanism, c->scene, &terms));
+    FW_TRY(add(c, &terms));
+    if (e->pinned) FW_TRY(fw_hinges_flex(c, &terms)); /* they dissipate in all directions */
+    FW_TRY(of_joints(c, &terms, mode));
     *value = fw_envelope_mode_answer(c, mode, (double)INFINITY);
     fw_arena_rewind(c->arena, mark);
     *reason = "joints have damping: answer of the modes to c times the largest rates, over the "
               "scene";
-    return FW_OK;
-}
-
-static fw_status add(const fw_effect_case *c, fw_terms *terms) {
-    for (int i = 0; i < c->mechanism->npin; i++)
-        if (damping_of(c, i) > 0)
-            fw_terms_torsion(c->mechanism, terms, i)->damping_Nms_per_rad = damping_of(c, i);
-    for (int i = 0; i < c->mechanism->ntie; i++)
-        if (c->mechanism->tie[i].damping_Ns_per_m > 0)
-            fw_terms_slide(terms, i)->damping_Ns_per_m = c->mechanism->tie[i].damping_Ns_per_m;
     return FW_OK;
 }
 
@@ -110,6 +134,7 @@ const fw_effect_row fw_effect_joint_damping = {
     .summary = "viscous torque of hinges and force of sliding joints, c times rate",
     .called_for = called_for,
     .bound = bound,
+    .calms = true,
     .add = add,
     .cost = 32,
     .count = count};
