@@ -54,6 +54,9 @@ fw_status fw_envelope_of(fw_arena *arena, const fw_mechanism *mechanism, const f
 double fw_envelope_answer(const fw_effect_case *c, const double *force, double variation);
 /* the same for modal forces (modes) that are known: shape . force of what is added */
 double fw_envelope_mode_answer(const fw_effect_case *c, const double *mode, double variation);
+/* modal forces (modes) += of the dampers in `terms` at the largest rates: where the motion is
+   linear as they act between the modes, where it is not those of the pins by the fastest */
+fw_status fw_envelope_dampers(const fw_effect_case *c, const fw_terms *terms, double *mode);
 /* A relative change of the generalised stiffness, |dK| <= part K in the sense of quadratic forms:
    how much any hinge can turn further, relative to `floor`: frequencies shift and phases run apart
    over the scene. */

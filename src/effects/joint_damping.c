@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "effects/effect.h"
 #include "effects/envelope.h"
-#include "effects/modal.h"
 #include <math.h>
 
 /* of a pin: as the file or the mechanism has it, unless the scene's <material-damping> replaces it
@@ -69,28 +68,6 @@ static void slides(const fw_effect_case *c, double *mode, double *force) {
             mode[j] += fabs(e->shape[(size_t)j * (size_t)e->n + (size_t)k]) * force[k];
 }
 
-/* of the joints: between the modes as they are, and where the motion is not linear by their largest
-   rates */
-static fw_status of_joints(const fw_effect_case *c, fw_terms *terms, double *mode) {
-    const fw_envelope *e = c->envelope;
-    size_t m = (size_t)e->modes, pins = (size_t)e->npin;
-    double *damping, fastest = 0;
-    FW_NEED(damping = fw_arena_array(c->arena, double, m *m));
-    for (int i = 0; i < terms->nslide; i++)
-        terms->slide[i].damping_Ns_per_m = 0; /* see slides */
-    FW_TRY(fw_modal_damping(c->arena, e->modal, terms, damping));
-    for (size_t i = 0; i < pins; i++)
-        fastest = fmax(fastest, e->rate[i]);
-    for (size_t j = 0; j < m; j++) {
-        for (size_t l = 0; l < m; l++)
-            mode[j] += fabs(damping[j * m + l]) * e->pace[l] * e->margin;
-        for (size_t i = 0; i < pins; i++)
-            mode[j] += fabs(e->turn[j * pins + i]) * damping_of(c, (int)i) * fastest * 0.25 *
-                       (e->margin - 1);
-    }
-    return FW_OK;
-}
-
 /* Without its dampers the motion differs by d with M d'' + C d' + K d = C q', q the motion without
    them, whose rates the envelope knows: an answer to a force of known size that may go with the
    motion (resonance). Inputs c in N m s/rad and N s/m; output dimensionless; conservative for small
@@ -112,7 +89,9 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     FW_TRY(fw_terms_new(c->arena, c->mechanism, c->scene, &terms));
     FW_TRY(add(c, &terms));
     if (e->pinned) FW_TRY(fw_hinges_flex(c, &terms)); /* they dissipate in all directions */
-    FW_TRY(of_joints(c, &terms, mode));
+    for (int i = 0; i < terms.nslide; i++)
+        terms.slide[i].damping_Ns_per_m = 0; /* see slides */
+    FW_TRY(fw_envelope_dampers(c, &terms, mode));
     *value = fw_envelope_mode_answer(c, mode, (double)INFINITY);
     fw_arena_rewind(c->arena, mark);
     *reason = "joints have damping: answer of the modes to c times the largest rates, over the "
