@@ -30,7 +30,7 @@ static double inertia_about(const fw_mechanism *m, int body, double x, double y)
 static double frequency_of(const fw_effect_case *c, const fw_pin *p) {
     double stated = c->scene->damping[c->scene->ndamping - 1].frequency_Hz;
     if (!isnan(stated)) return 2 * M_PI * stated;
-    const fw_envelope *e = c->envelope;
+    const fw_envelope *e = c->envelope && c->envelope->pinned ? c->envelope->pinned : c->envelope;
     if (e && e->valid && e->modes > 0 && e->omega[0] > 0) return e->omega[0];
     double a = inertia_about(c->mechanism, p->body_a, p->ax_m, p->ay_m);
     double b = inertia_about(c->mechanism, p->body_b, p->bx_m, p->by_m);

@@ -71,6 +71,12 @@ static inline bool hinge_bounds_make(fw_arena *arena, uint64_t seed, bounds_devi
     return true;
 }
 
+static inline bool hinge_active(const fw_effect_ledger *l, const char *id) {
+    for (int i = 0; i < l->count; i++)
+        if (strcmp(l->item[i].id, id) == 0) return l->item[i].active;
+    return false;
+}
+
 typedef struct hinge_score {
     double *tight;
     int devices, finite, bad, count, refused, left_out;
@@ -108,6 +114,9 @@ static inline void hinge_bounds_try(uint64_t seed, hinge_score *score) {
                 bound = all->ledger.item[i].bound;
                 score->left_out += !some->ledger.item[i].active;
             }
+        if (hinge_active(&some->ledger, "nonlinear-hinge")) /* it calms them */
+            assert_true(hinge_active(&some->ledger, "joint-damping"));
+        assert_false(hinge_active(&pins->ledger, "nonlinear-hinge"));
         double change = bounds_apart(all, pins, &unknown);
         if (isfinite(bound)) {
             score->finite++;
