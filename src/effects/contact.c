@@ -285,11 +285,9 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
    hinge_give.c; points: reach of their bodies, and the same for every hinge on the way); otherwise
    what it changes is everything behind the touch. Test: test_contact.c. */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
-    fw_hinge_give give;
     *value = (double)INFINITY;
     *reason = "surfaces may touch: what that changes is the motion itself";
-    FW_TRY(fw_hinge_give_find(c, &give));
-    if (fw_contact_may_touch(c, &give)) return FW_OK;
+    if (fw_contact_may_touch(c)) return FW_OK;
     *value = 0;
     *reason = "no gap closes within the reach of the motion: bound";
     return FW_OK;

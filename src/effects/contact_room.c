@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which gaps the motion can close at all: hinges by the give and drift of W (hinge_give.c), points
-   by the reach of their bodies and of every hinge. Inputs SI from the envelope. Test:
+   by the reach of their bodies. Inputs SI from the envelope. Test:
    test_hinge_give.c, test_contact.c. */
 #include "effects/effect.h"
 #include "effects/envelope.h"
@@ -26,25 +26,25 @@ static double reach_of(const fw_effect_case *c, int body, double x, double y) {
 }
 
 /* the least overlap that is still open: distance left, less what the motion can take of it */
-static double room(const fw_effect_case *c, const fw_contact_use *use, const fw_hinge_give *give) {
+static double room(const fw_effect_case *c, const fw_contact_use *use) {
     const fw_mechanism *m = c->mechanism;
     if (use->joint != FW_NONE) {
         const fw_hinge *h = fw_contact_hinge(m, use);
-        return h ? fw_contact_gap(c, use, h) - give->give_m[use->joint] : -1;
+        return h ? fw_contact_gap(c, use, h) - fw_hinge_give_most(c, use->joint) : -1;
     }
     fw_vec2 a = fw_local_place(m, use->body_a, use->ax_m, use->ay_m);
     fw_vec2 b = fw_local_place(m, use->body_b, use->bx_m, use->by_m);
     double now = hypot(b.x - a.x, b.y - a.y), moves = 0;
     moves += reach_of(c, use->body_a, use->ax_m, use->ay_m);
     moves += reach_of(c, use->body_b, use->bx_m, use->by_m);
-    for (int i = 0; i < m->npin; i++)
-        moves += give->give_m[i];
     return (use->side == FW_CONTACT_INSIDE ? use->distance_m - now : now - use->distance_m) - moves;
 }
 
-bool fw_contact_may_touch(const fw_effect_case *c, const fw_hinge_give *give) {
-    if (c->scene->ncontact > 0 && give->why_not) return true;
+bool fw_contact_may_touch(const fw_effect_case *c) {
+    bool known = c->envelope->valid;
+    for (int i = 0; i < c->mechanism->nhinge; i++) /* hinges that give and are not in it */
+        known = known && (!fw_hinge_flexes(c, i) || c->envelope->pinned);
     for (int i = 0; i < c->scene->ncontact; i++)
-        if (!(room(c, &c->scene->contact[i], give) > 0)) return true;
+        if (!known || !(room(c, &c->scene->contact[i]) > 0)) return true;
     return false;
 }

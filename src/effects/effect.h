@@ -25,19 +25,18 @@ bool fw_hinge_touches(const fw_scene *scene, int pin);
 /* its pin is no constraint any more: an element stands for it (once, however often it is asked for)
  */
 fw_status fw_hinge_release(const fw_effect_case *c, fw_terms *terms, int hinge);
-/* how far an ideal pin is from what the hinges do: nonlinear-hinge.md, "Bound" */
-typedef struct fw_hinge_give {
-    const char *why_not; /* NULL: the numbers below hold */
-    double softening;    /* relative, of the generalised stiffness: at most */
-    double turned_rad;   /* further rotation of any hinge when loads come slowly: at most */
-    double *give_m;      /* (npin) |W of b from W of a| at most */
-} fw_hinge_give;
-fw_status fw_hinge_give_find(const fw_effect_case *c, fw_hinge_give *give);
+/* those that act as they are in this scene */
+bool fw_hinge_flexes(const fw_effect_case *c, int hinge);
+fw_status fw_hinges_flex(const fw_effect_case *c, fw_terms *terms);
+/* the bound of nonlinear-hinge; *why: NULL, or why there is none */
+fw_status fw_hinge_give_bound(const fw_effect_case *c, double *value, const char **why);
+/* m: W of b from W of a at most, of a pin of a valid envelope */
+double fw_hinge_give_most(const fw_effect_case *c, int pin);
 /* hinge of a contact between conjugate surfaces, NULL: none; how far W may move freely, 0: not
    known; false: no gap closes within the motion */
 const fw_hinge *fw_contact_hinge(const fw_mechanism *mechanism, const fw_contact_use *use);
 double fw_contact_gap(const fw_effect_case *c, const fw_contact_use *use, const fw_hinge *hinge);
-bool fw_contact_may_touch(const fw_effect_case *c, const fw_hinge_give *give);
+bool fw_contact_may_touch(const fw_effect_case *c);
 /* this pin's damper comes from the scene's <material-damping>: joint-damping has nothing to add */
 bool fw_material_damped(const fw_effect_case *c, int pin);
 /* N/m: conforming cylinders, convex radius and gap, pressed by `force`: contact.c */

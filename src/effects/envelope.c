@@ -22,9 +22,9 @@ static fw_status arrays(fw_arena *arena, const fw_modal *o, fw_envelope *e) {
     size_t n = (size_t)o->n, m = (size_t)o->modes, pins = (size_t)o->mechanism->npin;
     e->n = o->n, e->modes = o->modes, e->npin = o->mechanism->npin;
     e->omega = o->omega, e->shape = o->shape, e->turn = o->turn;
-    double **of[] = {&e->reach, &e->speed, &e->angle,     &e->rate,
-                     &e->force, &e->yield, &e->amplitude, &e->pace};
-    const size_t size[] = {n, n, pins, pins, pins, m, m, m};
+    double **of[] = {&e->reach, &e->speed, &e->angle,     &e->rate, &e->force,
+                     &e->give,  &e->yield, &e->amplitude, &e->pace};
+    const size_t size[] = {n, n, pins, pins, pins, pins, m, m, m};
     for (size_t i = 0; i < sizeof of / sizeof of[0]; i++)
         FW_NEED(*of[i] = fw_arena_array(arena, double, size[i]));
     return FW_OK;
@@ -111,10 +111,19 @@ static fw_status joint_forces(fw_arena *arena, const fw_modal *o, const fw_pushe
         fw_modal_multipliers(o, push, work, lambda);
         add_pins(o, lambda, fmin(soft, kick), e->force);
     }
-    for (int i = 0; i < e->npin; i++)
-        if (o->linear.pin_row[i] == FW_NONE) e->force[i] = (double)INFINITY;
     fw_arena_rewind(arena, mark);
     return FW_OK;
+}
+
+/* pins that hinges stand for: what the modes open them by, and the force of that */
+static void released(const fw_modal *o, fw_envelope *e) {
+    size_t pins = (size_t)e->npin;
+    for (size_t j = 0; j < (size_t)o->modes; j++)
+        for (size_t i = 0; i < pins; i++) {
+            const double *open = o->open + 2 * (j * pins + i), *pull = o->pull + 2 * (j * pins + i);
+            e->give[i] += hypot(open[0], open[1]) * e->amplitude[j];
+            e->force[i] += hypot(pull[0], pull[1]) * e->amplitude[j];
+        }
 }
 
 /* ---- how far linear theory can be trusted ---- */
@@ -143,6 +152,20 @@ static double largest_turn(const fw_modal *o, const fw_envelope *e) {
     return most;
 }
 
+/* hinges that stand for pins: forces through the drift take F drift''/K of the stiffness */
+static double hinges_doubt(const fw_modal *o, const fw_envelope *e) {
+    const fw_mechanism *m = o->mechanism;
+    double most = 0;
+    for (int h = 0; h < m->nhinge && o->terms->nreleased > 0; h++) {
+        int i = m->hinge[h].pin;
+        fw_hinge_at at;
+        if (!o->terms->released[i]) continue;
+        fw_hinge_law_at(&m->hinge[h].law, 0, &at);
+        most = fmax(most, e->force[i] * fabs(at.drift_m.curve) / m->pin[i].stiffness_Nm_per_rad);
+    }
+    return most;
+}
+
 /* turns, and what the loads at their largest with the multipliers that hold them do to the
    stiffness (twice, because the motion overshoots; a frequency follows by half of it) */
 static fw_status doubt(fw_arena *arena, const fw_modal *o, const fw_envelope *e, double *unsure) {
@@ -152,7 +175,7 @@ static fw_status doubt(fw_arena *arena, const fw_modal *o, const fw_envelope *e,
     fw_terms_largest_force(o->mechanism, o->terms, o->scene->duration_s, force);
     FW_TRY(fw_modal_softening(arena, o, force, false, &part));
     fw_arena_rewind(arena, mark);
-    *unsure = largest_turn(o, e) + part;
+    *unsure = largest_turn(o, e) + part + hinges_doubt(o, e);
     return FW_OK;
 }
 
@@ -167,7 +190,7 @@ static double largest(const double *value, int from, int step, int count) {
 /* Bounds grow by the margin, and by a share of the largest of their kind: what does not move in
    linear theory moves with the square of what does */
 static void widen(fw_envelope *e, double unsure) {
-    double *of[] = {e->reach, e->speed, e->angle, e->rate, e->force};
+    double *of[] = {e->reach, e->speed, e->angle, e->rate, e->force, e->give};
     e->margin = 1 + widening * unsure;
     for (int k = 0; k < 2; k++) {
         double x = fmax(largest(of[k], 0, 3, e->n), largest(of[k], 1, 3, e->n));
@@ -175,7 +198,7 @@ static void widen(fw_envelope *e, double unsure) {
         for (int i = 0; i < e->n; i++)
             of[k][i] = of[k][i] * e->margin + unsure * (i % 3 == 2 ? turn : x);
     }
-    for (int k = 2; k < 5; k++) {
+    for (int k = 2; k < 6; k++) {
         double most = 0;
         for (int i = 0; i < e->npin; i++)
             if (isfinite(of[k][i])) most = fmax(most, of[k][i]);
@@ -211,6 +234,7 @@ fw_status fw_envelope_of(fw_arena *arena, const fw_mechanism *m, const fw_scene 
     spread(e->modes, e->npin, e->turn, e->amplitude, e->angle);
     spread(e->modes, e->npin, e->turn, e->pace, e->rate);
     FW_TRY(joint_forces(arena, o, &pushes, e));
+    released(o, e);
     FW_TRY(doubt(arena, o, e, &unsure));
     if (!(unsure <= unsure_most))
         return fail(e, "it turns too far, or its loads change its stiffness too much, for linear "

@@ -21,6 +21,8 @@ typedef struct fw_envelope {
     double *angle; /* (npin) |rotation| */
     double *rate;  /* (npin) |angular velocity| */
     double *force; /* (npin) N: on the joint's force */
+    double *give;  /* (npin) m: W of b from W of a where a hinge stands for the pin, its drift not
+                      counted */
     double floor;  /* rad: the largest hinge deflection of the scene is at least this */
     double most;   /* rad: and at most this */
     /* for the answers */
@@ -30,6 +32,9 @@ typedef struct fw_envelope {
     double *amplitude, *pace; /* (modes) |q| and |q'| of each, without the margin */
     double *yield;            /* (modes) s^2: |q| under a force of size 1 of any course */
     const struct fw_modal *modal;
+    /* the same scene with every hinge a pin: what nonlinear-hinge is measured against. NULL: this
+       is it */
+    const struct fw_envelope *pinned;
     bool *taken; /* (rows of the table) it is in this envelope; what is not must not change much */
 } fw_envelope;
 
@@ -49,6 +54,9 @@ fw_status fw_envelope_of(fw_arena *arena, const fw_mechanism *mechanism, const f
 double fw_envelope_answer(const fw_effect_case *c, const double *force, double variation);
 /* the same for modal forces (modes) that are known: shape . force of what is added */
 double fw_envelope_mode_answer(const fw_effect_case *c, const double *mode, double variation);
+/* modal forces (modes) += of the dampers in `terms` at the largest rates: where the motion is
+   linear as they act between the modes, where it is not those of the pins by the fastest */
+fw_status fw_envelope_dampers(const fw_effect_case *c, const fw_terms *terms, double *mode);
 /* A relative change of the generalised stiffness, |dK| <= part K in the sense of quadratic forms:
    how much any hinge can turn further, relative to `floor`: frequencies shift and phases run apart
    over the scene. */

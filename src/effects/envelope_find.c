@@ -3,12 +3,13 @@
    that act on both sides. */
 #include "effects/effect.h"
 #include "effects/envelope.h"
+#include <string.h>
 
 static bool linear(const fw_terms *t) {
     for (int i = 0; i < t->nelement; i++)
         if (t->element[i].switches > 0) return false;
-    return t->nstop == 0 && t->nfriction == 0 && t->nreleased == 0 && !t->strained &&
-           !t->stretch.law && !t->quasi_static;
+    return t->nstop == 0 && t->nfriction == 0 && !t->strained && !t->stretch.law &&
+           !t->quasi_static;
 }
 
 /* does its `add` stay within what linear theory takes in? */
@@ -32,15 +33,34 @@ static fw_status add_taken(const fw_effect_case *c, const bool *taken, fw_terms 
     return FW_OK;
 }
 
+/* Where flexures are to act as they are there are two of them: with the hinges as linear springs
+   about the drawn pose, which all bounds go by, and with pins in their place, against which
+   nonlinear-hinge is measured. */
+static fw_status with_hinges(const fw_effect_case *c, bool *taken, int hinges,
+                             fw_envelope *envelope) {
+    fw_terms *terms;
+    fw_envelope *pinned;
+    FW_NEED(terms = fw_arena_one(c->arena, fw_terms));
+    FW_NEED(pinned = fw_arena_one(c->arena, fw_envelope));
+    *pinned = *envelope;
+    taken[hinges] = true;
+    FW_TRY(add_taken(c, taken, terms));
+    FW_TRY(fw_envelope_of(c->arena, c->mechanism, c->scene, terms, envelope));
+    envelope->pinned = pinned;
+    return FW_OK;
+}
+
 fw_status fw_envelope_find(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                            fw_envelope *envelope) {
     size_t count;
     const fw_effect_row *const *row = fw_effect_rows(&count);
     fw_envelope first = {.why_not = "not computed yet"};
-    fw_diags quiet = fw_diags_new(arena); /* what an effect objects to is said when it is compiled */
+    fw_diags quiet =
+        fw_diags_new(arena); /* what an effect objects to is said when it is compiled */
     const fw_effect_case c = {arena, mechanism, scene, &first, &quiet};
     fw_terms *terms, all;
     bool *taken, more = false;
+    int hinges = FW_NONE;
     FW_NEED(taken = fw_arena_array(arena, bool, count));
     FW_NEED(terms = fw_arena_one(arena, fw_terms));
     for (size_t i = 0; i < count; i++)
@@ -50,6 +70,8 @@ fw_status fw_envelope_find(fw_arena *arena, const fw_mechanism *mechanism, const
     for (size_t i = 0; i < count; i++)
         if (!row[i]->kept && row[i]->called_for(&c)) {
             FW_TRY(can_take(&c, row[i], &taken[i]));
+            if (taken[i] && strcmp(row[i]->id, "nonlinear-hinge") == 0)
+                hinges = (int)i, taken[i] = false;
             more = more || taken[i];
         }
     *envelope = first;
@@ -57,6 +79,7 @@ fw_status fw_envelope_find(fw_arena *arena, const fw_mechanism *mechanism, const
         FW_TRY(add_taken(&c, taken, terms));
         FW_TRY(fw_envelope_of(arena, mechanism, scene, terms, envelope));
     }
+    if (hinges != FW_NONE) FW_TRY(with_hinges(&c, taken, hinges, envelope));
     envelope->taken = taken;
     return FW_OK;
 }

@@ -252,3 +252,16 @@ fw_status fw_hinge_release(const fw_effect_case *c, fw_terms *terms, int hinge) 
     terms->nreleased++;
     return FW_OK;
 }
+
+/* where the file states the stiffness its law holds, unless the surfaces can touch: that needs the
+   hinge to give */
+bool fw_hinge_flexes(const fw_effect_case *c, int hinge) {
+    const fw_hinge *h = &c->mechanism->hinge[hinge];
+    return fw_hinge_is_known(h) && (!h->stated || fw_hinge_touches(c->scene, h->pin));
+}
+
+fw_status fw_hinges_flex(const fw_effect_case *c, fw_terms *terms) {
+    for (int i = 0; i < c->mechanism->nhinge; i++)
+        if (fw_hinge_flexes(c, i)) FW_TRY(fw_hinge_release(c, terms, i));
+    return FW_OK;
+}

@@ -1,241 +1,314 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How far ideal pins are from hinges that give, in linear theory about the drawn pose. Pinned, the
-   pins carry forces l0(t), |l0_i| <= envelope->force[i]. With pins that give and drift, what is
-   added to the motion, e, obeys exactly
+/* How far the peaks of a mechanism with ideal pins are from those of one whose hinges give and
+   drift. Two linear motions under the same loads, hinges as pins (a) and as springs (b), are known
+   up to their peaks (peaks.c); to |peak a - peak b| is added, with u the doubt of the envelope:
 
-     M e'' + Kc e = G^T s,   s_i = l0_i + k_i drift_i
+     4 u (differences of what stands still, of the rings; rings of the modes that the hinges add)
+                what is not linear does to both alike
+     sources    what of a hinge is not linear, as the envelope allows it: the drift d(th), a give of
+                its forces F by what its softness changes with th, the torque F d'(th) + k'/2k F
+   give, couples F give/2 on both bodies. Their answer: modes of b beyond those of a as in statics,
+   signs kept, twice; the others sizes times what a product of two of the motion's courses can do:
+   2/|1 - (W/w)^2| for W = w_j, w_j +- w_k, at most w T/2 phases     frequencies shift, and rings of
+   several modes or of later loads then meet at other times. The shift of one ring from the start
+   only stretches time; others: their size times the shift of their phase, known to first order in
+   the peaks (so times min(1, u w T)), and in full for the shift by the sources
 
-   with Kc the stiffness of all hinges and G^T s_i the force s_i on body b and its opposite on body
-   a at pin i. In the modes f_m of (Kc, M), W_m their frequencies: turned     rotation of pin j: c
-   sum_m |turn_j f_m| sum_i |G_i f_m| s_i / W_m^2. A static sum would cancel between modes; a motion
-   does not, so sizes are added. c = 2/(1 - r): put on at once, and for the frequencies of the
-   pinned motion, r = (largest pinned frequency / least one at which the pins vibrate)^2; only where
-   r < 1/4 give       of pin j: the same with |G_j f_m| softening  the pinned flexibility is F0 = Q
-   w^-2 Q^T in pinned modes Q; A = Kc^-1, and A - F0 >= 0 is what the pins add: |w Q^T M A M Q w -
-   1| in the modes (Frobenius). It holds the slow part of l0 too, which goes with the motion's own
-   frequencies second     forces through the drift soften the rotation by l drift''/k; the displaced
-   W gives order      them an arm: couples s_i give_i on both bodies Inputs SI from the envelope;
-   outputs rad, m, relative. Not valid for loads that go with time (they may meet the pins' own
-   vibrations), other joints, springs. Cost: an eigenvalue problem of 3 nbody. Source:
-   docs/theory/effects/nonlinear-hinge.md. Test: test_hinge_give.c (motions of a lever and a six-bar
-   with and without). */
+   Inputs SI from the envelopes; outputs rad over the floor. Infinite where the hinges give at
+   frequencies below twice those of the motion. Valid as the envelope is. Cost: peaks.c, and modes
+   times pins times hinges. Source: docs/theory/effects/nonlinear-hinge.md. Test: test_hinge_give.c,
+   test_hinge_bounds.c. */
 #include "effects/effect.h"
 #include "effects/envelope.h"
-#include "maths/lapack.h"
+#include "effects/peaks.h"
 #include <math.h>
 
 typedef struct work {
     const fw_effect_case *c;
-    int n;
-    double *mass;      /* (n) */
-    double *stiffness; /* (n x n) */
-    double *mode;      /* (n x n) row m: f_m, f_m^T M f_m = 1 */
-    double *square;    /* (n) W_m^2, ascending */
-    double *turn;      /* (n x npin) |turn of pin| in mode m */
-    double *open;      /* (n x npin) |G_i f_m| */
-    double *push;      /* (n) sum over what pushes: |generalised force of mode m|, at most */
+    const fw_envelope *a, *b; /* pinned, given */
+    fw_peaks pa, pb;
+    int slow; /* modes of a */
+    double unsure;
+    double *rapid_rad; /* (npin) sources in the modes beyond */
+    double *swing;     /* (slow) sources: static |q| */
+    double *up, *down; /* (slow) of it those that always push one way, or the other */
+    double *overshoot; /* (slow) */
+    double *phase;     /* (slow) w T, T the time over which its damping lets it count */
 } work;
 
-/* what in the scene the theory above has no place for */
-static const char *outside(const fw_effect_case *c) {
-    const fw_mechanism *m = c->mechanism;
-    const fw_scene *s = c->scene;
-    if (!c->envelope->valid) return "how large the motion becomes is not known: kept";
-    if (m->ntie > 0 || m->nspring > 0 || m->nhinge != m->npin)
-        return "other joints or springs besides the flexures: kept";
-    for (int i = 0; i < m->nhinge; i++)
-        if (!fw_hinge_is_known(&m->hinge[i])) return "a flexure is not drawn: kept";
-    if (fw_effect_not_proportional(c) || s->nbase + s->ncomb + s->ntendon + s->ntemperature > 0)
-        return "loads that change with time may meet the frequencies at which the hinges give: "
-               "kept";
-    return NULL;
-}
+/* ---- sources ---- */
 
-/* Kc at the drawn pose */
-static fw_status assemble(work *w) {
-    const fw_effect_case *c = w->c;
-    const fw_mechanism *m = c->mechanism;
-    fw_terms terms;
-    double *q, *force, p[6], v[6], f[6], k[36], d[36];
-    FW_NEED(q = fw_arena_array(c->arena, double, (size_t)w->n));
-    FW_NEED(force = fw_arena_array(c->arena, double, (size_t)w->n));
-    FW_TRY(fw_terms_new(c->arena, m, c->scene, &terms));
-    for (int i = 0; i < m->nhinge; i++)
-        FW_TRY(fw_hinge_release(c, &terms, i));
-    for (int b = 0; b < m->nbody; b++)
-        q[3 * b] = m->body[b].x_m, q[3 * b + 1] = m->body[b].y_m, q[3 * b + 2] = m->body[b].phi_rad;
-    for (int i = 0; i < terms.nelement; i++) {
-        const fw_force_element *e = &terms.element[i];
-        const fw_seen s = {.load = 1, .p = p, .w = v};
-        fw_element_look(e, q, NULL, p, v);
-        e->class_->force(e, &s, f);
-        e->class_->tangent(e, &s, k, d);
-        fw_element_spread(e, m->nbody, q, NULL, f, k, d, w->stiffness, NULL);
-    }
-    return FW_OK;
-}
-
-/* f_m and W_m; how mode m turns and opens the pins. *fine false: no stiffness, or no modes */
-static fw_status find_modes(work *w, bool *fine) {
-    const fw_mechanism *m = w->c->mechanism;
-    int n = w->n;
-    fw_lapack_space space;
-    FW_TRY(fw_eigen_space(w->c->arena, n, &space));
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++)
-            w->mode[i * n + j] = w->stiffness[i * n + j] / sqrt(w->mass[i] * w->mass[j]);
-    *fine = fw_eigen(n, w->mode, w->square, &space) && w->square[0] > 0;
-    for (int k = 0; k < n && *fine; k++) {
-        double *f = w->mode + (size_t)k * (size_t)n;
-        for (int i = 0; i < n; i++)
-            f[i] /= sqrt(w->mass[i]);
-        for (int i = 0; i < m->npin; i++) {
-            fw_vec2 at[2] = {{0, 0}, {0, 0}};
-            double turn[2] = {0, 0};
-            for (int side = 0; side < 2; side++) {
-                int b = side ? m->pin[i].body_b : m->pin[i].body_a;
-                if (b == FW_GROUND) continue;
-                fw_vec2 p = fw_pin_place(m, &m->pin[i], side);
-                turn[side] = f[3 * b + 2];
-                at[side].x = f[3 * b] - turn[side] * (p.y - m->body[b].y_m);
-                at[side].y = f[3 * b + 1] + turn[side] * (p.x - m->body[b].x_m);
-            }
-            w->turn[k * m->npin + i] = fabs(turn[1] - turn[0]);
-            w->open[k * m->npin + i] = hypot(at[1].x - at[0].x, at[1].y - at[0].y);
-        }
-    }
-    return FW_OK;
-}
-
-/* largest of drift, its second derivative and |k'/k| within the angles that the envelope allows */
+/* Largest of what the law does within these angles; of the compliances 1/kx, 1/ky (0 and 1: along
+   e and n) their change, slope and difference */
 typedef struct worst {
-    double drift_m, curve_m, stiffness_N_per_m, change_per_rad;
+    bool one_way; /* the drift never changes its sign */
+    double drift_m, slope_m, softer_m_per_N[2], twist_per_N[2], uneven_m_per_N;
 } worst;
 
 static worst worst_of(const fw_hinge_law *law, double angle_rad) {
     enum { STEPS = 16 };
-    worst w = {0, 0, 0, 0};
+    worst w = {.one_way = true};
+    fw_hinge_at at, rest;
+    fw_hinge_law_at(law, 0, &rest);
     for (int i = -STEPS; i <= STEPS; i++) {
-        fw_hinge_at at;
         fw_hinge_law_at(law, angle_rad * i / STEPS, &at);
+        const fw_hinge_jet *k[2] = {&at.kx_N_per_m, &at.ky_N_per_m};
+        const double drawn[2] = {rest.kx_N_per_m.value, rest.ky_N_per_m.value};
+        w.one_way = w.one_way && at.drift_m.value > -1e-6 * law->length_m * angle_rad * angle_rad;
         w.drift_m = fmax(w.drift_m, fabs(at.drift_m.value));
-        w.curve_m = fmax(w.curve_m, fabs(at.drift_m.curve));
-        w.stiffness_N_per_m =
-            fmax(w.stiffness_N_per_m, fmax(at.kx_N_per_m.value, at.ky_N_per_m.value));
-        w.change_per_rad =
-            fmax(w.change_per_rad, fmax(fabs(at.kx_N_per_m.slope) / at.kx_N_per_m.value,
-                                        fabs(at.ky_N_per_m.slope) / at.ky_N_per_m.value));
+        w.slope_m = fmax(w.slope_m, fabs(at.drift_m.slope));
+        w.uneven_m_per_N = fmax(w.uneven_m_per_N, fabs(1 / k[0]->value - 1 / k[1]->value));
+        for (int d = 0; d < 2; d++) {
+            double v = k[d]->value;
+            w.softer_m_per_N[d] = fmax(w.softer_m_per_N[d], fabs(1 / v - 1 / drawn[d]));
+            w.twist_per_N[d] = fmax(w.twist_per_N[d], fabs(k[d]->slope) / (v * v));
+        }
     }
     return w;
 }
 
-/* |w Q^T M A M Q w - 1| */
-static fw_status soften(const work *w, double *softening) {
-    const fw_envelope *v = w->c->envelope;
-    double sum = 0, *part; /* (modes x n) q_j^T M f_m w_j / W_m */
-    FW_NEED(part = fw_arena_array(w->c->arena, double, (size_t)v->modes *(size_t)w->n));
-    for (int j = 0; j < v->modes; j++)
-        for (int k = 0; k < w->n; k++) {
-            double dot = 0;
-            for (int i = 0; i < w->n; i++)
-                dot += v->shape[j * w->n + i] * w->mass[i] * w->mode[k * w->n + i];
-            part[j * w->n + k] = dot * v->omega[j] / sqrt(w->square[k]);
+static worst worst_at(const fw_effect_case *c, const fw_envelope *e, int hinge) {
+    const fw_hinge *h = &c->mechanism->hinge[hinge];
+    return worst_of(&h->law, e->angle[h->pin] + fabs(fw_pin_deflection(c->mechanism, h->pin)));
+}
+
+double fw_hinge_give_most(const fw_effect_case *c, int pin) {
+    const fw_envelope *e = c->envelope;
+    int hinge = c->mechanism->pin[pin].hinge;
+    if (!e->pinned || hinge == FW_NONE || !fw_hinge_is_known(&c->mechanism->hinge[hinge]))
+        return e->give[pin];
+    return e->give[pin] + worst_at(c, e, hinge).drift_m;
+}
+
+/* One source: modal force (modes) of a unit of it, and how large it is. Of one that has always the
+   same sign (`sign`, else 0) only those that agree in theirs add up */
+static void add_source(work *w, const double *force, double size, double sign) {
+    const fw_envelope *e = w->b;
+    size_t pins = (size_t)e->npin;
+    for (int j = 0; j < w->slow; j++) {
+        double q = w->b->margin * size * force[j] / (e->omega[j] * e->omega[j]);
+        if (sign == 0)
+            w->swing[j] += fabs(q);
+        else
+            *(sign * q > 0 ? &w->up[j] : &w->down[j]) += fabs(q);
+    }
+    for (size_t i = 0; i < pins; i++) {
+        double sum = 0;
+        for (int j = w->slow; j < e->modes; j++)
+            sum += e->turn[(size_t)j * pins + i] * force[j] / (e->omega[j] * e->omega[j]);
+        w->rapid_rad[i] += 2 * w->b->margin * size * fabs(sum);
+    }
+}
+
+/* N: along e and n of the hinge, in the modes as sizes; like the angles without the margin, which
+   the answer has */
+static void force_of(const work *w, int hinge, double *most) {
+    const fw_envelope *e = w->b;
+    const fw_hinge *h = &w->c->mechanism->hinge[hinge];
+    double c = cos(h->axis_rad), s = sin(h->axis_rad);
+    most[0] = most[1] = 0;
+    for (int j = 0; j < e->modes; j++) {
+        const double *pull = e->modal->pull + 2 * ((size_t)j * (size_t)e->npin + (size_t)h->pin);
+        most[0] += e->amplitude[j] * fabs(c * pull[0] + s * pull[1]);
+        most[1] += e->amplitude[j] * fabs(c * pull[1] - s * pull[0]);
+    }
+}
+
+static void add_hinge(work *w, int hinge, double *force) {
+    const fw_mechanism *m = w->c->mechanism;
+    const fw_envelope *e = w->b;
+    const fw_hinge *h = &m->hinge[hinge];
+    size_t pins = (size_t)e->npin, pin = (size_t)h->pin, modes = (size_t)e->modes;
+    double angle = fabs(fw_pin_deflection(m, h->pin));
+    for (size_t j = 0; j < modes; j++)
+        angle += fabs(e->turn[j * pins + pin]) * e->amplitude[j];
+    worst x = worst_of(&h->law, angle);
+    double c = cos(h->axis_rad), s = sin(h->axis_rad), push[2];
+    force_of(w, hinge, push);
+    for (int d = 0; d < 2; d++) {
+        for (size_t j = 0; j < modes; j++) {
+            const double *pull = e->modal->pull + 2 * (j * pins + pin);
+            force[j] = d ? c * pull[1] - s * pull[0] : c * pull[0] + s * pull[1];
         }
-    for (int i = 0; i < v->modes; i++)
-        for (int j = 0; j < v->modes; j++) {
-            double off = i == j ? -1 : 0;
-            for (int k = 0; k < w->n; k++)
-                off += part[i * w->n + k] * part[j * w->n + k];
-            sum += off * off;
+        add_source(w, force, x.softer_m_per_N[d] * push[d], 0);
+        bool known = x.one_way && fw_pin_deflection(m, h->pin) == 0; /* drawn free of force */
+        if (d) add_source(w, force, x.drift_m, known ? h->first_is_a ? 1 : -1 : 0);
+    }
+    for (size_t j = 0; j < modes; j++)
+        force[j] = e->turn[j * pins + pin];
+    double twist = x.twist_per_N[0] * push[0] * push[0] + x.twist_per_N[1] * push[1] * push[1];
+    add_source(w, force, push[1] * x.slope_m + 0.5 * twist, 0);
+    double couple = push[0] * (push[1] * x.uneven_m_per_N + x.drift_m);
+    for (int side = 0; side < 2; side++) {
+        int b = side ? m->pin[pin].body_b : m->pin[pin].body_a;
+        for (size_t j = 0; j < modes && b != FW_GROUND; j++)
+            force[j] = e->shape[j * (size_t)e->n + 3 * (size_t)b + 2];
+        if (b != FW_GROUND) add_source(w, force, 0.5 * couple, 0);
+    }
+}
+
+/* ---- what a product of two courses of the motion does to a mode ---- */
+
+/* answer of a mode w, over the static one, to cos W t from rest */
+static double answer(double pace, double omega, double most) {
+    double apart = fabs(1 - pace / omega * (pace / omega));
+    return apart * most > 2 ? 2 / apart : most;
+}
+
+static double both(double j, double k, double omega, double most) {
+    double x = fmax(answer(j + k, omega, most), answer(fabs(j - k), omega, most));
+    /* with a constant; the mode's own course shifts its frequency: see phases */
+    if (j != omega) x = fmax(x, answer(j, omega, most));
+    if (k != omega) x = fmax(x, answer(k, omega, most));
+    return fmax(2, x);
+}
+
+/* The mode's own course under constant loads: s + r cos(w t + f) times the same of another ratio
+   has a constant and a wave of 2 w, which answer at most 2 s or 1.54 r of s + r; from rest r >= s
+ */
+static double alone(const work *w, int j) {
+    double r = w->pb.ring[j], s = fmin(r, fmax(0, w->b->amplitude[j] - r));
+    return r > 0 ? fmax(2 * s, 1.54 * r) / (s + r) : 2;
+}
+
+/* of a course that is no wave: by its variation */
+static double restless(const fw_pushes *p, int modes) {
+    double most = 0;
+    for (int i = 0; i < p->count; i++) {
+        const fw_push *f = &p->item[i];
+        if (!f->element && (fw_law_is_constant(f->law) || f->law->kind == FW_LAW_SINE)) continue;
+        for (int j = 0; j < modes; j++)
+            if (f->sup[j] > 0) most = fmax(most, f->sway[j] / f->sup[j]);
+    }
+    return most;
+}
+
+static fw_status overshoots(work *w, const fw_pushes *p) {
+    const fw_envelope *e = w->b;
+    int count = 0;
+    double *pace, *share, sum = 0, other = restless(p, w->slow);
+    size_t most = (size_t)w->slow + (size_t)p->count;
+    FW_NEED(pace = fw_arena_array(w->c->arena, double, most));
+    FW_NEED(share = fw_arena_array(w->c->arena, double, most));
+    for (int j = 0; j < w->slow; j++, count++) {
+        pace[j] = e->omega[j];
+        for (int i = 0; i < e->npin; i++)
+            share[j] = fmax(share[j], fabs(e->turn[j * e->npin + i]) * e->amplitude[j]);
+        sum += share[j];
+    }
+    for (int j = 0; j < w->slow; j++)
+        share[j] /= sum;
+    for (int i = 0; i < p->count; i++)
+        if (p->item[i].law && p->item[i].law->kind == FW_LAW_SINE) {
+            pace[count] = 2 * M_PI * p->item[i].law->frequency_Hz;
+            share[count++] = 1;
         }
-    *softening = sqrt(sum);
+    const bool constant = other == 0 && count == w->slow;
+    for (int l = 0; l < w->slow; l++) {
+        double cap = fmax(2, 0.5 * e->omega[l] * e->duration_s);
+        for (int j = 0; j < count; j++)
+            for (int k = 0; k < count; k++)
+                w->overshoot[l] +=
+                    share[j] * share[k] *
+                    (j == l && k == l && constant ? alone(w, l)
+                                                  : both(pace[j], pace[k], e->omega[l], cap));
+        w->overshoot[l] += other > 0 ? fmin(cap, 2 * other) : 0;
+    }
     return FW_OK;
 }
 
-/* sum over the modes of what they show of their pushes */
-static double shown(const work *w, const double *what, int pin) {
-    double sum = 0;
-    for (int k = 0; k < w->n; k++)
-        sum += what[k * w->c->mechanism->npin + pin] * w->push[k] / w->square[k];
+/* ---- the sum ---- */
+
+/* rings that may meet at other times, of pin i, where the ring d only stretches time */
+static double phases(const work *w, int i, int d) {
+    double sum = 0, pinned = w->a->omega[d], shift = fabs(pinned / w->b->omega[d] - 1);
+    for (int l = 0; l < w->slow; l++) {
+        double turn = fabs(w->b->turn[l * w->b->npin + i]), ring = w->pb.ring[l];
+        double own = fabs(w->a->omega[l] / w->b->omega[l] - w->a->omega[d] / w->b->omega[d]);
+        double late = fmin(ring, w->pb.late[l]), loose = l == d ? late : ring;
+        double known = fmin(1, w->unsure * w->phase[l]);
+        sum += turn * known *
+               (loose * fmin(2, own * w->phase[l]) + late * fmin(2, shift * w->phase[l]));
+        sum +=
+            turn * fmin(0.5 * w->swing[l] * w->phase[l] * (ring > 0 ? loose / ring : 0), 2 * loose);
+    }
     return sum;
 }
 
-static void add_push(work *w, int hinge, double force_N) {
-    int i = w->c->mechanism->hinge[hinge].pin;
-    for (int k = 0; k < w->n; k++)
-        w->push[k] += w->open[k * w->c->mechanism->npin + i] * force_N;
+static double apart(const work *w, int i) {
+    const fw_peaks *a = &w->pa, *b = &w->pb;
+    double bracket = fmax(a->high[i] - b->low[i], b->high[i] - a->low[i]);
+    double alike = fabs(a->still[i] - b->still[i]) + a->rapid_rad[i] + b->rapid_rad[i];
+    double sources = w->rapid_rad[i], least = (double)INFINITY;
+    for (int l = 0; l < w->slow; l++) {
+        double ta = fabs(w->a->turn[l * w->a->npin + i]), tb = fabs(w->b->turn[l * w->b->npin + i]);
+        alike += fabs(ta * a->ring[l] - tb * b->ring[l]);
+        sources += tb * w->swing[l] * w->overshoot[l];
+        least = fmin(least, phases(w, i, l));
+    }
+    for (int l = w->slow; l < w->b->modes; l++) /* those that are followed are no part of rapid */
+        alike += fabs(w->b->turn[l * w->b->npin + i]) * b->ring[l];
+    return bracket + 4 * w->unsure * alike + sources + least;
 }
 
-/* the arm of the forces at the displaced W: couples on both bodies, and one between them where the
-   stiffness depends on the angle */
-static void add_couples(work *w, int hinge, double couple_Nm, double between_Nm) {
-    const fw_mechanism *m = w->c->mechanism;
-    const fw_pin *p = &m->pin[m->hinge[hinge].pin];
-    for (int k = 0; k < w->n; k++)
-        for (int side = 0; side < 2; side++) {
-            int b = side ? p->body_b : p->body_a;
-            if (b == FW_GROUND) continue;
-            w->push[k] += (0.5 * couple_Nm + between_Nm) * fabs(w->mode[k * w->n + 3 * b + 2]);
-        }
+static const char *outside(const fw_effect_case *c) {
+    const fw_envelope *b = c->envelope, *a = b->pinned;
+    if (!b->valid) return b->why_not;
+    if (!a) return "pins in place of the hinges have no linear theory";
+    if (!a->valid) return a->why_not;
+    if (!(a->modes < b->modes) || a->modes == 0) return "no hinge gives";
+    if (!(a->omega[a->modes - 1] < 0.5 * b->omega[a->modes]))
+        return "the hinges give at frequencies near those of the motion";
+    return NULL;
 }
 
-static fw_status find(work *w, fw_hinge_give *give) {
+static fw_status compare(work *w, const char **why) {
     const fw_effect_case *c = w->c;
-    const fw_envelope *v = c->envelope;
-    const fw_mechanism *m = c->mechanism;
-    bool fine;
-    FW_TRY(find_modes(w, &fine));
-    double ratio = (double)INFINITY, most = 0;
-    if (fine && v->modes > 0 && v->modes < w->n)
-        ratio = v->omega[v->modes - 1] * v->omega[v->modes - 1] / w->square[v->modes];
-    if (!(ratio < 0.25)) {
-        give->why_not = "the hinges give at frequencies near those of the motion: kept";
-        return FW_OK;
+    const fw_envelope *e = w->b;
+    double *force, followed = 0;
+    fw_pushes pushes;
+    for (int j = 0; j < w->slow; j++)
+        followed = fmax(followed, fmax(w->a->omega[j], e->omega[j]));
+    FW_TRY(fw_pushes_find(c->arena, w->a->modal, &pushes));
+    FW_TRY(fw_peaks_find(c->arena, w->a->modal, &pushes, followed, w->a->amplitude, &w->pa));
+    FW_TRY(fw_pushes_find(c->arena, e->modal, &pushes));
+    FW_TRY(fw_peaks_find(c->arena, e->modal, &pushes, followed, e->amplitude, &w->pb));
+    *why = w->pa.why_not ? w->pa.why_not : w->pb.why_not;
+    if (*why) return FW_OK;
+    FW_NEED(w->rapid_rad = fw_arena_array(c->arena, double, (size_t)e->npin));
+    FW_NEED(w->swing = fw_arena_array(c->arena, double, (size_t)w->slow));
+    FW_NEED(w->up = fw_arena_array(c->arena, double, (size_t)w->slow));
+    FW_NEED(w->down = fw_arena_array(c->arena, double, (size_t)w->slow));
+    FW_NEED(w->overshoot = fw_arena_array(c->arena, double, (size_t)w->slow));
+    FW_NEED(w->phase = fw_arena_array(c->arena, double, (size_t)w->slow));
+    FW_NEED(force = fw_arena_array(c->arena, double, (size_t)e->modes));
+    FW_TRY(overshoots(w, &pushes));
+    for (int j = 0; j < w->slow; j++) {
+        double zeta = 0.5 * e->modal->damping[j * e->modes + j] / e->omega[j];
+        w->phase[j] = fmin(e->omega[j] * e->duration_s, 1 / (M_E * fmax(zeta, 1e-12)));
     }
-    FW_TRY(soften(w, &give->softening));
-    double at_once = 2 / (1 - ratio) * (1 + give->softening);
-    for (int h = 0; h < m->nhinge; h++) {
-        int i = m->hinge[h].pin;
-        worst x = worst_of(&m->hinge[h].law, v->angle[i]);
-        add_push(w, h, v->force[i] + x.stiffness_N_per_m * x.drift_m);
-        most = fmax(most, v->force[i] * x.curve_m / m->pin[i].stiffness_Nm_per_rad);
-    }
-    give->softening += most;
-    for (int i = 0; i < m->npin; i++)
-        give->give_m[i] = at_once * shown(w, w->open, i);
-    for (int h = 0; h < m->nhinge; h++) {
-        int i = m->hinge[h].pin;
-        worst x = worst_of(&m->hinge[h].law, v->angle[i]);
-        double work_J = (v->force[i] + x.stiffness_N_per_m * x.drift_m) * give->give_m[i];
-        add_couples(w, h, work_J, 0.5 * x.change_per_rad * work_J);
-    }
-    for (int i = 0; i < m->npin; i++)
-        give->turned_rad = fmax(give->turned_rad, at_once * shown(w, w->turn, i));
+    for (int h = 0; h < c->mechanism->nhinge; h++)
+        if (e->modal->terms->released[c->mechanism->hinge[h].pin]) add_hinge(w, h, force);
+    for (int j = 0; j < w->slow; j++)
+        w->swing[j] += fmax(w->up[j], w->down[j]);
     return FW_OK;
 }
 
-fw_status fw_hinge_give_find(const fw_effect_case *c, fw_hinge_give *give) {
-    const fw_mechanism *m = c->mechanism;
-    work w = {.c = c, .n = 3 * m->nbody};
-    *give = (fw_hinge_give){.why_not = outside(c)};
-    FW_NEED(give->give_m = fw_arena_array(c->arena, double, (size_t)m->npin));
-    if (!give->why_not && w.n > FW_RESPONSE_MOST) give->why_not = "too many bodies: kept";
-    if (give->why_not) return FW_OK;
-    size_t n = (size_t)w.n;
+fw_status fw_hinge_give_bound(const fw_effect_case *c, double *value, const char **why) {
+    const fw_envelope *e = c->envelope;
+    work w = {.c = c, .a = e->pinned, .b = e};
+    *value = (double)INFINITY;
+    if ((*why = outside(c))) return FW_OK;
+    w.slow = w.a->modes;
+    w.unsure = 0.25 * (fmax(w.a->margin, w.b->margin) - 1);
     fw_mark mark = fw_arena_mark(c->arena);
-    FW_NEED(w.mass = fw_arena_array(c->arena, double, n));
-    FW_NEED(w.stiffness = fw_arena_array(c->arena, double, n *n));
-    FW_NEED(w.mode = fw_arena_array(c->arena, double, n *n));
-    FW_NEED(w.square = fw_arena_array(c->arena, double, n));
-    FW_NEED(w.turn = fw_arena_array(c->arena, double, n *(size_t)m->npin));
-    FW_NEED(w.open = fw_arena_array(c->arena, double, n *(size_t)m->npin));
-    FW_NEED(w.push = fw_arena_array(c->arena, double, n));
-    for (int b = 0; b < m->nbody; b++) {
-        w.mass[3 * b] = w.mass[3 * b + 1] = m->body[b].mass_kg;
-        w.mass[3 * b + 2] = m->body[b].inertia_kg_m2;
+    double most = 0;
+    FW_TRY(compare(&w, why));
+    for (int i = 0; i < e->npin && !*why; i++) {
+        double x = apart(&w, i);
+        most = isnan(x) ? (double)INFINITY : fmax(most, x);
     }
-    FW_TRY(assemble(&w));
-    FW_TRY(find(&w, give));
     fw_arena_rewind(c->arena, mark);
+    if (!*why) *value = most / e->floor;
     return FW_OK;
 }

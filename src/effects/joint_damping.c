@@ -34,8 +34,18 @@ static double slide_rate(const fw_effect_case *c, const fw_tie *t) {
     return rate;
 }
 
-/* modal forces (modes) of all dampers at their largest rates */
-static void modal_forces(const fw_effect_case *c, double *mode, double *force) {
+static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+    for (int i = 0; i < c->mechanism->npin; i++)
+        if (damping_of(c, i) > 0)
+            fw_terms_torsion(c->mechanism, terms, i)->damping_Nms_per_rad = damping_of(c, i);
+    for (int i = 0; i < c->mechanism->ntie; i++)
+        if (c->mechanism->tie[i].damping_Ns_per_m > 0)
+            fw_terms_slide(terms, i)->damping_Ns_per_m = c->mechanism->tie[i].damping_Ns_per_m;
+    return FW_OK;
+}
+
+/* modal forces (modes) of dampers along sliding joints at their largest rates */
+static void slides(const fw_effect_case *c, double *mode, double *force) {
     const fw_mechanism *m = c->mechanism;
     const fw_envelope *e = c->envelope;
     for (int i = 0; i < m->ntie; i++) {
@@ -53,13 +63,9 @@ static void modal_forces(const fw_effect_case *c, double *mode, double *force) {
             force[3 * body + 2] += f * (arm + (side ? 0 : apart));
         }
     }
-    for (int j = 0; j < e->modes; j++) {
-        const double *turn = e->turn + (size_t)j * (size_t)e->npin;
-        for (int i = 0; i < m->npin; i++)
-            mode[j] += fabs(turn[i]) * damping_of(c, i) * e->rate[i];
+    for (int j = 0; j < e->modes; j++)
         for (int k = 0; k < e->n; k++)
             mode[j] += fabs(e->shape[(size_t)j * (size_t)e->n + (size_t)k]) * force[k];
-    }
 }
 
 /* Without its dampers the motion differs by d with M d'' + C d' + K d = C q', q the motion without
@@ -78,21 +84,18 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     double *mode, *force;
     FW_NEED(mode = fw_arena_array(c->arena, double, (size_t)e->modes));
     FW_NEED(force = fw_arena_array(c->arena, double, (size_t)e->n));
-    modal_forces(c, mode, force);
+    fw_terms terms;
+    slides(c, mode, force);
+    FW_TRY(fw_terms_new(c->arena, c->mechanism, c->scene, &terms));
+    FW_TRY(add(c, &terms));
+    if (e->pinned) FW_TRY(fw_hinges_flex(c, &terms)); /* they dissipate in all directions */
+    for (int i = 0; i < terms.nslide; i++)
+        terms.slide[i].damping_Ns_per_m = 0; /* see slides */
+    FW_TRY(fw_envelope_dampers(c, &terms, mode));
     *value = fw_envelope_mode_answer(c, mode, (double)INFINITY);
     fw_arena_rewind(c->arena, mark);
     *reason = "joints have damping: answer of the modes to c times the largest rates, over the "
               "scene";
-    return FW_OK;
-}
-
-static fw_status add(const fw_effect_case *c, fw_terms *terms) {
-    for (int i = 0; i < c->mechanism->npin; i++)
-        if (damping_of(c, i) > 0)
-            fw_terms_torsion(c->mechanism, terms, i)->damping_Nms_per_rad = damping_of(c, i);
-    for (int i = 0; i < c->mechanism->ntie; i++)
-        if (c->mechanism->tie[i].damping_Ns_per_m > 0)
-            fw_terms_slide(terms, i)->damping_Ns_per_m = c->mechanism->tie[i].damping_Ns_per_m;
     return FW_OK;
 }
 
@@ -110,6 +113,7 @@ const fw_effect_row fw_effect_joint_damping = {
     .summary = "viscous torque of hinges and force of sliding joints, c times rate",
     .called_for = called_for,
     .bound = bound,
+    .calms = true,
     .add = add,
     .cost = 32,
     .count = count};

@@ -30,7 +30,7 @@ static double inertia_about(const fw_mechanism *m, int body, double x, double y)
 static double frequency_of(const fw_effect_case *c, const fw_pin *p) {
     double stated = c->scene->damping[c->scene->ndamping - 1].frequency_Hz;
     if (!isnan(stated)) return 2 * M_PI * stated;
-    const fw_envelope *e = c->envelope;
+    const fw_envelope *e = c->envelope && c->envelope->pinned ? c->envelope->pinned : c->envelope;
     if (e && e->valid && e->modes > 0 && e->omega[0] > 0) return e->omega[0];
     double a = inertia_about(c->mechanism, p->body_a, p->ax_m, p->ay_m);
     double b = inertia_about(c->mechanism, p->body_b, p->bx_m, p->by_m);
@@ -68,9 +68,9 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
 }
 
 /* Without its dampers the motion differs by d with M d'' + C d' + K d = C q', q the motion without
-   them: the answer to couples c times the largest rate on both bodies of every hinge, of whatever
-   sign and course. Infinite where the envelope is not valid. Inputs SI from the envelope; output
-   dimensionless. Test: test_material_damping.c. */
+   them: the answer to its forces at the largest rates, of whatever sign and course (dampers.c).
+   Infinite where the envelope is not valid. Inputs SI from the envelope; output dimensionless.
+   Test: test_material_damping.c. */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
     const fw_mechanism *m = c->mechanism;
     const fw_envelope *v = c->envelope;
@@ -80,15 +80,14 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     *reason = "the material has a loss factor, and how fast the hinges turn is not bounded: kept";
     if (!v || !v->valid) return FW_OK;
     fw_mark mark = fw_arena_mark(c->arena);
-    double *couple;
-    FW_NEED(couple = fw_arena_array(c->arena, double, 3 * (size_t)m->nbody));
-    for (int i = 0; i < m->npin; i++) {
-        if (!fw_material_damped(c, i)) continue;
-        double most = damping_of(c, i) * v->rate[i];
-        if (m->pin[i].body_a != FW_GROUND) couple[3 * m->pin[i].body_a + 2] += most;
-        if (m->pin[i].body_b != FW_GROUND) couple[3 * m->pin[i].body_b + 2] += most;
-    }
-    *value = fw_envelope_answer(c, couple, (double)INFINITY);
+    fw_terms terms;
+    double *mode;
+    FW_NEED(mode = fw_arena_array(c->arena, double, (size_t)v->modes));
+    FW_TRY(fw_terms_new(c->arena, m, c->scene, &terms));
+    FW_TRY(add(c, &terms));
+    if (v->pinned) FW_TRY(fw_hinges_flex(c, &terms)); /* they dissipate in all directions */
+    FW_TRY(fw_envelope_dampers(c, &terms, mode));
+    *value = fw_envelope_mode_answer(c, mode, (double)INFINITY);
     *reason = "the material has a loss factor: answer to c times the largest rates, over the scene";
     fw_arena_rewind(c->arena, mark);
     return FW_OK;
@@ -99,4 +98,5 @@ const fw_effect_row fw_effect_material_damping = {
     .summary = "loss factor of the flexures' material, as the scene states it",
     .called_for = called_for,
     .bound = bound,
+    .calms = true,
     .add = add};

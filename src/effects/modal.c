@@ -111,8 +111,8 @@ static fw_status turns(fw_arena *arena, fw_modal *o) {
 /* ---- damping ---- */
 
 /* C (n x n, SI): the same shapes of matrix as stiffness has, with dampers in its place */
-static fw_status dampers(fw_arena *arena, const fw_modal *o, double *c) {
-    fw_terms t = *o->terms;
+static fw_status dampers(fw_arena *arena, const fw_modal *o, const fw_terms *terms, double *c) {
+    fw_terms t = *terms;
     fw_linear s;
     bool any;
     t.nelement = 0;
@@ -120,15 +120,15 @@ static fw_status dampers(fw_arena *arena, const fw_modal *o, double *c) {
     FW_NEED(t.slide = fw_arena_array(arena, fw_slide, (size_t)t.nslide));
     FW_NEED(t.spring = fw_arena_array(arena, fw_spring, (size_t)t.nspring));
     for (int i = 0; i < t.ntorsion; i++) {
-        t.torsion[i] = o->terms->torsion[i];
+        t.torsion[i] = terms->torsion[i];
         t.torsion[i].stiffness_Nm_per_rad = t.torsion[i].damping_Nms_per_rad;
     }
     for (int i = 0; i < t.nslide; i++) {
-        t.slide[i] = o->terms->slide[i];
+        t.slide[i] = terms->slide[i];
         t.slide[i].stiffness_N_per_m = t.slide[i].damping_Ns_per_m;
     }
     for (int i = 0; i < t.nspring; i++) {
-        t.spring[i] = o->terms->spring[i];
+        t.spring[i] = terms->spring[i];
         t.spring[i].stiffness_N_per_m = t.spring[i].damping_Ns_per_m;
     }
     FW_TRY(fw_linear_new(arena, o->mechanism, &t, &s, &any));
@@ -140,17 +140,15 @@ static fw_status dampers(fw_arena *arena, const fw_modal *o, double *c) {
     return FW_OK;
 }
 
-static fw_status damping(fw_arena *arena, fw_modal *o) {
+fw_status fw_modal_damping(fw_arena *arena, const fw_modal *o, const fw_terms *terms, double *out) {
     size_t n = (size_t)o->n, m = (size_t)o->modes;
     double *c, *k, *product;
-    FW_NEED(o->damping = fw_arena_array(arena, double, m *m));
     fw_mark mark = fw_arena_mark(arena);
     FW_NEED(c = fw_arena_array(arena, double, n *n));
     FW_NEED(k = fw_arena_array(arena, double, n *n));
     FW_NEED(product = fw_arena_array(arena, double, n));
-    FW_TRY(dampers(arena, o, c));
-    if (o->terms->nelement > 0)
-        FW_TRY(fw_terms_element_tangent(arena, o->mechanism, o->terms, k, c));
+    FW_TRY(dampers(arena, o, terms, c));
+    if (terms->nelement > 0) FW_TRY(fw_terms_element_tangent(arena, o->mechanism, terms, k, c));
     for (size_t j = 0; j < m; j++) {
         for (size_t i = 0; i < n; i++) {
             product[i] = 0;
@@ -159,7 +157,7 @@ static fw_status damping(fw_arena *arena, fw_modal *o) {
         }
         for (size_t l = 0; l < m; l++)
             for (size_t i = 0; i < n; i++)
-                o->damping[l * m + j] += o->shape[l * n + i] * product[i];
+                out[l * m + j] += o->shape[l * n + i] * product[i];
     }
     fw_arena_rewind(arena, mark);
     return FW_OK;
@@ -247,9 +245,11 @@ fw_status fw_modal_find(fw_arena *arena, const fw_mechanism *m, const fw_scene *
     if (!o->why_not) FW_TRY(hold(arena, o));
     if (!o->why_not) FW_TRY(solve(arena, o));
     if (!o->why_not) FW_TRY(turns(arena, o));
-    if (!o->why_not) FW_TRY(damping(arena, o));
-    if (!o->why_not) FW_TRY(start(arena, o));
-    return FW_OK;
+    if (o->why_not) return FW_OK;
+    FW_NEED(o->damping = fw_arena_array(arena, double, (size_t)o->modes *(size_t)o->modes));
+    FW_TRY(fw_modal_damping(arena, o, terms, o->damping));
+    FW_TRY(fw_modal_open(arena, o));
+    return start(arena, o);
 }
 
 /* G^T lambda = F - K x with the static displacement x; lambda = U S^-1 V^T M^-1/2 (F - K x) */
@@ -308,7 +308,7 @@ static void residual(const fw_modal *o, fw_mechanism *moved, const double *shape
 fw_status fw_modal_softening(fw_arena *arena, const fw_modal *o, const double *force, bool dead,
                              double *part) {
     size_t n = (size_t)o->n, m = (size_t)o->modes;
-    double *lambda, *work, *one, *two, sum = 0;
+    double *lambda, *work, *one, *two, *pull, sum = 0;
     fw_mechanism moved = *o->mechanism;
     fw_mark mark = fw_arena_mark(arena);
     FW_NEED(moved.body = fw_arena_array(arena, fw_mass, (size_t)moved.nbody));
@@ -316,7 +316,9 @@ fw_status fw_modal_softening(fw_arena *arena, const fw_modal *o, const double *f
     FW_NEED(work = fw_arena_array(arena, double, 2 * n));
     FW_NEED(one = fw_arena_array(arena, double, n));
     FW_NEED(two = fw_arena_array(arena, double, n));
+    FW_NEED(pull = fw_arena_array(arena, double, 2 * (size_t)moved.npin));
     fw_modal_multipliers(o, force, work, lambda);
+    fw_modal_pulls(o, force, pull);
     for (size_t j = 0; j < m; j++) {
         const double *shape = o->shape + j * n;
         double size = 0;
@@ -329,6 +331,7 @@ fw_status fw_modal_softening(fw_arena *arena, const fw_modal *o, const double *f
             double k = l == j && !dead ? -o->omega[j] * o->omega[j] : 0;
             for (size_t i = 0; i < n; i++)
                 k -= o->shape[l * n + i] * (one[i] - two[i]) / (2 * h);
+            k += fw_modal_turning(o, pull, (int)l, (int)j);
             k /= o->omega[j] * o->omega[l];
             sum += k * k;
         }

@@ -16,6 +16,8 @@ typedef struct fw_modal {
     double *shape;       /* (modes x n) shape^T M shape = 1 */
     double *turn;        /* (modes x npin) */
     double *damping;     /* (modes x modes) shape^T C shape, 1/s */
+    double *open, *pull; /* (modes x npin x 2) of released pins: W of b from W of a, m, and the
+                            force on b, N, per unit of the mode */
     double *velocity;    /* (modes) at the start */
     double *inertia;     /* (n) masses in the scaled coordinates of `linear` */
     fw_singular holding; /* of G M^-1/2 */
@@ -24,6 +26,15 @@ typedef struct fw_modal {
 
 fw_status fw_modal_find(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                         const fw_terms *terms, fw_modal *modal);
+/* shape^T C shape (modes x modes, 1/s) of the dampers in other terms */
+fw_status fw_modal_damping(fw_arena *arena, const fw_modal *modal, const fw_terms *terms,
+                           double *damping);
+/* fills open and pull: released.c */
+fw_status fw_modal_open(fw_arena *arena, fw_modal *modal);
+/* forces of released pins on body b (npin x 2, N) under forces `force` (n, SI), at rest; and what
+   pins that carry `pull` add to shape^T K shape */
+void fw_modal_pulls(const fw_modal *modal, const double *force, double *pull);
+double fw_modal_turning(const fw_modal *modal, const double *pull, int row, int column);
 /* scaled multipliers (rows) that hold the mechanism where forces `force` (n, SI) act and inertia
    does not; work (2 n) */
 void fw_modal_multipliers(const fw_modal *modal, const double *force, double *work, double *lambda);

@@ -5,45 +5,32 @@
 #include "effects/envelope.h"
 #include <math.h>
 
-/* where the file states the stiffness its law holds, unless the surfaces can touch: that needs the
-   hinge to give */
-static bool wanted(const fw_effect_case *c, int hinge) {
-    const fw_hinge *h = &c->mechanism->hinge[hinge];
-    return fw_hinge_is_known(h) && (!h->stated || fw_hinge_touches(c->scene, h->pin));
-}
-
 static bool called_for(const fw_effect_case *c) {
     for (int i = 0; i < c->mechanism->nhinge; i++)
-        if (wanted(c, i)) return true;
+        if (fw_hinge_flexes(c, i)) return true;
     return false;
-}
-
-static fw_status add(const fw_effect_case *c, fw_terms *terms) {
-    for (int i = 0; i < c->mechanism->nhinge; i++)
-        if (wanted(c, i)) FW_TRY(fw_hinge_release(c, terms, i));
-    return FW_OK;
 }
 
 static int count(const fw_effect_case *c) {
     int n = 0;
     for (int i = 0; i < c->mechanism->nhinge; i++)
-        n += wanted(c, i);
+        n += fw_hinge_flexes(c, i);
     return n;
 }
 
-/* further rotation over the floor, and what a softer mechanism does to the motion: hinge_give.c.
-   Where surfaces may touch the hinge must be able to give. Test: test_hinge_give.c. */
+/* What ideal pins in place of the hinges change in the peaks: hinge_give.c. Where surfaces may
+   touch the hinge must be able to give. Test: test_hinge_give.c, test_hinge_bounds.c. */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
-    fw_hinge_give give;
+    const char *why;
     *value = (double)INFINITY;
-    FW_TRY(fw_hinge_give_find(c, &give));
-    *reason = give.why_not;
-    if (give.why_not) return FW_OK;
     *reason = "conjugate surfaces may touch, which needs the hinge to give: kept";
-    if (fw_contact_may_touch(c, &give)) return FW_OK;
-    *value = fw_envelope_stiffness(c, give.softening) + give.turned_rad / c->envelope->floor;
-    *reason = "bound: what hinges that give and drift add to the rotations, and take from the "
-              "stiffness";
+    if (c->scene->ncontact > 0 && fw_contact_may_touch(c)) return FW_OK;
+    FW_TRY(fw_hinge_give_bound(c, value, &why));
+    *reason = "bound: peaks of the linear motion with pins and with hinges that give, and what the "
+              "hinges do besides";
+    if (why)
+        FW_NEED(*reason = fw_arena_printf(
+                    c->arena, "ideal pins have nothing to be measured by, kept: %s", why));
     return FW_OK;
 }
 
@@ -52,6 +39,6 @@ const fw_effect_row fw_effect_nonlinear_hinge = {
     .summary = "what flexures do besides turning: their axis drifts, forces displace it",
     .called_for = called_for,
     .bound = bound,
-    .add = add,
+    .add = fw_hinges_flex,
     .cost = 2050,
     .count = count};

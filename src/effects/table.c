@@ -134,11 +134,19 @@ static fw_status say(const fw_effect_case *c, fw_effect_entry *entry, double sum
 }
 
 /* smallest bounds first, while their sum stays below the accuracy */
-static fw_status decide_auto(const fw_effect_case *c, double accuracy, fw_effect_entry *entry) {
+static fw_status leave_out_small(const fw_effect_case *c, double accuracy, bool calm,
+                                 fw_effect_entry *entry) {
     bool seen[ROWS];
     double sum = 0;
-    for (int i = 0; i < ROWS; i++)
-        seen[i] = !entry[i].called_for;
+    for (int i = 0; i < ROWS; i++) {
+        seen[i] = !entry[i].called_for || (calm && rows[i]->calms);
+        if (calm && rows[i]->calms && entry[i].called_for) {
+            entry[i].active = true;
+            if (isfinite(entry[i].bound))
+                entry[i].reason = "kept: left out only where hinges are pins without it too, since "
+                                  "those that give would vibrate on and take many more steps";
+        }
+    }
     for (int k = 0; k < ROWS; k++) {
         int least = -1;
         for (int i = 0; i < ROWS; i++)
@@ -151,6 +159,21 @@ static fw_status decide_auto(const fw_effect_case *c, double accuracy, fw_effect
         if (!rows[least]->kept) FW_TRY(say(c, &entry[least], with, accuracy, first));
         if (!entry[least].active) sum = with;
     }
+    return FW_OK;
+}
+
+/* what calms hinges that give stays with them; with what is kept so the sum is another one */
+static fw_status decide_auto(const fw_effect_case *c, double accuracy, fw_effect_entry *entry) {
+    fw_effect_entry first[ROWS];
+    bool gives = false, loose = false;
+    memcpy(first, entry, sizeof first);
+    FW_TRY(leave_out_small(c, accuracy, false, first));
+    for (int i = 0; i < ROWS; i++) {
+        if (strcmp(rows[i]->id, "nonlinear-hinge") == 0) gives = first[i].active;
+        loose = loose || (rows[i]->calms && first[i].called_for && !first[i].active);
+    }
+    if (gives && loose) return leave_out_small(c, accuracy, true, entry);
+    memcpy(entry, first, sizeof first);
     return FW_OK;
 }
 

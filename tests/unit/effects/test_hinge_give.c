@@ -3,7 +3,6 @@
    with hinges as they are and with hinges so stiff and free of drift that they are pins, from rest
    under loads put on at once. */
 #include "hinge_rigs.h"
-#include "maths/lapack.h"
 
 static double random_(unsigned *seed) { /* in [-1, 1) */
     *seed = *seed * 1664525u + 1013904223u;
@@ -62,45 +61,14 @@ static motion move(const rig *r, const double *load, double end_s, double step_s
     return out;
 }
 
-/* modes of the pinned mechanism from hinges 1e5 times as stiff, and an envelope that is exactly the
-   motion */
-static void envelope_from(rig *r, const rig *pinned, int modes, const motion *ideal) {
-    int n = 3 * r->m.nbody;
-    double q[RIG_N], force[RIG_N], a[RIG_N * RIG_N], value[RIG_N];
-    fw_lapack_space space;
-    rig_drawn(pinned, q);
-    rig_forces(pinned, q, force, a);
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++)
-            a[i * n + j] /= sqrt(mass_of(r, i) * mass_of(r, j));
-    assert_int_equal(fw_eigen_space(r->arena, n, &space), FW_OK);
-    assert_true(fw_eigen(n, a, value, &space));
-    fw_envelope *e = &r->envelope;
-    *e = (fw_envelope){
-        .valid = true, .n = n, .modes = modes, .floor = ideal->peak, .most = ideal->peak};
-    e->omega = fw_arena_array(r->arena, double, (size_t)modes);
-    e->shape = fw_arena_array(r->arena, double, (size_t)(modes * n));
-    e->turn = fw_arena_array(r->arena, double, (size_t)(modes * r->m.npin));
-    e->angle = fw_arena_array(r->arena, double, (size_t)r->m.npin);
-    e->force = fw_arena_array(r->arena, double, (size_t)r->m.npin);
-    e->reach = fw_arena_array(r->arena, double, (size_t)n);
-    for (int k = 0; k < modes; k++) {
-        e->omega[k] = sqrt(value[k]);
-        for (int i = 0; i < n; i++)
-            e->shape[k * n + i] = a[k * n + i] / sqrt(mass_of(r, i));
-    }
-    for (int i = 0; i < r->m.npin; i++)
-        e->angle[i] = ideal->angle[i], e->force[i] = ideal->force[i];
-}
-
-/* the mechanism as it is, as pins for its forces and motion, as pins for its modes */
+/* the mechanism as it is, and as pins */
 typedef struct trio {
-    rig real, ideal, pinned;
+    rig real, ideal;
 } trio;
 
 static void trio_new(trio *t, bool six_bar, double mass_factor, double end_s) {
-    rig *const all[3] = {&t->real, &t->ideal, &t->pinned};
-    for (int i = 0; i < 3; i++) {
+    rig *const all[2] = {&t->real, &t->ideal};
+    for (int i = 0; i < 2; i++) {
         rig *r = all[i];
         if (six_bar)
             rig_six_bar(r, false);
@@ -111,7 +79,7 @@ static void trio_new(trio *t, bool six_bar, double mass_factor, double end_s) {
         }
         for (int b = 0; b < r->m.nbody; b++)
             r->body[b].mass_kg *= mass_factor, r->body[b].inertia_kg_m2 *= mass_factor;
-        if (i) make_pins(r, i == 1 ? 50 : 1e5);
+        if (i) make_pins(r, 50);
         r->scene.duration_s = end_s;
         rig_compile(r);
     }
@@ -120,38 +88,55 @@ static void trio_new(trio *t, bool six_bar, double mass_factor, double end_s) {
 static void trio_free(trio *t) {
     fw_arena_free(t->real.arena);
     fw_arena_free(t->ideal.arena);
-    fw_arena_free(t->pinned.arena);
+}
+
+/* the loads as the scene's, put on at once, and the envelope of that scene */
+static void put_on(rig *r, const double *load) {
+    fw_force *force = fw_arena_array(r->arena, fw_force, RIG_BODIES);
+    fw_torque *torque = fw_arena_array(r->arena, fw_torque, RIG_BODIES);
+    for (int b = 0; b < r->m.nbody; b++) {
+        force[b] = (fw_force){.body = b, .fx_N = load[3 * b], .fy_N = load[3 * b + 1]};
+        torque[b] = (fw_torque){.body = b, .value_Nm = load[3 * b + 2]};
+    }
+    r->scene.force = force, r->scene.nforce = r->m.nbody;
+    r->scene.torque = torque, r->scene.ntorque = r->m.nbody;
+    assert_int_equal(fw_envelope_find(r->arena, &r->m, &r->scene, &r->envelope), FW_OK);
+    if (!r->envelope.valid) fail_msg("%s", r->envelope.why_not);
+    assert_non_null(r->envelope.pinned);
 }
 
 /* returns the bound over the peak */
-static double check(trio *t, const motion *with, const motion *without) {
-    fw_hinge_give give;
+static double check(trio *t, const double *load, const motion *with, const motion *without) {
+    const char *why;
+    double bound, value, off = fabs(with->peak - without->peak) / fmax(with->peak, without->peak);
     rig *r = &t->real;
-    envelope_from(r, &t->pinned, r->m.nbody > 1 ? 3 : 1, without);
-    assert_int_equal(fw_hinge_give_find(&r->c, &give), FW_OK);
-    if (give.why_not) fail_msg("%s", give.why_not);
-    for (int i = 0; i < r->m.npin; i++)
-        if (!(with->give[i] <= give.give_m[i]))
-            fail_msg("pin %d gives %g m, bound %g m", i, with->give[i], give.give_m[i]);
-    double off = fabs(with->peak - without->peak);
-    double bound = give.turned_rad + give.softening * without->peak;
-    if (!(off <= bound)) fail_msg("off by %g rad, bound %g rad", off, bound);
-    assert_true(give.softening > 0 && give.softening < 0.5);
+    put_on(r, load);
+    const fw_envelope *e = &r->envelope;
+    assert_true(e->floor <= with->peak && with->peak <= e->most);
+    assert_true(e->pinned->floor <= without->peak && without->peak <= e->pinned->most);
+    for (int i = 0; i < r->m.npin; i++) {
+        if (!(with->give[i] <= fw_hinge_give_most(&r->c, i)))
+            fail_msg("pin %d gives %g m, bound %g m", i, with->give[i],
+                     fw_hinge_give_most(&r->c, i));
+        if (!(with->force[i] <= e->force[i]))
+            fail_msg("pin %d bears %g N, bound %g N", i, with->force[i], e->force[i]);
+    }
+    assert_int_equal(fw_effect_nonlinear_hinge.bound(&r->c, &bound, &why), FW_OK);
+    if (!(off <= bound)) fail_msg("off by %g, bound %g", off, bound);
 
     /* a gap that the bound leaves open is not called for, a smaller one is */
-    fw_contact_use use = {.joint = 0, .distance_m = 1.01 * give.give_m[0], .stiffness_N_per_m = 1};
-    const char *why;
-    double value;
+    double give = fw_hinge_give_most(&r->c, 0);
+    fw_contact_use use = {.joint = 0, .distance_m = 1.01 * give, .stiffness_N_per_m = 1};
     r->scene.contact = &use, r->scene.ncontact = 1;
     assert_int_equal(fw_effect_contact.bound(&r->c, &value, &why), FW_OK);
     assert_near(value, 0, 0);
-    use.distance_m = 0.99 * give.give_m[0];
+    use.distance_m = 0.99 * give;
     assert_int_equal(fw_effect_contact.bound(&r->c, &value, &why), FW_OK);
     assert_true(isinf(value));
     assert_int_equal(fw_effect_nonlinear_hinge.bound(&r->c, &value, &why), FW_OK);
     assert_true(isinf(value));
     r->scene.ncontact = 0;
-    return bound / without->peak;
+    return bound / off;
 }
 
 static void motions(void **state) {
@@ -164,74 +149,43 @@ static void motions(void **state) {
         bool six = i % 2;
         trio t;
         for (int k = 0; k < (six ? RIG_N : 3); k++)
-            load[k] = random_(&seed) * (k % 3 == 2 ? 1e-7 : 2e-4) * (i % 8 < 4 ? 0.2 : 0.03);
+            load[k] = random_(&seed) * (k % 3 == 2 ? 1e-7 : 2e-4) * (i % 8 < 4 ? 0.1 : 0.03);
         trio_new(&t, six, i % 4 < 2 ? 1 : 0.3, end_s);
         motion with = move(&t.real, load, end_s, 2e-7);
         motion without = move(&t.ideal, load, end_s, 5e-8);
-        telling += check(&t, &with, &without) < 0.5;
+        telling += check(&t, load, &with, &without) < 30;
         trio_free(&t);
     }
-    assert_true(telling > 12); /* it says something */
-}
-
-/* equilibria under loads that turn the hinges by up to 0.13 rad: drift and arms count */
-static void equilibria(void **state) {
-    (void)state;
-    const struct {
-        int body, part;
-        double value;
-    } load[] = {{0, 2, 1.5e-7}, {4, 2, -3e-7}, {2, 0, 150e-6}, {2, 1, -150e-6}, {2, 2, 3e-7}};
-    for (int i = 0; i < 5; i++) {
-        double f[RIG_N] = {0}, q[RIG_N], force[RIG_N], v[RIG_N] = {0};
-        trio t;
-        motion m[2];
-        memset(m, 0, sizeof m);
-        f[3 * load[i].body + load[i].part] = load[i].value;
-        trio_new(&t, true, 1, 1e-3);
-        for (int k = 0; k < 2; k++) {
-            const rig *r = k ? &t.ideal : &t.real;
-            rig_drawn(r, q);
-            rig_equilibrium(r, f, 10, q);
-            all_forces(r, q, v, force, &m[k]);
-            for (int j = 0; j < 6; j++)
-                m[k].peak = fmax(m[k].peak, m[k].angle[j]);
-        }
-        check(&t, &m[0], &m[1]);
-        trio_free(&t);
-    }
+    print_message("%d of 24 bounds within 30 times what is true\n", telling);
+    assert_true(telling > 8); /* it says something */
 }
 
 /* where the theory has no place for what is there, nothing is promised */
 static void nothing_promised(void **state) {
     (void)state;
     trio t;
-    fw_hinge_give give;
-    motion none = {.peak = 0.1, .angle = {0.1}, .force = {1e-4}};
+    double load[RIG_N] = {0, 1e-6, 0}, bound;
+    const char *why;
     trio_new(&t, false, 1, 1e-3);
     rig *r = &t.real;
-    assert_int_equal(fw_hinge_give_find(&r->c, &give), FW_OK);
-    assert_non_null(give.why_not); /* no envelope */
-    envelope_from(r, &t.pinned, 1, &none);
-    assert_int_equal(fw_hinge_give_find(&r->c, &give), FW_OK);
-    assert_null(give.why_not);
-    r->envelope.omega[0] *= 10; /* as fast as the pins vibrate */
-    assert_int_equal(fw_hinge_give_find(&r->c, &give), FW_OK);
-    assert_non_null(give.why_not);
-    r->envelope.omega[0] /= 10;
-    r->hinge[0].axis_rad = (double)NAN;
-    assert_int_equal(fw_hinge_give_find(&r->c, &give), FW_OK);
-    assert_non_null(give.why_not);
-    r->hinge[0].axis_rad = 0;
-    r->scene.nbase = 1;
-    assert_int_equal(fw_hinge_give_find(&r->c, &give), FW_OK);
-    assert_non_null(give.why_not);
+    assert_int_equal(fw_hinge_give_bound(&r->c, &bound, &why), FW_OK);
+    assert_true(isinf(bound) && why); /* no envelope */
+    put_on(r, load);
+    assert_int_equal(fw_hinge_give_bound(&r->c, &bound, &why), FW_OK);
+    assert_true(isfinite(bound) && !why);
+    r->envelope.pinned->omega[0] *= 20; /* as fast as the pins vibrate */
+    assert_int_equal(fw_hinge_give_bound(&r->c, &bound, &why), FW_OK);
+    assert_true(isinf(bound) && why);
+    r->envelope.pinned->omega[0] /= 20;
+    r->envelope.pinned = NULL;
+    assert_int_equal(fw_hinge_give_bound(&r->c, &bound, &why), FW_OK);
+    assert_true(isinf(bound) && why);
     trio_free(&t);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(motions),
-        cmocka_unit_test(equilibria),
         cmocka_unit_test(nothing_promised),
     };
     return cmocka_run_group_tests_name("hinge give", tests, NULL, NULL);

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How far every hinge is deflected at most in the linear motion of a scene, from below and from
+   above. Private to the room: for comparing two linear mechanisms under the same loads. */
+#ifndef FW_EFFECTS_PEAKS_H
+#define FW_EFFECTS_PEAKS_H
+#include "effects/modal.h"
+
+typedef struct fw_peaks {
+    double *low, *high; /* (npin) rad: the largest |deflection| lies between */
+    double *still;      /* (npin) rad: the largest |deflection| along the equilibria of the loads */
+    double *ring;       /* (modes) largest |q| about the equilibria */
+    double *late;       /* (modes) what breaks and bends of the loads behind the start add to it */
+    double *rapid_rad;  /* (npin) modes too fast for the grid: their rings, of sizes */
+    const char *why_not;
+} fw_peaks;
+
+/* `fastest_rad_per_s`: modes up to there are followed, others enter with the size of their ring,
+   at most `amplitude` (modes; NULL: not known) */
+fw_status fw_peaks_find(fw_arena *arena, const fw_modal *modal, const fw_pushes *pushes,
+                        double fastest_rad_per_s, const double *amplitude, fw_peaks *peaks);
+
+#endif
