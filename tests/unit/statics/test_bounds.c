@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "bounds.h"
+#include "dynamics/bounds.h"
 
 static void test_bounds_are_honest(void **state) {
     (void)state;
