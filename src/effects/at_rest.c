@@ -74,28 +74,34 @@ double fw_terms_element_busiest(const fw_mechanism *m, const fw_force_element *e
     return best;
 }
 
-fw_status fw_terms_element_tangent(fw_arena *arena, const fw_mechanism *m, const fw_terms *terms,
-                                   double *stiffness, double *damping) {
-    size_t n = 3 * (size_t)m->nbody;
+fw_status fw_terms_element_tangent_at(fw_arena *arena, const fw_mechanism *m,
+                                      const fw_force_element *e, double t_s, double piece_s,
+                                      double *stiffness, double *damping, bool *valid) {
+    size_t n = 3 * (size_t)m->nbody, size = 9 * (size_t)e->ports * (size_t)e->ports;
     fw_mark mark = fw_arena_mark(arena);
-    double *q;
+    double *q, *k, *c;
+    const char *why;
+    still s;
+    *valid = true;
+    if (!fw_terms_element_fits(e)) return FW_OK;
     FW_NEED(q = fw_arena_array(arena, double, n));
+    FW_NEED(k = fw_arena_array(arena, double, size));
+    FW_NEED(c = fw_arena_array(arena, double, size));
     for (int b = 0; b < m->nbody; b++)
         q[3 * b] = m->body[b].x_m, q[3 * b + 1] = m->body[b].y_m, q[3 * b + 2] = m->body[b].phi_rad;
-    for (int i = 0; i < terms->nelement; i++) {
-        const fw_force_element *e = &terms->element[i];
-        size_t size = 9 * (size_t)e->ports * (size_t)e->ports;
-        double *k, *c;
-        still s;
-        if (!fw_terms_element_fits(e)) continue;
-        fw_mark inner = fw_arena_mark(arena);
-        FW_NEED(k = fw_arena_array(arena, double, size));
-        FW_NEED(c = fw_arena_array(arena, double, size));
-        look(m, e, 0, DBL_MIN, &s);
-        e->class_->tangent(&s.e, &s.seen, k, c);
-        fw_element_spread(e, m->nbody, q, NULL, s.f, k, c, stiffness, damping);
-        fw_arena_rewind(arena, inner);
-    }
+    look(m, e, t_s, piece_s, &s);
+    *valid = !e->class_->valid || e->class_->valid(&s.e, &s.seen, &why);
+    e->class_->tangent(&s.e, &s.seen, k, c);
+    fw_element_spread(e, m->nbody, q, NULL, s.f, k, c, stiffness, damping);
     fw_arena_rewind(arena, mark);
+    return FW_OK;
+}
+
+fw_status fw_terms_element_tangent(fw_arena *arena, const fw_mechanism *m, const fw_terms *terms,
+                                   double *stiffness, double *damping) {
+    bool valid;
+    for (int i = 0; i < terms->nelement; i++)
+        FW_TRY(fw_terms_element_tangent_at(arena, m, &terms->element[i], 0, DBL_MIN, stiffness,
+                                           damping, &valid));
     return FW_OK;
 }

@@ -42,8 +42,15 @@ static double room(const fw_effect_case *c, const fw_contact_use *use, const fw_
     return (use->side == FW_CONTACT_INSIDE ? use->distance_m - now : now - use->distance_m) - moves;
 }
 
+/* every hinge is an ideal pin, whatever is asked for */
+static bool nothing_gives(const fw_effect_case *c) {
+    for (int i = 0; i < c->scene->ncontact; i++)
+        if (c->scene->contact[i].joint != FW_NONE) return false;
+    return c->envelope->valid && !fw_effect_nonlinear_hinge.called_for(c);
+}
+
 bool fw_contact_may_touch(const fw_effect_case *c, const fw_hinge_give *give) {
-    if (c->scene->ncontact > 0 && give->why_not) return true;
+    if (c->scene->ncontact > 0 && give->why_not && !nothing_gives(c)) return true;
     for (int i = 0; i < c->scene->ncontact; i++)
         if (!(room(c, &c->scene->contact[i], give) > 0)) return true;
     return false;

@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which effects the envelope takes in: those whose terms are loads, springs, dampers and elements
-   that act on both sides. */
+/* Which effects the envelope takes in: those whose terms are loads, springs, dampers, elements that
+   act on both sides, and free strains. */
 #include "effects/effect.h"
 #include "effects/envelope.h"
 
 static bool linear(const fw_terms *t) {
     for (int i = 0; i < t->nelement; i++)
         if (t->element[i].switches > 0) return false;
-    return t->nstop == 0 && t->nfriction == 0 && t->nreleased == 0 && !t->strained &&
-           !t->stretch.law && !t->quasi_static;
+    return t->nstop == 0 && t->nfriction == 0 && t->nreleased == 0 && !t->quasi_static;
 }
 
 /* does its `add` stay within what linear theory takes in? */
@@ -37,7 +36,8 @@ fw_status fw_envelope_find(fw_arena *arena, const fw_mechanism *mechanism, const
     size_t count;
     const fw_effect_row *const *row = fw_effect_rows(&count);
     fw_envelope first = {.why_not = "not computed yet"};
-    fw_diags quiet = fw_diags_new(arena); /* what an effect objects to is said when it is compiled */
+    fw_diags quiet =
+        fw_diags_new(arena); /* what an effect objects to is said when it is compiled */
     const fw_effect_case c = {arena, mechanism, scene, &first, &quiet};
     fw_terms *terms, all;
     bool *taken, more = false;

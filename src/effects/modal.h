@@ -19,11 +19,25 @@ typedef struct fw_modal {
     double *velocity;    /* (modes) at the start */
     double *inertia;     /* (n) masses in the scaled coordinates of `linear` */
     fw_singular holding; /* of G M^-1/2 */
-    const char *why_not; /* NULL: all of this is there */
+    /* what free strains move the mechanism by, as it is assembled with them: constant, and where
+       the law of terms->stretch is 1. NULL: there are none */
+    double *shift[2];      /* (n) */
+    double *shift_turn[2]; /* (npin) */
+    double *shift_drag[2]; /* (modes) shape^T C shift */
+    const char *why_not;   /* NULL: all of this is there */
 } fw_modal;
 
 fw_status fw_modal_find(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                         const fw_terms *terms, fw_modal *modal);
+/* the same pose (n, SI) for strains of bodies and ground (nbody + 1), and its turns (npin); and the
+   force that the springs answer it with (n) */
+fw_status fw_modal_shift(fw_arena *arena, const fw_modal *modal, const double *strain,
+                         double *shift, double *turn);
+void fw_modal_shift_force(const fw_modal *modal, const double *shift, double *force);
+/* both of `terms` */
+fw_status fw_modal_find_shifts(fw_arena *arena, fw_modal *modal);
+/* turn of a pin by them at a time */
+double fw_modal_shifted(const fw_modal *modal, int pin, double t_s, double piece_s);
 /* scaled multipliers (rows) that hold the mechanism where forces `force` (n, SI) act and inertia
    does not; work (2 n) */
 void fw_modal_multipliers(const fw_modal *modal, const double *force, double *work, double *lambda);
@@ -33,6 +47,12 @@ void fw_modal_multipliers(const fw_modal *modal, const double *force, double *wo
 fw_status fw_modal_softening(fw_arena *arena, const fw_modal *modal, const double *force, bool dead,
                              double *part);
 
+/* how much the stiffness and damping of the elements change within the motion, relative: their laws
+   go on, and their forces are not linear. amplitude (modes): largest |q|. Infinite where a formula
+   does not hold all the way. modal_bend.c */
+fw_status fw_modal_bend(fw_arena *arena, const fw_modal *modal, const double *amplitude,
+                        double *part);
+
 /* ---- what pushes: a constant part, loads with laws, elements with laws ---- */
 /* angle of a pin as drawn less its free angle */
 double fw_pin_deflection(const fw_mechanism *mechanism, int pin);
@@ -40,6 +60,7 @@ double fw_pin_deflection(const fw_mechanism *mechanism, int pin);
 typedef struct fw_push {
     const fw_law *law;                 /* NULL: constant, or an element */
     const fw_force_element *element;   /* NULL: force times law */
+    bool shift;                        /* the springs' answer to a free strain */
     double *force;                     /* (n) of one unit of the law */
     double *mode;                      /* (modes) shape . force */
     double *sup, *first, *sway, *full; /* (modes) of its modal force over the scene: largest size,
