@@ -3,6 +3,7 @@
 #include "effects/linear.h"
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 enum { PORTS_MOST = 128, SWITCHES_MOST = 64 };
 
@@ -45,6 +46,26 @@ void fw_terms_element_force(const fw_mechanism *m, const fw_force_element *e, do
     double local[3 * PORTS_MOST] = {0};
     if (!fw_terms_element_fits(e)) return;
     look(m, e, t_s, piece_s, &s);
+    fw_element_push(&s.e, s.q, s.f, local);
+    for (int i = 0; i < 3 * e->ports; i++)
+        if (e->port[i / 3].body != FW_GROUND) force[3 * e->port[i / 3].body + i % 3] += local[i];
+}
+
+void fw_terms_element_drag(const fw_mechanism *m, const fw_force_element *e, double strain,
+                           fw_vec2 centre, double *force) {
+    still s;
+    double before[3 * PORTS_MOST], local[3 * PORTS_MOST] = {0};
+    if (!fw_terms_element_fits(e)) return;
+    look(m, e, 0, DBL_MIN, &s);
+    memcpy(before, s.f, 3 * (size_t)e->ports * sizeof *before);
+    for (int i = 0; i < e->ports; i++)
+        if (e->port[i].body == FW_GROUND) {
+            s.w[3 * i] = strain * (e->port[i].x_m - centre.x);
+            s.w[3 * i + 1] = strain * (e->port[i].y_m - centre.y);
+        }
+    e->class_->force(&s.e, &s.seen, s.f);
+    for (int i = 0; i < 3 * e->ports; i++)
+        s.f[i] -= before[i];
     fw_element_push(&s.e, s.q, s.f, local);
     for (int i = 0; i < 3 * e->ports; i++)
         if (e->port[i / 3].body != FW_GROUND) force[3 * e->port[i / 3].body + i % 3] += local[i];

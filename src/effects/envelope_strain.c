@@ -36,9 +36,9 @@ typedef struct work {
     double *shift, *shift_turn, *force, *push; /* (n) (npin) (n) (modes) */
     fw_mechanism *moved;
     fw_terms terms;
-    fw_modal there;       /* modes where the strains have displaced it to */
-    double *align;        /* (modes x modes) [l, j]: shape_l there, M, shape_j here */
-    double *extra, *rest; /* (npin) rad; (modes) */
+    fw_modal there;                /* modes where the strains have displaced it to */
+    double *align;                 /* (modes x modes) [l, j]: shape_l there, M, shape_j here */
+    double *extra, *rest, *change; /* (npin) rad; (modes) */
 } work;
 
 /* rad of pin i: |turn| of every mode times its size */
@@ -54,8 +54,7 @@ static void add_modes(work *w, const double *size) {
 static fw_status displace(work *w, const double *strain) {
     const fw_envelope *e = w->c->envelope;
     size_t n = (size_t)e->n;
-    FW_TRY(fw_modal_shift(w->c->arena, w->o, strain, w->shift, w->shift_turn));
-    fw_modal_shift_force(w->o, w->shift, w->force);
+    FW_TRY(fw_modal_shift(w->c->arena, w->o, strain, w->shift, w->shift_turn, w->force));
     for (int i = 0; i < e->npin; i++)
         w->extra[i] = fabs(w->shift_turn[i]) * w->size.most;
     for (int j = 0; j < e->modes; j++) {
@@ -65,6 +64,9 @@ static fw_status displace(work *w, const double *strain) {
         w->push[j] = f / square; /* static */
         w->rest[j] =
             fabs(f) * fmin((w->size.most + w->size.variation) / square, w->size.most * e->yield[j]);
+        const double *drag = w->o->shift_drag[1];
+        if (!fw_law_is_constant(w->law) && drag && drag[j] != 0)
+            w->rest[j] += fabs(drag[j]) * w->size.variation / e->omega[j];
     }
     add_modes(w, w->rest);
     return FW_OK;
@@ -137,6 +139,24 @@ static fw_status compare_stiffness(work *w, double *part) {
     return FW_OK;
 }
 
+/* T^T D' T less D of the dampers, at the largest speeds: a push of any course */
+static void compare_damping(work *w) {
+    const fw_envelope *e = w->c->envelope;
+    size_t m = (size_t)e->modes;
+    for (size_t j = 0; j < m; j++) {
+        w->rest[j] = 0;
+        for (size_t k = 0; k < m; k++) {
+            double change = -w->o->damping[j * m + k];
+            for (size_t a = 0; a < m; a++)
+                for (size_t b = 0; b < m; b++)
+                    change +=
+                        w->align[a * m + j] * w->there.damping[a * m + b] * w->align[b * m + k];
+            w->rest[j] += 2 * fabs(change) * e->pace[k] * e->yield[j];
+        }
+    }
+    add_modes(w, w->rest);
+}
+
 /* modal forces there, as seen here, less those here; a push with its law or at its busiest */
 static void compare_push(work *w, const fw_pushes *here, const fw_pushes *there, int i) {
     const fw_envelope *e = w->c->envelope;
@@ -144,6 +164,7 @@ static void compare_push(work *w, const fw_pushes *here, const fw_pushes *there,
     size_t m = (size_t)e->modes;
     double *one = w->rest, *two = w->push;
     double sup = 1, first = 1, sway = 0, largest = 0;
+    double with = fw_law_is_constant(w->law) ? 0 : w->size.variation / w->size.most;
     memcpy(one, a->mode, m * sizeof *one);
     memcpy(two, b->mode, m * sizeof *two);
     if (a->element) {
@@ -164,11 +185,10 @@ static void compare_push(work *w, const fw_pushes *here, const fw_pushes *there,
         double f = -one[j], square = e->omega[j] * e->omega[j];
         for (size_t l = 0; l < m; l++)
             f += w->align[l * m + j] * two[l];
-        w->there.omega[j] = fabs(f) * fmin((sup + first + sway) / square, sup * e->yield[j]);
+        w->change[j] =
+            fabs(f) * fmin((sup + first + sway + sup * with) / square, sup * e->yield[j]);
     }
-    for (size_t j = 0; j < m; j++)
-        for (int k = 0; k < e->npin; k++)
-            w->extra[k] += fabs(e->turn[j * (size_t)e->npin + (size_t)k]) * w->there.omega[j];
+    add_modes(w, w->change);
 }
 
 /* twice: the strained mechanism swings about its new place */
@@ -190,6 +210,7 @@ static fw_status compare(work *w, double *part) {
                            2 * fabs(e->turn[j * pins + i] * v) / e->omega[j];
         }
     }
+    compare_damping(w);
     FW_TRY(fw_pushes_find(w->c->arena, w->o, &here));
     FW_TRY(fw_pushes_find(w->c->arena, &w->there, &there));
     if (here.why_not || there.why_not) *part = (double)INFINITY;
@@ -204,7 +225,7 @@ static fw_status compare(work *w, double *part) {
 /* Leaving the strains out changes the turn of a pin by
      |turn of x0| + sum |turn_j| |s_j^T K x0| (sup + var)/w^2       x0: modal_shift.c
      + what the loads do otherwise where the strains put the mechanism: other stiffness and masses,
-       other modal forces, other turns of the same modes (modes found again there).
+       other modal forces and damping, other turns of the same modes (modes found again there).
    Inputs: strains, dimensionless; output dimensionless, against the floor, with the margin of the
    envelope and that of the turns which the strains make. Infinite where the envelope is not valid
    or the displaced mechanism has no modes. Cost that of one more envelope. */
@@ -223,6 +244,7 @@ fw_status fw_envelope_strain(const fw_effect_case *c, const double *strain, cons
     FW_NEED(w.shift_turn = fw_arena_array(c->arena, double, (size_t)e->npin));
     FW_NEED(w.extra = fw_arena_array(c->arena, double, (size_t)e->npin));
     FW_NEED(w.push = fw_arena_array(c->arena, double, (size_t)e->modes));
+    FW_NEED(w.change = fw_arena_array(c->arena, double, (size_t)e->modes));
     FW_NEED(w.rest = fw_arena_array(c->arena, double, (size_t)e->modes));
     FW_TRY(displace(&w, strain));
     FW_TRY(go_there(&w, strain));

@@ -49,6 +49,10 @@ fw_status fw_terms_element_tangent_at(fw_arena *arena, const fw_mechanism *mecha
 void fw_terms_element_force(const fw_mechanism *mechanism, const fw_force_element *element,
                             double t_s, double piece_s, double *force);
 
+/* generalised forces (n, SI) += what dampers of one element do more when its points on the ground
+   move at strain (p - centre) per second */
+void fw_terms_element_drag(const fw_mechanism *mechanism, const fw_force_element *element,
+                           double strain, fw_vec2 centre, double *force);
 /* when it pushes most: with its laws, in (0, end_s); 0 without */
 double fw_terms_element_busiest(const fw_mechanism *mechanism, const fw_force_element *element,
                                 double end_s);

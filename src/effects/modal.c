@@ -162,10 +162,11 @@ static fw_status damping(fw_arena *arena, fw_modal *o) {
             for (size_t i = 0; i < n; i++)
                 o->damping[l * m + j] += o->shape[l * n + i] * product[i];
     }
+    if (o->shift[1]) FW_TRY(fw_modal_drag(arena, o, o->shift_drag[1]));
     for (int which = 0; which < 2; which++)
         for (size_t j = 0; j < m && o->shift[which]; j++)
             for (size_t i = 0; i < n * n; i++)
-                o->shift_drag[which][j] += o->shape[j * n + i / n] * c[i] * o->shift[which][i % n];
+                o->shift_drag[which][j] -= o->shape[j * n + i / n] * c[i] * o->shift[which][i % n];
     fw_arena_rewind(arena, mark);
     return FW_OK;
 }

@@ -21,21 +21,22 @@ typedef struct fw_modal {
     fw_singular holding; /* of G M^-1/2 */
     /* what free strains move the mechanism by, as it is assembled with them: constant, and where
        the law of terms->stretch is 1. NULL: there are none */
-    double *shift[2];      /* (n) */
-    double *shift_turn[2]; /* (npin) */
-    double *shift_drag[2]; /* (modes) shape^T C shift */
-    const char *why_not;   /* NULL: all of this is there */
+    double *shift[2];       /* (n) */
+    double *shift_turn[2];  /* (npin) */
+    double *shift_force[2]; /* (n) what springs answer, and loads do otherwise */
+    double *shift_drag[2];  /* (modes) what dampers do against it, per rate of the law */
+    const char *why_not;    /* NULL: all of this is there */
 } fw_modal;
 
 fw_status fw_modal_find(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                         const fw_terms *terms, fw_modal *modal);
-/* the same pose (n, SI) for strains of bodies and ground (nbody + 1), and its turns (npin); and the
-   force that the springs answer it with (n) */
+/* the same for strains of bodies and ground (nbody + 1): pose (n, SI), turns (npin), and the force
+   that springs and loads answer it with (n) */
 fw_status fw_modal_shift(fw_arena *arena, const fw_modal *modal, const double *strain,
-                         double *shift, double *turn);
-void fw_modal_shift_force(const fw_modal *modal, const double *shift, double *force);
+                         double *shift, double *turn, double *force);
 /* both of `terms` */
 fw_status fw_modal_find_shifts(fw_arena *arena, fw_modal *modal);
+fw_status fw_modal_drag(fw_arena *arena, const fw_modal *modal, double *mode);
 /* turn of a pin by them at a time */
 double fw_modal_shifted(const fw_modal *modal, int pin, double t_s, double piece_s);
 /* scaled multipliers (rows) that hold the mechanism where forces `force` (n, SI) act and inertia

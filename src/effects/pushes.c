@@ -197,7 +197,7 @@ fw_status fw_pushes_find(fw_arena *arena, const fw_modal *o, fw_pushes *p) {
         if (o->shift[i]) {
             FW_TRY(add(arena, o, p, i ? terms->stretch.law : NULL, NULL));
             p->item[p->count - 1].shift = true;
-            fw_modal_shift_force(o, o->shift[i], p->item[p->count - 1].force);
+            memcpy(p->item[p->count - 1].force, o->shift_force[i], (size_t)o->n * sizeof(double));
         }
     for (int i = 0; i < p->count; i++) {
         to_modes(o, p->item[i].force, p->item[i].mode);
