@@ -65,8 +65,17 @@ static void spread(int modes, int count, const double *shape, const double *size
             out[i] += fabs(shape[(size_t)j * (size_t)count + (size_t)i]) * size[j];
 }
 
-/* dampers resist a strain: a push c law', whose integral is c times the variation of the law */
+/* strains move modes by squares of their turns; dampers resist: a push c law', whose integral is c
+ * times the variation of the law */
 static void add_drag(const fw_modal *o, fw_envelope *e) {
+    double second = fw_modal_second(o);
+    for (int j = 0; j < e->modes && second > 0; j++) {
+        double turn = 0;
+        for (int i = 0; i < e->npin; i++)
+            turn = fmax(turn, fabs(e->turn[(size_t)j * (size_t)e->npin + (size_t)i]));
+        if (turn > 0) e->amplitude[j] += second / turn;
+        if (turn > 0) e->pace[j] += second / turn * e->omega[j];
+    }
     if (!o->shift[1]) return;
     double variation = fw_law_measure(o->terms->stretch.law, o->scene->duration_s).variation;
     for (int j = 0; j < e->modes; j++) {

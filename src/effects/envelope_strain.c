@@ -252,7 +252,7 @@ fw_status fw_envelope_strain(const fw_effect_case *c, const double *strain, cons
         FW_TRY(compare(&w, &part));
         for (int i = 0; i < e->npin; i++)
             most = fmax(most, w.extra[i]);
-        *bound = most / e->floor * e->margin;
+        *bound = (most * e->margin + fw_modal_second(w.o)) / e->floor;
         *bound +=
             fw_law_is_constant(law) ? fw_envelope_stiffness(c, part) : fw_envelope_varying(c, part);
         if (isnan(*bound)) *bound = (double)INFINITY;

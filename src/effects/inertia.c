@@ -320,7 +320,7 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     for (int p = 0; p < m.pins; p++)
         most = fmax(most, isnan(m.rotation[p]) ? (double)INFINITY : m.rotation[p]);
     double least;
-    most *= e->margin;
+    most = most * e->margin + fw_modal_second(e->modal);
     FW_TRY(find_floor(c, &pushes, &m, most, &least));
     fw_arena_rewind(c->arena, mark);
     *value = most / least;

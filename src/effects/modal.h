@@ -36,6 +36,8 @@ fw_status fw_modal_shift(fw_arena *arena, const fw_modal *modal, const double *s
                          double *shift, double *turn, double *force);
 /* both of `terms` */
 fw_status fw_modal_find_shifts(fw_arena *arena, fw_modal *modal);
+/* rad: what they turn besides, of second order in their turns, at most 4 turn^2 */
+double fw_modal_second(const fw_modal *modal);
 fw_status fw_modal_drag(fw_arena *arena, const fw_modal *modal, double *mode);
 /* turn of a pin by them at a time */
 double fw_modal_shifted(const fw_modal *modal, int pin, double t_s, double piece_s);

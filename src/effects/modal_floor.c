@@ -19,7 +19,7 @@ typedef struct walk {
     swing *mode;                   /* (modes) */
     double *left, *middle, *right; /* (modes) forces in a cell */
     double *free_rad;              /* (npin) deflection as drawn */
-    double unsure, best;
+    double unsure, best, second;
 } walk;
 
 /* e^(-g t) cosh or cos of w t, and sinh or sin over w; w^2 = g^2 - omega^2 */
@@ -74,7 +74,7 @@ static void see(walk *w, double t, double piece) {
     const fw_modal *o = w->o;
     size_t pins = (size_t)o->mechanism->npin;
     for (size_t i = 0; i < pins; i++) {
-        double angle = w->free_rad[i] + fw_modal_shifted(o, (int)i, t, piece), off = 0;
+        double angle = w->free_rad[i] + fw_modal_shifted(o, (int)i, t, piece), off = w->second;
         for (size_t j = 0; j < (size_t)o->modes; j++) {
             const swing *x = &w->mode[j];
             double turn = o->turn[j * pins + i];
@@ -109,7 +109,7 @@ static void walk_piece(walk *w, double from, double to, double early) {
 fw_status fw_modal_floor(fw_arena *arena, const fw_modal *o, const fw_pushes *pushes, double unsure,
                          double *floor_rad) {
     size_t m = (size_t)o->modes;
-    walk w = {.o = o, .pushes = pushes, .unsure = unsure};
+    walk w = {.o = o, .pushes = pushes, .unsure = unsure, .second = fw_modal_second(o)};
     double *t_s, from = 0, end = o->scene->duration_s, early = fmin(end, 14 / o->omega[0]);
     int count;
     fw_mark mark = fw_arena_mark(arena);

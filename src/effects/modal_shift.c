@@ -129,6 +129,23 @@ fw_status fw_modal_drag(fw_arena *arena, const fw_modal *o, double *mode) {
     return FW_OK;
 }
 
+/* The pose that is assembled and the equilibrium near it differ by squares of the turns, which
+   ring. The factor is that of `widen` in envelope.c: found by trial, 0.8 was seen (test_bounds.c)
+ */
+double fw_modal_second(const fw_modal *o) {
+    double most = 0;
+    for (int i = 0; i < 2; i++) {
+        if (!o->shift[i]) continue;
+        double turn = 0;
+        for (int k = 0; k < o->mechanism->npin; k++)
+            turn = fmax(turn, fabs(o->shift_turn[i][k]));
+        for (int k = 2; k < o->n; k += 3)
+            turn = fmax(turn, fabs(o->shift[i][k]));
+        most += turn * (i ? fw_law_largest(o->terms->stretch.law, o->scene->duration_s) : 1);
+    }
+    return 4 * most * most;
+}
+
 double fw_modal_shifted(const fw_modal *o, int pin, double t_s, double piece_s) {
     double sum = 0, law[3];
     if (o->shift[0]) sum += o->shift_turn[0][pin];
