@@ -3,6 +3,7 @@
 #include "effects/linear.h"
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 enum { PORTS_MOST = 128, SWITCHES_MOST = 64 };
 
@@ -50,6 +51,26 @@ void fw_terms_element_force(const fw_mechanism *m, const fw_force_element *e, do
         if (e->port[i / 3].body != FW_GROUND) force[3 * e->port[i / 3].body + i % 3] += local[i];
 }
 
+void fw_terms_element_drag(const fw_mechanism *m, const fw_force_element *e, double strain,
+                           fw_vec2 centre, double *force) {
+    still s;
+    double before[3 * PORTS_MOST], local[3 * PORTS_MOST] = {0};
+    if (!fw_terms_element_fits(e)) return;
+    look(m, e, 0, DBL_MIN, &s);
+    memcpy(before, s.f, 3 * (size_t)e->ports * sizeof *before);
+    for (int i = 0; i < e->ports; i++)
+        if (e->port[i].body == FW_GROUND) {
+            s.w[3 * i] = strain * (e->port[i].x_m - centre.x);
+            s.w[3 * i + 1] = strain * (e->port[i].y_m - centre.y);
+        }
+    e->class_->force(&s.e, &s.seen, s.f);
+    for (int i = 0; i < 3 * e->ports; i++)
+        s.f[i] -= before[i];
+    fw_element_push(&s.e, s.q, s.f, local);
+    for (int i = 0; i < 3 * e->ports; i++)
+        if (e->port[i / 3].body != FW_GROUND) force[3 * e->port[i / 3].body + i % 3] += local[i];
+}
+
 /* of 65 instants evenly over the scene, and behind every break of its laws, the one with the
    largest forces; with the element's laws NULL or end_s 0 the start */
 double fw_terms_element_busiest(const fw_mechanism *m, const fw_force_element *e, double end_s) {
@@ -74,28 +95,34 @@ double fw_terms_element_busiest(const fw_mechanism *m, const fw_force_element *e
     return best;
 }
 
-fw_status fw_terms_element_tangent(fw_arena *arena, const fw_mechanism *m, const fw_terms *terms,
-                                   double *stiffness, double *damping) {
-    size_t n = 3 * (size_t)m->nbody;
+fw_status fw_terms_element_tangent_at(fw_arena *arena, const fw_mechanism *m,
+                                      const fw_force_element *e, double t_s, double piece_s,
+                                      double *stiffness, double *damping, bool *valid) {
+    size_t n = 3 * (size_t)m->nbody, size = 9 * (size_t)e->ports * (size_t)e->ports;
     fw_mark mark = fw_arena_mark(arena);
-    double *q;
+    double *q, *k, *c;
+    const char *why;
+    still s;
+    *valid = true;
+    if (!fw_terms_element_fits(e)) return FW_OK;
     FW_NEED(q = fw_arena_array(arena, double, n));
+    FW_NEED(k = fw_arena_array(arena, double, size));
+    FW_NEED(c = fw_arena_array(arena, double, size));
     for (int b = 0; b < m->nbody; b++)
         q[3 * b] = m->body[b].x_m, q[3 * b + 1] = m->body[b].y_m, q[3 * b + 2] = m->body[b].phi_rad;
-    for (int i = 0; i < terms->nelement; i++) {
-        const fw_force_element *e = &terms->element[i];
-        size_t size = 9 * (size_t)e->ports * (size_t)e->ports;
-        double *k, *c;
-        still s;
-        if (!fw_terms_element_fits(e)) continue;
-        fw_mark inner = fw_arena_mark(arena);
-        FW_NEED(k = fw_arena_array(arena, double, size));
-        FW_NEED(c = fw_arena_array(arena, double, size));
-        look(m, e, 0, DBL_MIN, &s);
-        e->class_->tangent(&s.e, &s.seen, k, c);
-        fw_element_spread(e, m->nbody, q, NULL, s.f, k, c, stiffness, damping);
-        fw_arena_rewind(arena, inner);
-    }
+    look(m, e, t_s, piece_s, &s);
+    *valid = !e->class_->valid || e->class_->valid(&s.e, &s.seen, &why);
+    e->class_->tangent(&s.e, &s.seen, k, c);
+    fw_element_spread(e, m->nbody, q, NULL, s.f, k, c, stiffness, damping);
     fw_arena_rewind(arena, mark);
+    return FW_OK;
+}
+
+fw_status fw_terms_element_tangent(fw_arena *arena, const fw_mechanism *m, const fw_terms *terms,
+                                   double *stiffness, double *damping) {
+    bool valid;
+    for (int i = 0; i < terms->nelement; i++)
+        FW_TRY(fw_terms_element_tangent_at(arena, m, &terms->element[i], 0, DBL_MIN, stiffness,
+                                           damping, &valid));
     return FW_OK;
 }

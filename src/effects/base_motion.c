@@ -16,66 +16,48 @@ static bool called_for(const fw_effect_case *c) {
     return false;
 }
 
-/* largest |law| and its total variation in units of that, jumps at the start and at the end
-   included: between two extremes a sine goes 2, and in n half periods there are at most n + 1 of
-   them. Infinite where samples would have to stand for a proof (expressions), and for noise. */
-static void law_size(const fw_law *law, double end_s, double *size, double *variation) {
-    *size = *variation = 1;
-    if (fw_law_is_constant(law)) return;
-    double last = fmin(end_s, law->end_s), value[3] = {0, 0, 0};
-    switch (law->kind) {
-    case FW_LAW_STEP:
-        *variation = 2;
-        return;
-    case FW_LAW_RAMP:
-        return;
-    case FW_LAW_SINE:
-        *variation = 2 * ceil(2 * law->frequency_Hz * fmax(0, last - law->start_s)) + 2;
-        return;
-    case FW_LAW_HALF_SINE:
-        *variation = 2;
-        return;
-    case FW_LAW_TABLE:
-        *size = fw_law_largest(law, end_s), *variation = 0;
-        for (int i = 0; i < law->ntable; i++) {
-            *variation += fabs(law->table_value[i] - value[0]);
-            value[0] = law->table_value[i];
-        }
-        if (*size > 0) *variation /= *size;
-        return;
-    case FW_LAW_RANDOM: /* sqrt(2/n) sum of n cosines */
-        *size = sqrt(2.0 * law->lines);
-        *variation = (double)INFINITY;
-        return;
-    case FW_LAW_EXPRESSION:
-    default:
-        *size = (double)INFINITY;
-        return;
+/* modal forces (modes) of -m a, and the force (n) itself */
+static void push_of(const fw_effect_case *c, const fw_base_motion *b, double size, double *force,
+                    double *mode) {
+    const fw_mechanism *m = c->mechanism;
+    const fw_envelope *e = c->envelope;
+    for (int k = 0; k < m->nbody; k++) {
+        force[3 * k] = -m->body[k].mass_kg * b->ax_m_per_s2 * size;
+        force[3 * k + 1] = -m->body[k].mass_kg * b->ay_m_per_s2 * size;
+    }
+    for (int j = 0; j < e->modes; j++) {
+        mode[j] = 0;
+        for (int k = 0; k < e->n; k++)
+            mode[j] += e->shape[(size_t)j * (size_t)e->n + (size_t)k] * force[k];
     }
 }
 
-/* sum over the shakes of the envelope's answer to |m a| on every body with the variation of the
-   law. Inputs SI; output dimensionless. Valid where the envelope is. Cost modes x bodies each.
-   Test: test_base_motion.c. */
+/* Sum over the shakes of the envelope's answer to -m a on every body, with the size and variation
+   of the law, and to what the joint forces that carry them do to the stiffness meanwhile. Inputs
+   SI; output dimensionless. Valid where the envelope is. Cost modes x bodies each. Test:
+   test_base_motion.c, test_bounds.c. */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
-    const fw_mechanism *m = c->mechanism;
+    const fw_envelope *e = c->envelope;
     *value = (double)INFINITY;
-    *reason = "the base shakes: it is the motion itself";
-    if (!c->envelope || !c->envelope->valid) return FW_OK;
+    *reason = "the base shakes, and nothing says how much of the motion that is: kept";
+    if (!e || !e->valid) return FW_OK;
     fw_mark mark = fw_arena_mark(c->arena);
-    double *force, sum = 0;
-    FW_NEED(force = fw_arena_array(c->arena, double, 3 * (size_t)m->nbody));
+    double *force, *mode, sum = 0;
+    FW_NEED(force = fw_arena_array(c->arena, double, (size_t)e->n));
+    FW_NEED(mode = fw_arena_array(c->arena, double, (size_t)e->modes));
     for (int i = 0; i < c->scene->nbase; i++) {
         const fw_base_motion *b = &c->scene->base[i];
-        double size, variation;
+        double part;
         if (!shakes(b)) continue;
-        law_size(b->law, c->scene->duration_s, &size, &variation);
-        if (size == 0) continue;
-        for (int k = 0; k < m->nbody; k++) {
-            force[3 * k] = m->body[k].mass_kg * fabs(b->ax_m_per_s2) * size;
-            force[3 * k + 1] = m->body[k].mass_kg * fabs(b->ay_m_per_s2) * size;
-        }
-        sum += isfinite(size) ? fw_envelope_answer(c, force, variation) : (double)INFINITY;
+        fw_law_size size = fw_law_measure(b->law, c->scene->duration_s);
+        if (size.most == 0) continue;
+        if (!isfinite(size.most)) sum = (double)INFINITY;
+        if (!isfinite(sum)) break;
+        push_of(c, b, size.most, force, mode);
+        FW_TRY(fw_envelope_softening(c, force, &part));
+        sum += fw_envelope_mode_answer(c, mode, size.variation / size.most) +
+               (fw_law_is_constant(b->law) ? fw_envelope_stiffness(c, part)
+                                           : fw_envelope_varying(c, part));
     }
     fw_arena_rewind(c->arena, mark);
     if (!(sum < (double)INFINITY)) return FW_OK;
@@ -109,8 +91,7 @@ static int count(const fw_effect_case *c) {
     return c->scene->nbase * c->mechanism->nbody;
 }
 
-/* kept: a scene that shakes may have nothing else to judge; beside large loads a bound below the
-   accuracy wanted says that it adds nothing */
+/* it stays where nothing else moves the mechanism: there is then nothing else to judge */
 const fw_effect_row fw_effect_base_motion = {.id = "base-motion",
                                              .summary = "acceleration of the base: -m a(t) on "
                                                         "every body, in the base's frame",
@@ -119,4 +100,4 @@ const fw_effect_row fw_effect_base_motion = {.id = "base-motion",
                                              .add = add,
                                              .cost = 120,
                                              .count = count,
-                                             .kept = true};
+                                             .alone_stays = true};

@@ -65,6 +65,44 @@ static void spread(int modes, int count, const double *shape, const double *size
             out[i] += fabs(shape[(size_t)j * (size_t)count + (size_t)i]) * size[j];
 }
 
+/* strains move modes by squares of their turns; dampers resist: a push c law', whose integral is c
+ * times the variation of the law */
+static void add_drag(const fw_modal *o, fw_envelope *e) {
+    double second = fw_modal_second(o);
+    for (int j = 0; j < e->modes && second > 0; j++) {
+        double turn = 0;
+        for (int i = 0; i < e->npin; i++)
+            turn = fmax(turn, fabs(e->turn[(size_t)j * (size_t)e->npin + (size_t)i]));
+        if (turn > 0) e->amplitude[j] += second / turn;
+        if (turn > 0) e->pace[j] += second / turn * e->omega[j];
+    }
+    if (!o->shift[1]) return;
+    double variation = fw_law_measure(o->terms->stretch.law, o->scene->duration_s).variation;
+    for (int j = 0; j < e->modes; j++) {
+        double drag = fabs(o->shift_drag[1][j]);
+        if (drag > 0) e->amplitude[j] += drag * variation / o->omega[j];
+        if (drag > 0) e->pace[j] += drag * variation;
+    }
+}
+
+/* how far, and how fast, free strains move it by themselves */
+static void add_shifts(const fw_modal *o, fw_envelope *e) {
+    for (int i = 0; i < 2; i++) {
+        if (!o->shift[i]) continue;
+        const fw_law *law = i ? o->terms->stretch.law : NULL;
+        fw_law_size size = fw_law_measure(law, o->scene->duration_s);
+        for (int k = 0; k < e->n; k++) {
+            e->reach[k] += size.most * fabs(o->shift[i][k]);
+            e->speed[k] += size.slope * fabs(o->shift[i][k]);
+        }
+        for (int k = 0; k < e->npin; k++) {
+            e->angle[k] += size.most * fabs(o->shift_turn[i][k]);
+            e->rate[k] += size.slope * fabs(o->shift_turn[i][k]);
+            if (i == 1) e->force[k] = (double)INFINITY; /* the ground pulls with its own inertia */
+        }
+    }
+}
+
 /* ---- joint forces ---- */
 
 static void add_pins(const fw_modal *o, const double *lambda, double factor, double *force) {
@@ -169,13 +207,14 @@ static double hinges_doubt(const fw_modal *o, const fw_envelope *e) {
 /* turns, and what the loads at their largest with the multipliers that hold them do to the
    stiffness (twice, because the motion overshoots; a frequency follows by half of it) */
 static fw_status doubt(fw_arena *arena, const fw_modal *o, const fw_envelope *e, double *unsure) {
-    double *force, part;
+    double *force, part, bend;
     fw_mark mark = fw_arena_mark(arena);
     FW_NEED(force = fw_arena_array(arena, double, (size_t)o->n));
     fw_terms_largest_force(o->mechanism, o->terms, o->scene->duration_s, force);
     FW_TRY(fw_modal_softening(arena, o, force, false, &part));
     fw_arena_rewind(arena, mark);
-    *unsure = largest_turn(o, e) + part + hinges_doubt(o, e);
+    FW_TRY(fw_modal_bend(arena, o, e->amplitude, &bend));
+    *unsure = largest_turn(o, e) + part + bend + hinges_doubt(o, e);
     return FW_OK;
 }
 
@@ -229,12 +268,14 @@ fw_status fw_envelope_of(fw_arena *arena, const fw_mechanism *m, const fw_scene 
     if (pushes.why_not) return fail(e, pushes.why_not);
     FW_TRY(arrays(arena, o, e));
     size_of_modes(o, &pushes, e);
+    add_drag(o, e);
     spread(e->modes, e->n, e->shape, e->amplitude, e->reach);
     spread(e->modes, e->n, e->shape, e->pace, e->speed);
     spread(e->modes, e->npin, e->turn, e->amplitude, e->angle);
     spread(e->modes, e->npin, e->turn, e->pace, e->rate);
     FW_TRY(joint_forces(arena, o, &pushes, e));
     released(o, e);
+    add_shifts(o, e);
     FW_TRY(doubt(arena, o, e, &unsure));
     if (!(unsure <= unsure_most))
         return fail(e, "it turns too far, or its loads change its stiffness too much, for linear "

@@ -65,4 +65,12 @@ double fw_envelope_stiffness(const fw_effect_case *c, double part);
    them take from the stiffness or add to it. A weight along a mast moves nothing and softens it */
 fw_status fw_envelope_softening(const fw_effect_case *c, const double *force, double *part);
 
+/* A change of the stiffness by `part` that comes and goes with time, in whatever step with the
+   motion: as fw_envelope_stiffness, and resonance counts */
+double fw_envelope_varying(const fw_effect_case *c, double part);
+/* Free strains of bodies and ground (nbody + 1), times a law (NULL: from the start on), which are
+   among those of the envelope: what the motion is without them. envelope_strain.c */
+fw_status fw_envelope_strain(const fw_effect_case *c, const double *strain, const fw_law *law,
+                             double *bound);
+
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which effects the envelope takes in: those whose terms are loads, springs, dampers and elements
-   that act on both sides. */
+/* Which effects the envelope takes in: those whose terms are loads, springs, dampers, elements that
+   act on both sides, and free strains. */
 #include "effects/effect.h"
 #include "effects/envelope.h"
 #include <string.h>
@@ -8,8 +8,7 @@
 static bool linear(const fw_terms *t) {
     for (int i = 0; i < t->nelement; i++)
         if (t->element[i].switches > 0) return false;
-    return t->nstop == 0 && t->nfriction == 0 && !t->strained && !t->stretch.law &&
-           !t->quasi_static;
+    return t->nstop == 0 && t->nfriction == 0 && !t->quasi_static;
 }
 
 /* does its `add` stay within what linear theory takes in? */
@@ -45,6 +44,10 @@ static fw_status with_hinges(const fw_effect_case *c, bool *taken, int hinges,
     *pinned = *envelope;
     taken[hinges] = true;
     FW_TRY(add_taken(c, taken, terms));
+    if (terms->strained || terms->stretch.law) { /* what strains do to hinges that give: unknown */
+        taken[hinges] = false;
+        return FW_OK;
+    }
     FW_TRY(fw_envelope_of(c->arena, c->mechanism, c->scene, terms, envelope));
     envelope->pinned = pinned;
     return FW_OK;

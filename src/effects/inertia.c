@@ -214,6 +214,17 @@ static fw_status spread_laws(fw_arena *arena, const fw_pushes *p, double end_s, 
     return FW_OK;
 }
 
+/* a ground that stretches drags its dampers along: the row does not know of that */
+static void spread_drag(const fw_modal *o, double end_s, modal *m) {
+    if (!o->shift[1]) return;
+    double variation = fw_law_measure(o->terms->stretch.law, end_s).variation;
+    for (int p = 0; p < m->pins; p++)
+        for (int j = 0; j < m->modes; j++)
+            if (o->shift_drag[1][j] != 0)
+                m->rotation[p] += fabs(m->e->turn[j * m->pins + p] * o->shift_drag[1][j]) *
+                                  variation / o->omega[j];
+}
+
 /* what acts behind t = 0 is put on at once, constants and laws together: one jump; velocities */
 static void spread_start(const fw_pushes *p, modal *m) {
     const unrest jump = {.jumps = 1};
@@ -233,7 +244,7 @@ static double largest_deflection(const fw_effect_case *c, const fw_pushes *p, co
     for (int i = 0; i < p->count; i++)
         fw_push_at(m->e->modal, p, &p->item[i], t_s, piece_s, m->push);
     for (int pin = 0; pin < m->pins; pin++) {
-        double turn = 0;
+        double turn = fw_modal_shifted(m->e->modal, pin, t_s, piece_s);
         for (int j = 0; j < m->modes; j++)
             turn += m->e->turn[j * m->pins + pin] * m->push[j] / pow(m->e->omega[j], 2);
         /* what is not linear could make the turn smaller */
@@ -305,10 +316,11 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     FW_TRY(fw_pushes_find(c->arena, e->modal, &pushes));
     spread_start(&pushes, &m);
     FW_TRY(spread_laws(c->arena, &pushes, c->scene->duration_s, &m));
+    spread_drag(e->modal, c->scene->duration_s, &m);
     for (int p = 0; p < m.pins; p++)
         most = fmax(most, isnan(m.rotation[p]) ? (double)INFINITY : m.rotation[p]);
     double least;
-    most *= e->margin;
+    most = most * e->margin + fw_modal_second(e->modal);
     FW_TRY(find_floor(c, &pushes, &m, most, &least));
     fw_arena_rewind(c->arena, mark);
     *value = most / least;

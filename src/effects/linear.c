@@ -2,6 +2,7 @@
 #include "effects/linear.h"
 #include "maths/dense.h"
 #include <math.h>
+#include <string.h>
 
 static void put(const fw_linear *s, int i, int j, double value) {
     s->a[(size_t)i * (size_t)s->total + (size_t)j] += value;
@@ -289,6 +290,34 @@ void fw_linear_hold(const fw_linear *s, const fw_mechanism *m, const double *lam
                     double *force) {
     const holding held = {s, lambda, force};
     add_constraints(&held, m);
+}
+
+/* b less a, along and across the direction that the joint holds */
+static int tie_gaps(const fw_linear *s, const fw_mechanism *m, const fw_tie *t, double *gap) {
+    fw_vec2 a = fw_local_place(m, t->body_a, t->ax_m, t->ay_m);
+    fw_vec2 b = fw_local_place(m, t->body_b, t->bx_m, t->by_m);
+    double dx = (b.x - a.x) / s->length_m, dy = (b.y - a.y) / s->length_m;
+    double turned = t->axis_rad + (t->body_a == FW_GROUND ? 0 : m->body[t->body_a].phi_rad);
+    if (t->kind == FW_TIE_PRISMATIC)
+        gap[0] = -sin(turned) * dx + cos(turned) * dy;
+    else if (t->kind == FW_TIE_DISTANCE)
+        gap[0] = hypot(dx, dy);
+    else
+        gap[0] = dx, gap[1] = dy;
+    return tie_rows(t);
+}
+
+void fw_linear_gaps(const fw_linear *s, const fw_mechanism *m, double *gap) {
+    int row = 0;
+    memset(gap, 0, (size_t)s->rows * sizeof *gap);
+    for (int i = 0; i < m->npin; i++) {
+        if (s->pin_row[i] == FW_NONE) continue;
+        fw_vec2 a = fw_pin_place(m, &m->pin[i], 0), b = fw_pin_place(m, &m->pin[i], 1);
+        gap[row++] = (b.x - a.x) / s->length_m;
+        gap[row++] = (b.y - a.y) / s->length_m;
+    }
+    for (int i = 0; i < m->ntie; i++)
+        row += tie_gaps(s, m, &m->tie[i], gap + row);
 }
 
 /* LU of the whole; error round-off times condition; cost total^3 / 3 */

@@ -29,6 +29,9 @@ double fw_linear_force_unit(const fw_linear *system, int coordinate);
    `system` was made for, moved */
 void fw_linear_hold(const fw_linear *system, const fw_mechanism *mechanism, const double *lambda,
                     double *force);
+/* gap (rows, scaled) of every joint at the pose of `mechanism`, as the rows count it; angles and
+   rods only up to a constant */
+void fw_linear_gaps(const fw_linear *system, const fw_mechanism *mechanism, double *gap);
 /* x (total) with scaled force (n) as the right-hand side; *valid false: singular */
 fw_status fw_linear_solve(fw_arena *arena, const fw_linear *system, const double *force, double *x,
                           bool *valid);
@@ -38,10 +41,18 @@ fw_status fw_linear_solve(fw_arena *arena, const fw_linear *system, const double
 fw_status fw_terms_element_tangent(fw_arena *arena, const fw_mechanism *mechanism,
                                    const fw_terms *terms, double *whole_stiffness,
                                    double *whole_damping);
+/* of one element at a time; *valid false: its formula does not hold there */
+fw_status fw_terms_element_tangent_at(fw_arena *arena, const fw_mechanism *mechanism,
+                                      const fw_force_element *element, double t_s, double piece_s,
+                                      double *whole_stiffness, double *whole_damping, bool *valid);
 /* generalised forces (n, SI) += of one element at rest at time t_s of the piece around piece_s */
 void fw_terms_element_force(const fw_mechanism *mechanism, const fw_force_element *element,
                             double t_s, double piece_s, double *force);
 
+/* generalised forces (n, SI) += what dampers of one element do more when its points on the ground
+   move at strain (p - centre) per second */
+void fw_terms_element_drag(const fw_mechanism *mechanism, const fw_force_element *element,
+                           double strain, fw_vec2 centre, double *force);
 /* when it pushes most: with its laws, in (0, end_s); 0 without */
 double fw_terms_element_busiest(const fw_mechanism *mechanism, const fw_force_element *element,
                                 double end_s);

@@ -2,6 +2,7 @@
 #include "effects/modal.h"
 #include "maths/jacobi.h"
 #include "maths/lapack.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -159,6 +160,12 @@ fw_status fw_modal_damping(fw_arena *arena, const fw_modal *o, const fw_terms *t
             for (size_t i = 0; i < n; i++)
                 out[l * m + j] += o->shape[l * n + i] * product[i];
     }
+    bool own = terms == o->terms; /* what free strains are damped by belongs to these */
+    if (own && o->shift[1]) FW_TRY(fw_modal_drag(arena, o, o->shift_drag[1]));
+    for (int which = 0; which < 2 && own; which++)
+        for (size_t j = 0; j < m && o->shift[which]; j++)
+            for (size_t i = 0; i < n * n; i++)
+                o->shift_drag[which][j] -= o->shape[j * n + i / n] * c[i] * o->shift[which][i % n];
     fw_arena_rewind(arena, mark);
     return FW_OK;
 }
@@ -215,7 +222,6 @@ static const char *beyond(const fw_mechanism *m, const fw_terms *t) {
             return "something in it acts on one side only";
     if (t->nstop > 0) return "stops act on one side only";
     if (t->nfriction > 0) return "friction sticks and slides";
-    if (t->strained || t->stretch.law) return "its arms change their length";
     if (t->quasi_static) return "inertia is left out";
     if (fw_linear_size(m, t) > FW_RESPONSE_MOST) return "it has too many bodies for that";
     return m->nbody == 0 ? "it has no bodies" : NULL;
@@ -245,6 +251,7 @@ fw_status fw_modal_find(fw_arena *arena, const fw_mechanism *m, const fw_scene *
     if (!o->why_not) FW_TRY(hold(arena, o));
     if (!o->why_not) FW_TRY(solve(arena, o));
     if (!o->why_not) FW_TRY(turns(arena, o));
+    if (!o->why_not) FW_TRY(fw_modal_find_shifts(arena, o));
     if (o->why_not) return FW_OK;
     FW_NEED(o->damping = fw_arena_array(arena, double, (size_t)o->modes *(size_t)o->modes));
     FW_TRY(fw_modal_damping(arena, o, terms, o->damping));
@@ -284,6 +291,16 @@ void fw_modal_multipliers(const fw_modal *o, const double *force, double *work, 
 
 /* ---- what forces do to the stiffness ---- */
 
+/* loads at their largest; elements as they are at the start, which is how they are in omega: what
+   their laws change is in fw_modal_bend */
+static void largest_loads(const fw_modal *o, const fw_mechanism *moved, double *force) {
+    fw_terms loads = *o->terms;
+    loads.nelement = 0;
+    fw_terms_largest_force(moved, &loads, o->scene->duration_s, force);
+    for (int i = 0; i < o->terms->nelement; i++)
+        fw_terms_element_force(moved, &o->terms->element[i], 0, DBL_MIN, force);
+}
+
 /* residual (n, SI) at q0 + h shape: forces less G^T lambda */
 static void residual(const fw_modal *o, fw_mechanism *moved, const double *shape, double h,
                      const double *lambda, bool dead, double *work, double *out) {
@@ -295,7 +312,7 @@ static void residual(const fw_modal *o, fw_mechanism *moved, const double *shape
         moved->body[b].phi_rad += h * shape[3 * b + 2];
     }
     memset(out, 0, (size_t)o->n * sizeof *out);
-    if (!dead) fw_terms_largest_force(moved, o->terms, o->scene->duration_s, out);
+    if (!dead) largest_loads(o, moved, out);
     memset(work, 0, (size_t)o->n * sizeof *work);
     fw_linear_hold(s, moved, lambda, work);
     for (int i = 0; i < o->n; i++)

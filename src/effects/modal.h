@@ -21,7 +21,13 @@ typedef struct fw_modal {
     double *velocity;    /* (modes) at the start */
     double *inertia;     /* (n) masses in the scaled coordinates of `linear` */
     fw_singular holding; /* of G M^-1/2 */
-    const char *why_not; /* NULL: all of this is there */
+    /* what free strains move the mechanism by, as it is assembled with them: constant, and where
+       the law of terms->stretch is 1. NULL: there are none */
+    double *shift[2];       /* (n) */
+    double *shift_turn[2];  /* (npin) */
+    double *shift_force[2]; /* (n) what springs answer, and loads do otherwise */
+    double *shift_drag[2];  /* (modes) what dampers do against it, per rate of the law */
+    const char *why_not;    /* NULL: all of this is there */
 } fw_modal;
 
 fw_status fw_modal_find(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
@@ -35,6 +41,17 @@ fw_status fw_modal_open(fw_arena *arena, fw_modal *modal);
    pins that carry `pull` add to shape^T K shape */
 void fw_modal_pulls(const fw_modal *modal, const double *force, double *pull);
 double fw_modal_turning(const fw_modal *modal, const double *pull, int row, int column);
+/* the same for strains of bodies and ground (nbody + 1): pose (n, SI), turns (npin), and the force
+   that springs and loads answer it with (n) */
+fw_status fw_modal_shift(fw_arena *arena, const fw_modal *modal, const double *strain,
+                         double *shift, double *turn, double *force);
+/* both of `terms` */
+fw_status fw_modal_find_shifts(fw_arena *arena, fw_modal *modal);
+/* rad: what they turn besides, of second order in their turns, at most 4 turn^2 */
+double fw_modal_second(const fw_modal *modal);
+fw_status fw_modal_drag(fw_arena *arena, const fw_modal *modal, double *mode);
+/* turn of a pin by them at a time */
+double fw_modal_shifted(const fw_modal *modal, int pin, double t_s, double piece_s);
 /* scaled multipliers (rows) that hold the mechanism where forces `force` (n, SI) act and inertia
    does not; work (2 n) */
 void fw_modal_multipliers(const fw_modal *modal, const double *force, double *work, double *lambda);
@@ -44,6 +61,12 @@ void fw_modal_multipliers(const fw_modal *modal, const double *force, double *wo
 fw_status fw_modal_softening(fw_arena *arena, const fw_modal *modal, const double *force, bool dead,
                              double *part);
 
+/* how much the stiffness and damping of the elements change within the motion, relative: their laws
+   go on, and their forces are not linear. amplitude (modes): largest |q|. Infinite where a formula
+   does not hold all the way. modal_bend.c */
+fw_status fw_modal_bend(fw_arena *arena, const fw_modal *modal, const double *amplitude,
+                        double *part);
+
 /* ---- what pushes: a constant part, loads with laws, elements with laws ---- */
 /* angle of a pin as drawn less its free angle */
 double fw_pin_deflection(const fw_mechanism *mechanism, int pin);
@@ -51,6 +74,7 @@ double fw_pin_deflection(const fw_mechanism *mechanism, int pin);
 typedef struct fw_push {
     const fw_law *law;                 /* NULL: constant, or an element */
     const fw_force_element *element;   /* NULL: force times law */
+    bool shift;                        /* the springs' answer to a free strain */
     double *force;                     /* (n) of one unit of the law */
     double *mode;                      /* (modes) shape . force */
     double *sup, *first, *sway, *full; /* (modes) of its modal force over the scene: largest size,

@@ -3,6 +3,7 @@
    mode, at some hundred instants. The value at any instant is a lower bound of the maximum; what
    the linear motion may be wrong by there is taken off. */
 #include "effects/modal.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -18,7 +19,7 @@ typedef struct walk {
     swing *mode;                   /* (modes) */
     double *left, *middle, *right; /* (modes) forces in a cell */
     double *free_rad;              /* (npin) deflection as drawn */
-    double unsure, best;
+    double unsure, best, second;
 } walk;
 
 /* e^(-g t) cosh or cos of w t, and sinh or sin over w; w^2 = g^2 - omega^2 */
@@ -69,11 +70,11 @@ static void cell(walk *w, double t, double h, double piece) {
 }
 
 /* what every hinge is deflected by for sure */
-static void see(walk *w, double t) {
+static void see(walk *w, double t, double piece) {
     const fw_modal *o = w->o;
     size_t pins = (size_t)o->mechanism->npin;
     for (size_t i = 0; i < pins; i++) {
-        double angle = w->free_rad[i], off = 0;
+        double angle = w->free_rad[i] + fw_modal_shifted(o, (int)i, t, piece), off = w->second;
         for (size_t j = 0; j < (size_t)o->modes; j++) {
             const swing *x = &w->mode[j];
             double turn = o->turn[j * pins + i];
@@ -95,7 +96,7 @@ static void walk_piece(walk *w, double from, double to, double early) {
         for (int k = 0; k < cells; k++) {
             double t = a + (b - a) * k / cells, h = (b - a) / cells;
             cell(w, t, h, middle);
-            see(w, t + h);
+            see(w, t + h, middle);
         }
     }
 }
@@ -108,7 +109,7 @@ static void walk_piece(walk *w, double from, double to, double early) {
 fw_status fw_modal_floor(fw_arena *arena, const fw_modal *o, const fw_pushes *pushes, double unsure,
                          double *floor_rad) {
     size_t m = (size_t)o->modes;
-    walk w = {.o = o, .pushes = pushes, .unsure = unsure};
+    walk w = {.o = o, .pushes = pushes, .unsure = unsure, .second = fw_modal_second(o)};
     double *t_s, from = 0, end = o->scene->duration_s, early = fmin(end, 14 / o->omega[0]);
     int count;
     fw_mark mark = fw_arena_mark(arena);
@@ -122,7 +123,7 @@ fw_status fw_modal_floor(fw_arena *arena, const fw_modal *o, const fw_pushes *pu
     for (size_t j = 0; j < m; j++)
         w.mode[j].v = o->velocity[j];
     FW_TRY(fw_pushes_breaks(arena, o, pushes, &t_s, &count));
-    see(&w, 0);
+    see(&w, 0, DBL_MIN);
     for (int i = 0; i < count && count <= PIECES_MOST; i++) {
         walk_piece(&w, from, t_s[i], early);
         from = t_s[i];

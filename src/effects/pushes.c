@@ -175,7 +175,7 @@ static void of_load(const fw_modal *o, const fw_timed_load *l, double *force) {
 fw_status fw_pushes_find(fw_arena *arena, const fw_modal *o, fw_pushes *p) {
     const fw_terms *terms = o->terms;
     *p = (fw_pushes){0};
-    size_t most = 1 + (size_t)terms->ntimed + (size_t)terms->nelement;
+    size_t most = 3 + (size_t)terms->ntimed + (size_t)terms->nelement;
     FW_NEED(p->item = fw_arena_array(arena, fw_push, most));
     FW_NEED(p->work = fw_arena_array(arena, double, (size_t)o->n));
     fw_terms still = *terms;
@@ -193,6 +193,12 @@ fw_status fw_pushes_find(fw_arena *arena, const fw_modal *o, fw_pushes *p) {
         else
             fw_terms_element_force(o->mechanism, e, 0, DBL_MIN, p->item[0].force);
     }
+    for (int i = 0; i < 2; i++)
+        if (o->shift[i]) {
+            FW_TRY(add(arena, o, p, i ? terms->stretch.law : NULL, NULL));
+            p->item[p->count - 1].shift = true;
+            memcpy(p->item[p->count - 1].force, o->shift_force[i], (size_t)o->n * sizeof(double));
+        }
     for (int i = 0; i < p->count; i++) {
         to_modes(o, p->item[i].force, p->item[i].mode);
         FW_TRY(measure(arena, o, p, &p->item[i]));

@@ -4,6 +4,7 @@
    gradient along the thickness bends every body out of the plane, and what is seen of an arc from
    above is its shorter chord. Theory: docs/theory/effects/residual-stress.md. */
 #include "effects/effect.h"
+#include "effects/envelope.h"
 #include <math.h>
 
 static bool called_for(const fw_effect_case *c) {
@@ -138,6 +139,28 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
     return FW_OK;
 }
 
+/* The layer is the measure: by similarity the ground's points move by the opposite strain. Each
+   body is shorter by its own bow besides. Inputs Pa, Pa/m, E in Pa; valid for (1 - nu) sigma/E << 1
+   and small slopes of the bow. Test: test_thermal.c. */
+static fw_status add_strain(const fw_effect_case *c, double *strain) {
+    const released r = released_by(c);
+    const int bodies = c->mechanism->nbody;
+    double *extent;
+    FW_NEED(extent = fw_arena_array(c->arena, double, (size_t)bodies));
+    FW_TRY(find_extents(c->arena, c->mechanism, extent));
+    for (int b = 0; b < bodies; b++)
+        strain[b] += chord_strain(r.curvature_per_m, extent[b]);
+    strain[bodies] -= r.strain / (1 + r.strain);
+    return FW_OK;
+}
+
+static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+    if (isnan(released_by(c).strain)) return FW_OK; /* not known: see check */
+    terms->strained = true;
+    return add_strain(c, terms->strain);
+}
+
+/* by the envelope: envelope_strain.c. Test: test_bounds.c */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
     released r = released_by(c);
     int body;
@@ -145,28 +168,19 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     double rises;
     FW_TRY(find_rise(c, &rises, &body));
     *value = (double)INFINITY;
+    if (c->envelope && c->envelope->valid && isfinite(r.strain + r.curvature_per_m)) {
+        double *strains;
+        FW_NEED(strains = fw_arena_array(c->arena, double, (size_t)c->mechanism->nbody + 1));
+        FW_TRY(add_strain(c, strains));
+        FW_TRY(fw_envelope_strain(c, strains, NULL, value));
+    }
     FW_NEED(*reason = fw_arena_printf(
                 c->arena,
                 "the released layer has a strain of %s against its substrate and bends its hinges; "
-                "its gradient lifts the end of the longest body by %s um out of the plane",
+                "its gradient lifts the end of the longest body by %s um out of the plane: %s",
                 fw_number_text(strain, sizeof strain, r.strain, 3),
-                fw_number_text(up, sizeof up, 1e6 * rises, 3)));
-    return FW_OK;
-}
-
-/* The layer is the measure: by similarity the ground's points move by the opposite strain. Each
-   body is shorter by its own bow besides. Inputs Pa, Pa/m, E in Pa; valid for (1 - nu) sigma/E << 1
-   and small slopes of the bow. Test: test_thermal.c. */
-static fw_status add(const fw_effect_case *c, fw_terms *terms) {
-    released r = released_by(c);
-    if (isnan(r.strain)) return FW_OK; /* not known: see check */
-    double *extent;
-    FW_NEED(extent = fw_arena_array(c->arena, double, (size_t)terms->nbody));
-    FW_TRY(find_extents(c->arena, c->mechanism, extent));
-    for (int b = 0; b < terms->nbody; b++)
-        terms->strain[b] += chord_strain(r.curvature_per_m, extent[b]);
-    terms->strain[terms->nbody] -= r.strain / (1 + r.strain);
-    terms->strained = true;
+                fw_number_text(up, sizeof up, 1e6 * rises, 3),
+                isfinite(*value) ? "bound" : "kept"));
     return FW_OK;
 }
 

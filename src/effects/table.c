@@ -80,7 +80,7 @@ static fw_status settle(const fw_effect_case *c, fw_effect_entry *entry) {
         if (largest < 0 || entry[i].bound > entry[largest].bound) largest = i;
     }
     for (int i = 0; i < ROWS && loose > 0; i++) {
-        if (!entry[i].called_for || rows[i]->kept || i == largest) continue;
+        if (!entry[i].called_for || rows[i]->kept) continue;
         if (loose < 0.5)
             entry[i].bound /= 1 - loose;
         else if (isfinite(entry[i].bound)) {
@@ -177,7 +177,8 @@ static fw_status decide_auto(const fw_effect_case *c, double accuracy, fw_effect
     return FW_OK;
 }
 
-/* something of the scene or the mechanism moves it, other than weight: what is kept besides springs
+/* something of the scene or the mechanism moves it, other than weight and the base: what is kept
+   besides springs
  */
 static bool moved(const fw_effect_case *c) {
     for (int i = 0; i < ROWS; i++)
@@ -212,7 +213,8 @@ static void decide_asked(const fw_effect_case *c, const fw_effect_choice *choice
             e->reason = list ? "called for, but not in the list"
                              : "called for, but no effect was asked for";
         else if (rows[i]->alone_stays)
-            e->reason = "nothing but weight moves the mechanism: it is the motion itself";
+            e->reason = "nothing but weight and the base moves the mechanism: it is the motion "
+                        "itself";
     }
 }
 

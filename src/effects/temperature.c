@@ -119,32 +119,73 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
 
 /* ---- bound ---- */
 
-/* Mismatch: not bounded, since it moves the equilibrium itself. Modulus alone: the envelope's
-   answer to a relative change of the stiffness, |beta dT| times the largest |law|. What was scaled
-   out changes angles by about three times the common expansion (docs). Test: test_temperature.c. */
-static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
-    double part = 0, strain = 0, common = 0;
+typedef struct sizes {     /* of all temperatures of the scene */
+    double soft, changing; /* parts of the stiffness: for good, with a law */
+    double strain, common; /* largest |strain| of the ground, and of the device */
+} sizes;
+
+static sizes sizes_of(const fw_effect_case *c) {
+    sizes s = {0};
     for (int i = 0; i < c->scene->ntemperature; i++) {
         const fw_temperature *t = &c->scene->temperature[i];
         if (t->change_K == 0) continue;
         double largest = fw_law_largest(t->law, c->scene->duration_s);
         double own = stated_or(t->expansion_per_K, c->mechanism, false) * t->change_K;
-        part += fabs(softening(c->mechanism, t)) * largest;
-        strain += fabs(ground_strain(c->mechanism, t)) * largest;
-        if (!isnan(own)) common += fabs(own) * largest;
+        double part = fabs(softening(c->mechanism, t)) * largest;
+        *(fw_law_is_constant(t->law) ? &s.soft : &s.changing) += part;
+        s.strain += fabs(ground_strain(c->mechanism, t)) * largest;
+        if (!isnan(own)) s.common += fabs(own) * largest;
     }
+    return s;
+}
+
+/* of the mismatch: constant ones together, one with a law */
+static fw_status strain_bound(const fw_effect_case *c, double *value) {
+    const int n = c->mechanism->nbody;
+    double *strain, one = 0;
+    *value = 0;
+    FW_NEED(strain = fw_arena_array(c->arena, double, (size_t)n + 1));
+    for (int i = 0; i < c->scene->ntemperature; i++) {
+        const fw_temperature *t = &c->scene->temperature[i];
+        if (t->change_K != 0 && fw_law_is_constant(t->law))
+            strain[n] += ground_strain(c->mechanism, t);
+    }
+    if (strain[n] != 0) FW_TRY(fw_envelope_strain(c, strain, NULL, &one));
+    *value += one;
+    for (int i = 0; i < c->scene->ntemperature; i++) {
+        const fw_temperature *t = &c->scene->temperature[i];
+        strain[n] = t->change_K != 0 ? ground_strain(c->mechanism, t) : 0;
+        if (strain[n] == 0 || fw_law_is_constant(t->law)) continue;
+        FW_TRY(fw_envelope_strain(c, strain, t->law, &one));
+        *value += one;
+    }
+    return FW_OK;
+}
+
+/* Mismatch: envelope_strain.c. Modulus: the envelope's answer to a relative change of the
+   stiffness, |beta dT| times the largest |law|; the envelope has the changed stiffness, so that the
+   part is of that. What was scaled out changes angles by about three times the common expansion
+   (docs). Test: test_temperature.c, test_bounds.c. */
+static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
+    const sizes s = sizes_of(c);
     char grown[32], differs[32];
-    fw_number_text(grown, sizeof grown, common, 2);
-    fw_number_text(differs, sizeof differs, strain, 2);
+    fw_number_text(grown, sizeof grown, s.common, 2);
+    fw_number_text(differs, sizeof differs, s.strain, 2);
     *value = (double)INFINITY;
-    if (strain == 0 && c->envelope && c->envelope->valid && isfinite(part))
-        *value = fw_envelope_stiffness(c, part);
+    if (c->envelope && c->envelope->valid && isfinite(s.soft + s.changing + s.strain)) {
+        double left = 1 - s.soft - s.changing;
+        FW_TRY(strain_bound(c, value));
+        *value += left > 0 ? fw_envelope_stiffness(c, s.soft / left) +
+                                 fw_envelope_varying(c, s.changing / left)
+                           : (double)INFINITY;
+    }
     if (isfinite(*value))
         FW_NEED(*reason = fw_arena_printf(
                     c->arena,
-                    "device and substrate expand alike (%s, scaled out); bound by the envelope's "
-                    "answer to the change of the flexures' stiffness",
-                    grown));
+                    "the ground's points move by a strain of %s against the device, and flexures "
+                    "change: bound by the envelope's answer (the common expansion of %s is scaled "
+                    "out)",
+                    differs, grown));
     else
         FW_NEED(*reason = fw_arena_printf(
                     c->arena,

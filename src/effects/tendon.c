@@ -243,6 +243,16 @@ static double path_as_drawn(const fw_mechanism *m, const fw_tendon *t) {
     return length;
 }
 
+/* a pull that its law only ever makes smaller never lets go, so that nothing has to be switched */
+static bool always_pulls(const fw_tendon *t) {
+    if (!(t->pull_N >= 0)) return false;
+    if (fw_law_is_constant(t->law)) return true;
+    for (int i = 0; t->law->kind == FW_LAW_TABLE && i < t->law->ntable; i++)
+        if (!(t->law->table_value[i] >= 0)) return false;
+    return t->law->kind == FW_LAW_STEP || t->law->kind == FW_LAW_RAMP ||
+           t->law->kind == FW_LAW_HALF_SINE || t->law->kind == FW_LAW_TABLE;
+}
+
 static fw_status add_one(const fw_effect_case *c, const fw_tendon *t, fw_terms *terms) {
     tendon *d;
     fw_force_element *e;
@@ -258,7 +268,7 @@ static fw_status add_one(const fw_effect_case *c, const fw_tendon *t, fw_terms *
     if (!fw_law_is_constant(t->law)) e->law[e->laws++] = t->law;
     e->works = true;
     if (pulled(d)) {
-        e->switches = e->laws; /* a constant pull never lets go */
+        e->switches = !always_pulls(t);
         e->force_N = fabs(t->pull_N) * most;
         return FW_OK;
     }

@@ -67,7 +67,7 @@ static inline bool hinge_bounds_make(fw_arena *arena, uint64_t seed, bounds_devi
     d->laws = d->r.scene.nforce = d->r.scene.ntorque = 0;
     bounds_add_loads(d, &again);
     if (!bounds_scale_loads(arena, d)) return false;
-    if (rig_random(&seed) < 0.5) bounds_gravity(d, &seed);
+    if (rig_random(&seed) < 0.5) bounds_gravity(arena, d, &seed);
     return true;
 }
 

@@ -17,7 +17,7 @@ static void slow_down(bounds_device *d, uint64_t seed) {
     for (int i = 0; i < d->laws; i++) {
         fw_law *l = &d->law[i];
         l->start_s *= factor, l->end_s *= factor, l->rise_s *= factor;
-        l->frequency_Hz /= factor;
+        l->frequency_Hz /= factor, l->frequency_most_Hz /= factor;
         if (rig_random(&seed) < 0.8) /* begins at nothing */
             l->phase_rad = 0, d->table_v[i][0] = 0;
         for (int k = 0; k < l->ntable; k++)
@@ -51,6 +51,7 @@ static void try(uint64_t seed, score *to) {
             fw_effects_compile(arena, &d.r.m, &d.r.scene, &all, 1e-3, &diags, &ledger, &terms),
             FW_OK);
         double bound = 0, unknown;
+        int ended = 0;
         for (int i = 0; i < ledger.count; i++)
             if (strcmp(ledger.item[i].id, "inertia") == 0) bound = ledger.item[i].bound;
         to->devices++;
@@ -63,8 +64,9 @@ static void try(uint64_t seed, score *to) {
             if (status == FW_SOLVER) to->ended++;
             assert_true(status == FW_OK || status == FW_SOLVER);
         }
-        if (row) {
-            const fw_motion *full = bounds_run(arena, &d.r, FW_EFFECTS_ALL, NULL, 1e-3);
+        const fw_motion *full =
+            row ? bounds_run(arena, &d.r, FW_EFFECTS_ALL, NULL, 1e-3, &ended) : NULL;
+        if (full) {
             double change = bounds_apart(full, row, &unknown);
             if (change > bound + unknown) {
                 to->bad++;

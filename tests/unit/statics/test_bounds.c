@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "bounds.h"
+#include "dynamics/bounds.h"
 
 static void test_bounds_are_honest(void **state) {
     (void)state;
-    bounds_check(1, 300);
+    bounds_check(1, 400);
 }
 
 int main(void) {

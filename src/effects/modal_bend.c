@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Elements are in the linear motion with their tangent at the drawn pose and at t = 0. What that
+   leaves out: a voltage that comes later softens later, a gap that closes makes film and electrodes
+   harder, a cable turns.
+
+   For every element the largest of |s_j^T dK s_k / w_j w_k| + |s_j^T dC s_k| / sqrt(w_j w_k)
+   (Frobenius) over instants at the drawn pose, and over poses at its busiest instant: all modes at
+   their largest amplitudes, with the signs that move two neighbouring ports the farthest in one of
+   eight directions or turn them against each other. Poses between and instants between are not
+   looked at. Inputs SI; output dimensionless. Cost some 80 n^2 modes per element. Test:
+   test_envelope.c, test_bounds.c. */
+#include "effects/modal.h"
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+typedef struct bend {
+    fw_arena *arena;
+    const fw_modal *o;
+    const fw_force_element *e;
+    fw_mechanism moved;
+    double *k, *c, *k0, *c0, *product; /* (n x n) and (n) */
+    double most;
+} bend;
+
+/* Frobenius norm of s^T (a - b) s over omega to `power` of both modes */
+static double norm_of(const bend *w, const double *a, const double *b, double power) {
+    size_t n = (size_t)w->o->n, m = (size_t)w->o->modes;
+    double sum = 0;
+    for (size_t j = 0; j < m; j++) {
+        for (size_t i = 0; i < n; i++) {
+            w->product[i] = 0;
+            for (size_t l = 0; l < n; l++)
+                w->product[i] += (a[i * n + l] - b[i * n + l]) * w->o->shape[j * n + l];
+        }
+        for (size_t l = 0; l < m; l++) {
+            double value = 0;
+            for (size_t i = 0; i < n; i++)
+                value += w->o->shape[l * n + i] * w->product[i];
+            value /= pow(w->o->omega[j] * w->o->omega[l], power);
+            sum += value * value;
+        }
+    }
+    return sqrt(sum);
+}
+
+static fw_status compare(bend *w, const fw_mechanism *m, double t_s, double piece_s) {
+    size_t size = (size_t)w->o->n * (size_t)w->o->n * sizeof *w->k;
+    bool valid;
+    memset(w->k, 0, size);
+    memset(w->c, 0, size);
+    FW_TRY(fw_terms_element_tangent_at(w->arena, m, w->e, t_s, piece_s, w->k, w->c, &valid));
+    double part = norm_of(w, w->k, w->k0, 1) + norm_of(w, w->c, w->c0, 0.5);
+    if (!valid || !isfinite(part)) part = (double)INFINITY;
+    w->most = fmax(w->most, part);
+    return FW_OK;
+}
+
+/* ---- instants ---- */
+
+static fw_status all_along(bend *w) {
+    enum { INSTANTS = 64, BREAKS_MOST = 64 };
+    double end = w->o->scene->duration_s, at[BREAKS_MOST];
+    for (int i = 0; i < INSTANTS && w->e->laws > 0; i++) {
+        double t = end * (i + 0.5) / INSTANTS;
+        FW_TRY(compare(w, w->o->mechanism, t, t));
+    }
+    for (int k = 0; k < w->e->laws; k++) {
+        int count = fw_law_breaks(w->e->law[k], end, at, BREAKS_MOST);
+        for (int i = 0; i < count && i < BREAKS_MOST; i++) {
+            FW_TRY(compare(w, w->o->mechanism, at[i], at[i] - 1e-9 * end));
+            FW_TRY(compare(w, w->o->mechanism, at[i], at[i] + 1e-9 * end));
+        }
+    }
+    return FW_OK;
+}
+
+/* ---- poses ---- */
+
+/* of a port, along (x, y) or, both 0, in turn, under coordinates u (n) */
+static double port_way(const bend *w, int port, double x, double y, const double *u) {
+    const fw_port *p = &w->e->port[port];
+    if (p->body == FW_GROUND) return 0;
+    const fw_mass *b = &w->o->mechanism->body[p->body];
+    fw_vec2 at = fw_local_place(w->o->mechanism, p->body, p->x_m, p->y_m);
+    const double *v = u + 3 * p->body;
+    if (x == 0 && y == 0) return v[2];
+    return x * (v[0] - v[2] * (at.y - b->y_m)) + y * (v[1] + v[2] * (at.x - b->x_m));
+}
+
+static void move_by(bend *w, double factor, const double *u) {
+    for (int b = 0; b < w->moved.nbody; b++) {
+        w->moved.body[b].x_m += factor * u[3 * b];
+        w->moved.body[b].y_m += factor * u[3 * b + 1];
+        w->moved.body[b].phi_rad += factor * u[3 * b + 2];
+    }
+}
+
+static fw_status farthest(bend *w, int port, double x, double y, const double *amplitude, double t,
+                          double sign) {
+    const fw_modal *o = w->o;
+    memcpy(w->moved.body, o->mechanism->body, (size_t)o->mechanism->nbody * sizeof *w->moved.body);
+    for (int j = 0; j < o->modes; j++) {
+        const double *shape = o->shape + (size_t)j * (size_t)o->n;
+        double way = port_way(w, port + 1, x, y, shape) - port_way(w, port, x, y, shape);
+        move_by(w, sign * (way < 0 ? -amplitude[j] : amplitude[j]), shape);
+    }
+    for (int i = 0; i < 2; i++)
+        if (o->shift[i])
+            move_by(w, i ? fw_law_largest(o->terms->stretch.law, o->scene->duration_s) : 1,
+                    o->shift[i]);
+    return compare(w, &w->moved, t, fmax(t, DBL_MIN));
+}
+
+static fw_status everywhere(bend *w, const double *amplitude) {
+    double t = fw_terms_element_busiest(w->o->mechanism, w->e, w->o->scene->duration_s);
+    for (int port = 0; port + 1 < w->e->ports; port++)
+        for (int i = 0; i < 10; i++) {
+            double angle = 0.25 * 3.14159265358979323846 * i;
+            bool turn = i >= 8;
+            FW_TRY(farthest(w, port, turn ? 0 : cos(angle), turn ? 0 : sin(angle), amplitude, t,
+                            i == 9 ? -1 : 1));
+        }
+    return FW_OK;
+}
+
+fw_status fw_modal_bend(fw_arena *arena, const fw_modal *o, const double *amplitude, double *part) {
+    size_t n = (size_t)o->n;
+    bend w = {.arena = arena, .o = o, .moved = *o->mechanism};
+    bool valid;
+    *part = 0;
+    if (o->terms->nelement == 0) return FW_OK;
+    fw_mark mark = fw_arena_mark(arena);
+    FW_NEED(w.moved.body = fw_arena_array(arena, fw_mass, (size_t)w.moved.nbody));
+    FW_NEED(w.k = fw_arena_array(arena, double, n *n));
+    FW_NEED(w.c = fw_arena_array(arena, double, n *n));
+    FW_NEED(w.k0 = fw_arena_array(arena, double, n *n));
+    FW_NEED(w.c0 = fw_arena_array(arena, double, n *n));
+    FW_NEED(w.product = fw_arena_array(arena, double, n));
+    for (int i = 0; i < o->terms->nelement; i++) {
+        w.e = &o->terms->element[i];
+        if (w.e->pin != FW_NONE) continue; /* hinges that give: envelope.c */
+        w.most = 0;
+        memset(w.k0, 0, n * n * sizeof *w.k0);
+        memset(w.c0, 0, n * n * sizeof *w.c0);
+        FW_TRY(
+            fw_terms_element_tangent_at(arena, o->mechanism, w.e, 0, DBL_MIN, w.k0, w.c0, &valid));
+        FW_TRY(all_along(&w));
+        FW_TRY(everywhere(&w, amplitude));
+        *part += w.most;
+    }
+    fw_arena_rewind(arena, mark);
+    return FW_OK;
+}
