@@ -11,9 +11,8 @@
    tau = c/K of the pin's own viscous damper, which goes on acting on th (joint-damping,
    material-damping); a damping stated in the file is for the rotation only.
    Inputs p in m and rad, w in m/s and rad/s; outputs N, N m. Valid until the arc closes to a full
-   circle. Error: see flexure/finite.c. Cost of a force some 600 instructions, of a tangent ten
-   times that. Source: docs/theory/effects/
-   nonlinear-hinge.md. Test: test_nonlinear_hinge.c. */
+   circle. Error: see flexure/finite.c. Cost of a force some 850 instructions. Source:
+   docs/theory/effects/nonlinear-hinge.md. Test: test_nonlinear_hinge.c. */
 #include "effects/effect.h"
 #include <math.h>
 #include <string.h>

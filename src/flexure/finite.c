@@ -16,8 +16,9 @@
    In: geometry m, rad, E in Pa. Out: N/m and m with two derivatives. Valid |x| < pi (the arc does
    not close), |u| << r. Error against the geometrically exact beam: 0.5 % of u at 200 uN on 2a =
    270 deg, r = 100 um, a quarter of that at half the force; against 3-D finite elements with real
-   roots kx is 0.4 to 0.9 %, ky 0.8 to 1.3 % too low, the drift right within 0.006 um. Cost about
-   0.2 us. Source: derived in docs/theory/effects/nonlinear-hinge.md. Test: test_finite.c. */
+   roots kx is 0.4 to 0.9 %, ky 0.8 to 1.3 % too low, the drift right within 0.006 um. Cost of
+   values and slopes some 500 instructions, two or three pairs of sine and cosine included. Source:
+   derived in docs/theory/effects/nonlinear-hinge.md. Test: test_finite.c. */
 #include "flexure/finite.h"
 #include <math.h>
 

@@ -150,7 +150,12 @@ static void derivatives(void **state) {
                 }
             }
             const fw_hinge_jet jet[3] = {at.kx_N_per_m, at.ky_N_per_m, at.drift_m};
+            const fw_hinge_rest rest = fw_hinge_rest_of(&law);
+            fw_hinge_law_slopes(&law, &rest, turn[j], &near);
+            const fw_hinge_jet first[3] = {near.kx_N_per_m, near.ky_N_per_m, near.drift_m};
             for (int m = 0; m < 3; m++) {
+                assert_near(first[m].value, jet[m].value, 1e-15 * fabs(jet[m].value));
+                assert_near(first[m].slope, jet[m].slope, 1e-15 * fabs(jet[m].slope));
                 double size = m == 2 ? law.length_m : fabs(jet[m].value);
                 assert_near(jet[m].slope, slope[m], 1e-10 * size);
                 assert_near(jet[m].curve, curve[m], 2e-9 * (size + fabs(jet[m].curve)));
