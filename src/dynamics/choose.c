@@ -293,7 +293,26 @@ static fw_status choose(fw_run *r, const fw_terms *terms) {
     double implicit = implicit_steps(r, &s, time);
     bool stiff = implicit * p.implicit < explicit_ * p.explicit_;
     r->integrator = fw_stepper_find(stiff ? "radau5" : "dop853");
+    /* what is stiff only later, such as a film that closes, shows in the number of steps; beyond
+       300 components a factorisation costs more than any of them */
+    r->patience = !stiff && m->ny <= 300 ? 5000 + 30 * explicit_ : 0;
     return say_choice(r, &s, stiff, stable, p.implicit / p.explicit_);
+}
+
+fw_status fw_integrator_change(fw_run *r) {
+    char steps[32], at[32];
+    fw_number_text(steps, sizeof steps, r->patience, 2);
+    fw_number_text(at, sizeof at, r->given_up_s, 3);
+    r->integrator = fw_stepper_find("radau5");
+    r->motion->integrator = r->integrator->name;
+    r->patience = 0;
+    r->given_up_s = (double)NAN;
+    FW_NEED(r->motion->reason = fw_arena_printf(
+                r->arena,
+                "auto: not stiff at the start, but by %s s explicit steps had become so small that "
+                "%s were not enough; implicit ones pass over what is fast there",
+                at, steps));
+    return FW_OK;
 }
 
 fw_status fw_integrator_choose(fw_run *r, const fw_terms *terms, const char *name) {

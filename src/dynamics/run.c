@@ -261,6 +261,7 @@ static fw_status begin(fw_run *r, fw_stepper *s) {
 fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks) {
     fw_model *m = r->model;
     bool ended = false;
+    long taken = 0;
     FW_TRY(begin(r, s));
     for (int piece = 0; piece < r->npiece && !ended; piece++) {
         if (piece > 0) FW_TRY(next_piece(r, s, piece));
@@ -274,6 +275,10 @@ fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks) {
             int which;
             double theta = fw_run_event(r, s, &which);
             if (++r->steps > most_steps(r) || m->events > fw_most_events) return too_long(r, s);
+            if (r->patience > 0 && (double)(++taken - 50 * m->events) > r->patience) {
+                r->given_up_s = s->t * m->scale.time_s;
+                return FW_LIMIT; /* solve starts over */
+            }
             if (which >= 0 && aim(r, s, theta)) continue;
             r->aims = 0;
             if (!look(r, s, peaks, theta)) return stopped(r, s, FW_ODE_SMALL);

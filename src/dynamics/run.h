@@ -68,7 +68,9 @@ typedef struct fw_run {
     double *seen_q, *seen_angle, *seen_force; /* what the observer is shown, SI */
     double most_angle;                        /* rad; HUGE_VAL: no end before the end */
     long steps;                               /* over all tries */
-    double *end; /* (npiece) scaled times at which a smooth piece ends */
+    double patience; /* steps of one pass after which a choice of explicit ones was wrong; 0: any */
+    double given_up_s; /* and where that was; NaN: it was not */
+    double *end;       /* (npiece) scaled times at which a smooth piece ends */
     int npiece;
     fw_law_strides *stride; /* (nstride) of the laws that limit steps, s */
     int *stride_row;        /* (nstride) where each search stands */
@@ -99,6 +101,8 @@ fw_status fw_run_arrays(fw_run *r);
 fw_status fw_method_choose(fw_run *r, const fw_terms *terms);
 /* by name, or by the scene; says why in motion->reason */
 fw_status fw_integrator_choose(fw_run *r, const fw_terms *terms, const char *name);
+/* to an implicit one, after a pass that was given up */
+fw_status fw_integrator_change(fw_run *r);
 
 /* sample.c */
 void fw_run_first_sample(fw_run *r, const double *y);

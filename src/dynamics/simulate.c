@@ -234,7 +234,7 @@ static void warn_energy(const fw_run *r) {
                     fw_number_text(b, sizeof b, r->motion->stats.rtol, 2));
 }
 
-static fw_status solve(fw_run *r) {
+static fw_status tighten(fw_run *r) {
     const fw_motion_options *o = r->options;
     double rtol = chosen_rtol(o, r), tightest = fmax(fw_tightest, noise_floor(r));
     int rows = r->motion->nsample;
@@ -264,6 +264,17 @@ static fw_status solve(fw_run *r) {
         if (again) coarse = fine, r->motion->stats.estimate_cpu_s = r->motion->stats.cpu_s;
         rtol = fmax(tightest, rtol / 100);
     }
+}
+
+/* starts over where a choice of ours was wrong */
+static fw_status solve(fw_run *r) {
+    int rows = r->motion->nsample;
+    r->given_up_s = (double)NAN;
+    fw_status status = tighten(r);
+    if (isnan(r->given_up_s)) return status;
+    FW_TRY(fw_integrator_change(r));
+    r->motion->nsample = rows;
+    return tighten(r);
 }
 
 /* ---- the entry ---- */
