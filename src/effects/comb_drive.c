@@ -267,6 +267,7 @@ static bool valid(const fw_force_element *e, const fw_seen *s, const char **why)
 }
 
 static const fw_element_class comb_class = {.effect = "comb-drive",
+                                            .electrodes = true,
                                             .force = force,
                                             .tangent = tangent,
                                             .energy = energy,

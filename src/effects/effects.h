@@ -130,7 +130,8 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
     fw_status (*check)(const fw_effect_case *c, fw_diags *diags);
     bool unbounded_stays; /* not left out where its bound is infinite, whatever was asked for */
     bool alone_stays;     /* likewise where nothing else moves the mechanism */
-    bool kept; /* never left out, whatever was asked for: without it there is nothing to judge */
+    bool kept;    /* never left out, whatever was asked for: without it there is nothing to judge */
+    bool passive; /* of what is kept: springs, which move nothing by themselves */
 } fw_effect_row;
 const fw_effect_row *const *fw_effect_rows(size_t *count);
 

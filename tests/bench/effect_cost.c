@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One right-hand side of a scene again and again, for instruction counts (tests/build/effects.py):
 
-     valgrind --tool=callgrind --toggle-collect=measured ./effect_cost FILE SCENE COUNT [options]
+     valgrind --tool=callgrind --toggle-collect=measured --dump-after=measured \
+       ./effect_cost FILE SCENE COUNT [options] [--then FILE SCENE COUNT [options]]...
 
    --off ID       as if the scene did not call for this effect
    --general      the code for all joints and effects, even where the fast kernel would do
    --stir SIZE    how far the state is from the assembled pose, scaled; default 0.01
+   --still        velocities 0: what sticks, sticks
    ./effect_cost --list   the effects of this build: id, kept or not, instructions as stated */
 #include "effects/effect.h"
 #include "layout/layout.h"
@@ -18,7 +20,7 @@
 typedef struct request {
     const char *file, *scene, *off;
     long count;
-    bool general;
+    bool general, still;
     double stir;
 } request;
 
@@ -99,6 +101,7 @@ static fw_model *model_of(fw_arena *arena, const fw_mechanism *mechanism, const 
         const fw_mass *from = &mechanism->body[b];
         q[3 * b] = from->x_m, q[3 * b + 1] = from->y_m, q[3 * b + 2] = from->phi_rad;
     }
+    need(fw_effects_strain(arena, mechanism, terms, &mechanism), diags, "strains");
     need(fw_model_new(arena, mechanism, terms, q, scene->duration_s, NULL, diags, &m), diags,
          "model");
     if (r->general) m->kernel = NULL;
@@ -120,9 +123,11 @@ static void run(fw_model *m, double t, const request *r, fw_arena *arena) {
     if (!y || !f) fail("memory");
     for (int i = 0; i < 2 * m->nq; i++) {
         z = z * 6364136223846793005u + 1442695040888963407u;
-        y[i] = r->stir * ((double)(z >> 11) * 0x1p-53 - 0.5);
+        y[i] = r->still && i >= m->nq ? 0 : r->stir * ((double)(z >> 11) * 0x1p-53 - 0.5);
     }
     fw_model_set_switches(m, 0, y);
+    fw_friction_begin(m);
+    if (!fw_friction_decide(m, t / m->scale.time_s, y)) fail("friction jams");
     measured(m, t / m->scale.time_s, y, f, r->count);
     for (int i = 0; i < 2 * m->nq; i++)
         sum += fabs(f[i]);
@@ -137,38 +142,52 @@ static int list(void) {
     return 0;
 }
 
-static request request_of(int argc, char **argv) {
-    request r = {
-        .file = argv[1], .scene = argv[2], .count = strtol(argv[3], NULL, 10), .stir = 0.01};
-    for (int i = 4; i < argc; i++)
+/* from argv[*at] on, up to --then */
+static request request_of(int argc, char **argv, int *at) {
+    if (*at + 3 > argc) fail("FILE SCENE COUNT [options] [--then ...], or --list");
+    request r = {.file = argv[*at],
+                 .scene = argv[*at + 1],
+                 .count = strtol(argv[*at + 2], NULL, 10),
+                 .stir = 0.01};
+    int i = *at + 3;
+    for (; i < argc && strcmp(argv[i], "--then") != 0; i++)
         if (strcmp(argv[i], "--general") == 0)
             r.general = true;
+        else if (strcmp(argv[i], "--still") == 0)
+            r.still = true;
         else if (strcmp(argv[i], "--off") == 0 && i + 1 < argc)
             r.off = argv[++i];
         else if (strcmp(argv[i], "--stir") == 0 && i + 1 < argc)
             r.stir = strtod(argv[++i], NULL);
         else
             fail("unknown option");
+    *at = i + 1;
     return r;
+}
+
+static void serve(const request *r) {
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    const fw_device *device = NULL;
+    const fw_scene *scene = NULL;
+    size_t n;
+    printf("scene %s %s\n", r->file, r->scene);
+    const char *xml = read_all(arena, r->file, &n);
+    need(fw_device_read(arena, r->file, xml, n, NULL, 0, &diags, &device), &diags, r->file);
+    const fw_mechanism *mechanism = mechanism_of(arena, device, &diags);
+    for (int i = 0; i < device->nscene; i++)
+        if (strcmp(device->scene[i].name, r->scene) == 0) scene = &device->scene[i];
+    if (!scene) fail("no such scene");
+    fw_model *m = model_of(arena, mechanism, scene, r, &diags);
+    run(m, 0.4 * scene->duration_s, r, arena);
+    fw_arena_free(arena);
 }
 
 int main(int argc, char **argv) {
     if (argc == 2 && strcmp(argv[1], "--list") == 0) return list();
-    if (argc < 4) fail("FILE SCENE COUNT [--off ID] [--general] [--stir SIZE], or --list");
-    const request r = request_of(argc, argv);
-    fw_arena *arena = fw_arena_new(0);
-    fw_diags diags = fw_diags_new(arena);
-    const fw_device *device = NULL;
-    size_t n;
-    const char *xml = read_all(arena, r.file, &n);
-    need(fw_device_read(arena, r.file, xml, n, NULL, 0, &diags, &device), &diags, r.file);
-    const fw_mechanism *mechanism = mechanism_of(arena, device, &diags);
-    const fw_scene *scene = NULL;
-    for (int i = 0; i < device->nscene; i++)
-        if (strcmp(device->scene[i].name, r.scene) == 0) scene = &device->scene[i];
-    if (!scene) fail("no such scene");
-    fw_model *m = model_of(arena, mechanism, scene, &r, &diags);
-    run(m, 0.4 * scene->duration_s, &r, arena);
-    fw_arena_free(arena);
+    for (int at = 1; at < argc || at == 1;) {
+        const request r = request_of(argc, argv, &at);
+        serve(&r);
+    }
     return 0;
 }
