@@ -362,6 +362,6 @@ const fw_effect_row fw_effect_comb_drive = {
     .called_for = called_for,
     .bound = bound,
     .add = add,
-    .cost = 1200,
+    .cost = 2810,
     .count = count,
     .kept = true};

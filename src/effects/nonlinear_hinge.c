@@ -53,5 +53,5 @@ const fw_effect_row fw_effect_nonlinear_hinge = {
     .called_for = called_for,
     .bound = bound,
     .add = add,
-    .cost = 2050,
+    .cost = 2630,
     .count = count};

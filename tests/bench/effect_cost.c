@@ -8,7 +8,7 @@
    --general      the code for all joints and effects, even where the fast kernel would do
    --stir SIZE    how far the state is from the assembled pose, scaled; default 0.01
    --still        velocities 0: what sticks, sticks
-   ./effect_cost --list   the effects of this build: id, kept or not, instructions as stated */
+   ./effect_cost --list   the effects of this build: id, instructions as stated */
 #include "effects/effect.h"
 #include "layout/layout.h"
 #include "multibody/model.h"
@@ -138,7 +138,7 @@ static int list(void) {
     size_t count;
     const fw_effect_row *const *row = fw_effect_rows(&count);
     for (size_t i = 0; i < count; i++)
-        printf("%s %s %.9g\n", row[i]->id, row[i]->kept ? "kept" : "removable", row[i]->cost);
+        printf("%s %.9g\n", row[i]->id, row[i]->cost);
     return 0;
 }
 
@@ -165,29 +165,45 @@ static request request_of(int argc, char **argv, int *at) {
     return r;
 }
 
-static void serve(const request *r) {
+typedef struct opened { /* the last file: scenes of one file follow each other */
+    fw_arena *arena;
+    const char *file;
+    const fw_device *device;
+    const fw_mechanism *mechanism;
+} opened;
+
+static void open_file(opened *o, const char *file) {
+    if (o->arena && strcmp(o->file, file) == 0) return;
+    if (o->arena) fw_arena_free(o->arena);
+    *o = (opened){.arena = fw_arena_new(0), .file = file};
+    fw_diags diags = fw_diags_new(o->arena);
+    size_t n;
+    const char *xml = read_all(o->arena, file, &n);
+    need(fw_device_read(o->arena, file, xml, n, NULL, 0, &diags, &o->device), &diags, file);
+    o->mechanism = mechanism_of(o->arena, o->device, &diags);
+}
+
+static void serve(const request *r, const opened *o) {
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
-    const fw_device *device = NULL;
     const fw_scene *scene = NULL;
-    size_t n;
     printf("scene %s %s\n", r->file, r->scene);
-    const char *xml = read_all(arena, r->file, &n);
-    need(fw_device_read(arena, r->file, xml, n, NULL, 0, &diags, &device), &diags, r->file);
-    const fw_mechanism *mechanism = mechanism_of(arena, device, &diags);
-    for (int i = 0; i < device->nscene; i++)
-        if (strcmp(device->scene[i].name, r->scene) == 0) scene = &device->scene[i];
+    for (int i = 0; i < o->device->nscene; i++)
+        if (strcmp(o->device->scene[i].name, r->scene) == 0) scene = &o->device->scene[i];
     if (!scene) fail("no such scene");
-    fw_model *m = model_of(arena, mechanism, scene, r, &diags);
+    fw_model *m = model_of(arena, o->mechanism, scene, r, &diags);
     run(m, 0.4 * scene->duration_s, r, arena);
     fw_arena_free(arena);
 }
 
 int main(int argc, char **argv) {
     if (argc == 2 && strcmp(argv[1], "--list") == 0) return list();
+    opened file = {0};
     for (int at = 1; at < argc || at == 1;) {
         const request r = request_of(argc, argv, &at);
-        serve(&r);
+        open_file(&file, r.file);
+        serve(&r, &file);
     }
+    fw_arena_free(file.arena);
     return 0;
 }
