@@ -117,5 +117,5 @@ const fw_effect_row fw_effect_friction = {
     .called_for = called_for,
     .bound = bound,
     .add = add,
-    .cost = 10900,
+    .cost = 14600,
     .count = count};
