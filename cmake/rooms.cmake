@@ -32,9 +32,9 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
                                 "-mavx512f;-mavx512dq;-mavx512vl;-ffp-contract=off")
 endif()
 
-# What an absent effect costs is measured against a build without it (tests/build/effects.py): its file
-# is not compiled and it has no row. A scene's elements of such an effect are then not looked at, so
-# that such a build is good for nothing else.
+# The rooms without some effects: their files are not compiled and they have no row. A scene's elements of
+# such an effect are then not looked at, so that such a build is good for counting only (target
+# effect_cost; docs/theory/effects/costs.md).
 set(FW_WITHOUT_EFFECTS "" CACHE STRING "ids of effects to build without, for measurements only")
 set(effects_gone)
 set(effects_without)

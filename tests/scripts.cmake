@@ -33,7 +33,7 @@ fw_script_test(build.clang COMMAND tests/build/clang.sh TIMEOUT 600)
 fw_script_test(build.sanitized COMMAND tests/build/sanitized.sh TIMEOUT 900)
 fw_script_test(effects.costs COMMAND ${Python3_EXECUTABLE} tests/build/effects.py costs $<TARGET_FILE:effect_cost>)
 fw_script_test(effects.absent COMMAND ${Python3_EXECUTABLE} tests/build/effects.py absent
-               ${PROJECT_BINARY_DIR}/effects TIMEOUT 1200)
+               ${PROJECT_BINARY_DIR} TIMEOUT 600)
 set_tests_properties(effects.costs effects.absent PROPERTIES SKIP_RETURN_CODE 77)
 fw_script_test(fuzz.device COMMAND tests/build/fuzz.sh TIMEOUT 600)
 fw_script_test(hard.valgrind LABEL hard COMMAND tests/build/valgrind.sh ${PROJECT_BINARY_DIR}/tests TIMEOUT 600)

@@ -231,5 +231,5 @@ const fw_effect_row fw_effect_air = {.id = "air",
                                      .bound = bound,
                                      .add = add,
                                      .check = check,
-                                     .cost = 600,
+                                     .cost = 1470,
                                      .count = count};

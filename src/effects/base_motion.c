@@ -87,8 +87,12 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     return FW_OK;
 }
 
+/* what is constant is among the constants */
 static int count(const fw_effect_case *c) {
-    return c->scene->nbase * c->mechanism->nbody;
+    int laws = 0;
+    for (int i = 0; i < c->scene->nbase; i++)
+        laws += shakes(&c->scene->base[i]) && !fw_law_is_constant(c->scene->base[i].law);
+    return laws * c->mechanism->nbody;
 }
 
 /* it stays where nothing else moves the mechanism: there is then nothing else to judge */
@@ -98,6 +102,6 @@ const fw_effect_row fw_effect_base_motion = {.id = "base-motion",
                                              .called_for = called_for,
                                              .bound = bound,
                                              .add = add,
-                                             .cost = 120,
+                                             .cost = 449,
                                              .count = count,
                                              .alone_stays = true};

@@ -267,6 +267,7 @@ static bool valid(const fw_force_element *e, const fw_seen *s, const char **why)
 }
 
 static const fw_element_class comb_class = {.effect = "comb-drive",
+                                            .electrodes = true,
                                             .force = force,
                                             .tangent = tangent,
                                             .energy = energy,
@@ -361,6 +362,6 @@ const fw_effect_row fw_effect_comb_drive = {
     .called_for = called_for,
     .bound = bound,
     .add = add,
-    .cost = 1200,
+    .cost = 2810,
     .count = count,
     .kept = true};

@@ -299,5 +299,5 @@ const fw_effect_row fw_effect_contact = {.id = "contact",
                                          .called_for = called_for,
                                          .bound = bound,
                                          .add = add,
-                                         .cost = 1290,
+                                         .cost = 1350,
                                          .count = count};

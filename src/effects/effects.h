@@ -132,7 +132,8 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
                    it, and every step has to follow them */
     bool unbounded_stays; /* not left out where its bound is infinite, whatever was asked for */
     bool alone_stays;     /* likewise where nothing else moves the mechanism */
-    bool kept; /* never left out, whatever was asked for: without it there is nothing to judge */
+    bool kept;    /* never left out, whatever was asked for: without it there is nothing to judge */
+    bool passive; /* of what is kept: springs, which move nothing by themselves */
 } fw_effect_row;
 const fw_effect_row *const *fw_effect_rows(size_t *count);
 

@@ -35,6 +35,7 @@ typedef struct fw_force_element fw_force_element;
 
 typedef struct fw_element_class {
     const char *effect; /* id of its row in the ledger */
+    bool electrodes;    /* driven by voltages, which have a factor of their own in statics */
     /* f (3 ports): force on the port and couple on its body; overwritten */
     void (*force)(const fw_force_element *e, const fw_seen *s, double *f);
     /* (3 ports x 3 ports) row-major, overwritten: -df/dp and -df/dw */

@@ -117,4 +117,5 @@ const fw_effect_row fw_effect_friction = {
     .called_for = called_for,
     .bound = bound,
     .add = add,
+    .cost = 14600,
     .count = count};

@@ -47,4 +47,5 @@ const fw_effect_row fw_effect_joint_elasticity = {
     .add = add,
     .cost = 49,
     .count = count,
-    .kept = true};
+    .kept = true,
+    .passive = true};

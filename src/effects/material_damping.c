@@ -93,10 +93,19 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
+static int count(const fw_effect_case *c) {
+    int hinges = 0;
+    for (int i = 0; i < c->mechanism->npin; i++)
+        hinges += fw_material_damped(c, i);
+    return hinges;
+}
+
 const fw_effect_row fw_effect_material_damping = {
     .id = "material-damping",
     .summary = "loss factor of the flexures' material, as the scene states it",
     .called_for = called_for,
     .bound = bound,
     .calms = true,
-    .add = add};
+    .add = add,
+    .cost = 31,
+    .count = count};

@@ -11,6 +11,8 @@ enum { EARLY = 256, LATE = 256, PER_PIECE = 4, PIECES_MOST = 400 };
 
 typedef struct swing {      /* a mode on its way */
     double q, v, off, size; /* off: what it may be wrong by; size: its largest |q| so far */
+    double c, s;            /* decay over a cell of the present length */
+    double doubt;           /* what it may be wrong by with the error of its frequency */
 } swing;
 
 typedef struct walk {
@@ -20,6 +22,7 @@ typedef struct walk {
     double *left, *middle, *right; /* (modes) forces in a cell */
     double *free_rad;              /* (npin) deflection as drawn */
     double unsure, best, second;
+    bool constant; /* nothing that pushes has a law: left, middle and right are all the same */
 } walk;
 
 /* e^(-g t) cosh or cos of w t, and sinh or sin over w; w^2 = g^2 - omega^2 */
@@ -37,9 +40,8 @@ static void decay(double omega, double g, double t, double *c, double *s) {
 
 /* q'' + 2 g q' + omega^2 q = a + b t, exact over a cell */
 static void swing_on(swing *x, double omega, double g, double a, double b, double h) {
-    double k = omega * omega, p = a / k - 2 * g * b / (k * k), c, s;
+    double k = omega * omega, p = a / k - 2 * g * b / (k * k), c = x->c, s = x->s;
     double q = x->q - p, v = x->v - b / k;
-    decay(omega, g, h, &c, &s);
     x->q = (c + g * s) * q + s * v + p + b / k * h;
     x->v = -k * s * q + (c - g * s) * v + b / k;
 }
@@ -53,9 +55,11 @@ static void forces(walk *w, double t_s, double piece_s, double *out) {
 static void cell(walk *w, double t, double h, double piece) {
     const fw_modal *o = w->o;
     size_t m = (size_t)o->modes;
-    forces(w, t, piece, w->left);
-    forces(w, t + 0.5 * h, piece, w->middle);
-    forces(w, t + h, piece, w->right);
+    if (!w->constant) {
+        forces(w, t, piece, w->left);
+        forces(w, t + 0.5 * h, piece, w->middle);
+        forces(w, t + h, piece, w->right);
+    }
     for (size_t j = 0; j < m; j++) {
         swing *x = &w->mode[j];
         double omega = o->omega[j], a = w->left[j], b = (w->right[j] - a) / h, others = 0;
@@ -73,16 +77,20 @@ static void cell(walk *w, double t, double h, double piece) {
 static void see(walk *w, double t, double piece) {
     const fw_modal *o = w->o;
     size_t pins = (size_t)o->mechanism->npin;
+    for (size_t j = 0; j < (size_t)o->modes; j++) {
+        swing *x = &w->mode[j];
+        x->doubt = x->off + x->size * fmin(2, w->unsure * (1 + 0.5 * o->omega[j] * t));
+    }
     for (size_t i = 0; i < pins; i++) {
         double angle = w->free_rad[i] + fw_modal_shifted(o, (int)i, t, piece), off = w->second;
         for (size_t j = 0; j < (size_t)o->modes; j++) {
             const swing *x = &w->mode[j];
             double turn = o->turn[j * pins + i];
             angle += turn * x->q;
-            off +=
-                fabs(turn) * (x->off + x->size * fmin(2, w->unsure * (1 + 0.5 * o->omega[j] * t)));
+            off += fabs(turn) * x->doubt;
         }
-        if (isfinite(off)) w->best = fmax(w->best, fabs(angle) - off);
+        double sure = fabs(angle) - off;
+        if (isfinite(off) && sure > w->best) w->best = sure;
     }
 }
 
@@ -93,8 +101,14 @@ static void walk_piece(walk *w, double from, double to, double early) {
         if (!(b > a)) continue;
         double share = half ? (b - a) / (end - early) * LATE : (b - a) / early * EARLY;
         int cells = PER_PIECE + (int)share;
+        double h = (b - a) / cells;
+        for (size_t j = 0; j < (size_t)w->o->modes; j++) {
+            swing *x = &w->mode[j];
+            decay(w->o->omega[j], 0.5 * w->o->damping[j * (size_t)w->o->modes + j], h, &x->c,
+                  &x->s);
+        }
         for (int k = 0; k < cells; k++) {
-            double t = a + (b - a) * k / cells, h = (b - a) / cells;
+            double t = a + (b - a) * k / cells;
             cell(w, t, h, middle);
             see(w, t + h, middle);
         }
@@ -123,6 +137,14 @@ fw_status fw_modal_floor(fw_arena *arena, const fw_modal *o, const fw_pushes *pu
     for (size_t j = 0; j < m; j++)
         w.mode[j].v = o->velocity[j];
     FW_TRY(fw_pushes_breaks(arena, o, pushes, &t_s, &count));
+    w.constant = true;
+    for (int i = 0; i < pushes->count; i++)
+        w.constant = w.constant && !pushes->item[i].law && !pushes->item[i].element;
+    if (w.constant) {
+        forces(&w, 0, 0, w.left);
+        forces(&w, 0, 0, w.middle);
+        forces(&w, 0, 0, w.right);
+    }
     see(&w, 0, DBL_MIN);
     for (int i = 0; i < count && count <= PIECES_MOST; i++) {
         walk_piece(&w, from, t_s[i], early);

@@ -43,4 +43,5 @@ const fw_effect_row fw_effect_point_spring = {.id = "point-spring",
                                               .add = add,
                                               .cost = 304,
                                               .count = count,
-                                              .kept = true};
+                                              .kept = true,
+                                              .passive = true};

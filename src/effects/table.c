@@ -182,9 +182,7 @@ static fw_status decide_auto(const fw_effect_case *c, double accuracy, fw_effect
  */
 static bool moved(const fw_effect_case *c) {
     for (int i = 0; i < ROWS; i++)
-        if (rows[i]->kept && rows[i] != &fw_effect_joint_elasticity &&
-            rows[i] != &fw_effect_point_spring && rows[i]->called_for(c))
-            return true;
+        if (rows[i]->kept && !rows[i]->passive && rows[i]->called_for(c)) return true;
     return c->mechanism->ndriver > 0;
 }
 

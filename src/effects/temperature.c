@@ -317,5 +317,5 @@ const fw_effect_row fw_effect_temperature = {
     .bound = bound,
     .add = add,
     .check = check,
-    .cost = 500,
+    .cost = 658,
     .count = count};

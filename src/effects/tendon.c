@@ -299,6 +299,6 @@ const fw_effect_row fw_effect_tendon = {
     .called_for = called_for,
     .bound = bound,
     .add = add,
-    .cost = 650,
+    .cost = 953,
     .count = count,
     .kept = true};

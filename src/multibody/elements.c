@@ -10,7 +10,6 @@
    round-off. Cost: the classes', and some twenty operations per port; nothing is allocated after
    fw_model_elements_new. Test: test_elements.c. */
 #include "multibody/build.h"
-#include "effects/comb.h"
 #include "multibody/reactions.h"
 #include <math.h>
 #include <string.h>
@@ -19,7 +18,7 @@ static fw_status element_new(fw_arena *arena, const fw_model *m, const fw_force_
                              fw_vec2 centre, fw_model_element *e) {
     size_t ports = (size_t)own->ports;
     double length = m->scale.length_m;
-    *e = (fw_model_element){.own = own, .electrodes = fw_comb_of(own) != NULL, .scaled = *own};
+    *e = (fw_model_element){.own = own, .electrodes = own->class_->electrodes, .scaled = *own};
     FW_NEED(e->scaled.port = fw_arena_array(arena, fw_port, ports));
     FW_NEED(e->body = fw_arena_array(arena, int, ports));
     FW_NEED(e->on = fw_arena_array(arena, bool, (size_t)own->switches));

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One right-hand side of a scene again and again, for instruction counts (tests/build/effects.py):
 
-     valgrind --tool=callgrind --toggle-collect=measured ./effect_cost FILE SCENE COUNT [options]
+     valgrind --tool=callgrind --toggle-collect=measured --dump-after=measured \
+       ./effect_cost FILE SCENE COUNT [options] [--then FILE SCENE COUNT [options]]...
 
    --off ID       as if the scene did not call for this effect
    --general      the code for all joints and effects, even where the fast kernel would do
    --stir SIZE    how far the state is from the assembled pose, scaled; default 0.01
-   ./effect_cost --list   the effects of this build: id, kept or not, instructions as stated */
+   --still        velocities 0: what sticks, sticks
+   ./effect_cost --list   the effects of this build: id, instructions as stated */
 #include "effects/effect.h"
 #include "layout/layout.h"
 #include "multibody/model.h"
@@ -18,7 +20,7 @@
 typedef struct request {
     const char *file, *scene, *off;
     long count;
-    bool general;
+    bool general, still;
     double stir;
 } request;
 
@@ -99,6 +101,7 @@ static fw_model *model_of(fw_arena *arena, const fw_mechanism *mechanism, const 
         const fw_mass *from = &mechanism->body[b];
         q[3 * b] = from->x_m, q[3 * b + 1] = from->y_m, q[3 * b + 2] = from->phi_rad;
     }
+    need(fw_effects_strain(arena, mechanism, terms, &mechanism), diags, "strains");
     need(fw_model_new(arena, mechanism, terms, q, scene->duration_s, NULL, diags, &m), diags,
          "model");
     if (r->general) m->kernel = NULL;
@@ -120,9 +123,11 @@ static void run(fw_model *m, double t, const request *r, fw_arena *arena) {
     if (!y || !f) fail("memory");
     for (int i = 0; i < 2 * m->nq; i++) {
         z = z * 6364136223846793005u + 1442695040888963407u;
-        y[i] = r->stir * ((double)(z >> 11) * 0x1p-53 - 0.5);
+        y[i] = r->still && i >= m->nq ? 0 : r->stir * ((double)(z >> 11) * 0x1p-53 - 0.5);
     }
     fw_model_set_switches(m, 0, y);
+    fw_friction_begin(m);
+    if (!fw_friction_decide(m, t / m->scale.time_s, y)) fail("friction jams");
     measured(m, t / m->scale.time_s, y, f, r->count);
     for (int i = 0; i < 2 * m->nq; i++)
         sum += fabs(f[i]);
@@ -133,42 +138,72 @@ static int list(void) {
     size_t count;
     const fw_effect_row *const *row = fw_effect_rows(&count);
     for (size_t i = 0; i < count; i++)
-        printf("%s %s %.9g\n", row[i]->id, row[i]->kept ? "kept" : "removable", row[i]->cost);
+        printf("%s %.9g\n", row[i]->id, row[i]->cost);
     return 0;
 }
 
-static request request_of(int argc, char **argv) {
-    request r = {
-        .file = argv[1], .scene = argv[2], .count = strtol(argv[3], NULL, 10), .stir = 0.01};
-    for (int i = 4; i < argc; i++)
+/* from argv[*at] on, up to --then */
+static request request_of(int argc, char **argv, int *at) {
+    if (*at + 3 > argc) fail("FILE SCENE COUNT [options] [--then ...], or --list");
+    request r = {.file = argv[*at],
+                 .scene = argv[*at + 1],
+                 .count = strtol(argv[*at + 2], NULL, 10),
+                 .stir = 0.01};
+    int i = *at + 3;
+    for (; i < argc && strcmp(argv[i], "--then") != 0; i++)
         if (strcmp(argv[i], "--general") == 0)
             r.general = true;
+        else if (strcmp(argv[i], "--still") == 0)
+            r.still = true;
         else if (strcmp(argv[i], "--off") == 0 && i + 1 < argc)
             r.off = argv[++i];
         else if (strcmp(argv[i], "--stir") == 0 && i + 1 < argc)
             r.stir = strtod(argv[++i], NULL);
         else
             fail("unknown option");
+    *at = i + 1;
     return r;
+}
+
+typedef struct opened { /* the last file: scenes of one file follow each other */
+    fw_arena *arena;
+    const char *file;
+    const fw_device *device;
+    const fw_mechanism *mechanism;
+} opened;
+
+static void open_file(opened *o, const char *file) {
+    if (o->arena && strcmp(o->file, file) == 0) return;
+    if (o->arena) fw_arena_free(o->arena);
+    *o = (opened){.arena = fw_arena_new(0), .file = file};
+    fw_diags diags = fw_diags_new(o->arena);
+    size_t n;
+    const char *xml = read_all(o->arena, file, &n);
+    need(fw_device_read(o->arena, file, xml, n, NULL, 0, &diags, &o->device), &diags, file);
+    o->mechanism = mechanism_of(o->arena, o->device, &diags);
+}
+
+static void serve(const request *r, const opened *o) {
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    const fw_scene *scene = NULL;
+    printf("scene %s %s\n", r->file, r->scene);
+    for (int i = 0; i < o->device->nscene; i++)
+        if (strcmp(o->device->scene[i].name, r->scene) == 0) scene = &o->device->scene[i];
+    if (!scene) fail("no such scene");
+    fw_model *m = model_of(arena, o->mechanism, scene, r, &diags);
+    run(m, 0.4 * scene->duration_s, r, arena);
+    fw_arena_free(arena);
 }
 
 int main(int argc, char **argv) {
     if (argc == 2 && strcmp(argv[1], "--list") == 0) return list();
-    if (argc < 4) fail("FILE SCENE COUNT [--off ID] [--general] [--stir SIZE], or --list");
-    const request r = request_of(argc, argv);
-    fw_arena *arena = fw_arena_new(0);
-    fw_diags diags = fw_diags_new(arena);
-    const fw_device *device = NULL;
-    size_t n;
-    const char *xml = read_all(arena, r.file, &n);
-    need(fw_device_read(arena, r.file, xml, n, NULL, 0, &diags, &device), &diags, r.file);
-    const fw_mechanism *mechanism = mechanism_of(arena, device, &diags);
-    const fw_scene *scene = NULL;
-    for (int i = 0; i < device->nscene; i++)
-        if (strcmp(device->scene[i].name, r.scene) == 0) scene = &device->scene[i];
-    if (!scene) fail("no such scene");
-    fw_model *m = model_of(arena, mechanism, scene, &r, &diags);
-    run(m, 0.4 * scene->duration_s, &r, arena);
-    fw_arena_free(arena);
+    opened file = {0};
+    for (int at = 1; at < argc || at == 1;) {
+        const request r = request_of(argc, argv, &at);
+        open_file(&file, r.file);
+        serve(&r, &file);
+    }
+    fw_arena_free(file.arena);
     return 0;
 }

@@ -2,15 +2,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What effects cost, in instructions per right-hand side, counted by callgrind.
 
-effects.py absent BUILD       an absent effect costs nothing: a build without it executes exactly as many
+effects.py absent BUILD       an absent effect costs nothing: a program without it executes exactly as many
                               instructions, and gives the same bits, for every scene that does not call
-                              for it. BUILD is a directory of its own; only the rooms up to multibody are
-                              built, and for the next effect one file is compiled again.
+                              for it. BUILD is the build directory; its libraries are linked once more for
+                              every effect, with a table that does not name it
 effects.py costs PROGRAM      what every effect costs when it is on, against what its row states (25 %,
                               because compilers differ); PROGRAM is tests/bench/effect_cost
-effects.py write PROGRAM      the same, into docs/data/effect-costs.csv and docs/theory/effects/costs.md
+effects.py write PROGRAM      the same, into docs/data/effect-costs.csv and docs/theory/effects/costs.md;
+                              says which rows state another cost
 
 To add an effect: a row in COSTS. To prove more scenes free of it: a row in SCENES."""
+import concurrent.futures
 import csv
 import pathlib
 import re
@@ -20,36 +22,76 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-DATA = ROOT / "tests/data"
+DATA = ROOT / "tests/data/effect-costs"
 CSV = ROOT / "docs/data/effect-costs.csv"
 PAGE = ROOT / "docs/theory/effects/costs.md"
 COUNT, LIMIT = 100, 0.25
 SKIPPED = 77
 
-# scenes that must not feel an effect that they do not call for: file in tests/data, scene, options
+# scenes that must not feel an effect that they do not call for: file, scene, options
 SCENES = [
-    ("effect-costs/pins", "step", []),  # pins with springs: the fast kernel
-    ("effect-costs/pins", "step", ["--general"]),
-    ("effect-costs/pins", "swaying", []),  # loads with laws
-    ("effect-costs/damped", "step", []),
-    ("effect-costs/held", "step", []),  # stops and point springs
-    ("effect-costs/joints", "steady", []),  # prismatic joint, rod, weld
-    ("effect-costs/joints", "falling", []),
-    ("effect-costs/pulled", "pulled", []),  # an element of another effect: tendons
+    ("pins", "step", []),  # pins with springs: the fast kernel
+    ("pins", "step", ["--general"]),
+    ("pins", "swaying", []),  # loads with laws
+    ("damped", "step", []),
+    ("held", "step", []),  # stops and point springs
+    ("joints", "steady", []),  # prismatic joint, rod, weld
+    ("joints", "falling", []),
+    ("free", "falling", []),  # nothing elastic, and no load but weight
+    ("free", "swinging", []),
+    # elements of one effect each, for the absence of all others
+    ("free", "rubbing", []),
+    ("free", "rubbing", ["--still"]),  # sticks
+    ("pulled", "pulled", []),  # tendons
+    ("drawn", "comb", []),
+    ("drawn", "plate", []),
+    ("giving", "plain", []),  # hinges that give
+    ("giving", "touching", []),
+    ("lossy", "damped", []),
+    ("stated", "shaken", []),
+    ("stated", "warming", []),
+    ("stated", "growing", []),
+    ("stated", "stressed", []),
+    ("stated", "slide", []),
+    ("stated", "squeeze", []),
+    ("stated", "drag", []),
+    ("stated", "rubbing", []),
 ]
 
-# an effect, the scene that it is measured in (on, and as if it were not called for), options. All in the
-# general code, where every effect can act; what the fast kernel does is in the page.
+# an effect, the scene that it is measured in (on, and as if it were not called for), options, and which
+# kind of it this is. All in the general code, where every effect can act. The row of an effect of more
+# kinds states the dearest.
 COSTS = [
-    ("joint-elasticity", "effect-costs/pins", "step", ["--general"]),
-    ("joint-damping", "effect-costs/damped", "step", ["--general"]),
-    ("joint-stop", "effect-costs/held", "step", ["--general"]),
-    ("point-spring", "effect-costs/held", "step", ["--general"]),
-    ("applied-load", "effect-costs/pins", "swaying", ["--general"]),
-    ("gravity", "effect-costs/pins", "weight", ["--general"]),
-    ("initial-velocity", "effect-costs/pins", "moving", ["--general"]),
-    ("inertia", "effect-costs/pins", "step", ["--general"]),
-    ("tendon", "effect-costs/pulled", "pulled", []),
+    ("joint-elasticity", "pins", "step", [], "hinge or slide"),
+    ("joint-damping", "damped", "step", [], "hinge or slide"),
+    ("material-damping", "lossy", "damped", [], "hinge"),
+    ("joint-stop", "held", "step", [], "side of a stop"),
+    ("point-spring", "held", "step", [], "spring"),
+    ("applied-load", "pins", "step", [], "constant: nothing"),
+    ("applied-load", "pins", "swaying", [], "load with a law"),
+    ("gravity", "pins", "weight", [], "weight of all bodies: nothing"),
+    ("initial-velocity", "pins", "moving", [], "set once: nothing"),
+    ("base-motion", "stated", "pushed", [], "constant: nothing"),
+    ("base-motion", "stated", "shaken", [], "body and law"),
+    ("nonlinear-hinge", "giving", "plain", [], "hinge"),
+    ("contact", "giving", "touching", [], "conjugate surfaces that touch"),
+    ("contact", "giving", "apart", [], "conjugate surfaces with a gap"),
+    ("contact", "giving", "bumping", [], "two round things"),
+    ("friction", "stated", "rubbing", [], "joint that slips"),
+    ("friction", "stated", "rubbing", ["--still"], "joint that sticks"),
+    ("friction", "stated", "rubbing-twice", [], "joint of two that slip"),
+    ("tendon", "pulled", "pulled", [], "pull over two eyelets"),
+    ("comb-drive", "drawn", "comb", [], "comb, constant voltage"),
+    ("comb-drive", "drawn", "driven", [], "comb, voltage with a law"),
+    ("comb-drive", "drawn", "plate", [], "plate, constant voltage"),
+    ("temperature", "stated", "warm", [], "constant: nothing"),
+    ("temperature", "stated", "warming", [], "hinge that softens with a law"),
+    ("temperature", "stated", "growing", [], "ground that grows with a law, per hinge"),
+    ("residual-stress", "stated", "stressed", [], "lengths at the start: nothing"),
+    ("air", "stated", "slide", [], "body on a film"),
+    ("air", "stated", "squeeze", [], "film between walls"),
+    ("air", "stated", "drag", [], "body in open air"),
+    ("inertia", "pins", "step", [], "the integration itself"),
 ]
 
 
@@ -61,71 +103,70 @@ def run(*arguments):
 
 
 def effects(program):
-    """id: (removable, instructions as stated)"""
-    rows = [line.split() for line in run(program, "--list").splitlines()]
-    return {name: (kind == "removable", float(cost)) for name, kind, cost in rows}
-
-
-def readable(name, known):
-    """A scene's file, when this version knows all that it names."""
-    file = DATA / f"{name}.xml"
-    wanted = re.search(r"<!-- needs: ([a-z -]*) -->", file.read_text(encoding="utf-8")) if file.exists() else None
-    return file.exists() and not (set(wanted.group(1).split()) - set(known) if wanted else ())
+    """id: instructions as stated"""
+    return {name: float(cost) for name, cost in (line.split() for line in run(program, "--list").splitlines())}
 
 
 class Count:
-    """One run under callgrind: instructions of COUNT right-hand sides, and what the program says."""
+    """Of one scene: instructions of COUNT right-hand sides, and what the program said."""
 
-    def __init__(self, program, file, scene, options):
-        with tempfile.TemporaryDirectory() as work:
-            out = pathlib.Path(work) / "out"
-            text = run("valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", "--toggle-collect=measured",
-                       program, DATA / f"{file}.xml", scene, COUNT, *options)
-            counted = re.search(r"^(?:summary|totals): (\d+)", out.read_text(encoding="utf-8"), re.M)
-        self.total = int(counted.group(1))
-        self.each = self.total / COUNT
+    def __init__(self, total, text):
+        self.total, self.each = total, total / COUNT
         self.calls = {m[0]: int(m[1]) for m in re.findall(r"^calls (\S+) (\d+)$", text, re.M)}
         self.kernel = "kernel yes" in text
         self.sum = re.search(r"^sum (\S+)$", text, re.M).group(1)
 
 
+def count(program, scenes):
+    """All of them in one run under callgrind, which writes a file for each."""
+    wanted = []
+    for file, scene, options in scenes:
+        wanted += ["--then", DATA / f"{file}.xml", scene, COUNT, *options]
+    with tempfile.TemporaryDirectory() as work:
+        out = pathlib.Path(work) / "out"
+        text = run("valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", "--toggle-collect=measured",
+                   "--dump-after=measured", program, *wanted[1:])
+        parts = [(out.parent / f"out.{i + 1}").read_text(encoding="utf-8") for i in range(len(scenes))]
+    totals = [int(re.search(r"^totals: (\d+)", part, re.M).group(1)) for part in parts]
+    return [Count(*pair) for pair in zip(totals, re.split(r"^scene ", text, flags=re.M)[1:], strict=True)]
+
+
 # ---- absent ----
 
-def build(where, without):
-    run("cmake", "-S", ROOT, "-B", where, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-        f"-DFW_WITHOUT_EFFECTS={';'.join(without)}")
-    run("cmake", "--build", where, "--target", "effect_cost", "-j", "2")
-    program = where / "tests/bench/effect_cost"
-    left = set(without) & set(effects(program))
-    if left:
-        sys.exit(f"built without {without}, and still has {left}")
-    return program
+def look(program, gone, before):
+    """The scenes that call for nothing of what is gone, against the whole program: what is wrong, and how many"""
+    left = set(re.findall(r" fw_effect_(\w+)$", run("nm", program), re.M)) & {name.replace("-", "_") for name in gone}
+    wrong = [f"{program.name} still has {', '.join(left)}"] if left or gone & set(effects(program)) else []
+    # inertia is in every motion: without its row it acts as it always did
+    free = [scene for scene, was in zip(SCENES, before) if not set(was.calls) & (gone - {"inertia"})]
+    old = [was for was in before if not set(was.calls) & (gone - {"inertia"})]
+    for (file, scene, options), was, now in zip(free, old, count(program, free) if free else [], strict=True):
+        if now.total != was.total or now.sum != was.sum:
+            wrong.append(f"{file} {scene} {' '.join(options)}: {now.total - was.total:+d} instructions of {was.total} "
+                         f"without {', '.join(sorted(gone))}, though it calls for none of them")
+    if not free:
+        wrong.append(f"every scene calls for {', '.join(sorted(gone))}: nothing is proved")
+    return wrong, len(free)
 
 
 def absent(where):
-    program, status, compared = build(where, []), 0, 0
-    known = effects(program)
-    scenes = [s for s in SCENES if readable(s[0], known)]
-    for name, scene, _ in SCENES[:]:
-        if not readable(name, known):
-            print(f"{name} {scene}: not in this version, skipped")
-    full = [Count(program, *s) for s in scenes]
-    removable = [name for name, (gone, _) in known.items() if gone]
-    # all at once, then each alone; inertia is in every motion: without its row it acts as it always did
-    for without in [removable, *[[name] for name in removable]]:
-        program = build(where, without)
-        for (file, scene, options), before in zip(scenes, full):
-            if set(before.calls) & set(without) - {"inertia"}:
-                continue
-            now = Count(program, file, scene, options)
-            compared += 1
-            if now.total != before.total or now.sum != before.sum:
-                print(f"{file} {scene} {' '.join(options)}: {now.total - before.total:+d} instructions of "
-                      f"{before.total} without {', '.join(without)}, though it calls for none of them")
-                status = 1
-        print(f"without {', '.join(without)}: compared", flush=True)
-    if compared < len(removable):
-        sys.exit("too few scenes are free of effects: nothing is proved")
+    run("cmake", "--build", where, "--target", "effect_cost", "effect_cost_without", "-j", "2")
+    whole = where / "tests/bench/effect_cost"
+    known, before, status, compared = set(effects(whole)), count(whole, SCENES), 0, 0
+    missing = known - {name for was in before for name in was.calls}
+    if missing:  # a scene with each, so that there is something to compare it with
+        print(f"no scene in SCENES calls for {', '.join(sorted(missing))}")
+        status = 1
+    others = whole.with_name("effect_cost_without_others")
+    jobs = [(whole.with_name(f"effect_cost_without_{name.replace('-', '_')}"), {name}) for name in sorted(known)]
+    jobs.append((others, known - set(effects(others))))
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        for (_, gone), (wrong, free) in zip(jobs, pool.map(lambda job: look(*job, before), jobs)):
+            print(f"without {', '.join(sorted(gone))}: {free} scenes")
+            for line in wrong:
+                print(line)
+            compared += free
+            status |= bool(wrong)
     print(f"{compared} comparisons of {COUNT} right-hand sides each")
     return status
 
@@ -133,39 +174,41 @@ def absent(where):
 # ---- costs ----
 
 def measure(program):
-    known, rows = effects(program), []
-    for name, file, scene, options in COSTS:
-        if name not in known or not readable(file, known):
-            print(f"{name}: not in this version, skipped")
-            continue
-        on = Count(program, file, scene, options)
-        off = Count(program, file, scene, [*options, "--off", name])
-        many = on.calls.get(name, 0)
-        if not many:
+    """rows of the table; what the rows of the effects should state, with what they do: {effect: (stated, dearest)}"""
+    known, scenes, rows = effects(program), [], []
+    for name, file, scene, options, _ in COSTS:
+        scenes += [(file, scene, [*options, "--general"]), (file, scene, [*options, "--general", "--off", name])]
+    counted = count(program, scenes)
+    for (name, file, scene, options, kind), on, off in zip(COSTS, counted[0::2], counted[1::2], strict=True):
+        if name not in on.calls:
             sys.exit(f"{file} {scene} does not call for {name}")
-        rows.append({"effect": name, "file": file, "scene": scene, "off": off.each, "on": on.each,
-                     "instances": many, "each": (on.each - off.each) / many, "stated": known[name][1]})
-    return known, rows
+        many = on.calls[name]
+        if many == 0 and on.total != off.total:
+            sys.exit(f"{file} {scene}: {name} counts no instance, and costs {on.each - off.each:g}")
+        rows.append({"effect": name, "kind": kind, "file": file, "scene": " ".join([scene, *options]), "off": off.each,
+                     "on": on.each, "instances": many, "each": (on.each - off.each) / max(many, 1)})
+    dearest = {name: max([row["each"] for row in rows if row["effect"] == name], default=None) for name in known}
+    return rows, {name: (known[name], dearest[name]) for name in known}
 
 
-def costs(program):
-    known, rows = measure(program)
+def judge(stated):
+    """says what the rows of the effects state; 1 where that is off"""
     status = 0
-    for row in rows:
+    for name, (said, found) in stated.items():
+        if found is None:
+            print(f"{name:20} no scene in COSTS measures it")
+            status = 1
+            continue
         # a handful of instructions more or less is nothing that a choice could depend on
-        good = abs(row["each"] - row["stated"]) <= max(LIMIT * row["each"], 5)
-        print(f"{row['effect']:20} {row['each']:8.1f} instructions, stated {row['stated']:g}{'' if good else '  WRONG'}")
+        good = abs(found - said) <= max(LIMIT * found, 5)
+        off = "" if good else f"  OFF by {said - found:+.0f}: set .cost in src/effects/{name.replace('-', '_')}.c"
+        print(f"{name:20} {found:8.0f} instructions, stated {said:g}{off}")
         status |= not good
-    missing = set(known) - {row["effect"] for row in rows}
-    if missing:
-        print(f"no scene in COSTS measures: {', '.join(sorted(missing))}")
-        status = 1
     return status
 
 
-def fast(program):
-    """the six-bar on the fast kernel and in the general code: what the first effect beyond it costs"""
-    return Count(program, "effect-costs/pins", "step", []).each, Count(program, "effect-costs/pins", "step", ["--general"]).each
+def costs(program):
+    return judge(measure(program)[1])
 
 
 def provenance():
@@ -175,29 +218,40 @@ def provenance():
             ("right-hand sides", str(COUNT))]
 
 
+def table(rows):
+    lines = ["| effect | what is counted | scene | without | with | instances | each | of the whole |",
+             "|---|---|---|---:|---:|---:|---:|---:|"]
+    for r in rows:
+        share = (r["on"] - r["off"]) / r["off"]
+        lines.append(f"| {r['effect']} | {r['kind']} | `{r['file']}.xml` {r['scene']} | {r['off']:.0f} | {r['on']:.0f} | "
+                     f"{r['instances']} | {r['each']:.0f} | {f'+{100 * share:.1f} %' if share else '0'} |")
+    return lines
+
+
 def write(program):
-    _, rows = measure(program)
-    quick, general = fast(program)
+    rows, stated = measure(program)
+    # what the first effect beyond the fast kernel costs
+    quick, general = [c.each for c in count(program, [("pins", "step", []), ("pins", "step", ["--general"])])]
     facts = provenance()
     CSV.parent.mkdir(parents=True, exist_ok=True)
     with CSV.open("w", encoding="utf-8", newline="") as file:
         out = csv.writer(file, lineterminator="\n")
-        out.writerow(["effect", "file", "scene", "off", "on", "instances", "each"])
+        out.writerow(["effect", "kind", "file", "scene", "off", "on", "instances", "each"])
         for key, value in facts:
-            out.writerow(["provenance", key, value, "", "", "", ""])
-        out.writerow(["fast kernel", "effect-costs/pins", "step", f"{quick:.2f}", f"{general:.2f}", 1, f"{general - quick:.2f}"])
+            out.writerow(["provenance", key, value, "", "", "", "", ""])
+        out.writerow(["fast kernel", "six-bar", "pins", "step", f"{quick:.2f}", f"{general:.2f}", 1, f"{general - quick:.2f}"])
         for r in rows:
-            out.writerow([r["effect"], r["file"], r["scene"], f"{r['off']:.2f}", f"{r['on']:.2f}", r["instances"],
-                          f"{r['each']:.2f}"])
-    lines = ["| effect | scene | off | on | instances | each |", "|---|---|---:|---:|---:|---:|"]
-    lines += [f"| {r['effect']} | `{r['file']}.xml` {r['scene']} | {r['off']:.0f} | {r['on']:.0f} | {r['instances']} | "
-              f"{r['each']:.0f} |" for r in rows]
-    lines += ["", f"The six-bar of `pins.xml` takes {quick:.0f} instructions on the fast kernel and {general:.0f} in "
-              "the general code.", "", *[f"- {key}: {value}" for key, value in facts]]
+            out.writerow([r["effect"], r["kind"], r["file"], r["scene"], f"{r['off']:.2f}", f"{r['on']:.2f}",
+                          r["instances"], f"{r['each']:.2f}"])
+    lines = [f"The six-bar of `pins.xml` takes **{quick:.0f}** instructions on the fast kernel and **{general:.0f}** in the "
+             f"general code, {general / quick:.1f} times as many.", "", *table(rows), "",
+             *[f"- {key}: {value}" for key, value in facts]]
     page = PAGE.read_text(encoding="utf-8")
     begin, end = "<!-- measured: begin -->", "<!-- measured: end -->"
     head, tail = page.split(begin)[0], page.split(end)[1]
     PAGE.write_text(head + begin + "\n\n" + "\n".join(lines) + "\n\n" + end + tail, encoding="utf-8")
+    if judge(stated):
+        print("the table is written; the ledger states these rows' costs until they are set and built again")
     return 0
 
 

@@ -21,6 +21,7 @@ ABOUT = {
     ("rubbing", "pressed"): {"contact", "friction", "nonlinear-hinge"},
     ("rubbing", "slipping"): {"friction", "gravity"},
     ("rubbing", "bumping"): {"contact"},
+    ("closing-film", "pressed-home"): {"air"},
 }
 BEYOND = ("comb", "pull-in")
 
@@ -49,8 +50,18 @@ class Effects(unittest.TestCase):
                 self.assertEqual({i for i in about if ledger[i]["active"] and ledger[i]["called_for"]}, about)
                 self.assertTrue(any(p["angle_rad"] != 0 for p in r["peaks"]))
 
+    def test_explicit_steps_are_given_up(self):
+        """not stiff at its start, later explicit steps would never end"""
+        r = self.result(run("simulate", example("closing-film"), "--json"))
+        self.assertEqual(r["integrator"], "radau5")
+        explicit = self.result(run("simulate", example("closing-film"), "--json", "--scene", "pressed-home",
+                                   "--set", "scene[pressed-home]/@duration=0.3 ms"))
+        self.assertEqual(explicit["integrator"], "dop853")
+
     def test_statics(self):
         for name, scene in ABOUT:
+            if name == "closing-film":
+                continue  # at rest its walls touch
             with self.subTest(device=name, scene=scene):
                 r = self.result(run("statics", example(name), "--scene", scene, "--json"))
                 for entry in r["pull_in"]:
