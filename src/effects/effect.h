@@ -25,6 +25,10 @@ bool fw_hinge_touches(const fw_scene *scene, int pin);
 /* its pin is no constraint any more: an element stands for it (once, however often it is asked for)
  */
 fw_status fw_hinge_release(const fw_effect_case *c, fw_terms *terms, int hinge);
+/* all that were released so far have their stiffness times 1 + part + varying law(t); law NULL:
+   the same at all times. Once per terms */
+fw_status fw_hinges_warm(fw_arena *arena, fw_terms *terms, double part, double varying,
+                         const fw_law *law);
 /* how far an ideal pin is from what the hinges do: nonlinear-hinge.md, "Bound" */
 typedef struct fw_hinge_give {
     const char *why_not; /* NULL: the numbers below hold */

@@ -128,6 +128,9 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
     int (*count)(const fw_effect_case *c); /* instances; NULL: 1 */
     /* of an active effect, before add: errors and warnings on what is asked of it; NULL: none */
     fw_status (*check)(const fw_effect_case *c, fw_diags *diags);
+    /* of what is called for: puts behind the reason, in every mode, what a reader has to know; NULL:
+       nothing */
+    fw_status (*note)(const fw_effect_case *c, const char **reason);
     bool unbounded_stays; /* not left out where its bound is infinite, whatever was asked for */
     bool alone_stays;     /* likewise where nothing else moves the mechanism */
     bool kept; /* never left out, whatever was asked for: without it there is nothing to judge */

@@ -219,7 +219,8 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, con
     else
         decide_asked(&c, choice, ledger->item);
     for (int i = 0; i < ROWS; i++) {
-        const fw_effect_entry *e = &ledger->item[i];
+        fw_effect_entry *e = &ledger->item[i];
+        if (e->called_for && rows[i]->note) FW_TRY(rows[i]->note(&c, &e->reason));
         if (choice->mode == FW_EFFECTS_AUTO && e->called_for && !e->active)
             ledger->left_out += e->bound;
         if (e->active) {
