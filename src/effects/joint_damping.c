@@ -110,6 +110,7 @@ const fw_effect_row fw_effect_joint_damping = {
     .summary = "viscous torque of hinges and force of sliding joints, c times rate",
     .called_for = called_for,
     .bound = bound,
+    .by_rate = true,
     .add = add,
     .cost = 32,
     .count = count};
