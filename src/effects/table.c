@@ -198,7 +198,7 @@ static void decide_asked(const fw_effect_case *c, const fw_effect_choice *choice
 void fw_effects_in_equilibrium(fw_effect_ledger *ledger) {
     for (int i = 0; i < ledger->count && i < ROWS; i++) {
         fw_effect_entry *e = &ledger->item[i];
-        bool inertia = rows[i] == &fw_effect_inertia;
+        bool inertia = strcmp(e->id, "inertia") == 0;
         if (!e->called_for || !e->active || !(inertia || rows[i]->by_rate)) continue;
         e->active = false;
         e->reason = inertia ? "nothing moves in an equilibrium"
