@@ -215,8 +215,9 @@ typedef struct fw_material_damping { /* <material-damping loss-factor frequency>
 typedef struct fw_temperature { /* <temperature change>: of device and substrate, from where it was
                                    made; times the law */
     double change_K;
-    double expansion_per_K, substrate_expansion_per_K; /* of length; NaN: the material's */
-    double modulus_change_per_K;                       /* relative; NaN: the material's */
+    double expansion_per_K;           /* of length; NaN: the material's */
+    double substrate_expansion_per_K; /* likewise; NaN: that of the flow's substrate */
+    double modulus_change_per_K;      /* relative; NaN: the material's */
     const fw_law *law;
     fw_place place;
 } fw_temperature;

@@ -48,7 +48,7 @@ static const fw_attribute_row flow_rows[] = {
      .sentence = "Thickness of the device layer in this flow."},
     {"carrier", .kind = FW_KIND_WORD, .words = carriers, .fallback = "none",
      .sentence = "What the layer stands on: none, so that all that is anchored is one conductor; "
-                 "insulating, so that only what is joined in the layer is."},
+                 "insulating (borosilicate glass), so that only what is joined in the layer is."},
 };
 static const fw_attribute_row flexure_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id for hinges to refer to."},

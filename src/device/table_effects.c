@@ -151,7 +151,9 @@ static const fw_attribute_row temperature_rows[] = {
     {"expansion", D_PER_K, RANGE(-0.01, 0.01, "no solid stretches by 1 % per kelvin"),
      .fallback = "the material's", .sentence = "Of the device layer: change of length per kelvin."},
     {"substrate-expansion", D_PER_K, RANGE(-0.01, 0.01, "no solid stretches by 1 % per kelvin"),
-     .fallback = "silicon's", .sentence = "Of what the device is anchored to."},
+     .fallback = "the substrate's",
+     .sentence = "Of what the device is anchored to: silicon, or borosilicate glass where the flow "
+                 "has carrier=\"insulating\"."},
     {"modulus-change", D_PER_K, RANGE(-0.01, 0.01, "no solid softens by 1 % per kelvin"),
      .fallback = "the material's",
      .sentence = "Of Young's modulus, relative, per kelvin; negative: it softens when warm."},

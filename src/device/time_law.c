@@ -219,6 +219,18 @@ static fw_status read_law(fw_reader *r, const fw_record *record, const law_row *
     return r->diags->failed ? FW_NOMEM : FW_OK;
 }
 
+/* a law that is 0 for the whole scene: what begins when it is over, or a table's first entries */
+static void check_start(fw_reader *r, const fw_record *record, const fw_law *law) {
+    double end_s = fw_number_of(&r->record[record->parent], "duration");
+    bool late = law->start_s >= end_s;
+    bool empty = law->kind == FW_LAW_TABLE && !(fw_law_largest(law, end_s) > 0);
+    char label[FW_LABEL], end[FW_LABEL];
+    if (!(late || empty) || isnan(end_s)) return;
+    fw_diag_warning(r->diags, 99, fw_place_of(record, late ? "start" : "table"),
+                    "%s: its law is 0 until the scene ends at %s, so it never acts",
+                    fw_label(record, label), fw_in_unit(end, end_s, "ms"));
+}
+
 fw_status fw_time_law(fw_reader *r, const fw_record *record, const fw_law **law) {
     const char *name = fw_text_of(record, "law");
     bool ok = true;
@@ -234,5 +246,6 @@ fw_status fw_time_law(fw_reader *r, const fw_record *record, const fw_law **law)
     FW_NEED(own);
     FW_TRY(read_law(r, record, row, own, &ok));
     if (ok && !fw_law_is_constant(own)) *law = own;
-    return FW_OK;
+    if (ok) check_start(r, record, own);
+    return r->diags->failed ? FW_NOMEM : FW_OK;
 }

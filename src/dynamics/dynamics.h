@@ -39,7 +39,7 @@ typedef struct fw_motion_options {
 typedef struct fw_peak { /* per pin: extreme of |phi_b - phi_a - free angle| over the scene */
     double angle_rad;    /* with its sign */
     double t_s;
-    double error_rad; /* estimate, >= 0 */
+    double error_rad; /* estimate, >= 0: of the numbers, and what auto left out */
 } fw_peak;
 
 typedef struct fw_force_peak { /* per joint or driver: largest force and torque that it exerts */
@@ -105,6 +105,10 @@ fw_status fw_simulate_compiled(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_scene *scene, const fw_motion_options *options,
                                const fw_effect_ledger *ledger, const fw_terms *terms,
                                fw_diags *diags, const fw_motion **motion);
+/* rad: the part of each peak's error_rad that effects which auto left out account for */
+double fw_motion_left_out(const fw_motion *motion);
+/* puts it there; ends either kind of motion, once */
+void fw_motion_widen(fw_motion *motion);
 /* what both check first: numbers, names of methods, mechanism and scene */
 fw_status fw_check_request(const fw_mechanism *mechanism, const fw_scene *scene,
                            const fw_motion_options *options, fw_diags *diags);

@@ -314,6 +314,21 @@ static fw_status say_method(fw_run *r) {
     return FW_OK;
 }
 
+/* The bounds are relative to the largest deflection of any hinge with nothing left out, which is at
+   least 1 - their sum of the one seen here. */
+double fw_motion_left_out(const fw_motion *motion) {
+    double largest = 0, out = motion->ledger.left_out;
+    for (int i = 0; i < motion->npin; i++)
+        largest = fmax(largest, fabs(motion->peak[i].angle_rad));
+    return out < 1 ? out / (1 - out) * largest : HUGE_VAL;
+}
+
+void fw_motion_widen(fw_motion *motion) {
+    double more = fw_motion_left_out(motion);
+    for (int i = 0; i < motion->npin; i++)
+        motion->peak[i].error_rad += more;
+}
+
 fw_status fw_check_request(const fw_mechanism *mechanism, const fw_scene *scene,
                            const fw_motion_options *options, fw_diags *diags) {
     fw_motion unused = {0};
@@ -346,6 +361,7 @@ fw_status fw_simulate_compiled(fw_arena *arena, const fw_mechanism *mechanism,
     FW_TRY(fw_integrator_choose(&r, terms, options->integrator));
     FW_TRY(solve(&r));
     FW_TRY(say_method(&r));
+    fw_motion_widen(r.motion);
     *motion = r.motion;
     return FW_OK;
 }

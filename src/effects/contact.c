@@ -281,6 +281,42 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     return status;
 }
 
+/* ---- what is said ---- */
+
+/* m: less is within what etching moves edges by */
+static const double drawn_closed = 1e-6;
+
+static bool said_already(const fw_diags *diags, fw_place place) {
+    for (size_t i = 0; i < diags->count; i++)
+        if (diags->item[i].number == 134 && diags->item[i].place.line == place.line &&
+            diags->item[i].place.column == place.column)
+            return true;
+    return false;
+}
+
+/* round things that overlap as they are drawn are not two solids of one layer; conjugate surfaces
+   are drawn with their gap open */
+static fw_status check(const fw_effect_case *c, fw_diags *diags) {
+    for (int i = 0; i < c->scene->ncontact; i++) {
+        const fw_contact_use *use = &c->scene->contact[i];
+        if (use->joint != FW_NONE || said_already(diags, use->place)) continue;
+        fw_vec2 a = fw_local_place(c->mechanism, use->body_a, use->ax_m, use->ay_m);
+        fw_vec2 b = fw_local_place(c->mechanism, use->body_b, use->bx_m, use->by_m);
+        double apart = hypot(b.x - a.x, b.y - a.y), past = apart - use->distance_m;
+        if (use->side != FW_CONTACT_INSIDE) past = -past;
+        char deep[32], far[32], at[32];
+        if (!(past > drawn_closed)) continue;
+        fw_diag_warning(diags, 134, use->place,
+                        "contact %s is pressed %s um deep in the drawn pose: its points are %s um "
+                        "apart and touch at %s um; correct the points, the distance or the side",
+                        use->id ? use->id : "(unnamed)",
+                        fw_number_text(deep, sizeof deep, 1e6 * past, 4),
+                        fw_number_text(far, sizeof far, 1e6 * apart, 4),
+                        fw_number_text(at, sizeof at, 1e6 * use->distance_m, 4));
+    }
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
 /* 0 where the envelope of the motion leaves every gap open (hinges: force and drift of W by
    hinge_give.c; points: reach of their bodies, and the same for every hinge on the way); otherwise
    what it changes is everything behind the touch. Test: test_contact.c. */
@@ -299,5 +335,6 @@ const fw_effect_row fw_effect_contact = {.id = "contact",
                                          .called_for = called_for,
                                          .bound = bound,
                                          .add = add,
+                                         .check = check,
                                          .cost = 1350,
                                          .count = count};

@@ -32,6 +32,10 @@ fw_status fw_hinges_flex(const fw_effect_case *c, fw_terms *terms);
 fw_status fw_hinge_give_bound(const fw_effect_case *c, double *value, const char **why);
 /* m: W of b from W of a at most, of a pin of a valid envelope */
 double fw_hinge_give_most(const fw_effect_case *c, int pin);
+/* all that were released so far have their stiffness times 1 + part + varying law(t); law NULL:
+   the same at all times. Once per terms */
+fw_status fw_hinges_warm(fw_arena *arena, fw_terms *terms, double part, double varying,
+                         const fw_law *law);
 /* hinge of a contact between conjugate surfaces, NULL: none; how far W may move freely, 0: not
    known; false: no gap closes within the motion */
 const fw_hinge *fw_contact_hinge(const fw_mechanism *mechanism, const fw_contact_use *use);

@@ -13,7 +13,8 @@ typedef enum fw_effect_mode {
     FW_EFFECTS_AUTO,
     FW_EFFECTS_ALL,
     FW_EFFECTS_NONE,
-    FW_EFFECTS_LIST
+    FW_EFFECTS_LIST,
+    FW_EFFECTS_WHOLE /* all, without having been asked for: equilibria and modes for auto */
 } fw_effect_mode;
 typedef struct fw_effect_choice {
     fw_effect_mode mode;
@@ -130,6 +131,10 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
     fw_status (*check)(const fw_effect_case *c, fw_diags *diags);
     bool calms; /* left out by auto only where hinges are pins: those that give vibrate on without
                    it, and every step has to follow them */
+    /* of what is called for: puts behind the reason, in every mode, what a reader has to know;
+       NULL: nothing */
+    fw_status (*note)(const fw_effect_case *c, const char **reason);
+    bool by_rate;         /* acts on velocities only: it has no part in an equilibrium */
     bool unbounded_stays; /* not left out where its bound is infinite, whatever was asked for */
     bool alone_stays;     /* likewise where nothing else moves the mechanism */
     bool kept;    /* never left out, whatever was asked for: without it there is nothing to judge */
@@ -143,6 +148,9 @@ const fw_effect_row *const *fw_effect_rows(size_t *count);
 fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                              const fw_effect_choice *choice, double accuracy, fw_diags *diags,
                              fw_effect_ledger *ledger, fw_terms *terms);
+
+/* the ledger of equilibria: neither inertia nor what acts on velocities has a part in them */
+void fw_effects_in_equilibrium(fw_effect_ledger *ledger);
 
 /* The mechanism that the terms act on: `mechanism` itself, or where they hold strains one with
    those strains, whose pose is to be assembled again; points in the terms (loads, springs, ports)

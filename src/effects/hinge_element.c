@@ -9,7 +9,9 @@
    Force -dU/dp, stiffness d2U/dp dp in full, all derivatives of kx, ky and the drift included. The
    material dissipates in all three deformations alike: forces -tau (kx w' dw/dp + ky v' dv/dp) with
    tau = c/K of the pin's own viscous damper, which goes on acting on th (joint-damping,
-   material-damping); a damping stated in the file is for the rotation only.
+   material-damping); a damping stated in the file is for the rotation only. All of U is
+   proportional to Young's modulus: warm, it is U (1 + beta dT law(t)), which the law feeds with
+   U beta dT law'; dampers keep their values.
    Inputs p in m and rad, w in m/s and rad/s; outputs N, N m. Valid until the arc closes to a full
    circle. Error: see flexure/finite.c. Cost of a force some 850 instructions. Source:
    docs/theory/effects/nonlinear-hinge.md. Test: test_nonlinear_hinge.c. */
@@ -22,6 +24,7 @@ typedef struct flexed { /* data of an element; ports: pin on body a, pin on body
     double sense;              /* o */
     double axis_rad, free_rad; /* axis less half of the drawn turns */
     double loss_s;             /* tau */
+    double factor, varying;    /* U times factor + varying law(t): temperature */
     fw_hinge_rest rest;        /* what does not depend on the rotation */
 } flexed;
 
@@ -57,13 +60,26 @@ static inline bent bend(const flexed *f, const fw_seen *s) {
                   .drift_slope = law.drift_m.slope};
 }
 
+/* what U is multiplied by, and its rate */
+static inline double warmth(const fw_force_element *e, const fw_seen *s, double *rate) {
+    const flexed *h = e->data;
+    *rate = 0;
+    if (e->laws == 0) return h->factor;
+    double law[3];
+    fw_law_value(e->law[0], s->t_s, s->piece_s, law);
+    *rate = h->varying * law[1];
+    return h->factor + h->varying * law[0];
+}
+
 /* -(M dth + X dw + Y dv), with the gradients of th, w and v written out */
 static void force(const fw_force_element *e, const fw_seen *s, double *f) {
     const flexed *h = e->data;
     const bent b = bend(h, s);
-    double moment = h->law.stiffness_Nm_per_rad * b.th +
-                    0.5 * (b.kx_slope * b.w * b.w + b.ky_slope * b.v * b.v);
-    double X = b.kx * (b.w + h->loss_s * b.w_rate), Y = b.ky * (b.v + h->loss_s * b.v_rate);
+    double rate, warm = warmth(e, s, &rate);
+    double moment = warm * (h->law.stiffness_Nm_per_rad * b.th +
+                            0.5 * (b.kx_slope * b.w * b.w + b.ky_slope * b.v * b.v));
+    double X = b.kx * (warm * b.w + h->loss_s * b.w_rate);
+    double Y = b.ky * (warm * b.v + h->loss_s * b.v_rate);
     double both = 0.5 * (Y * b.x - X * b.y); /* half of the couple that the offset makes */
     f[0] = X * b.c - Y * b.n, f[1] = X * b.n + Y * b.c;
     f[3] = -f[0], f[4] = -f[1];
@@ -71,17 +87,25 @@ static void force(const fw_force_element *e, const fw_seen *s, double *f) {
     f[5] = both - moment + Y * b.drift_slope;
 }
 
+static inline double stored(const flexed *h, const bent *b) { /* U where it was made */
+    return 0.5 * (h->law.stiffness_Nm_per_rad * b->th * b->th + b->kx * b->w * b->w +
+                  b->ky * b->v * b->v);
+}
+
 static double energy(const fw_force_element *e, const fw_seen *s) {
     const flexed *h = e->data;
     const bent b = bend(h, s);
-    return 0.5 * (h->law.stiffness_Nm_per_rad * b.th * b.th + b.kx * b.w * b.w + b.ky * b.v * b.v);
+    double rate;
+    return warmth(e, s, &rate) * stored(h, &b);
 }
 
 static void power(const fw_force_element *e, const fw_seen *s, double power[2]) {
     const flexed *h = e->data;
     const bent b = bend(h, s);
     power[0] = h->loss_s * (b.kx * b.w_rate * b.w_rate + b.ky * b.v_rate * b.v_rate);
-    power[1] = 0;
+    double rate;
+    warmth(e, s, &rate);
+    power[1] = rate * stored(h, &b);
 }
 
 /* ---- the tangent: all second derivatives ---- */
@@ -171,8 +195,11 @@ static void tangent(const fw_force_element *e, const fw_seen *s, double *stiffne
     for (int i = 0; i < N; i++)
         for (int j = 0; j < N; j++)
             stiffness[N * i + j] = h->law.stiffness_Nm_per_rad * turns[i] * turns[j];
-    add_strain(&at.w, at.kx, h->loss_s, s->w, stiffness, damping);
-    add_strain(&at.v, at.ky, h->loss_s, s->w, stiffness, damping);
+    double rate, warm = warmth(e, s, &rate), tau = h->loss_s / warm;
+    add_strain(&at.w, at.kx, tau, s->w, stiffness, damping);
+    add_strain(&at.v, at.ky, tau, s->w, stiffness, damping);
+    for (int i = 0; i < N * N; i++)
+        stiffness[i] *= warm, damping[i] *= warm;
 }
 
 static bool valid(const fw_force_element *e, const fw_seen *s, const char **why) {
@@ -226,6 +253,7 @@ fw_status fw_hinge_release(const fw_effect_case *c, fw_terms *terms, int hinge) 
     if (!f || !e) return FW_NOMEM;
     *f = (flexed){.law = h->law,
                   .sense = h->first_is_a ? 1 : -1,
+                  .factor = 1,
                   .free_rad = pin->free_angle_rad,
                   .axis_rad = h->axis_rad -
                               0.5 * (drawn_turn(m, pin->body_a) + drawn_turn(m, pin->body_b))};
@@ -249,6 +277,26 @@ fw_status fw_hinge_release(const fw_effect_case *c, fw_terms *terms, int hinge) 
     if (m->device && h->pin < m->device->njoint) e->place = m->device->joint[h->pin].place;
     terms->released[h->pin] = true;
     terms->nreleased++;
+    return FW_OK;
+}
+
+fw_status fw_hinges_warm(fw_arena *arena, fw_terms *terms, double part, double varying,
+                         const fw_law *law) {
+    for (int i = 0; i < terms->nelement; i++) {
+        fw_force_element *e = &terms->element[i];
+        if (e->class_ != &class_) continue;
+        flexed *f = fw_arena_one(arena, flexed);
+        FW_NEED(f);
+        *f = *(const flexed *)e->data;
+        f->factor += part;
+        e->size_N_per_m *= fabs(1 + part);
+        if (law && fabs(varying) > 0) {
+            f->varying = varying;
+            e->law[0] = law, e->laws = 1;
+            e->works = true;
+        }
+        e->data = f;
+    }
     return FW_OK;
 }
 

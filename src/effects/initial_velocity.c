@@ -32,5 +32,6 @@ const fw_effect_row fw_effect_initial_velocity = {.id = "initial-velocity",
                                                   .summary = "velocities at the start",
                                                   .called_for = called_for,
                                                   .bound = bound,
+                                                  .by_rate = true,
                                                   .add = add,
                                                   .kept = true};

@@ -114,6 +114,7 @@ const fw_effect_row fw_effect_joint_damping = {
     .called_for = called_for,
     .bound = bound,
     .calms = true,
+    .by_rate = true,
     .add = add,
     .cost = 32,
     .count = count};

@@ -105,6 +105,7 @@ const fw_effect_row fw_effect_material_damping = {
     .summary = "loss factor of the flexures' material, as the scene states it",
     .called_for = called_for,
     .bound = bound,
+    .by_rate = true,
     .calms = true,
     .add = add,
     .cost = 31,

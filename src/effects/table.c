@@ -119,8 +119,8 @@ static fw_status say(const fw_effect_case *c, fw_effect_entry *entry, double sum
     const char *how = entry->reason;
     if (!entry->active)
         entry->reason = fw_arena_printf(
-            c->arena, "%s = %s, left out: %s%s%s below the accuracy wanted %s", how, bound,
-            last ? "" : "together with smaller ones ", last ? "" : all, last ? "" : ",", wanted);
+            c->arena, "%s = %s, left out: %s%s%sbelow the accuracy wanted %s", how, bound,
+            last ? "" : "together with smaller ones ", last ? "" : all, last ? "" : ", ", wanted);
     else if (entry->bound < accuracy)
         entry->reason = fw_arena_printf(c->arena,
                                         "%s = %s, kept: with what is left out already %s, not "
@@ -197,14 +197,16 @@ static bool belongs(const fw_effect_case *c, const fw_effect_row *row,
 
 static void decide_asked(const fw_effect_case *c, const fw_effect_choice *choice,
                          fw_effect_entry *entry) {
-    bool all = choice->mode == FW_EFFECTS_ALL, list = choice->mode == FW_EFFECTS_LIST;
+    bool whole = choice->mode == FW_EFFECTS_WHOLE;
+    bool all = whole || choice->mode == FW_EFFECTS_ALL, list = choice->mode == FW_EFFECTS_LIST;
     for (int i = 0; i < ROWS; i++) {
         fw_effect_entry *e = &entry[i];
         if (!e->called_for) continue;
         bool in = all || (list && listed(choice->list, e->id)), stays = belongs(c, rows[i], e);
         e->active = in || stays;
         if (all)
-            e->reason = "called for, and all effects were asked for";
+            e->reason = whole ? "called for: equilibria and modes leave nothing out"
+                              : "called for, and all effects were asked for";
         else if (in && !rows[i]->kept)
             e->reason = "called for, and in the list asked for";
         else if (!stays)
@@ -213,6 +215,17 @@ static void decide_asked(const fw_effect_case *c, const fw_effect_choice *choice
         else if (rows[i]->alone_stays)
             e->reason = "nothing but weight and the base moves the mechanism: it is the motion "
                         "itself";
+    }
+}
+
+void fw_effects_in_equilibrium(fw_effect_ledger *ledger) {
+    for (int i = 0; i < ledger->count && i < ROWS; i++) {
+        fw_effect_entry *e = &ledger->item[i];
+        bool inertia = strcmp(e->id, "inertia") == 0;
+        if (!e->called_for || !e->active || !(inertia || rows[i]->by_rate)) continue;
+        e->active = false;
+        e->reason = inertia ? "nothing moves in an equilibrium"
+                            : "acts on velocities: it has no part in an equilibrium";
     }
 }
 
@@ -242,7 +255,8 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, con
     else
         decide_asked(&c, choice, ledger->item);
     for (int i = 0; i < ROWS; i++) {
-        const fw_effect_entry *e = &ledger->item[i];
+        fw_effect_entry *e = &ledger->item[i];
+        if (e->called_for && rows[i]->note) FW_TRY(rows[i]->note(&c, &e->reason));
         if (choice->mode == FW_EFFECTS_AUTO && e->called_for && !e->active)
             ledger->left_out += e->bound;
         if (e->active) {

@@ -24,6 +24,13 @@ static double stated_or(double stated, const fw_mechanism *m, bool modulus) {
     return q->unknown ? (double)NAN : q->value;
 }
 
+/* likewise of what the layer is anchored to */
+static double substrate_of(const fw_temperature *t, const fw_mechanism *m) {
+    if (!isnan(t->substrate_expansion_per_K)) return t->substrate_expansion_per_K;
+    if (!m->variant || m->variant->substrate_expansion.unknown) return (double)NAN;
+    return m->variant->substrate_expansion.value;
+}
+
 static bool has_hinge(const fw_mechanism *m) {
     for (int i = 0; i < m->npin; i++)
         if (m->pin[i].hinge != FW_NONE && m->pin[i].stiffness_Nm_per_rad > 0) return true;
@@ -31,11 +38,10 @@ static bool has_hinge(const fw_mechanism *m) {
 }
 
 /* of the ground against the device where the law is 1: (1 + alpha_s dT)/(1 + alpha dT) - 1, about
-   -(alpha - alpha_s) dT. Both left open: the same material, whose expansion need not be known. */
+   -(alpha - alpha_s) dT */
 static double ground_strain(const fw_mechanism *m, const fw_temperature *t) {
-    if (isnan(t->expansion_per_K) && isnan(t->substrate_expansion_per_K)) return 0;
     double own = stated_or(t->expansion_per_K, m, false) * t->change_K;
-    double substrate = stated_or(t->substrate_expansion_per_K, m, false) * t->change_K;
+    double substrate = substrate_of(t, m) * t->change_K;
     return (substrate - own) / (1 + own);
 }
 
@@ -263,15 +269,16 @@ static fw_status add_changing_modulus(const fw_effect_case *c, fw_terms *terms,
     return FW_OK;
 }
 
-/* the springs of flexures among the terms; joint-elasticity has been there before */
+/* The flexures among the terms: springs of ideal pins, which joint-elasticity has put there, and
+   elements that stand for a pin, whose spring is theirs. */
 static fw_status add_modulus(const fw_effect_case *c, fw_terms *terms) {
-    double factor = 1;
+    double part = 0;
     const fw_temperature *changing = NULL;
     for (int i = 0; i < c->scene->ntemperature; i++) {
         const fw_temperature *t = &c->scene->temperature[i];
         if (!(fabs(softening(c->mechanism, t)) > 0)) continue;
         if (fw_law_is_constant(t->law))
-            factor += softening(c->mechanism, t);
+            part += softening(c->mechanism, t);
         else
             changing = t;
     }
@@ -280,9 +287,10 @@ static fw_status add_modulus(const fw_effect_case *c, fw_terms *terms) {
         if (c->mechanism->pin[on->pin].hinge == FW_NONE || !(on->stiffness_Nm_per_rad > 0))
             continue;
         if (changing) FW_TRY(add_changing_modulus(c, terms, changing, on));
-        on->stiffness_Nm_per_rad *= factor;
+        on->stiffness_Nm_per_rad *= 1 + part;
     }
-    return FW_OK;
+    return fw_hinges_warm(c->arena, terms, part, changing ? softening(c->mechanism, changing) : 0,
+                          changing ? changing->law : NULL);
 }
 
 static fw_status add(const fw_effect_case *c, fw_terms *terms) {
@@ -297,6 +305,18 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
             terms->stretch = (fw_stretch){strain, fw_ground_centre(c->mechanism), t->law};
     }
     return add_modulus(c, terms);
+}
+
+/* which substrate is meant, behind the reason */
+static fw_status name_substrate(const fw_effect_case *c, const char **reason) {
+    bool left_open = false;
+    for (int i = 0; i < c->scene->ntemperature; i++)
+        left_open = left_open || isnan(c->scene->temperature[i].substrate_expansion_per_K);
+    const char *name = c->mechanism->variant ? c->mechanism->variant->substrate : NULL;
+    if (!left_open) name = "as the scene states it";
+    FW_NEED(*reason =
+                fw_arena_printf(c->arena, "%s; substrate: %s", *reason, name ? name : "not known"));
+    return FW_OK;
 }
 
 /* what is constant costs nothing while it moves */
@@ -317,5 +337,6 @@ const fw_effect_row fw_effect_temperature = {
     .bound = bound,
     .add = add,
     .check = check,
+    .note = name_substrate,
     .cost = 658,
     .count = count};

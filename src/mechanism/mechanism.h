@@ -16,6 +16,8 @@
 typedef struct fw_variant { /* what the device is made of, in one flow */
     const char *flow;       /* flow id or NULL */
     fw_material material;
+    const char *substrate;           /* name of what the layer is anchored to; NULL: not known */
+    fw_quantity substrate_expansion; /* of it, 1/K */
     double thickness_m;
     double explicit_mass_scale, explicit_stiffness_scale, explicit_damping_scale;
 } fw_variant;

@@ -92,6 +92,17 @@ static double thickness_of(const fw_device *d, const fw_flow_use *use, const fw_
     return (double)NAN;
 }
 
+/* what the anchors are held by: silicon, unless the flow says that the carrier stays and insulates:
+   that is glass */
+static void stand_on_substrate(fw_plan *plan, const fw_flow_use *use, fw_variant *v) {
+    bool glass = use && use->insulating_carrier;
+    const fw_material *of =
+        fw_material_find(&plan->materials, glass ? "glass-carrier" : "silicon-substrate");
+    if (!of) return; /* a pack without it: not known */
+    v->substrate = of->name;
+    v->substrate_expansion = of->expansion;
+}
+
 static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_material *own) {
     const fw_device *d = plan->device;
     const fw_flow_use *use = pf->use;
@@ -99,9 +110,11 @@ static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_material
     fw_place place = use ? use->place : d->material_place;
     *v = (fw_variant){.flow = use ? use->ref : NULL,
                       .material = *own,
+                      .substrate_expansion = {.unknown = true},
                       .thickness_m = thickness_of(d, use, pf->flow)};
     if (use && use->material && !same(use->material, d->material_ref))
         v->material = *fw_material_find(&plan->materials, use->material);
+    stand_on_substrate(plan, use, v);
     if (isnan(v->thickness_m))
         return fw_diag_error(&plan->diags, 226, place,
                              "the thickness of the device layer is not known: give thickness on "
@@ -138,8 +151,11 @@ static fw_variant mechanism_alone(void) {
                               .density = unknown,
                               .strength = unknown,
                               .criterion = "",
-                              .loss = unknown};
+                              .loss = unknown,
+                              .expansion = unknown,
+                              .modulus_change = unknown};
     return (fw_variant){.material = none,
+                        .substrate_expansion = unknown,
                         .thickness_m = 1, /* nothing is made of it */
                         .explicit_mass_scale = 1,
                         .explicit_stiffness_scale = 1,

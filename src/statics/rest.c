@@ -223,7 +223,7 @@ fw_status fw_rest_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_s
     *w = (fw_rest){.arena = arena, .mechanism = mechanism, .scene = scene, .diags = diags};
     FW_TRY(check(w));
     fw_effect_choice choice = *effects;
-    if (choice.mode == FW_EFFECTS_AUTO) choice.mode = FW_EFFECTS_ALL;
+    if (choice.mode == FW_EFFECTS_AUTO) choice.mode = FW_EFFECTS_WHOLE;
     FW_TRY(fw_effects_compile(arena, mechanism, scene, &choice, 1e-3, diags, &w->ledger, &terms));
     return assemble(w, &terms);
 }

@@ -273,6 +273,8 @@ void fw_row_finish(fw_row *r) {
     finish_tracks(r);
     m->nsample = r->row;
     m->ledger = r->w.ledger;
+    fw_effects_in_equilibrium(&m->ledger);
+    fw_motion_widen(m);
     m->stats = (fw_motion_stats){.steps = r->solved,
                                  .rejected = r->rejected,
                                  .rhs = r->evaluated,

@@ -217,15 +217,6 @@ static fw_status count_signs(const fw_rest *w, fw_statics *out) {
     return FW_OK;
 }
 
-/* whatever was asked for, an equilibrium knows no inertia */
-static void without_inertia(fw_effect_ledger *ledger) {
-    for (int i = 0; i < ledger->count; i++) {
-        if (strcmp(ledger->item[i].id, "inertia") != 0) continue;
-        ledger->item[i].active = false;
-        ledger->item[i].reason = "nothing moves in an equilibrium";
-    }
-}
-
 static fw_status answer(const fw_rest *w, fw_statics *out) {
     size_t n = (size_t)w->model->nq, pins = (size_t)w->mechanism->npin;
     out->nbody = w->mechanism->nbody;
@@ -234,7 +225,7 @@ static fw_status answer(const fw_rest *w, fw_statics *out) {
     out->ndriver = w->mechanism->ndriver;
     out->dof = w->reduced.dof;
     out->ledger = w->ledger;
-    without_inertia(&out->ledger);
+    fw_effects_in_equilibrium(&out->ledger); /* whatever was asked for */
     out->iterations = w->iterations;
     out->rest_q = w->q0;
     out->pull_in = w->pull_in;

@@ -55,15 +55,6 @@ static void collide(const fw_hinge_layout *drawn, fw_hinge_verdict *out) {
     if (out->touches && out->decision == FW_ACCEPT) out->decision = FW_INCONCLUSIVE;
 }
 
-/* of a hinge's peak angle, rad: the run's own, and the sum of the bounds of effects that auto left
-   out, which are relative to the largest deflection of any hinge */
-static double angle_error(const fw_motion *motion, int pin) {
-    double largest = 0, out = motion->ledger.left_out;
-    for (int i = 0; i < motion->npin; i++)
-        largest = fmax(largest, fabs(motion->peak[i].angle_rad));
-    return motion->peak[pin].error_rad + (out < 1 ? out / (1 - out) : HUGE_VAL) * largest;
-}
-
 /* utilisation = peak strain (rotation and joint force, fillets included) over the limit strain, and
    never less than peak angle / limit angle; band = model errors of it, and the numerical errors of
    the angle over the limit angle and of the search for the strain */
@@ -81,7 +72,7 @@ static void judge_scene(const fw_mechanism *m, const fw_hinge *hinge, const fw_h
                               .flow = m->variant->flow,
                               .scene = scene,
                               .peak_angle_rad = peak->angle_rad,
-                              .angle_error_rad = angle_error(motion, hinge->pin)};
+                              .angle_error_rad = peak->error_rad};
     out->utilisation = fmax(by_angle, by_strain);
     out->peak_strain = out->utilisation * out->strain_limit;
     out->force_share = by_strain > by_angle ? 1.0 - by_angle / by_strain : 0.0;

@@ -316,6 +316,39 @@ static void memory_runs_out(void **state) {
     }
 }
 
+/* a law that is 0 until the scene of 1 s is over is said, at its place; others are not */
+static void never_acts(void **state) {
+    (void)state;
+    static const struct {
+        const char *part;
+        bool late;
+    } row[] = {
+        {"<torque on=\"p\" value=\"1 uN m\" law=\"step\" start=\"1 s\"/>", true},
+        {"<torque on=\"p\" value=\"1 uN m\" law=\"step\" start=\"0.99 s\"/>", false},
+        {"<force on=\"p\" fx=\"1 uN\" law=\"ramp\" start=\"2 s\" rise=\"1 s\"/>", true},
+        {"<force on=\"p\" fx=\"1 uN\" law=\"ramp\" rise=\"10 s\"/>", false},
+        {"<force on=\"p\" fx=\"1 uN\" law=\"sine\" frequency=\"1 Hz\" start=\"3 s\"/>", true},
+        {"<force on=\"p\" fx=\"1 uN\" law=\"table\" table=\"0 s: 0; 2 s: 0; 3 s: 1\"/>", true},
+        {"<force on=\"p\" fx=\"1 uN\" law=\"table\" table=\"0 s: 0; 3 s: 1\"/>", false},
+        {"<force on=\"p\" fx=\"1 uN\" law=\"step\" end=\"2 s\"/>", false},
+        {"<temperature change=\"9 K\" law=\"ramp\" start=\"5 s\" rise=\"1 s\"/>", true}};
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        char xml[4096];
+        snprintf(xml, sizeof xml, SCENE("%s"), row[i].part);
+        fw_diags diags = fw_diags_new(arena);
+        const fw_device *d;
+        if (fw_device_read(arena, "d.xml", xml, strlen(xml), NULL, 0, &diags, &d) != FW_OK)
+            fail_msg("%zu: %s", i, diags.item[0].message);
+        const fw_diag *said = NULL;
+        for (size_t k = 0; k < diags.count; k++)
+            if (diags.item[k].number == 99) said = &diags.item[k];
+        if ((said != NULL) != row[i].late) fail_msg("%s", row[i].part);
+        if (!said) continue;
+        assert_int_equal(said->severity, FW_WARNING);
+        assert_true(said->place.column > 1);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tendons),         cmocka_unit_test(combs),
@@ -323,7 +356,7 @@ int main(void) {
         cmocka_unit_test(surfaces),        cmocka_unit_test(surroundings),
         cmocka_unit_test(ids_and_sets),    cmocka_unit_test(one_mistake_one_message),
         cmocka_unit_test(celsius),         cmocka_unit_test(examples),
-        cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(memory_runs_out), cmocka_unit_test(never_acts),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -171,6 +171,7 @@ static inline double bounds_apart(const fw_motion *all, const fw_motion *other, 
         apart = fmax(apart, fabs(fabs(all->peak[i].angle_rad) - fabs(other->peak[i].angle_rad)));
         error = fmax(error, all->peak[i].error_rad + other->peak[i].error_rad);
     }
+    error -= fw_motion_left_out(all) + fw_motion_left_out(other); /* that is what is looked at */
     *unknown = error / most;
     return apart / most;
 }

@@ -303,6 +303,36 @@ static void what_is_not_known(void **state) {
     fw_arena_free(r.arena);
 }
 
+/* round things that overlap as drawn: said once, with the depth, from a micrometre on */
+static void pressed_as_drawn(void **state) {
+    (void)state;
+    for (int i = 0; i < 6; i++) {
+        rig r;
+        rig_lever(&r, 0.4, true, false, nan_, nan_);
+        const bool inside = i % 2;
+        const double past = (const double[]){-1e-6, 0.9e-6, 20e-6}[i / 2];
+        fw_contact_use use = {.joint = FW_NONE,
+                              .id = "c",
+                              .side = inside ? FW_CONTACT_INSIDE : FW_CONTACT_OUTSIDE,
+                              .body_a = FW_GROUND,
+                              .body_b = 0,
+                              .ax_m = r.body[0].x_m,
+                              .ay_m = r.body[0].y_m + 300e-6,
+                              .distance_m = 300e-6 + (inside ? -past : past),
+                              .stiffness_N_per_m = 1e4,
+                              .damping_Ns_per_m = nan_};
+        r.scene.contact = &use, r.scene.ncontact = 1;
+        for (int twice = 0; twice < 2; twice++)
+            assert_int_equal(fw_effect_contact.check(&r.c, &r.diags), FW_OK);
+        assert_int_equal(r.diags.count, i / 2 == 2);
+        if (i / 2 == 2) {
+            assert_int_equal(r.diags.item[0].number, 134);
+            assert_non_null(strstr(r.diags.item[0].message, "pressed 20 um"));
+        }
+        fw_arena_free(r.arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(element_laws),
@@ -312,6 +342,7 @@ int main(void) {
         cmocka_unit_test(bouncing),
         cmocka_unit_test(line_contact),
         cmocka_unit_test(what_is_not_known),
+        cmocka_unit_test(pressed_as_drawn),
     };
     return cmocka_run_group_tests_name("contact", tests, NULL, NULL);
 }

@@ -111,7 +111,7 @@ static void test_gravity_bound(void **state) {
         assert_true(e->bound < 1.2 * g / (1 - g));
         assert_true(e->called_for && e->active == (e->bound >= 3e-2));
         assert_true((terms.constant[1] != 0) == e->active);
-        if (!e->active) assert_non_null(strstr(e->reason, "below the accuracy wanted"));
+        if (!e->active) assert_non_null(strstr(e->reason, "left out: below the accuracy wanted"));
         assert_near(ledger.left_out, e->active ? 0 : e->bound, 1e-15);
     }
     assert_true(entry(&ledger, "applied-load")->active);
@@ -121,6 +121,33 @@ static void test_gravity_bound(void **state) {
     assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1, &diags, &ledger, &terms), FW_OK);
     assert_true(isinf(entry(&ledger, "gravity")->bound));
     assert_non_null(strstr(entry(&ledger, "gravity")->reason, "elastic"));
+    fw_arena_free(arena);
+}
+
+/* without having been asked for, and what has no part at rest; damping, which acts on rates */
+static void test_equilibrium_reasons(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    fw_effect_ledger ledger;
+    fw_terms terms;
+    lever s;
+    lever_new(&s, 1e-6, 1e-15);
+    s.scene.gravity = true;
+    s.scene.gy_m_per_s2 = -9.81;
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(compile(arena, &s, i ? FW_EFFECTS_WHOLE : FW_EFFECTS_ALL, NULL, 1, &diags,
+                                 &ledger, &terms),
+                         FW_OK);
+        assert_true(entry(&ledger, "gravity")->active && entry(&ledger, "joint-damping")->active);
+        assert_non_null(
+            strstr(entry(&ledger, "gravity")->reason, i ? "leave nothing out" : "were asked for"));
+    }
+    fw_effects_in_equilibrium(&ledger);
+    assert_true(entry(&ledger, "gravity")->active);
+    assert_false(entry(&ledger, "joint-damping")->active || entry(&ledger, "inertia")->active);
+    assert_non_null(strstr(entry(&ledger, "joint-damping")->reason, "no part in an equilibrium"));
+    assert_non_null(strstr(entry(&ledger, "air")->reason, "not called for"));
     fw_arena_free(arena);
 }
 
@@ -137,7 +164,8 @@ static void test_sum_rule(void **state) {
     s.scene.gy_m_per_s2 = -1e-4 * 9.81;
     s.torque[0] = (fw_torque){.body = 0, .value_Nm = 2e-9};
     s.scene.ntorque = 1;
-    assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 0.2, &diags, &ledger, &terms), FW_OK);
+    assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 0.2, &diags, &ledger, &terms),
+                     FW_OK);
     double g = entry(&ledger, "gravity")->bound, d = entry(&ledger, "joint-damping")->bound;
     assert_true(g > 0 && d > 0 && g + d < 0.2);
     assert_near(ledger.left_out, g + d, 1e-15);
@@ -353,11 +381,17 @@ static void test_out_of_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_table),           cmocka_unit_test(test_absent_effects_cost_nothing),
-        cmocka_unit_test(test_gravity_bound),   cmocka_unit_test(test_sum_rule),
-        cmocka_unit_test(test_stop_bound),      cmocka_unit_test(test_weight_along_a_mast),
-        cmocka_unit_test(test_damping_bound),   cmocka_unit_test(test_choices),
-        cmocka_unit_test(test_static_response), cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(test_table),
+        cmocka_unit_test(test_absent_effects_cost_nothing),
+        cmocka_unit_test(test_gravity_bound),
+        cmocka_unit_test(test_sum_rule),
+        cmocka_unit_test(test_equilibrium_reasons),
+        cmocka_unit_test(test_stop_bound),
+        cmocka_unit_test(test_weight_along_a_mast),
+        cmocka_unit_test(test_damping_bound),
+        cmocka_unit_test(test_choices),
+        cmocka_unit_test(test_static_response),
+        cmocka_unit_test(test_out_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

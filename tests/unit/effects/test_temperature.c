@@ -37,6 +37,8 @@ static void stand_new(stand *s) {
         .body = s->body, .pin = s->pin, .nbody = 2, .npin = 2, .variant = &s->variant};
     s->variant.material.expansion.value = 1e-5;
     s->variant.material.modulus_change.value = -2e-4;
+    s->variant.substrate_expansion.value = 1e-5;
+    s->variant.substrate = "slate";
     const double open = (double)NAN;
     for (int i = 0; i < 3; i++)
         s->warm[i] = (fw_temperature){100, open, open, open, NULL, {0}};
@@ -76,6 +78,39 @@ static void what_is_constant(void **state) {
     fw_arena_free(s.arena);
 }
 
+static const char *reason_of(const stand *s) {
+    for (int i = 0; i < s->ledger.count; i++)
+        if (strcmp(s->ledger.item[i].id, "temperature") == 0) return s->ledger.item[i].reason;
+    return "";
+}
+
+/* what the scene leaves open is the material's for the layer, the flow's for the substrate */
+static void what_it_stands_on(void **state) {
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        stand s;
+        stand_new(&s);
+        double own = 1e-5, below = 2e-6;
+        s.variant.substrate_expansion.value = below;
+        if (i & 1) s.warm[0].expansion_per_K = own = 4e-5;
+        if (i & 2) s.warm[0].substrate_expansion_per_K = below = -3e-6;
+        compile(&s);
+        assert_near(s.terms.strain[2], (1 + 100 * below) / (1 + 100 * own) - 1, 1e-15);
+        assert_true((strstr(reason_of(&s), "substrate: slate") != NULL) == (i < 2));
+        fw_arena_free(s.arena);
+    }
+    stand s;
+    stand_new(&s);
+    s.variant.substrate_expansion.unknown = true;
+    s.warm[0].expansion_per_K = 0; /* of the layer only */
+    const fw_effect_choice choice = {FW_EFFECTS_AUTO, NULL};
+    assert_int_equal(
+        fw_effects_compile(s.arena, &s.m, &s.scene, &choice, 1e-3, &s.diags, &s.ledger, &s.terms),
+        FW_INPUT);
+    assert_int_equal(s.diags.item[0].number, 253);
+    fw_arena_free(s.arena);
+}
+
 static void with_a_law(void **state) {
     (void)state;
     static const fw_law sine = {
@@ -84,6 +119,7 @@ static void with_a_law(void **state) {
     stand_new(&s);
     s.scene.ntemperature = 2; /* and 40 K less all the time */
     s.warm[0].law = &sine, s.warm[0].expansion_per_K = 0;
+    s.warm[1].expansion_per_K = s.warm[1].substrate_expansion_per_K = 0;
     s.warm[1].change_K = -40;
     compile(&s);
     assert_false(s.terms.strained);
@@ -115,6 +151,7 @@ static void with_a_law(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_constant),
+                                       cmocka_unit_test(what_it_stands_on),
                                        cmocka_unit_test(with_a_law)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

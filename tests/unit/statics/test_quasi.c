@@ -319,6 +319,18 @@ static void left_out_by_itself(void **state) {
         apart = fmax(apart, fabs(fabs(full->peak[i].angle_rad) - fabs(row->peak[i].angle_rad)));
     }
     assert_true(apart > 0 && apart <= inertia(row)->bound * most);
+    double out = row->ledger.left_out, largest = 0; /* every peak's error knows of it, once */
+    for (int i = 0; i < r.m.npin; i++)
+        largest = fmax(largest, fabs(row->peak[i].angle_rad));
+    assert_relative(fw_motion_left_out(row), out / (1 - out) * largest, 1e-12);
+    for (int i = 0; i < r.m.npin; i++) {
+        assert_true(row->peak[i].error_rad > fw_motion_left_out(row));
+        assert_true(row->peak[i].error_rad < 1.5 * fw_motion_left_out(row));
+    }
+    assert_true(fw_motion_left_out(full) == 0);
+    for (int i = 0; i < row->ledger.count; i++) /* the same six-bar has dampers */
+        if (strcmp(row->ledger.item[i].id, "joint-damping") == 0)
+            assert_false(row->ledger.item[i].active);
     row = move(&f, &r, &named);
     assert_string_equal(row->method, "chain");
     assert_true(inertia(row)->active && row->ledger.left_out < inertia(row)->bound);

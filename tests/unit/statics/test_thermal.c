@@ -252,10 +252,7 @@ static void softer_flexure(void **state) {
         rig_body(&r, "lever", 1, 3, 1, 0, 0);
         rig_pin(&r, "A", FW_GROUND, 0, 0, 0, 16, 0)->hinge = hinge ? 0 : FW_NONE;
         rig_velocity(&r, 0, 0, 0.1, 0.1);
-        fw_temperature warm = {.change_K = 50,
-                               .expansion_per_K = (double)NAN,
-                               .substrate_expansion_per_K = (double)NAN,
-                               .modulus_change_per_K = -2e-3};
+        fw_temperature warm = {.change_K = 50, .modulus_change_per_K = -2e-3};
         r.scene.temperature = &warm, r.scene.ntemperature = 1;
         r.scene.duration_s = 5;
         const fw_motion *m = run(&f, &r, NULL, 1e-12, 11);
