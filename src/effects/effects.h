@@ -141,6 +141,9 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, con
                              const fw_effect_choice *choice, double accuracy, fw_diags *diags,
                              fw_effect_ledger *ledger, fw_terms *terms);
 
+/* a copy in the arena that the arrays are in; NULL: out of memory */
+const fw_terms *fw_terms_keep(fw_arena *arena, const fw_terms *terms);
+
 /* The mechanism that the terms act on: `mechanism` itself, or where they hold strains one with
    those strains, whose pose is to be assembled again; points in the terms (loads, springs, ports)
    follow. Once after each fw_effects_compile. */
