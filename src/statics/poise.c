@@ -22,13 +22,14 @@
 const double fw_poise_growth = 2;
 static const double fw_left = 0.1;      /* of the way: it has left */
 static const double fw_most_work = 2e8; /* floating-point operations of all looks */
-enum { FW_LEAST_LOOKS = 2, FW_MOST_LOOKS = 12, FW_MOST_BREAKS = 4096 };
+enum { FW_LEAST_LOOKS = 2, FW_STEADY_LOOKS = 4, FW_MOST_LOOKS = 12, FW_MOST_BREAKS = 4096 };
 
 typedef struct looker {
     fw_rest w;
     const fw_motion *motion;
     double *at; /* (pieces + 1) ends of the smooth pieces, s */
     int pieces;
+    bool vary; /* some law does within a piece */
     double lowest, growth;
     double t_s, piece_s, *where, *shape; /* of the lowest: u and its mode (n) */
     fw_poise *out;
@@ -63,8 +64,11 @@ static int law_count(const fw_terms *t, const fw_mechanism *m) {
 static fw_status find_pieces(looker *k, const fw_terms *terms) {
     double end = k->w.scene->duration_s;
     int laws = law_count(terms, k->w.mechanism), have = 0;
-    for (int i = 0; i < laws; i++)
-        have += fw_law_breaks(law_at(terms, k->w.mechanism, i), end, NULL, 0);
+    for (int i = 0; i < laws; i++) {
+        const fw_law *law = law_at(terms, k->w.mechanism, i);
+        have += fw_law_breaks(law, end, NULL, 0);
+        k->vary = k->vary || !(fw_law_is_constant(law) || law->kind == FW_LAW_STEP);
+    }
     if (have > FW_MOST_BREAKS) have = FW_MOST_BREAKS;
     FW_NEED(k->at = fw_arena_array(k->w.arena, double, (size_t)have + 2));
     int count = 1; /* at[0] = 0 */
@@ -132,7 +136,8 @@ static fw_status look(looker *k, double t_s, double piece_s, double weight_s) {
 /* pieces that are many share the looks: then one in the middle of every so many */
 static fw_status look_along(looker *k) {
     double n = k->w.model->nq, most = fw_most_work / (30 * n * n * n);
-    int looks = (int)fmin(fmax(most, FW_LEAST_LOOKS), FW_MOST_LOOKS), each = looks / k->pieces;
+    int usual = k->pieces > 1 || k->vary ? FW_MOST_LOOKS : FW_STEADY_LOOKS;
+    int looks = (int)fmin(fmax(most, FW_LEAST_LOOKS), usual), each = looks / k->pieces;
     double end = k->at[k->pieces];
     if (each < 2) {
         for (int i = 0; i < looks; i++) {

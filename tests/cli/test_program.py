@@ -265,6 +265,54 @@ class Plan(InTemporary):
         self.assertRegex(result.stdout, "inconclusive a .*60 V, beyond the pull-in voltage 27.17 V")
         self.assertRegex(run("check", device, "-q").stdout, "beyond the pull-in voltage")
 
+    def followed(self, text, sentence):
+        """the text with the loads of every scene times the share that the sentence names"""
+        loads = r'\b(fx|fy|ax|ay|pull|draw|value)="([-0-9.e]+) '
+        found = re.findall(r"the (loads|voltages)(?: \([^)]*\))? of scene (\w+) to ([0-9.]+) %", sentence)
+        self.assertTrue(found, sentence)
+        for what, scene, share in found:
+            start = text.index(f'<scene name="{scene}"')
+            end = text.index("</scene>", start)
+            pattern = loads if what == "loads" else r'\b(voltage)="([-0-9.e]+) '
+            part = re.sub(pattern, lambda m: f'{m.group(1)}="{float(m.group(2)) * float(share) / 100:.9g} ',
+                          text[start:end])
+            self.assertNotEqual(part, text[start:end])
+            text = text[:start] + part + text[end:]
+        return text
+
+    def test_advice_on_loads_is_followed(self):
+        def scene(name, loads):
+            return f'<scene name="{name}" duration="5 ms">{loads}</scene>'
+
+        def tendon(how, x="1 mm", y="2 mm"):
+            return (f'<tendon id="T" {how}><eyelet on="arm" x="0.5 mm"/><eyelet on="ground" x="{x}" '
+                    f'y="{y}"/></tendon>')
+        force = '<force on="arm" x="0.5 mm" fy="0.5 mN"/>'
+        cases = {
+            "force": ([scene("a", force)], "the loads of scene a"),
+            "pull": ([scene("a", tendon('pull="1 mN"'))], "the loads (tendon pulls) of scene a"),
+            "draw": ([scene("a", tendon('draw="0.8 mm" stiffness="20 N/m"'))],
+                     "the loads (tendon draws) of scene a"),
+            "shock": ([scene("a", '<base-motion ay="30000 m/s^2"/>')], "the loads (base motion) of scene a"),
+            "pressed": ([scene("a", tendon('pull="3 mN"', "-1 mm", "0 mm"))],
+                        "the loads (tendon pulls) of scene a"),
+            "thrown": ([self.plate("a", 26.4)], "the voltages of scene a"),
+            "pulse": ([self.plate("a", 60, 'law="step" end="0.02 ms"')], "the voltages of scene a"),
+            "fringe": ([self.plate("a", 26.9, 'law="ramp" rise="45 ms"', "50 ms")], "the voltages of scene a"),
+            "several": ([scene("a", force + tendon('pull="1 mN"')), self.plate("b", 60),
+                         scene("c", '<torque on="arm" value="0.001 uN m"/>')],
+                        "the loads (forces, tendon pulls) of scene a"),
+        }
+        for name, (scenes, says) in cases.items():
+            with self.subTest(name):
+                device = self.arm(*scenes)
+                result = run("check", device)
+                self.assertIn(result.returncode, (1, 4), name)
+                self.assertIn("run and accepted", result.stdout)
+                self.assertIn(says, result.stdout)
+                text = self.followed(device.read_text(), result.stdout)
+                self.expect(run("check", self.device(text, "followed.xml")), 0)
+
     def test_a_loop_that_does_not_close_is_an_error(self):
         leaf = (ROOT / "docs/gallery/leaf-four-bar/device.xml").read_text()
         result = self.expect(run("check", self.device(leaf.replace('b-x="1.8 mm"', 'b-x="1.9 mm"'))), 3)
