@@ -142,7 +142,8 @@ FW_API const char *fw_design_name(const fw_design *design);
 FW_API int fw_design_judge(fw_design *design);
 
 /* The answer, as the exit status of the program: 0 accepted, 1 rejected (also when a flow cannot
-   make the device), 4 inconclusive (the error band straddles the limit); -1 before fw_design_judge.
+   make the device), 4 inconclusive (the error band straddles
+   the limit, or a scene may pull in or stays where it is not stable); -1 before fw_design_judge.
    After fw_design_fabricate it also knows of masks that could not be made. */
 FW_API int fw_design_decision(const fw_design *design);
 

@@ -92,6 +92,7 @@ typedef struct fw_motion {
     const char *integrator, *method; /* used, and why: `reason` */
     const char *reason;
     const char *stabilise, *method_report; /* what the method has to say, or NULL */
+    const fw_terms *terms;                 /* what acted, for those who look at it again */
 } fw_motion;
 
 /* one scene from the assembled position, with inertia. FW_SOLVER when the steps become too small.

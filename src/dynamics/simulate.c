@@ -347,6 +347,7 @@ fw_status fw_simulate_compiled(fw_arena *arena, const fw_mechanism *mechanism,
     *motion = NULL;
     FW_NEED(r.motion = fw_arena_one(arena, fw_motion));
     r.motion->ledger = *ledger;
+    FW_NEED(r.motion->terms = fw_terms_keep(arena, given));
     FW_TRY(fw_check_names(options, diags, r.motion));
     FW_TRY(fw_method_choose(&r, terms));
     FW_TRY(fw_effects_strain(arena, mechanism, terms, &r.mechanism));

@@ -258,9 +258,8 @@ static bool valid(const fw_force_element *e, const fw_seen *s, const char **why)
         return false;
     }
     if (!(least_gap(c, place) >= fw_nearest)) {
-        *why = "the electrodes have come within 5 % of their gap of each other: they touch, the "
-               "voltage is beyond pull-in. Use less voltage, a stiffer suspension or a wider gap "
-               "(flexwright statics reports the pull-in voltage)";
+        *why = "the electrodes have come within 5 % of their gap of each other: they touch, "
+               "which is pull-in. Use less voltage, a stiffer suspension or a wider gap";
         return false;
     }
     return true;

@@ -151,6 +151,8 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, con
 
 /* the ledger of equilibria: neither inertia nor what acts on velocities has a part in them */
 void fw_effects_in_equilibrium(fw_effect_ledger *ledger);
+/* a copy in the arena that the arrays are in; NULL: out of memory */
+const fw_terms *fw_terms_keep(fw_arena *arena, const fw_terms *terms);
 
 /* The mechanism that the terms act on: `mechanism` itself, or where they hold strains one with
    those strains, whose pose is to be assembled again; points in the terms (loads, springs, ports)

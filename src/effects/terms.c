@@ -180,3 +180,9 @@ void fw_terms_largest_force(const fw_mechanism *m, const fw_terms *terms, double
                             double *force) {
     add_all(m, terms, end_s, force);
 }
+
+const fw_terms *fw_terms_keep(fw_arena *arena, const fw_terms *terms) {
+    fw_terms *kept = fw_arena_one(arena, fw_terms);
+    if (kept) *kept = *terms;
+    return kept;
+}

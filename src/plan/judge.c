@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assembly/assembly.h"
 #include "plan/stages.h"
+#include "statics/poise.h"
 #include "statics/quasi.h"
 #include <math.h>
 #include <string.h>
@@ -93,16 +94,35 @@ static void note_tolerance(fw_plan *plan, double asked, double used) {
                         "rtol %s: %s is used, the tightest that round-off leaves room for", a, u);
 }
 
+/* electrodes that touched (the messages from `from` on say so): was it the voltage as such? */
+static fw_status explain_pull_in(fw_plan *plan, const fw_pull_in *pull_in, size_t from) {
+    for (size_t i = from; pull_in && i < plan->diags.count; i++) {
+        const fw_diag *d = &plan->diags.item[i];
+        if (d->number != 242 || d->severity != FW_ERROR) continue;
+        const char *text = fw_pull_in_explain(plan->arena, pull_in);
+        FW_NEED(text);
+        fw_diag_warning(&plan->diags, 242, d->place, "%s", text);
+        break;
+    }
+    return FW_SOLVER;
+}
+
 fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mechanism **mechanism,
                            const fw_scene **scene) {
     *scene = NULL;
     fw_motion_options options = plan->options.verdict.motion;
     FW_TRY(fw_plan_start(plan, mechanism, scene, &options.moved_m));
     options.reactions = true;
-    const fw_pull_in *pull_in; /* only its warning: it says why a run may end early */
+    const fw_pull_in *pull_in; /* it says why a run may end early */
+    const fw_poise *poise;     /* only its warning */
     FW_TRY(
         fw_pull_in_find(plan->arena, *mechanism, *scene, &options.effects, &plan->diags, &pull_in));
-    FW_TRY(fw_move_scene(plan->arena, *mechanism, *scene, &options, &plan->diags, motion));
+    size_t said = plan->diags.count;
+    fw_status status =
+        fw_move_scene(plan->arena, *mechanism, *scene, &options, &plan->diags, motion);
+    if (status == FW_SOLVER) return explain_pull_in(plan, pull_in, said);
+    FW_TRY(status);
+    FW_TRY(fw_poise_find(plan->arena, *mechanism, *scene, *motion, &plan->diags, &poise));
     note_tolerance(plan, options.rtol, (*motion)->stats.rtol);
     return FW_OK;
 }

@@ -9,10 +9,21 @@ static void band(fw_text *out, const fw_hinge_verdict *h) {
         fw_report_markup(out, " ({p} to {p})", h->utilisation_low, h->utilisation_high);
 }
 
-static bool beyond_pull_in(const fw_verdict *v) {
+static bool has_reasons(const fw_verdict *v) {
     for (int i = 0; i < v->nvariant; i++)
-        if (v->variant[i].beyond_pull_in) return true;
+        if (v->variant[i].nreason > 0) return true;
     return false;
+}
+
+/* scenes that are not accepted for something else than a hinge */
+static void reasons(fw_text *out, const fw_verdict *v) {
+    for (int i = 0; i < v->nvariant; i++)
+        for (int k = 0; k < v->variant[i].nreason; k++) {
+            const fw_reason *r = &v->variant[i].reason[k];
+            fw_report_markup(out, "<p class=\"why\">{r}: {s} (FW-D{i}).</p>\n",
+                             r->decision == FW_REJECT ? "REJECTED" : "Inconclusive", r->text,
+                             r->number);
+        }
 }
 
 static void why(fw_text *out, const fw_verdict *v) {
@@ -24,8 +35,9 @@ static void why(fw_text *out, const fw_verdict *v) {
     fw_text_add(out, "<p class=\"why\">");
     if (v->governing >= 0 && v->governing < v->nhinge) {
         const fw_hinge_verdict *h = &v->hinge[v->governing];
+        fw_decision decision = has_reasons(v) ? h->decision : v->decision;
         fw_report_markup(out, "Hinge {s} turns by {d}; {r}{d} is allowed", h->id,
-                         fabs(h->peak_angle_rad), v->decision == FW_REJECT ? "only " : "",
+                         fabs(h->peak_angle_rad), decision == FW_REJECT ? "only " : "",
                          h->limit_angle_rad);
         if (h->force_share > 0.0) /* rotation alone would be less: say where the rest comes from */
             fw_report_markup(out,
@@ -34,14 +46,11 @@ static void why(fw_text *out, const fw_verdict *v) {
                              h->utilisation);
         else
             fw_report_markup(out, ": {p} of its limit. ", h->utilisation);
-        if (v->decision == FW_INCONCLUSIVE && beyond_pull_in(v))
-            fw_text_add(out, "A scene asks for more than the pull-in voltage of a comb drive: not "
-                             "accepted.");
-        else
-            fw_text_add(out, closing[v->decision <= FW_REJECT ? v->decision : FW_INCONCLUSIVE]);
+        fw_text_add(out, closing[decision <= FW_REJECT ? decision : FW_INCONCLUSIVE]);
     } else
-        fw_text_add(out, "No hinge of this device has a limit to be checked.");
+        fw_text_add(out, "No hinge of this device was run to its end.");
     fw_text_add(out, "</p>\n");
+    reasons(out, v);
 }
 
 static void facts(fw_text *out, const fw_verdict *v) {

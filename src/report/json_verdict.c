@@ -3,6 +3,7 @@
 #include "report/json.h"
 #include "report/json_effects.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const char *word(fw_decision decision) {
@@ -129,6 +130,24 @@ static json_t *pull_ins(const fw_report_input *in, bool *failed) {
     return list;
 }
 
+static json_t *reasons(const fw_verdict *v, bool *failed) {
+    json_t *list = json_array();
+    for (int i = 0; i < v->nvariant; i++)
+        for (int k = 0; k < v->variant[i].nreason; k++) {
+            const fw_reason *r = &v->variant[i].reason[k];
+            char code[16];
+            snprintf(code, sizeof code, "FW-D%03d", r->number);
+            json_t *o = json_object();
+            fw_json_put(o, "scene", fw_json_text(r->scene), failed);
+            fw_json_put(o, "flow", fw_json_text(r->flow), failed);
+            fw_json_put(o, "verdict", fw_json_text(word(r->decision)), failed);
+            fw_json_put(o, "code", fw_json_text(code), failed);
+            fw_json_put(o, "text", fw_json_text(r->text), failed);
+            fw_json_push(list, o, failed);
+        }
+    return list;
+}
+
 static json_t *advice(const fw_verdict *v, bool *failed) {
     json_t *list = json_array();
     for (int i = 0; i < v->nadvice; i++) {
@@ -164,6 +183,7 @@ fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out) {
         fw_json_put(root, "pull_in", pull_in, &failed);
     else
         json_decref(pull_in);
+    fw_json_put(root, "reasons", reasons(v, &failed), &failed);
     json_t *accuracy = json_object();
     fw_json_put(accuracy, "wanted", fw_json_real(v->accuracy_wanted), &failed);
     fw_json_put(accuracy, "estimated", fw_json_real(v->accuracy_estimated), &failed);

@@ -87,6 +87,16 @@ static void pull_ins(fw_text *out, const fw_report_input *in) {
         }
 }
 
+static void reasons(fw_text *out, const fw_verdict *v) {
+    for (int i = 0; i < v->nvariant; i++)
+        for (int k = 0; k < v->variant[i].nreason; k++) {
+            const fw_reason *r = &v->variant[i].reason[k];
+            fw_text_printf(out, "%s %s", fw_decision_text(r->decision), r->scene);
+            if (r->flow) fw_text_printf(out, " (%s)", r->flow);
+            fw_text_printf(out, ": %s [FW-D%03d]\n", r->text, r->number);
+        }
+}
+
 static void advice(fw_text *out, const fw_verdict *v) {
     if (v->nadvice == 0 && !v->advice_note) return;
     fw_text_add(out, "\nwhat to change:\n");
@@ -104,7 +114,8 @@ fw_status fw_report_verdict_text(const fw_report_input *input, fw_terminal_style
     fw_text_printf(out, "%s: %s%s%s\n", input->device->name, style.colour ? paint[v->decision] : "",
                    word[v->decision], style.colour ? "\033[0m" : "");
     if (v->governing != FW_NONE) governing(out, &v->hinge[v->governing]);
-    if (style.detail >= 0) hinges(out, v);
+    reasons(out, v);
+    if (style.detail >= 0 && v->nhinge > 0) hinges(out, v);
     if (style.detail >= 0) pull_ins(out, input);
     advice(out, v);
     for (int i = 0; style.detail >= 0 && v->decision != FW_REJECT && i < input->nflow; i++)

@@ -313,12 +313,55 @@ static fw_status seek(seeker *k, const fw_mechanism *mechanism, const fw_effect_
                                : status;
 }
 
+double fw_pull_in_margin(const fw_pull_in *p) {
+    return sqrt(1 + p->fringe);
+}
+
+bool fw_pull_in_dynamic(const fw_pull_in *p) {
+    return p->margin >= 1;
+}
+
+const char *fw_pull_in_explain(fw_arena *arena, const fw_pull_in *p) {
+    char at[32], asked[32];
+    fw_number_text(at, sizeof at, p->voltage_V, 4);
+    fw_number_text(asked, sizeof asked, p->largest_V, 4);
+    bool none = p->kind == FW_PULL_IN_NONE;
+    if (!fw_pull_in_dynamic(p))
+        return fw_arena_printf(arena,
+                               "static pull-in of comb drive %s %s %s V, below the %s V of the "
+                               "scene",
+                               p->comb, none ? "was not found up to" : "is at", at, asked);
+    return fw_arena_printf(
+        arena,
+        "this is dynamic pull-in: static pull-in of comb drive %s is %s %s V, above the %s V of "
+        "the "
+        "scene, but a voltage or load that comes suddenly, or in step with an oscillation, throws "
+        "the rotor further. Let it rise slowly, or use less",
+        p->comb, none ? "not below" : "at", isinf(p->voltage_V) ? "any" : at, asked);
+}
+
+static fw_status warn_fringe(const seeker *k, const char *scene, fw_diags *diags) {
+    const fw_pull_in *out = k->out;
+    char at[32], asked[32], part[32];
+    fw_diag_warning(
+        diags, 248, out->place,
+        "scene %s may pull in: comb drive %s does so at %s V without fringe fields, which "
+        "add up to %s %% to its capacitance, and the scene asks for up to %s V",
+        scene, out->comb, fw_number_text(at, sizeof at, out->voltage_V, 5),
+        fw_number_text(part, sizeof part, 100 * out->fringe, 2),
+        fw_number_text(asked, sizeof asked, out->largest_V, 5));
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
 static fw_status warn(const seeker *k, const fw_scene *scene, fw_diags *diags) {
     static const char *const how[] = {"", "snaps along the drive", "moves aside", "tilts"};
     const fw_pull_in *out = k->out;
     const char *name = scene->name ? scene->name : "(unnamed)";
     char at[32], asked[32];
-    if (out->margin >= 1) return FW_OK;
+    if (out->margin >= 1)
+        return out->kind != FW_PULL_IN_NONE && out->margin < fw_pull_in_margin(out)
+                   ? warn_fringe(k, name, diags)
+                   : FW_OK;
     fw_number_text(at, sizeof at, out->voltage_V, 5);
     fw_number_text(asked, sizeof asked, out->largest_V, 5);
     if (out->kind == FW_PULL_IN_NONE)

@@ -29,12 +29,23 @@ typedef struct fw_pull_in {
     const char *why;   /* NONE: what ended it */
 } fw_pull_in;
 
+/* margin below which it may not hold: fringe fields, which are left out, raise C and so the force
+   by up to `fringe`, and it goes with V^2: sqrt(1 + fringe) */
+double fw_pull_in_margin(const fw_pull_in *p);
+/* the static voltage lies above the scene's: electrodes that touch all the same were thrown there
+   (dynamic pull-in) */
+bool fw_pull_in_dynamic(const fw_pull_in *p);
+/* what electrodes that touched have to do with the static pull-in voltage, a sentence; NULL: memory
+ */
+const char *fw_pull_in_explain(fw_arena *arena, const fw_pull_in *p);
+
 enum { FW_PULL_IN_MOST = 150 }; /* unknowns: some hundred dense evaluations of 30 n^3 */
 
 /* All combs at their largest voltages of the scene times sqrt(s), other loads and drivers in full
    as they are at its end, from s = 0 to the first loss of stability. *found is NULL for a scene
-   without comb drives. Warns with FW-D248 when the scene's voltage is beyond, with FW-D249 when it
-   could not be followed up to the scene's voltage. FW_OK then too; FW_NOMEM, FW_CANCELLED. */
+   without comb drives. Warns with FW-D248 when the scene's voltage is beyond, or within the share
+   of fringe fields, with FW-D249 when it could not be followed up to the scene's voltage. FW_OK
+   then too; FW_NOMEM, FW_CANCELLED. */
 fw_status fw_pull_in_find(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                           const fw_effect_choice *effects, fw_diags *diags,
                           const fw_pull_in **found);

@@ -311,6 +311,7 @@ fw_status fw_row_of_equilibria(fw_arena *arena, const fw_mechanism *mechanism,
     if (r.why) *why = r.why;
     FW_TRY(status);
     fw_row_finish(&r);
+    FW_NEED(r.motion->terms = fw_terms_keep(arena, terms));
     r.motion->stats.cpu_s = cpu_seconds() - began;
     *motion = r.motion;
     return FW_OK;

@@ -19,8 +19,8 @@ static fw_flexure *flexure_of(fw_trial *trial, const fw_trial_hinge *h) {
     return &trial->changed->flexure[trial->changed->joint[h->joint].flexure];
 }
 
-/* repeats `change` on every hinge that is not accepted, and judges, until all are; gives up when a
-   change is not possible or the worst hinge gets no better by it */
+/* repeats `change` on every hinge (and reason against a scene) that is not accepted, and judges,
+   until all are; gives up when a change is not possible or the worst hinge gets no better by it */
 static fw_status repeat(fw_trial *trial,
                         bool (*change)(fw_trial *, const fw_trial_hinge *, double)) {
     double worst_before = HUGE_VAL;
@@ -30,12 +30,12 @@ static fw_status repeat(fw_trial *trial,
         for (int k = 0; k < trial->nhinge; k++) {
             const fw_trial_hinge *h = &trial->hinge[k];
             if (h->decision == FW_ACCEPT) continue;
-            worst = fmax(worst, excess(h));
+            if (h->joint != FW_NONE) worst = fmax(worst, excess(h));
             if (!change(trial, h, extra)) return FW_OK;
             any = true;
         }
-        if (!any || (round > 1 && worst > 0.999 * worst_before)) return FW_OK;
-        worst_before = worst;
+        if (!any || (round > 1 && worst > 0 && worst > 0.999 * worst_before)) return FW_OK;
+        worst_before = worst > 0 ? worst : HUGE_VAL;
         FW_TRY(fw_trial_run(trial));
         if (!trial->drawn) return FW_OK;
     }
@@ -46,8 +46,9 @@ static fw_status repeat(fw_trial *trial,
 
 /* rounded up to 1 um of length, or 0.1 um of the radius where the file gives that */
 static bool lengthen(fw_trial *trial, const fw_trial_hinge *h, double extra) {
-    fw_flexure *f = flexure_of(trial, h);
+    if (h->joint == FW_NONE) return false;        /* softer flexures are less stable */
     if (h->utilisation_high <= 1.0) return false; /* its solids meet: length is not the cause */
+    fw_flexure *f = flexure_of(trial, h);
     double length = f->length_m * fmin(fmax(h->utilisation_high * extra, 1.0005), 3.0);
     bool by_radius = f->kind == FW_FLEXURE_CSFH && f->radius_given;
     double unit = by_radius ? 1e-7 * f->angle_rad : 1e-6;
@@ -89,15 +90,23 @@ fw_status fw_change_lengths(fw_trial *trial, fw_verdict *out, bool *done) {
 
 /* ---- widths: under a given load the stress goes with 1/t^2, as long as stiffness follows ---- */
 
-static bool widen(fw_trial *trial, const fw_trial_hinge *h, double extra) {
-    fw_flexure *f = flexure_of(trial, h);
-    if (h->utilisation_high <= 1.0) return false;
-    double t = f->width_m * fmin(fmax(sqrt(h->utilisation_high * extra), 1.0005), 1.5);
-    f->width_m = ceil(t * 1e7 - 1e-6) * 1e-7;
+static bool widen_one(fw_trial *trial, fw_flexure *f, double by) {
+    f->width_m = ceil(f->width_m * fmin(fmax(by, 1.0005), 1.5) * 1e7 - 1e-6) * 1e-7;
     const fw_flexure *was = &trial->device->flexure[f - trial->changed->flexure];
     bool slender = f->width_m <= 0.25 * f->length_m &&
                    (f->kind != FW_FLEXURE_CSFH || f->width_m <= 0.5 * f->radius_m);
     return slender && f->width_m <= most_wider * was->width_m;
+}
+
+/* what a scene bears goes with the stiffness of all flexures, t^3 */
+static bool widen(fw_trial *trial, const fw_trial_hinge *h, double extra) {
+    if (h->utilisation_high <= 1.0) return false;
+    if (h->joint != FW_NONE)
+        return widen_one(trial, flexure_of(trial, h), sqrt(h->utilisation_high * extra));
+    for (int i = 0; i < trial->changed->nflexure; i++)
+        if (!widen_one(trial, &trial->changed->flexure[i], cbrt(h->utilisation_high * extra)))
+            return false;
+    return trial->changed->nflexure > 0;
 }
 
 fw_status fw_change_widths(fw_trial *trial, fw_verdict *out, bool *done) {
@@ -117,13 +126,26 @@ static bool same(const char *a, const char *b) {
     return a && b && strcmp(a, b) == 0;
 }
 
-static void scale_scene(fw_scene *s, double by) {
+/* forces go with the square of a voltage; what is not there (NaN) stays so. false: nothing to scale
+ */
+static bool scale_scene(fw_scene *s, double by) {
     for (int i = 0; i < s->nforce; i++) {
         s->force[i].fx_N *= by;
         s->force[i].fy_N *= by;
     }
     for (int i = 0; i < s->ntorque; i++)
         s->torque[i].value_Nm *= by;
+    for (int i = 0; i < s->ntendon; i++) {
+        s->tendon[i].pull_N *= by;
+        s->tendon[i].draw_m *= by;
+    }
+    for (int i = 0; i < s->nbase; i++) {
+        s->base[i].ax_m_per_s2 *= by;
+        s->base[i].ay_m_per_s2 *= by;
+    }
+    for (int i = 0; i < s->ncomb; i++)
+        s->comb[i].voltage_V *= sqrt(by);
+    return s->nforce + s->ntorque + s->ntendon + s->nbase + s->ncomb > 0;
 }
 
 /* a scene or workspace is scaled once per round, by the hinge that it strains most */
@@ -142,8 +164,8 @@ static bool lighten(fw_trial *trial, const fw_trial_hinge *h, double extra) {
     double by = fmax(fmin(1.0 / over, 0.9995), 1e-6);
     for (int i = 0; i < trial->changed->nscene; i++)
         if (same(trial->changed->scene[i].name, h->scene)) {
-            scale_scene(&trial->changed->scene[i], by);
-            return trial->changed->scene[i].nforce + trial->changed->scene[i].ntorque > 0;
+            trial->share[i] *= by;
+            return scale_scene(&trial->changed->scene[i], by);
         }
     for (int i = 0; i < trial->changed->nworkspace; i++) {
         fw_workspace_box *w = &trial->changed->workspace[i];
@@ -159,24 +181,48 @@ static double kept(double now, double was) {
     return was != 0.0 ? now / was : 1.0;
 }
 
-/* the share that is left of each scene's loads and of each workspace, rounded down to 0.1 % */
+/* rounded down to three digits, in per cent */
+static void add_share(fw_text *text, double share) {
+    double unit = pow(10, floor(log10(share)) - 2);
+    fw_text_number(text, 100 * unit * floor(share / unit * (1 + 1e-12)), 3);
+    fw_text_add(text, " %");
+}
+
+/* "the loads of scene push to 50 %"; what is scaled besides forces and torques is named */
+static void say_scene(fw_text *text, const fw_scene *s, double share, const char **join) {
+    bool pulls = false, draws = false;
+    for (int i = 0; i < s->ntendon; i++) {
+        pulls = pulls || !isnan(s->tendon[i].pull_N);
+        draws = draws || !isnan(s->tendon[i].draw_m);
+    }
+    const char *const kind[] = {s->nforce ? "forces" : NULL, s->ntorque ? "torques" : NULL,
+                                pulls ? "tendon pulls" : NULL, draws ? "tendon draws" : NULL,
+                                s->nbase ? "base motion" : NULL};
+    bool others = pulls || draws || s->nbase > 0, first = true;
+    if (others || s->nforce + s->ntorque > 0) {
+        fw_text_printf(text, "%sthe loads", *join);
+        for (size_t i = 0; others && i < sizeof kind / sizeof kind[0]; i++) {
+            if (!kind[i]) continue;
+            fw_text_printf(text, first ? " (%s" : ", %s", kind[i]);
+            first = false;
+        }
+        fw_text_printf(text, "%s of scene %s to ", others ? ")" : "", s->name);
+        add_share(text, share);
+        *join = ", ";
+    }
+    if (s->ncomb == 0) return;
+    fw_text_printf(text, "%sthe voltages of scene %s to ", *join, s->name);
+    add_share(text, sqrt(share));
+    *join = ", ";
+}
+
+/* the share that is left of each scene's loads and of each workspace */
 static fw_status say_loads(fw_trial *trial, const char **sentence) {
     fw_text text = fw_text_new(trial->arena);
     const char *join = "";
-    for (int i = 0; i < trial->device->nscene; i++) {
-        const fw_scene *was = &trial->device->scene[i], *s = &trial->changed->scene[i];
-        double share = 1.0;
-        for (int k = 0; k < s->nforce; k++)
-            share = fmin(share, fmin(kept(s->force[k].fx_N, was->force[k].fx_N),
-                                     kept(s->force[k].fy_N, was->force[k].fy_N)));
-        for (int k = 0; k < s->ntorque; k++)
-            share = fmin(share, kept(s->torque[k].value_Nm, was->torque[k].value_Nm));
-        if (share > 0.9999) continue;
-        fw_text_printf(&text, "%sthe loads of scene %s to ", join, was->name);
-        fw_text_number(&text, floor(share * 1000.0) / 10.0, 3);
-        fw_text_add(&text, " %");
-        join = ", ";
-    }
+    for (int i = 0; i < trial->device->nscene; i++)
+        if (trial->share[i] < 0.9999)
+            say_scene(&text, &trial->device->scene[i], trial->share[i], &join);
     for (int i = 0; i < trial->device->nworkspace; i++) {
         const fw_workspace_box *was = &trial->device->workspace[i],
                                *w = &trial->changed->workspace[i];
@@ -186,8 +232,7 @@ static fw_status say_loads(fw_trial *trial, const char **sentence) {
         if (share > 0.9999) continue;
         fw_text_printf(&text, "%sthe required workspace%s%s to ", join, was->flow ? " of " : "",
                        was->flow ? was->flow : "");
-        fw_text_number(&text, floor(share * 1000.0) / 10.0, 3);
-        fw_text_add(&text, " %");
+        add_share(&text, share);
         join = ", ";
     }
     FW_TRY(fw_text_end(&text));

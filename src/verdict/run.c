@@ -15,7 +15,7 @@ static void unreachable(const fw_device *device, const fw_variant_verdict *v, fw
 }
 
 static bool judged(const fw_variant_verdict *v, const fw_device *device) {
-    bool any = v->workspace.required;
+    bool any = v->workspace.required || v->nreason > 0;
     for (int i = 0; i < device->nscene; i++)
         any = any || v->motion[i];
     return any;
@@ -113,6 +113,13 @@ static fw_status draw(fw_arena *arena, const fw_device *device, fw_diags *diags,
     return fatal ? status : FW_OK;
 }
 
+/* not so where a tighter run would change nothing: what is inconclusive is no band of a hinge */
+static bool straddles(const fw_verdict *verdict) {
+    for (int k = 0; k < verdict->nhinge; k++)
+        if (verdict->hinge[k].decision == FW_INCONCLUSIVE) return true;
+    return false;
+}
+
 fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
                          const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict,
                          const fw_layout **layout) {
@@ -122,7 +129,8 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
     FW_TRY(attempt(arena, device, *layout, options, diags, verdict));
 
     /* a band that straddles 1 because of the integrator: try tighter by itself, once */
-    if (verdict->decision == FW_INCONCLUSIVE && verdict->accuracy_estimated > 1e-5) {
+    if (verdict->decision == FW_INCONCLUSIVE && straddles(verdict) &&
+        verdict->accuracy_estimated > 1e-5) {
         fw_verdict_options tight = *options;
         tight.motion.accuracy = 1e-6;
         tight.motion.rtol = 0.0;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "verdict/trial.h"
+#include "verdict/scene.h"
 #include <math.h>
 #include <string.h>
 
@@ -10,7 +11,11 @@ static fw_status copy_scenes(fw_arena *arena, fw_device *d) {
         fw_scene *s = &d->scene[i];
         size_t f = (size_t)s->nforce, t = (size_t)s->ntorque;
         FW_NEED(s->force = fw_arena_grow(arena, s->force, f, f, sizeof *s->force));
+        size_t p = (size_t)s->ntendon, c = (size_t)s->ncomb, b = (size_t)s->nbase;
         FW_NEED(s->torque = fw_arena_grow(arena, s->torque, t, t, sizeof *s->torque));
+        FW_NEED(s->tendon = fw_arena_grow(arena, s->tendon, p, p, sizeof *s->tendon));
+        FW_NEED(s->comb = fw_arena_grow(arena, s->comb, c, c, sizeof *s->comb));
+        FW_NEED(s->base = fw_arena_grow(arena, s->base, b, b, sizeof *s->base));
     }
     return FW_OK;
 }
@@ -38,6 +43,15 @@ static void remember(fw_trial *trial, const fw_verdict *verdict, const fw_layout
                                            h->scene,
                                            h->flow};
     }
+    for (int i = 0; i < verdict->nvariant; i++)
+        for (int k = 0; k < verdict->variant[i].nreason; k++) {
+            const fw_reason *r = &verdict->variant[i].reason[k];
+            trial->hinge[trial->nhinge++] = (fw_trial_hinge){.joint = FW_NONE,
+                                                             .decision = r->decision,
+                                                             .utilisation_high = 1 / r->keep,
+                                                             .scene = r->scene,
+                                                             .flow = r->flow};
+        }
 }
 
 fw_status fw_trial_start(fw_arena *arena, const fw_device *device,
@@ -45,7 +59,12 @@ fw_status fw_trial_start(fw_arena *arena, const fw_device *device,
                          fw_trial *trial) {
     *trial = (fw_trial){
         .arena = arena, .device = device, .options = options, .verdict = verdict, .drawn = true};
-    FW_NEED(trial->hinge = fw_arena_array(arena, fw_trial_hinge, (size_t)device->njoint));
+    size_t most =
+        (size_t)device->njoint + FW_REASONS * (size_t)verdict->nvariant * (size_t)device->nscene;
+    FW_NEED(trial->hinge = fw_arena_array(arena, fw_trial_hinge, most));
+    FW_NEED(trial->share = fw_arena_array(arena, double, (size_t)device->nscene));
+    for (int i = 0; i < device->nscene; i++)
+        trial->share[i] = 1;
     FW_TRY(copy_device(arena, device, &trial->changed));
     remember(trial, verdict, verdict->layout);
     return FW_OK;
@@ -60,7 +79,7 @@ fw_status fw_trial_run(fw_trial *trial) {
     const fw_layout *layout = NULL;
     fw_verdict_options quiet = *trial->options;
     quiet.with_advice = false;
-    quiet.motion.samples = 2;
+    quiet.motion.samples = 65; /* stability is looked at between them */
     fw_verdict again = {.nvariant = n,
                         .variant = fw_arena_array(scratch, fw_variant_verdict, (size_t)n)};
     fw_status status = again.variant ? FW_OK : FW_NOMEM;

@@ -5,7 +5,8 @@
 #include "verdict/verdict.h"
 
 typedef struct fw_trial_hinge { /* what a change needs to know of a hinge's verdict */
-    int joint;
+    int joint; /* FW_NONE: no hinge, but a reason against the scene: utilisation_high is then 1 over
+                  the share of its loads that it may bear */
     fw_decision decision;
     double utilisation_high;
     double reach;      /* peak angle / angle at which the drawn solids meet; 0: never */
@@ -21,6 +22,7 @@ typedef struct fw_trial {
     const fw_verdict *verdict; /* of the device as described */
     fw_trial_hinge *hinge;     /* (nhinge) of the last run */
     int nhinge;
+    double *share; /* (device->nscene) of each scene's loads that is left */
     fw_decision decision;
     bool drawn;
 } fw_trial;

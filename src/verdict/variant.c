@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "statics/quasi.h"
 #include "verdict/compare.h"
+#include "verdict/scene.h"
 #include "verdict/watch.h"
 #include <math.h>
 
@@ -133,17 +133,15 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     if (motion.most_angle_rad <= 0) motion.most_angle_rad = whole_turn;
     FW_NEED(v->motion = fw_arena_alloc(arena, n, sizeof *v->motion));
     FW_NEED(v->pull_in = fw_arena_alloc(arena, n, sizeof *v->pull_in));
+    FW_NEED(v->reason = fw_arena_array(arena, fw_reason, FW_REASONS * n));
     for (size_t i = 0; i < n; i++) {
         const fw_scene *scene = &device->scene[i];
         if (!fw_device_in_flow(scene->flow, m->variant->flow)) continue;
-        FW_TRY(fw_pull_in_find(arena, m, scene, &motion.effects, diags, &v->pull_in[i]));
-        if (v->pull_in[i] && v->pull_in[i]->kind != FW_PULL_IN_NONE && v->pull_in[i]->margin < 1)
-            v->beyond_pull_in = true;
         FW_TRY(fw_watch_new(arena, m, layout, &watch[i]));
         motion.observe = fw_watch_see;
         motion.context = &watch[i];
-        FW_TRY(fw_move_scene(arena, m, scene, &motion, diags, &v->motion[i]));
-        if (v->motion[i]->ended) warn_ended(scene, v->motion[i], diags);
+        FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));
+        if (v->motion[i] && v->motion[i]->ended) warn_ended(scene, v->motion[i], diags);
     }
     return FW_OK;
 }
@@ -198,14 +196,14 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     }
     v->decision = FW_ACCEPT;
     for (int k = 0; k < v->nhinge; k++) {
+        if (!v->hinge[k].scene) v->hinge[k].decision = FW_INCONCLUSIVE; /* nothing was run */
         if (v->hinge[k].decision > v->decision) v->decision = v->hinge[k].decision;
         if (v->hinge[k].scene &&
             (v->governing == FW_NONE || fw_verdict_governs(&v->hinge[k], &v->hinge[v->governing])))
             v->governing = k;
     }
     if (v->workspace.required && !v->workspace.reachable) v->decision = FW_REJECT;
-    /* a pulse may be over before the rotor has snapped; whether that holds on a wafer, where fringe
-       fields and gaps differ, is not known */
-    if (v->beyond_pull_in && v->decision == FW_ACCEPT) v->decision = FW_INCONCLUSIVE;
+    for (int i = 0; i < v->nreason; i++)
+        if (v->reason[i].decision > v->decision) v->decision = v->reason[i].decision;
     return FW_OK;
 }

@@ -25,12 +25,23 @@ typedef struct fw_hinge_verdict {
     bool touches;       /* the drawn solids meet before the peak angle */
 } fw_hinge_verdict;
 
+typedef struct fw_reason { /* why a scene is not accepted, beside the bands of its hinges */
+    const char *scene, *flow;
+    int number; /* FW-Dnnn */
+    fw_decision decision;
+    double keep;      /* share of its loads that may be accepted: where advice starts to look */
+    const char *text; /* a sentence */
+} fw_reason;
+
 typedef struct fw_variant_verdict { /* one flow: a material and a thickness */
     const fw_variant *variant;
     const fw_mechanism *mechanism;
-    const fw_motion **motion;   /* (device->nscene) NULL where the scene is not for this flow */
+    const fw_motion **motion;   /* (device->nscene) NULL where the scene is not for this flow,
+                                   or has no motion: a reason says why */
     const fw_pull_in **pull_in; /* (device->nscene) NULL without comb drives */
-    bool beyond_pull_in;        /* a scene asks for more than its pull-in voltage */
+    bool beyond_pull_in;        /* a scene may ask for more than its pull-in voltage */
+    fw_reason *reason;          /* (nreason) */
+    int nreason;
     fw_workspace_result workspace;
     fw_hinge_verdict *hinge; /* (mechanism->nhinge) */
     int nhinge;
@@ -55,7 +66,7 @@ typedef struct fw_verdict {
     double accuracy_wanted, accuracy_estimated;
     double accuracy_left_out; /* largest sum of bounds that a scene leaves out by itself (auto); it
                                  is part of the estimate */
-    fw_advice *advice; /* (nadvice) for a rejected or inconclusive design */
+    fw_advice *advice;        /* (nadvice) for a rejected or inconclusive design */
     int nadvice;
     bool advice_verified; /* the advised values together were run and accepted */
     const char *advice_note;

@@ -165,6 +165,154 @@ class Plan(InTemporary):
                 if arguments:
                     self.expect(run("plan", device, "-o", self.here / "followed", *arguments), 0)
 
+    def arm(self, *scenes, hinge='stiffness="1e-6 N m/rad" damping="1e-11 N m s/rad"'):
+        """one arm on one flexure, carried by an insulator"""
+        text = f"""<device xmlns="urn:flexwright:device:1" name="arm">
+<material ref="silicon-100" thickness="50 um"/><flow ref="al-masked-rie" carrier="insulating"/>
+<flexure id="f" kind="csfh" radius="100 um" angle="270 deg" width="8 um" gap="8 um" fillet="4 um"/>
+<mechanism>
+<body id="arm" mass="0.02 mg" inertia="0.003 mg mm^2" x="0.5 mm" y="0 mm" width="100 um"/>
+<revolute id="h" a="ground" b="arm" b-x="-0.5 mm" hinge="f" axis="180 deg" {hinge}/>
+</mechanism>{"".join(scenes)}</device>"""
+        return self.device(text)
+
+    def plate(self, name, volts, law="", duration="5 ms"):
+        """static pull-in at 27.168 V; thrown to the stator by a step from about 0.92 of it on"""
+        return (f'<scene name="{name}" duration="{duration}"><comb-drive id="p" kind="plate" on="arm" '
+                f'x="0.3 mm" direction="90 deg" gap="6 um" length="300 um" depth="50 um" '
+                f'voltage="{volts} V" {law}/></scene>')
+
+    def judged(self, device, status):
+        verdict = json.loads(self.expect(run("check", device, "--json"), status).stdout)
+        self.assertEqual(verdict["verdict"], {0: "accept", 1: "reject", 4: "inconclusive"}[status])
+        return verdict
+
+    def test_unstable_equilibria_are_not_accepted(self):
+        def pressed(load):
+            return self.arm(f'<scene name="press" duration="5 ms">{load}</scene>')
+
+        def tendon(pull):
+            return (f'<tendon id="T" pull="{pull} mN"><eyelet on="arm" x="0.5 mm"/>'
+                    '<eyelet on="ground" x="-1 mm"/></tendon>')
+        # the tendon is 2 mm long, its lever 1 mm: it bears 1e-6 N m/rad * 2 / 1 mm = 2 mN
+        self.assertEqual(self.judged(pressed(tendon(1.9)), 0)["reasons"], [])
+        device = pressed(tendon(3))
+        reason, = self.judged(device, 1)["reasons"]
+        self.assertEqual((reason["code"], reason["scene"], reason["verdict"]),
+                         ("FW-D259", "press", "reject"))
+        for command in (["check"], ["plan", "-o", self.here / "o"], ["simulate"]):
+            result = run(command[0], device, *command[1:])
+            self.assertRegex(result.stderr, r"scene press .*body arm .*FW-D259")
+        self.assertIn("FW-D259", (self.here / "o/report.html").read_text())
+        # over before a disturbance has grown, and pressed the other way
+        pulse = '<force on="arm" x="0.5 mm" fx="-1.5 mN" law="half-sine" rise="0.2 ms"/>'
+        self.assertEqual(self.judged(pressed(pulse), 0)["reasons"], [])
+        self.assertEqual(self.judged(pressed('<force on="arm" x="0.5 mm" fx="1.5 mN"/>'), 0)["reasons"], [])
+        # pushed aside it falls, and the motion itself is judged
+        aside = '<force on="arm" x="0.5 mm" fx="-1.5 mN" fy="0.02 mN"/>'
+        verdict = self.judged(pressed(aside), 1)
+        self.assertEqual(verdict["reasons"], [])
+        self.assertGreater(verdict["hinges"][0]["peak_angle_rad"], 1)
+
+    def test_pull_in_within_the_fringe_fields_is_not_accepted(self):
+        slow = 'law="ramp" rise="45 ms"'
+        self.assertEqual(self.judged(self.arm(self.plate("a", 24, slow, "50 ms")), 0)["reasons"], [])
+        device = self.arm(self.plate("a", 26.9, slow, "50 ms"))
+        verdict = self.judged(device, 4)
+        self.assertGreater(verdict["pull_in"][0]["margin"], 1)
+        self.assertEqual([r["code"] for r in verdict["reasons"]], ["FW-D248"])
+        result = self.expect(run("check", device), 4)
+        self.assertRegex(result.stdout, r"inconclusive a .*fringe")
+        self.assertRegex(result.stderr, r"fringe .*FW-D248")
+        # a step: thrown to the stator from 25 V on, or from 22.9 V with the fringe fields
+        self.assertEqual(self.judged(self.arm(self.plate("a", 21)), 0)["reasons"], [])
+        reason, = self.judged(self.arm(self.plate("a", 24)), 4)["reasons"]
+        self.assertRegex(reason["text"], "dynamic.*fringe")
+
+    def test_pull_in_is_a_verdict(self):
+        fine = '<scene name="fine" duration="5 ms"><torque on="arm" value="0.001 uN m"/></scene>'
+        device = self.arm(fine, self.plate("bad", 60))
+        verdict = self.judged(device, 1)
+        self.assertEqual([(h["id"], h["scene"], h["verdict"]) for h in verdict["hinges"]],
+                         [("h", "fine", "accept")])
+        reason, = verdict["reasons"]
+        self.assertEqual((reason["code"], reason["scene"], reason["verdict"]), ("FW-D242", "bad", "reject"))
+        self.assertRegex(reason["text"], "pull-in of comb drive p is at 27.17 V, below the 60 V")
+        result = self.expect(run("plan", device, "-o", self.here / "o"), 1)
+        self.assertRegex(result.stdout, r"reject bad .*FW-D242")
+        self.assertEqual(json.loads((self.here / "o/verdict.json").read_text())["reasons"], [reason])
+        self.assertIn("FW-D242", (self.here / "o/report.html").read_text())
+        self.assertTrue((self.here / "o/motion/fine.csv").exists())
+        self.assertFalse((self.here / "o/motion/bad.csv").exists())
+        self.expect(run("simulate", device, "--scene", "fine"), 0)
+        self.assertIn("FW-D242", self.expect(run("simulate", device, "--scene", "bad"), 7).stderr)
+        # alone; and a voltage that only a sudden start makes too high
+        alone = self.arm(self.plate("a", 26.4))
+        self.expect(run("plan", alone, "-o", self.here / "alone"), 1)
+        reason, = self.judged(alone, 1)["reasons"]
+        for text in (reason["text"], self.expect(run("simulate", alone), 7).stderr):
+            self.assertIn("this is dynamic pull-in", text)
+            self.assertNotIn("beyond pull-in", text)
+        # just beyond: within what the model may be wrong by
+        reason, = self.judged(self.arm(self.plate("a", 25.7)), 4)["reasons"]
+        self.assertEqual(reason["code"], "FW-D242")
+        gallery = ROOT / "docs/gallery/comb-stage/device.xml"
+        self.expect(run("check", gallery, "--set", "volts=115 V"), 1)
+
+    def test_a_pulse_beyond_pull_in_says_why(self):
+        device = self.arm(self.plate("a", 60, 'law="step" end="0.02 ms"'))
+        result = self.expect(run("check", device), 4)
+        self.assertRegex(result.stdout, "inconclusive a .*60 V, beyond the pull-in voltage 27.17 V")
+        self.assertRegex(run("check", device, "-q").stdout, "beyond the pull-in voltage")
+
+    def followed(self, text, sentence):
+        """the text with the loads of every scene times the share that the sentence names"""
+        loads = r'\b(fx|fy|ax|ay|pull|draw|value)="([-0-9.e]+) '
+        found = re.findall(r"the (loads|voltages)(?: \([^)]*\))? of scene (\w+) to ([0-9.]+) %", sentence)
+        self.assertTrue(found, sentence)
+        for what, scene, share in found:
+            start = text.index(f'<scene name="{scene}"')
+            end = text.index("</scene>", start)
+            pattern = loads if what == "loads" else r'\b(voltage)="([-0-9.e]+) '
+            part = re.sub(pattern, lambda m: f'{m.group(1)}="{float(m.group(2)) * float(share) / 100:.9g} ',
+                          text[start:end])
+            self.assertNotEqual(part, text[start:end])
+            text = text[:start] + part + text[end:]
+        return text
+
+    def test_advice_on_loads_is_followed(self):
+        def scene(name, loads):
+            return f'<scene name="{name}" duration="5 ms">{loads}</scene>'
+
+        def tendon(how, x="1 mm", y="2 mm"):
+            return (f'<tendon id="T" {how}><eyelet on="arm" x="0.5 mm"/><eyelet on="ground" x="{x}" '
+                    f'y="{y}"/></tendon>')
+        force = '<force on="arm" x="0.5 mm" fy="0.5 mN"/>'
+        cases = {
+            "force": ([scene("a", force)], "the loads of scene a"),
+            "pull": ([scene("a", tendon('pull="1 mN"'))], "the loads (tendon pulls) of scene a"),
+            "draw": ([scene("a", tendon('draw="0.8 mm" stiffness="20 N/m"'))],
+                     "the loads (tendon draws) of scene a"),
+            "shock": ([scene("a", '<base-motion ay="30000 m/s^2"/>')], "the loads (base motion) of scene a"),
+            "pressed": ([scene("a", tendon('pull="3 mN"', "-1 mm", "0 mm"))],
+                        "the loads (tendon pulls) of scene a"),
+            "thrown": ([self.plate("a", 26.4)], "the voltages of scene a"),
+            "pulse": ([self.plate("a", 60, 'law="step" end="0.02 ms"')], "the voltages of scene a"),
+            "fringe": ([self.plate("a", 26.9, 'law="ramp" rise="45 ms"', "50 ms")], "the voltages of scene a"),
+            "several": ([scene("a", force + tendon('pull="1 mN"')), self.plate("b", 60),
+                         scene("c", '<torque on="arm" value="0.001 uN m"/>')],
+                        "the loads (forces, tendon pulls) of scene a"),
+        }
+        for name, (scenes, says) in cases.items():
+            with self.subTest(name):
+                device = self.arm(*scenes)
+                result = run("check", device)
+                self.assertIn(result.returncode, (1, 4), name)
+                self.assertIn("run and accepted", result.stdout)
+                self.assertIn(says, result.stdout)
+                text = self.followed(device.read_text(), result.stdout)
+                self.expect(run("check", self.device(text, "followed.xml")), 0)
+
     def test_a_loop_that_does_not_close_is_an_error(self):
         leaf = (ROOT / "docs/gallery/leaf-four-bar/device.xml").read_text()
         result = self.expect(run("check", self.device(leaf.replace('b-x="1.8 mm"', 'b-x="1.9 mm"'))), 3)
