@@ -170,6 +170,7 @@ static bool pass_event(fw_run *r, fw_stepper *s, int which, double theta, double
             return false;
     }
     if (!fw_friction_decide(m, t, r->moved)) return false;
+    r->fresh = true;
     start_stepper(r, s, t, r->moved, end);
     return true;
 }
@@ -219,6 +220,7 @@ static fw_status next_piece(fw_run *r, fw_stepper *s, int piece) {
     }
     if (m->nelement > 0) jump_of_elements(r, t, y, stored);
     if (!fw_friction_decide(m, t, y)) return stopped(r, s, FW_ODE_SMALL);
+    r->fresh = true;
     start_stepper(r, s, t, y, r->end[piece]);
     return FW_OK;
 }

@@ -88,14 +88,19 @@ bool fw_run_samples(fw_run *r, fw_stepper *s, double theta_end) {
 
 void fw_run_show(fw_run *r, fw_stepper *s, double theta_end) {
     if (!r->options->observe) return;
-    for (int i = s->t_old > 0 ? 1 : 0; i <= FW_INSTANTS; i++) {
+    bool fresh = r->fresh || !(s->t_old > 0);
+    r->fresh = false;
+    for (int i = fresh ? 0 : 1; i <= FW_INSTANTS; i++) {
         double theta = theta_end * i / FW_INSTANTS;
         fw_stepper_dense(s, theta, r->state);
         pose_in_SI(r, r->state, r->seen_q, r->seen_angle);
         fw_model_react(r->model, s->t_old + theta * s->h, r->state, r->rate);
         fw_pin_forces(r->model, r->seen_force);
-        const fw_instant now = {(s->t_old + theta * s->h) * r->model->scale.time_s, r->seen_q,
-                                r->seen_angle, r->seen_force};
+        const fw_instant now = {.t_s = (s->t_old + theta * s->h) * r->model->scale.time_s,
+                                .q = r->seen_q,
+                                .angle_rad = r->seen_angle,
+                                .reaction_N = r->seen_force,
+                                .begins = fresh && i == 0};
         r->options->observe(r->options->context, &now);
     }
 }

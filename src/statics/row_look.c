@@ -192,7 +192,10 @@ static void show(fw_row *r, double t) {
     fw_rest_reactions(&r->w, r->reaction, r->tie, r->driver);
     if (r->track) channels(r, t);
     if (!r->options->observe) return;
-    const fw_instant now = {t * r->w.model->scale.time_s, r->q, r->angle, r->reaction};
+    const fw_instant now = {.t_s = t * r->w.model->scale.time_s,
+                            .q = r->q,
+                            .angle_rad = r->angle,
+                            .reaction_N = r->reaction};
     r->options->observe(r->options->context, &now);
 }
 

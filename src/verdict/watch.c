@@ -54,6 +54,7 @@ void fw_watch_see(void *context, const fw_instant *now) {
             w->hinge[k] = (fw_strain_peak){0};
             continue;
         }
+        if (now->begins) w->hinge[k].seen = 0; /* no parabola across a jump */
         fw_hinge_load load = {now->angle_rad[hinge->pin], now->reaction_N[2 * hinge->pin],
                               now->reaction_N[2 * hinge->pin + 1],
                               0.5 * (turned(m, now, pin->body_a) + turned(m, now, pin->body_b))};

@@ -58,6 +58,16 @@ class Effects(unittest.TestCase):
                                    "--set", "scene[pressed-home]/@duration=0.3 ms"))
         self.assertEqual(explicit["integrator"], "dop853")
 
+    def test_load_that_ends(self):
+        """a jump of the joint force is no peak between two instants"""
+        used = []
+        for off in ("0.1 ms", "0.173 ms"):
+            done = run("check", ROOT / "tests/data/load-that-ends.xml", "--json", "--set", f"off={off}")
+            hinge = self.result(done)["hinges"][0]
+            used.append(hinge["utilisation"])
+            self.assertEqual(hinge["t_s"], 0)
+        self.assertAlmostEqual(used[0], used[1], delta=1e-6)
+
     def test_statics(self):
         for name, scene in ABOUT:
             if name == "closing-film":
