@@ -63,7 +63,8 @@ class Effects(unittest.TestCase):
         used = []
         for off in ("0.1 ms", "0.173 ms"):
             done = run("check", ROOT / "tests/data/load-that-ends.xml", "--json", "--set", f"off={off}")
-            hinge = self.result(done)["hinges"][0]
+            self.assertIn(done.returncode, (0, 1), done.stderr)  # 1: no flow can make it
+            hinge = json.loads(done.stdout)["hinges"][0]
             used.append(hinge["utilisation"])
             self.assertEqual(hinge["t_s"], 0)
         self.assertAlmostEqual(used[0], used[1], delta=1e-6)
