@@ -40,8 +40,8 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
         for (int k = 0; k < e->n; k++)
             mode[j] += e->shape[(size_t)j * (size_t)e->n + (size_t)k] * force[k];
     FW_TRY(fw_envelope_softening(c, force, &part));
-    fw_arena_rewind(c->arena, mark);
     *value = fw_envelope_mode_answer(c, mode, 1) + fw_envelope_stiffness(c, part);
+    fw_arena_rewind(c->arena, mark);
     *reason = isfinite(*value)
                   ? "bound: answer of the modes to the weights put on at once, and to what they "
                     "take from the stiffness"
