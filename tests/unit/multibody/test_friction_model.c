@@ -181,7 +181,7 @@ static bool may_jam(fw_model *m) {
         for (int r = 0; r < count; r++)
             x[r] = pattern && rig_random(&seed) < 0.5 ? -1 : 1;
         for (int k = 0; k < 60; k++) {
-            double size = 0, least = INFINITY;
+            double size = 0, least = (double)INFINITY;
             for (int r = 0; r < count; r++) {
                 const fw_model_friction *f = &s->item[who[r]];
                 double rho[2] = {0, 0};
