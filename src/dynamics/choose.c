@@ -67,8 +67,8 @@ static double norm(const double *x, int n) {
     return sqrt(sum);
 }
 
-/* out = J z by a central difference of the right-hand side at y, over 2 `reach` */
-static void product(fw_run *r, const double *y, const double *z, double reach, double *at,
+/* out = J z by a central difference of the right-hand side at (t, y), over 2 `reach` */
+static void product(fw_run *r, double t, const double *y, const double *z, double reach, double *at,
                     double *more, double *out) {
     fw_model *m = r->model;
     int n = 2 * m->nq;
@@ -77,17 +77,17 @@ static void product(fw_run *r, const double *y, const double *z, double reach, d
         memcpy(at, y, (size_t)m->ny * sizeof *at);
         for (int i = 0; i < n; i++)
             at[i] += sign * e * z[i];
-        fw_model_lean_rhs(m, 0, at, sign < 0 ? more : out);
+        fw_model_lean_rhs(m, t, at, sign < 0 ? more : out);
     }
     for (int i = 0; i < n; i++)
         out[i] = (out[i] - more[i]) / (2 * e);
 }
 
-/* largest |eigenvalue| of the right-hand side's Jacobian J at the start, scaled: power iteration
+/* largest |eigenvalue| of the right-hand side's Jacobian J at (t, y), scaled: power iteration
    with J^2, whose dominant eigenvalues are real for oscillations too. A lower bound that is within
    a few per cent when the spectrum has a gap; a choice needs no more. Cost 48 evaluations. Source:
    Golub and Van Loan, ch. 7. Test: test_choose.c. */
-static fw_status fastest(fw_run *r, double reach, double *rate) {
+static fw_status fastest(fw_run *r, double t, const double *y, double reach, double *rate) {
     fw_model *m = r->model;
     size_t n = (size_t)m->ny;
     double *work[5];
@@ -103,8 +103,8 @@ static fw_status fastest(fw_run *r, double reach, double *rate) {
         if (!(before > 0) || !isfinite(before)) break;
         for (size_t i = 0; i < n; i++)
             z[i] /= before;
-        product(r, r->start, z, reach, work[2], work[3], w);
-        product(r, r->start, w, reach, work[2], work[3], work[4]);
+        product(r, t, y, z, reach, work[2], work[3], w);
+        product(r, t, y, w, reach, work[2], work[3], work[4]);
         double *swap = z;
         z = work[4], work[4] = swap;
         if (k > 1) *rate = fmax(*rate, sqrt(norm(z, 2 * m->nq)));
@@ -141,8 +141,8 @@ static fw_status fastest_in_touch(fw_run *r, double before, double *rate) {
         }
     if (!idle) return FW_OK;
     stated = sqrt(before * before + stated);
-    FW_TRY(fastest(r, 1e-6, rate));
-    FW_TRY(fastest(r, 1e-5, &farther));
+    FW_TRY(fastest(r, 0, r->start, 1e-6, rate));
+    FW_TRY(fastest(r, 0, r->start, 1e-5, &farther));
     bool sound = fabs(farther - *rate) <= 0.2 * *rate;
     if (!sound || !(*rate > 1.01 * before)) *rate = stated;
     fw_model_set_switches(m, 0, r->start);
@@ -175,7 +175,7 @@ static fw_status dying(fw_run *r, const double *u, double *rate) {
         FW_NEED(work[i] = fw_arena_array(r->arena, double, (size_t)m->ny));
     for (size_t i = 0; i < n; i++)
         work[0][n + i] = i % 3 == 2 ? u[i] : u[i] / m->scale.length_m;
-    product(r, r->start, work[0], 1e-6, work[1], work[2], work[3]);
+    product(r, 0, r->start, work[0], 1e-6, work[1], work[2], work[3]);
     for (size_t i = 0; i < n; i++) {
         double v = work[0][n + i], b = i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3];
         power -= b * v * work[3][n + i];
@@ -281,7 +281,7 @@ static fw_status choose(fw_run *r, const fw_terms *terms) {
     const fw_model *m = r->model;
     double time = r->scene->duration_s / m->scale.time_s;
     spectrum s;
-    FW_TRY(fastest(r, 1e-6, &s.fast));
+    FW_TRY(fastest(r, 0, r->start, 1e-6, &s.fast));
     FW_TRY(fastest_in_touch(r, s.fast, &s.touching));
     FW_TRY(excited(r, terms, &s.slow, &s.dying));
     double most = fmax(s.fast, s.touching);
@@ -297,6 +297,17 @@ static fw_status choose(fw_run *r, const fw_terms *terms) {
        300 components a factorisation costs more than any of them */
     r->patience = !stiff && m->ny <= 300 ? 5000 + 30 * explicit_ : 0;
     return say_choice(r, &s, stiff, stable, p.implicit / p.explicit_);
+}
+
+/* Many steps alone are no sign: a tight tolerance or a fast motion takes them too. Explicit steps of
+   order 8 are stable up to |eigenvalue| h of about 6, and their control keeps them between half and
+   all of it; steps well below are as short as the tolerance wants them. Source: Hairer and Wanner
+   II, IV.2 (detection of stiffness). Test: test_choose.c. */
+fw_status fw_integrator_stuck(fw_run *r, const fw_stepper *s, bool *stuck) {
+    double rate;
+    FW_TRY(fastest(r, s->t, s->y, 1e-6, &rate));
+    *stuck = s->h * rate > 2;
+    return FW_OK;
 }
 
 fw_status fw_integrator_change(fw_run *r) {

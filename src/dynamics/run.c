@@ -264,6 +264,7 @@ fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks) {
     fw_model *m = r->model;
     bool ended = false;
     long taken = 0;
+    double patience = r->patience;
     FW_TRY(begin(r, s));
     for (int piece = 0; piece < r->npiece && !ended; piece++) {
         if (piece > 0) FW_TRY(next_piece(r, s, piece));
@@ -277,9 +278,14 @@ fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks) {
             int which;
             double theta = fw_run_event(r, s, &which);
             if (++r->steps > most_steps(r) || m->events > fw_most_events) return too_long(r, s);
-            if (r->patience > 0 && (double)(++taken - 50 * m->events) > r->patience) {
-                r->given_up_s = s->t * m->scale.time_s;
-                return FW_LIMIT; /* solve starts over */
+            if (r->patience > 0 && (double)(++taken - 50 * m->events) > patience) {
+                bool stuck;
+                FW_TRY(fw_integrator_stuck(r, s, &stuck));
+                if (stuck) {
+                    r->given_up_s = s->t * m->scale.time_s;
+                    return FW_LIMIT; /* solve starts over */
+                }
+                patience += 1000; /* looked at again */
             }
             if (which >= 0 && aim(r, s, theta)) continue;
             r->aims = 0;

@@ -69,7 +69,7 @@ typedef struct fw_run {
     double most_angle;                        /* rad; HUGE_VAL: no end before the end */
     long steps;                               /* over all tries */
     bool fresh;                               /* no step yet behind a break or an event */
-    double patience; /* steps of one pass after which a choice of explicit ones was wrong; 0: any */
+    double patience; /* steps of one pass after which a choice of explicit ones is doubted; 0: any */
     double given_up_s; /* and where that was; NaN: it was not */
     double *end;       /* (npiece) scaled times at which a smooth piece ends */
     int npiece;
@@ -102,6 +102,8 @@ fw_status fw_run_arrays(fw_run *r);
 fw_status fw_method_choose(fw_run *r, const fw_terms *terms);
 /* by name, or by the scene; says why in motion->reason */
 fw_status fw_integrator_choose(fw_run *r, const fw_terms *terms, const char *name);
+/* steps are as short as they are for the sake of stability */
+fw_status fw_integrator_stuck(fw_run *r, const fw_stepper *s, bool *stuck);
 /* to an implicit one, after a pass that was given up */
 fw_status fw_integrator_change(fw_run *r);
 

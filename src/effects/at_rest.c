@@ -36,6 +36,8 @@ static void look(const fw_mechanism *m, const fw_force_element *e, double t_s, d
     s->seen =
         (fw_seen){.t_s = t_s, .piece_s = piece_s, .load = 1, .p = s->p, .w = s->w, .on = s->on};
     for (int i = 0; i < e->switches; i++)
+        s->on[i] = false;
+    for (int i = 0; i < e->switches; i++)
         s->on[i] = e->class_->switch_value && e->class_->switch_value(&s->e, &s->seen, i) > 0;
     e->class_->force(&s->e, &s->seen, s->f);
 }

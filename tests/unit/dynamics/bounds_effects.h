@@ -116,15 +116,13 @@ static inline void bounds_temperature(fw_arena *arena, bounds_device *d, uint64_
     d->r.scene.temperature = fw_arena_array(arena, fw_temperature, 1);
     fw_temperature *t = &d->r.scene.temperature[d->r.scene.ntemperature++];
     *t = (fw_temperature){.change_K = 100,
-                          .expansion_per_K = (double)NAN,
-                          .substrate_expansion_per_K = (double)NAN,
+                          .expansion_per_K = 2.6e-6,
+                          .substrate_expansion_per_K = 2.6e-6,
                           .law = law ? bounds_warming(d, seed) : NULL};
     double kind = rig_random(seed);
-    if (kind < 0.7) { /* another substrate: strain between next to nothing and what turns much */
-        t->substrate_expansion_per_K = 2.6e-6;
-        t->expansion_per_K =
-            2.6e-6 + bounds_sign(seed) * fmin(bounds_log(seed, 1e-6, 1) * d->turn, 0.02) / 100;
-    }
+    if (kind < 0.7) /* another substrate: strain between next to nothing and what turns much */
+        t->expansion_per_K +=
+            bounds_sign(seed) * fmin(bounds_log(seed, 1e-6, 1) * d->turn, 0.02) / 100;
     if (kind > 0.4) t->modulus_change_per_K = bounds_sign(seed) * bounds_log(seed, 1e-7, 0.3) / 100;
 }
 

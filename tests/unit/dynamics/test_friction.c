@@ -226,7 +226,7 @@ typedef struct swing {
 } swing;
 
 static double swing_accel(const swing *s, double phi, double omega) {
-    double weight = -s->m * G * s->l * sin(phi), a = weight / s->j, before = INFINITY;
+    double weight = -s->m * G * s->l * sin(phi), a = weight / s->j, before = (double)INFINITY;
     for (int k = 0; k < 200 && a != before; k++) {
         double x = s->l * (a * cos(phi) - omega * omega * sin(phi));
         double y = s->l * (a * sin(phi) + omega * omega * cos(phi)) + G;
