@@ -154,7 +154,7 @@ static long double bounce_lasts(const bounce *b) {
     long double high = s;
     while ((next = bounce_push(b, high + step)) < now)
         high += step, now = next;
-    return now > 0 ? (double)INFINITY : bounce_zero(b, s, high);
+    return now > 0 ? (long double)INFINITY : bounce_zero(b, s, high);
 }
 
 static void bounce_again(void *exact) {
