@@ -205,6 +205,7 @@ static fw_status start(fw_arena *arena, fw_modal *o) {
             for (size_t l = 0; l < m; l++)
                 a[j * m + l] += w * o->shape[l * n + i];
         }
+    FW_TRY(fw_lapack_ready());
     if (!fw_cholesky((int)m, a) || !fw_cholesky_solve((int)m, a, o->velocity))
         o->why_not = "its velocities at the start cannot be resolved";
     fw_arena_rewind(arena, mark);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "maths/dense.h"
+#include "maths/lapack.h"
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <lapacke.h>
@@ -46,6 +47,7 @@ static fw_status least_squares(fw_arena *arena, int n, const double *a, double *
     int rank = 0, ask_integers = 0;
     double ask = 0, *copy, *singular, *work;
     lapack_int *integers;
+    FW_TRY(fw_lapack_ready());
     FW_NEED(copy = fw_arena_array(arena, double, m *m));
     FW_NEED(singular = fw_arena_array(arena, double, m));
     memcpy(copy, a, m * m * sizeof *a);

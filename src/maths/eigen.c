@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "maths/eigen.h"
+#include "maths/lapack.h"
 #include <lapacke.h>
 #include <math.h>
 #include <stdbool.h>
@@ -33,6 +34,7 @@ fw_status fw_eigen_general(fw_arena *arena, int n, double *a, double *re, double
                            double *vector) {
     if (n == 0) return FW_OK;
     if (!finite_all(a, (size_t)n * (size_t)n)) return FW_SOLVER;
+    FW_TRY(fw_lapack_ready());
     transpose(n, a);
     double size = 0, *work;
     int info = LAPACKE_dgeev_work(LAPACK_COL_MAJOR, 'N', 'V', n, a, n, re, im, NULL, 1, vector, n,

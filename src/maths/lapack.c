@@ -4,6 +4,7 @@
 #include "maths/lapack.h"
 #include <lapacke.h>
 #include <math.h>
+#include <sys/mman.h>
 
 static const int column_major = LAPACK_COL_MAJOR;
 
@@ -19,12 +20,36 @@ void openblas_set_num_threads(int count) __attribute__((weak));
 
 /* OpenBLAS would split matrices of a dozen rows over all cores: on a busy machine that costs 50
    times the arithmetic, and the last digits follow the number of threads */
-void fw_lapack_one_thread(void) {
+static void one_thread(void) {
     if (openblas_set_num_threads) openblas_set_num_threads(1);
+}
+
+/* OpenBLAS maps a buffer at its first use and keeps it; where the system refuses, it asks again for
+   ever. So the same is asked for here first, and a small problem then makes it take its own. */
+static const size_t fw_blas_buffer = 160 << 20;
+
+static bool take_buffer(void) {
+    if (!openblas_set_num_threads) return true;
+    void *place = mmap(NULL, fw_blas_buffer, PROT_READ | PROT_WRITE,
+                       MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (place == MAP_FAILED) return false;
+    munmap(place, fw_blas_buffer);
+    double a[9] = {4, 1, 2, 1, 5, 3, 2, 3, 6}, value[3], work[32];
+    return LAPACKE_dsyev_work(column_major, 'N', 'L', 3, a, 3, value, work, 32) == 0;
+}
+
+fw_status fw_lapack_ready(void) {
+    static _Atomic bool ready;
+    if (ready) return FW_OK;
+    one_thread();
+    if (!take_buffer()) return FW_NOMEM;
+    ready = true;
+    return FW_OK;
 }
 
 static fw_status space_of(fw_arena *arena, int info, double ask, fw_lapack_space *space) {
     if (info != 0 || !(ask >= 0) || ask > 1e8) return FW_SOLVER;
+    FW_TRY(fw_lapack_ready());
     space->size = at_least_one((int)ask);
     FW_NEED(space->work = fw_arena_array(arena, double, (size_t)space->size));
     return FW_OK;

@@ -9,8 +9,10 @@
 #include "base/status.h"
 #include <stdbool.h>
 
-/* where OpenBLAS is the BLAS: one thread, for the whole process */
-void fw_lapack_one_thread(void);
+/* before the first use: where OpenBLAS is the BLAS, one thread for the whole process, and
+   FW_NOMEM where its buffer cannot be had, for which it would wait for ever. The functions that
+   give workspace do it by themselves. */
+fw_status fw_lapack_ready(void);
 
 typedef struct fw_lapack_space { /* of one factorisation of one size */
     double *work;

@@ -19,7 +19,7 @@ fw_status fw_dense_new(fw_arena *arena, int rows, int n, const fw_dense_kernel *
     double **of_rows[] = {&d->row, &d->b, &d->lambda, &d->gamma, &d->out};
     for (size_t i = 0; i < sizeof of_rows / sizeof of_rows[0]; i++)
         FW_NEED(*of_rows[i] = fw_arena_array(arena, double, r));
-    fw_lapack_one_thread();
+    FW_TRY(fw_lapack_ready());
     if (rows > 0) FW_TRY(kernel->prepare(arena, d));
     *result = d;
     return FW_OK;

@@ -23,6 +23,7 @@
    42 (1982) 281-296; Glocker, Set-Valued Force Laws, 2001. Test: test_friction.c,
    test_friction_model.c. */
 #include "multibody/friction.h"
+#include "maths/lapack.h"
 #include <math.h>
 #include <string.h>
 
@@ -34,6 +35,7 @@ static fw_status arrays(fw_arena *arena, fw_model *m, struct fw_frictions *s) {
                                &s->left,  &s->more,  &s->start, &s->right,  &s->step,  &s->push,
                                &s->creep, &s->shift, &s->most,  &s->centre, &s->before};
     double **const square[] = {&s->gain, &s->factor, &s->hold, &s->jacobian};
+    FW_TRY(fw_lapack_ready());
     for (size_t i = 0; i < sizeof vector / sizeof vector[0]; i++)
         FW_NEED(*vector[i] = fw_arena_array(arena, double, n));
     for (size_t i = 0; i < sizeof square / sizeof square[0]; i++)

@@ -62,7 +62,7 @@ static fw_status prepare(fw_arena *arena, fw_model *m, const fw_mechanism *mecha
         p->mass[3 * b] = p->mass[3 * b + 1] = 1 / m->minv[b];
         p->mass[3 * b + 2] = 1 / m->jinv[b];
     }
-    fw_lapack_one_thread();
+    FW_TRY(fw_lapack_ready());
     *work = p;
     return FW_OK;
 }
