@@ -109,7 +109,9 @@ class Faults(unittest.TestCase):
 
     def test_interrupt(self):
         long_scene = self.here / "long.xml"
-        long_scene.write_text(GALLERY.read_text().replace('duration="10 ms"', 'duration="20 s"'))
+        # a load that never rests: what dies away is soon over however long the scene
+        long_scene.write_text(GALLERY.read_text().replace('duration="10 ms"', 'duration="100 s"').replace(
+            '<force on="CD" fx=', '<force on="CD" law="sine" frequency="2 kHz" fx='))
         for number, status in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
             process = subprocess.Popen([PROGRAM, "plan", long_scene, "-o", self.out],
                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
