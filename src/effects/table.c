@@ -113,9 +113,9 @@ static fw_status say(const fw_effect_case *c, fw_effect_entry *entry, double sum
                      bool last) {
     if (isinf(entry->bound)) return FW_OK; /* its reason is the whole of it */
     char bound[32], wanted[32], all[32];
-    fw_number_text(bound, sizeof bound, 100 * entry->bound, 3);
-    fw_number_text(wanted, sizeof wanted, 100 * accuracy, 3);
-    fw_number_text(all, sizeof all, 100 * sum, 3);
+    fw_percent_text(bound, sizeof bound, entry->bound);
+    fw_percent_text(wanted, sizeof wanted, accuracy);
+    fw_percent_text(all, sizeof all, sum);
     const char *how = entry->reason;
     if (!entry->active)
         entry->reason = fw_arena_printf(

@@ -5,12 +5,13 @@
 #include <math.h>
 
 static void effect_row(fw_text *out, const fw_effect_entry *e) {
+    char bound[32]; /* with the digits of the reason */
     fw_report_markup(out, "<tr><th scope=\"row\">{s}</th><td>{r}</td><td class=\"n\">", e->id,
                      e->active ? "<strong>active</strong>" : "left out");
     if (isinf(e->bound))
         fw_text_add(out, "\u221e");
     else
-        fw_report_markup(out, "{p}", e->bound);
+        fw_report_markup(out, "{s}\u00a0%", fw_percent_text(bound, sizeof bound, e->bound));
     fw_text_add(out, "</td><td class=\"n\">");
     if (e->cost > 0)
         fw_report_markup(out, "{n}", e->cost);
@@ -163,8 +164,8 @@ fw_status fw_report_section_accuracy(fw_page *page) {
     fw_text *out = page->out;
     fw_report_markup(
         out,
-        "<p>Relative error wanted on the peak hinge deflection: <strong>{e}</strong>; "
-        "estimated: <strong>{e}</strong>. This is the error of the computation and the sum of the "
+        "<p>Relative error wanted on the peak hinge deflection: <strong>{p}</strong>; "
+        "estimated: <strong>{p}</strong>. This is the error of the computation and the sum of the "
         "bounds of effects that were left out; what the "
         "model itself leaves open is in the error bands and under <a "
         "href=\"#assumptions\">assumptions</a>.</p>\n",

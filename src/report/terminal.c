@@ -236,7 +236,7 @@ static void ledger(fw_text *out, const fw_effect_ledger *l) {
         const fw_effect_entry *e = &l->item[i];
         if (!e->called_for) continue;
         char bound[32] = "inf";
-        if (isfinite(e->bound)) fw_number_text(bound, sizeof bound, 100 * e->bound, 3);
+        if (isfinite(e->bound)) fw_percent_text(bound, sizeof bound, e->bound);
         fw_text_printf(out, "  %-18s %-6s  %-8s  ", e->id, e->active ? "yes" : "no", bound);
         if (e->cost > 0)
             fw_text_real(out, "%-6.0f  ", e->cost);
