@@ -10,7 +10,7 @@
    stated in the file holds in both cases. Inputs eta, Hz, k in N m/rad; output N m s/rad. Valid for
    motions near the frequency: away from it the damper's loss factor goes with the frequency, the
    material's hardly does. Source: loss factor and equivalent viscous damping as in any text on
-   vibration; docs/theory/effects/ material-damping.md. Test: test_material_damping.c. */
+   vibration; docs/theory/effects/material-damping.md. Test: test_material_damping.c. */
 #include "effects/effect.h"
 #include "effects/envelope.h"
 #include <math.h>
