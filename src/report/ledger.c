@@ -6,8 +6,8 @@
 
 static void effect_row(fw_text *out, const fw_effect_entry *e) {
     char bound[32]; /* with the digits of the reason */
-    fw_report_markup(out, "<tr><th scope=\"row\">{s}</th><td>{r}</td><td class=\"n\">", e->id,
-                     e->active ? "<strong>active</strong>" : "left out");
+    fw_report_markup(out, "<tr><th scope=\"row\" class=\"id\">{s}</th><td>{r}</td><td class=\"n\">",
+                     e->id, e->active ? "<strong>active</strong>" : "left out");
     if (isinf(e->bound))
         fw_text_add(out, "\u221e");
     else
