@@ -76,6 +76,13 @@ char *fw_number_text(char *buffer, size_t n, double value, int digits) {
     return buffer;
 }
 
+char *fw_percent_text(char *buffer, size_t n, double part) {
+    double value = 100 * part, size = fabs(value);
+    if (!(size >= 999.5 && size < 999500)) return fw_number_text(buffer, n, value, 3);
+    double unit = size < 9995 ? 10 : size < 99950 ? 100 : 1000;
+    return fw_number_text(buffer, n, round(value / unit) * unit, 7);
+}
+
 void fw_text_number(fw_text *text, double value, int digits) {
     char buffer[64];
     fw_text_add(text, fw_number_text(buffer, sizeof buffer, value, digits));

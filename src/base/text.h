@@ -30,6 +30,8 @@ fw_status fw_text_end(const fw_text *text); /* FW_OK or FW_NOMEM */
 
 /* the same into a caller's buffer of n bytes; returns buffer */
 char *fw_number_text(char *buffer, size_t n, double value, int digits);
+/* 100 times `part` to three digits, below a million without an exponent: "0.364", "11100" */
+char *fw_percent_text(char *buffer, size_t n, double part);
 /* whole string is one finite number ('.' decimal, optional exponent, no hex, inf or nan)? */
 int fw_number_parse(const char *string, size_t n, double *value);
 /* edit distance (insert, delete, replace, swap), at most `limit`+1; for "did you mean" */

@@ -234,10 +234,10 @@ static const option_row table[] = {
     {"accuracy", 0, "REL", "relative error wanted on the peak hinge deflection; default 1e-3",
      FW_OPT_PLAN, take_accuracy},
     {"effects", 0, "WHICH",
-     "auto (what matters), all, none, or a list like inertia,gravity,joint-damping (without "
-     "inertia: "
-     "a row of equilibria); whatever the choice, loads, initial velocities, stiffness, springs and "
-     "stops stay, and weight where it is the motion: "
+     "auto (leaves out what provably changes less than the accuracy wanted), all, none, or a list "
+     "like inertia,gravity,joint-damping (without inertia: a row of equilibria); whatever the "
+     "choice, stiffness, springs, stops within reach, loads, tendons, comb drives and initial "
+     "velocities stay, and weight and the motion of the base where nothing else moves the device: "
      "without them there would be nothing to judge",
      FW_OPT_PLAN, take_effects},
     {"flow", 0, "NAME", "only this process flow", FW_OPT_PLAN, take_flow},

@@ -179,8 +179,13 @@ static void validity(const fw_effect_case *c, const fw_air *a, fw_text *out) {
 
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
     *value = (double)INFINITY;
-    *reason = "the air damps, and how fast the bodies become is not known beforehand: kept";
-    if (!c->envelope || !c->envelope->valid) return FW_OK;
+    if (!c->envelope || !c->envelope->valid) {
+        FW_NEED(*reason = fw_arena_printf(
+                    c->arena,
+                    "the air damps, and nothing bounds how fast the bodies move: kept (%s)",
+                    c->envelope ? c->envelope->why_not : "not looked at"));
+        return FW_OK;
+    }
     double *force;
     FW_NEED(force = fw_arena_array(c->arena, double, 3 * (size_t)c->mechanism->nbody));
     if (add_forces(c, force)) *value = fw_envelope_answer(c, force, (double)INFINITY);
@@ -188,9 +193,8 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     fw_text text = fw_text_new(c->arena);
     fw_text_add(&text,
                 isfinite(*value)
-                    ? "the air damps: bound by the envelope's answer to its forces at the "
-                      "largest speeds"
-                    : "the air damps, and a film may close or the speeds have no bound: kept");
+                    ? "the air damps: answer of the modes to its forces at the largest speeds"
+                    : "the air damps, and a film may close: kept");
     for (int i = 0; i < c->scene->nair; i++)
         validity(c, &c->scene->air[i], &text);
     FW_TRY(fw_text_end(&text));

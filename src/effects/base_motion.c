@@ -39,8 +39,13 @@ static void push_of(const fw_effect_case *c, const fw_base_motion *b, double siz
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
     const fw_envelope *e = c->envelope;
     *value = (double)INFINITY;
-    *reason = "the base shakes, and nothing says how much of the motion that is: kept";
-    if (!e || !e->valid) return FW_OK;
+    if (!e || !e->valid) {
+        FW_NEED(*reason = fw_arena_printf(
+                    c->arena, "the base shakes, and nothing bounds what that does: kept (%s)",
+                    e ? e->why_not : "not looked at"));
+        return FW_OK;
+    }
+    *reason = "the base shakes by a law without bounds, or could take all stiffness: kept";
     fw_mark mark = fw_arena_mark(c->arena);
     double *force, *mode, sum = 0;
     FW_NEED(force = fw_arena_array(c->arena, double, (size_t)e->n));
@@ -62,8 +67,8 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     fw_arena_rewind(c->arena, mark);
     if (!(sum < (double)INFINITY)) return FW_OK;
     *value = sum;
-    *reason = "the base shakes: bound by the envelope's answer to the forces -m a with all turns "
-              "of their laws";
+    *reason = "the base shakes: answer of the modes to the forces -m a with all turns of their "
+              "laws, and to what they take from the stiffness";
     return FW_OK;
 }
 

@@ -325,7 +325,7 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     *reason = "surfaces may touch: what that changes is the motion itself";
     if (fw_contact_may_touch(c)) return FW_OK;
     *value = 0;
-    *reason = "no gap closes within the reach of the motion: bound";
+    *reason = "no gap closes within the reach of the motion";
     return FW_OK;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One file per effect: is it called for by the scene, how far can it move the answer, and its
-   force. An effect is active when the scene calls for it and its bound exceeds the accuracy wanted.
+   force. An effect is active when the scene calls for it, unless it is among those with the
+   smallest bounds, whose sum stays below the accuracy wanted.
    The list of active effects is compiled once per scene; an absent one costs nothing. */
 #ifndef FW_EFFECTS_EFFECTS_H
 #define FW_EFFECTS_EFFECTS_H

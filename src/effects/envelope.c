@@ -278,8 +278,8 @@ fw_status fw_envelope_of(fw_arena *arena, const fw_mechanism *m, const fw_scene 
     add_shifts(o, e);
     FW_TRY(doubt(arena, o, e, &unsure));
     if (!(unsure <= unsure_most))
-        return fail(e, "it turns too far, or its loads change its stiffness too much, for linear "
-                       "theory");
+        return fail(e, "the mechanism turns too far, or its loads change its stiffness too much, "
+                       "for linear theory");
     FW_TRY(fw_modal_floor(arena, o, &pushes, unsure, &e->floor));
     widen(e, unsure);
     for (int i = 0; i < e->npin; i++)

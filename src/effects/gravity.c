@@ -24,8 +24,9 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     const fw_envelope *e = c->envelope;
     *value = (double)INFINITY;
     if (!e->valid) {
-        FW_NEED(*reason = fw_arena_printf(
-                    c->arena, "weight has nothing to be small against, kept: %s", e->why_not));
+        FW_NEED(*reason = fw_arena_printf(c->arena,
+                                          "weight acts, and nothing bounds what it does: kept (%s)",
+                                          e->why_not));
         return FW_OK;
     }
     fw_mark mark = fw_arena_mark(c->arena);
@@ -43,8 +44,8 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     *value = fw_envelope_mode_answer(c, mode, 1) + fw_envelope_stiffness(c, part);
     fw_arena_rewind(c->arena, mark);
     *reason = isfinite(*value)
-                  ? "bound: answer of the modes to the weights put on at once, and to what they "
-                    "take from the stiffness"
+                  ? "weight: answer of the modes to it, put on at once, and to what it takes from "
+                    "the stiffness"
                   : "weight could take all stiffness: kept";
     return FW_OK;
 }

@@ -9,10 +9,13 @@
                 its forces F by what its softness changes with th, the torque F d'(th) + k'/2k F
    give, couples F give/2 on both bodies. Their answer: modes of b beyond those of a as in statics,
    signs kept, twice; the others sizes times what a product of two of the motion's courses can do:
-   2/|1 - (W/w)^2| for W = w_j, w_j +- w_k, at most w T/2 phases     frequencies shift, and rings of
-   several modes or of later loads then meet at other times. The shift of one ring from the start
-   only stretches time; others: their size times the shift of their phase, known to first order in
-   the peaks (so times min(1, u w T)), and in full for the shift by the sources
+   2/|1 - (W/w)^2| for W = w_j, w_j +- w_k, at most w T/2
+
+     phases     frequencies shift, and rings of several modes or of later loads then meet at other
+                times. The shift of one ring from the start only stretches time; others: their size
+                times the shift of their phase, known to first order in the peaks (so times
+                min(1, u w T)), and in full for the shift by the sources
+
 
    Inputs SI from the envelopes; outputs rad over the floor. Infinite where the hinges give at
    frequencies below twice those of the motion. Valid as the envelope is. Cost: peaks.c, and modes
@@ -254,6 +257,8 @@ static double apart(const work *w, int i) {
 static const char *outside(const fw_effect_case *c) {
     const fw_envelope *b = c->envelope, *a = b->pinned;
     if (!b->valid) return b->why_not;
+    if (!a && b->modal && (b->modal->terms->strained || b->modal->terms->stretch.law))
+        return "free strains bend hinges that give";
     if (!a) return "pins in place of the hinges have no linear theory";
     if (!a->valid) return a->why_not;
     if (!(a->modes < b->modes) || a->modes == 0) return "no hinge gives";

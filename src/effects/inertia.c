@@ -279,11 +279,11 @@ static fw_status find_floor(const fw_effect_case *c, const fw_pushes *p, const m
 static const char *reason_to_keep(const fw_effect_case *c) {
     const fw_envelope *e = c->envelope;
     if (c->mechanism->ndriver > 0)
-        return "drivers move the mechanism, and its joint forces are those of inertia too: kept";
+        return "drivers move the mechanism, and its joint forces are those of inertia too";
     if (!e->valid || !e->modal) return e->why_not ? e->why_not : "the motion has no linear theory";
     for (int i = 0; i < e->modal->terms->nelement; i++)
         if (e->modal->terms->element[i].laws > 0)
-            return "the force of an actuator depends on the pose and on time at once";
+            return "a force depends on the pose and on time at once";
     return NULL;
 }
 
@@ -303,8 +303,8 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     *value = (double)INFINITY;
     if (keep) {
         FW_NEED(*reason = fw_arena_printf(c->arena,
-                                          "no bound on a row of equilibria (%s): inertia "
-                                          "acts",
+                                          "masses resist changes of motion, and nothing "
+                                          "bounds what a row of equilibria would miss: kept (%s)",
                                           keep));
         return FW_OK;
     }
@@ -324,8 +324,9 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     FW_TRY(find_floor(c, &pushes, &m, most, &least));
     fw_arena_rewind(c->arena, mark);
     *value = most / least;
-    *reason = "bound from the jumps of the loads and the changes of their slope against a row of "
-              "equilibria";
+    *reason =
+        "masses resist changes of motion: jumps of the loads and changes of their slope, against "
+        "a row of equilibria";
     return FW_OK;
 }
 

@@ -77,7 +77,9 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     *value = (double)INFINITY;
     if (!e->valid) {
         FW_NEED(*reason = fw_arena_printf(
-                    c->arena, "joints have damping, and nothing bounds it: %s", e->why_not));
+                    c->arena,
+                    "joints have damping, and nothing bounds how fast they turn: kept (%s)",
+                    e->why_not));
         return FW_OK;
     }
     fw_mark mark = fw_arena_mark(c->arena);

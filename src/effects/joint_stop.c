@@ -34,7 +34,7 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
             return FW_OK;
     }
     *value = 0;
-    *reason = "no joint can turn as far as its stops: bound";
+    *reason = "no joint can turn as far as its stops";
     return FW_OK;
 }
 

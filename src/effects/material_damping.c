@@ -10,7 +10,7 @@
    stated in the file holds in both cases. Inputs eta, Hz, k in N m/rad; output N m s/rad. Valid for
    motions near the frequency: away from it the damper's loss factor goes with the frequency, the
    material's hardly does. Source: loss factor and equivalent viscous damping as in any text on
-   vibration; docs/theory/effects/ material-damping.md. Test: test_material_damping.c. */
+   vibration; docs/theory/effects/material-damping.md. Test: test_material_damping.c. */
 #include "effects/effect.h"
 #include "effects/envelope.h"
 #include <math.h>
@@ -77,8 +77,13 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     *value = (double)INFINITY;
     *reason = "the loss factor is not known";
     if (isnan(loss_of(c))) return FW_OK;
-    *reason = "the material has a loss factor, and how fast the hinges turn is not bounded: kept";
-    if (!v || !v->valid) return FW_OK;
+    if (!v || !v->valid) {
+        FW_NEED(*reason = fw_arena_printf(c->arena,
+                                          "the material has a loss factor, and nothing bounds how "
+                                          "fast the hinges turn: kept (%s)",
+                                          v ? v->why_not : "not looked at"));
+        return FW_OK;
+    }
     fw_mark mark = fw_arena_mark(c->arena);
     fw_terms terms;
     double *mode;

@@ -78,7 +78,7 @@ static fw_status solve(fw_arena *arena, fw_modal *o) {
     }
     FW_NEED(mix = fw_arena_array(arena, double, (size_t)m *(size_t)m));
     if (!fw_jacobi(m, reduced, value, mix) || !(value[0] > 1e-12 * value[m - 1])) {
-        o->why_not = "it can move freely, or is not stable where it is drawn";
+        o->why_not = "the mechanism can move freely, or is not stable where it is drawn";
         return FW_OK;
     }
     o->modes = m;
@@ -215,17 +215,23 @@ static fw_status start(fw_arena *arena, fw_modal *o) {
 /* ---- all of it ---- */
 
 static const char *beyond(const fw_mechanism *m, const fw_terms *t) {
-    if (m->ndriver > 0) return "drivers move it";
+    if (m->ndriver > 0) return "drivers move the mechanism";
     for (int i = 0; i < t->nspring; i++)
         if (t->spring[i].cable) return "cables pull on one side only";
-    for (int i = 0; i < t->nelement; i++)
-        if (t->element[i].switches > 0 || !fw_terms_element_fits(&t->element[i]))
-            return "something in it acts on one side only";
+    for (int i = 0; i < t->nelement; i++) {
+        const fw_force_element *e = &t->element[i];
+        if (!fw_terms_element_fits(e)) return "an element acts at too many points";
+        if (e->switches == 0) continue;
+        return strcmp(e->class_->effect, "tendon") == 0
+                   ? "a tendon that may go slack pulls on one side only"
+                   : "surfaces that touch push on one side only";
+    }
     if (t->nstop > 0) return "stops act on one side only";
     if (t->nfriction > 0) return "friction sticks and slides";
     if (t->quasi_static) return "inertia is left out";
-    if (fw_linear_size(m, t) > FW_RESPONSE_MOST) return "it has too many bodies for that";
-    return m->nbody == 0 ? "it has no bodies" : NULL;
+    if (fw_linear_size(m, t) > FW_RESPONSE_MOST)
+        return "the mechanism has too many bodies for modes";
+    return m->nbody == 0 ? "the mechanism has no bodies" : NULL;
 }
 
 /* omega^2 M s = K s within G s = 0: with G M^-1/2 = U S V^T the last columns z of V span what can
@@ -241,7 +247,7 @@ fw_status fw_modal_find(fw_arena *arena, const fw_mechanism *m, const fw_scene *
     FW_TRY(fw_linear_new(arena, m, terms, &o->linear, &elastic));
     FW_NEED(o->inertia = fw_arena_array(arena, double, (size_t)o->n));
     if (!elastic)
-        o->why_not = "nothing in it is elastic";
+        o->why_not = "nothing in the mechanism is elastic";
     else if (!masses(m, &o->linear, o->inertia))
         o->why_not = "a body has no mass";
     else if (o->linear.rows >= o->n)

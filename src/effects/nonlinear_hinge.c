@@ -26,11 +26,12 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     *reason = "conjugate surfaces may touch, which needs the hinge to give: kept";
     if (c->scene->ncontact > 0 && fw_contact_may_touch(c)) return FW_OK;
     FW_TRY(fw_hinge_give_bound(c, value, &why));
-    *reason = "bound: peaks of the linear motion with pins and with hinges that give, and what the "
-              "hinges do besides";
+    *reason = "flexures give and drift: peaks of the linear motion with pins and with hinges that "
+              "give, and what the hinges do besides";
     if (why)
         FW_NEED(*reason = fw_arena_printf(
-                    c->arena, "ideal pins have nothing to be measured by, kept: %s", why));
+                    c->arena,
+                    "flexures give and drift, and nothing bounds what that does: kept (%s)", why));
     return FW_OK;
 }
 

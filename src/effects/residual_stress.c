@@ -177,10 +177,9 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     FW_NEED(*reason = fw_arena_printf(
                 c->arena,
                 "the released layer has a strain of %s against its substrate and bends its hinges; "
-                "its gradient lifts the end of the longest body by %s um out of the plane: %s",
+                "its gradient lifts the end of the longest body by %s um out of the plane%s",
                 fw_number_text(strain, sizeof strain, r.strain, 3),
-                fw_number_text(up, sizeof up, 1e6 * rises, 3),
-                isfinite(*value) ? "bound" : "kept"));
+                fw_number_text(up, sizeof up, 1e6 * rises, 3), isfinite(*value) ? "" : ": kept"));
     return FW_OK;
 }
 

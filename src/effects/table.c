@@ -113,22 +113,24 @@ static fw_status say(const fw_effect_case *c, fw_effect_entry *entry, double sum
                      bool last) {
     if (isinf(entry->bound)) return FW_OK; /* its reason is the whole of it */
     char bound[32], wanted[32], all[32];
-    fw_number_text(bound, sizeof bound, entry->bound, 3);
-    fw_number_text(wanted, sizeof wanted, accuracy, 3);
-    fw_number_text(all, sizeof all, sum, 3);
+    fw_percent_text(bound, sizeof bound, entry->bound);
+    fw_percent_text(wanted, sizeof wanted, accuracy);
+    fw_percent_text(all, sizeof all, sum);
     const char *how = entry->reason;
     if (!entry->active)
         entry->reason = fw_arena_printf(
-            c->arena, "%s = %s, left out: %s%s%sbelow the accuracy wanted %s", how, bound,
-            last ? "" : "together with smaller ones ", last ? "" : all, last ? "" : ", ", wanted);
+            c->arena, "%s; at most %s %%, left out: %s%s%sbelow the accuracy wanted, %s %%", how,
+            bound, last ? "" : "together with smaller ones ", last ? "" : all, last ? "" : " %, ",
+            wanted);
     else if (entry->bound < accuracy)
         entry->reason = fw_arena_printf(c->arena,
-                                        "%s = %s, kept: with what is left out already %s, not "
-                                        "below the accuracy wanted %s",
+                                        "%s; at most %s %%, kept: with what is left out already "
+                                        "%s %%, not below the accuracy wanted, %s %%",
                                         how, bound, all, wanted);
     else
-        entry->reason = fw_arena_printf(c->arena, "%s = %s, not below the accuracy wanted %s", how,
-                                        bound, wanted);
+        entry->reason =
+            fw_arena_printf(c->arena, "%s; at most %s %%, not below the accuracy wanted, %s %%",
+                            how, bound, wanted);
     FW_NEED(entry->reason);
     return FW_OK;
 }

@@ -189,8 +189,7 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
         FW_NEED(*reason = fw_arena_printf(
                     c->arena,
                     "the ground's points move by a strain of %s against the device, and flexures "
-                    "change: bound by the envelope's answer (the common expansion of %s is scaled "
-                    "out)",
+                    "change: answer of the modes (the common expansion of %s is scaled out)",
                     differs, grown));
     else
         FW_NEED(*reason = fw_arena_printf(

@@ -43,7 +43,7 @@ static int arc_winding(const fw_segment *s, fw_vec2 p) {
 /* Winding number by a ray to the right: lines by the sign of a cross product, arcs cut at their top
    and bottom, where x = c_x +- sqrt(r^2 - (y - c_y)^2) is single-valued.
    In: contour, point (m). Exact for points off the outline by more than rounding. O(n).
-   Test: test_contain.c. */
+   Test: test_distance.c. */
 int fw_contour_winding(const fw_contour *contour, fw_vec2 point) {
     int total = 0;
     for (int i = 0; i < contour->count; i++) {

@@ -55,7 +55,7 @@ double fw_model_kinetic(const fw_model *m, const double *v) {
    elements say that they store at time t; W = work of constant loads from the assembled pose, and
    of drivers, timed loads and laws of elements as carried with the state; D = what dampers took,
    carried with the state. T + V + D - W is constant. Scaled units. Uses the sines of the pose
-   (fw_model_pose). Test: test_simulate.c, test_forces.c. */
+   (fw_model_pose). Test: test_simulate.c, test_constraints.c. */
 fw_energy fw_model_energy(fw_model *m, double t, const double *y) {
     const double *u = y, *v = y + m->nq;
     fw_energy e = {.dissipated = m->dissipated >= 0 ? y[m->dissipated] : 0};

@@ -10,7 +10,7 @@
              next: the damping force is continuous there along every motion
    slide     -k s - c s' along the axis of a prismatic joint
    elements  in elements.c
-   Test: test_simulate.c, test_forces.c (against the derivative of the energy). */
+   Test: test_simulate.c, test_constraints.c (against the derivative of the energy). */
 #include "multibody/model.h"
 #include <float.h>
 #include <math.h>

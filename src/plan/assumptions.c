@@ -66,6 +66,35 @@ static fw_status strength_override(fw_plan *plan) {
         mine, pack->id, theirs, own->value / pack->strength.value);
 }
 
+/* flexures as they are, or pins: the ledger of each motion decides */
+static fw_status how_hinges_move(fw_plan *plan) {
+    int give = 0, motions = 0;
+    for (int i = 0; i < plan->verdict.nvariant; i++) {
+        const fw_variant_verdict *v = &plan->verdict.variant[i];
+        for (int k = 0; v->motion && k < plan->device->nscene; k++) {
+            const fw_effect_ledger *l = v->motion[k] ? &v->motion[k]->ledger : NULL;
+            motions += l != NULL;
+            for (int j = 0; l && j < l->count; j++)
+                give += l->item[j].active && strcmp(l->item[j].id, "nonlinear-hinge") == 0;
+        }
+    }
+    if (give > 0)
+        FW_TRY(
+            fw_plan_assume(plan,
+                           "%singes turn, give way to forces and drift as flexures do, in "
+                           "closed form for the wound strip (nonlinear-hinge).",
+                           give < motions ? "In scenes whose ledger has nonlinear-hinge h" : "H"));
+    return fw_plan_assume(plan,
+                          "%s revolute joints at the centres of elastic weights. Against "
+                          "geometrically exact flexures the peak moment of a hinge, joint force "
+                          "included, differs by up to %.1f %% in four reference load cases; the "
+                          "band of every utilisation holds this.",
+                          give == 0        ? "Hinges are"
+                          : give < motions ? "Other scenes and required poses take them as"
+                                           : "Required poses take them as",
+                          100.0 * fw_verdict_model_error.motion);
+}
+
 fw_status fw_plan_assumptions(fw_plan *plan) {
     const fw_model_error *e = &fw_verdict_model_error;
     char sf[32];
@@ -77,12 +106,7 @@ fw_status fw_plan_assumptions(fw_plan *plan) {
                           fw_number_text(sf, sizeof sf, plan->device->safety_factor, 4),
                           fw_place_file(plan->device->limits_place),
                           plan->device->limits_place.line, plan->device->limits_place.column));
-    FW_TRY(fw_plan_assume(plan,
-                          "Hinges are revolute joints at the centres of elastic weights. Against "
-                          "geometrically exact flexures the peak moment of a hinge, joint force "
-                          "included, differs by up to %.1f %% in four reference load cases; the "
-                          "band of every utilisation holds this.",
-                          100.0 * e->motion));
+    FW_TRY(how_hinges_move(plan));
     FW_TRY(fw_plan_assume(plan,
                           "Peak strain is the closed form with root fillets, depth and curved-beam "
                           "factors, with the joint force's own bending added; 3-D finite elements "

@@ -44,6 +44,7 @@ const char fw_report_style[] =
     "overflow-wrap:normal}\n"
     "th.n,td.n{text-align:right;white-space:nowrap}\n"
     "tbody th{font-weight:600}\n"
+    "th.id{white-space:nowrap}\n"
     "th .soft{font-weight:400}\n"
     "td.step,th.step{min-width:15em}\n"
     "tr.bad td,tr.bad th{background:#fdf1ea}\n"

@@ -228,11 +228,16 @@ static void peaks(const fw_mechanism *m, const fw_motion *motion, fw_magnitude t
 
 /* what the scene calls for, line by line; the rest in one */
 static void ledger(fw_text *out, const fw_effect_ledger *l) {
-    fw_text_add(out, "\n  effect             active  cost    why\n");
+    fw_text_add(out,
+                "\neffects of the scene; bound: the most that leaving one out changes the peak of "
+                "any hinge,\nrelative to the largest; cost: instructions per evaluation of the "
+                "forces\n\n  effect             active  bound %   cost    why\n");
     for (int i = 0; i < l->count; i++) {
         const fw_effect_entry *e = &l->item[i];
         if (!e->called_for) continue;
-        fw_text_printf(out, "  %-18s %-6s  ", e->id, e->active ? "yes" : "no");
+        char bound[32] = "inf";
+        if (isfinite(e->bound)) fw_percent_text(bound, sizeof bound, e->bound);
+        fw_text_printf(out, "  %-18s %-6s  %-8s  ", e->id, e->active ? "yes" : "no", bound);
         if (e->cost > 0)
             fw_text_real(out, "%-6.0f  ", e->cost);
         else
@@ -247,7 +252,7 @@ static void ledger(fw_text *out, const fw_effect_ledger *l) {
     }
     if (any) fw_text_add(out, "\n");
     if (l->left_out > 0)
-        fw_text_real(out, "  sum of the bounds of what is left out: %.2g\n", l->left_out);
+        fw_text_real(out, "  sum of the bounds of what is left out: %.2g %%\n", 100 * l->left_out);
 }
 
 fw_status fw_report_simulate_text(const fw_scene *scene, const fw_mechanism *m,

@@ -511,7 +511,7 @@ class Usage(InTemporary):
 
     def test_help_says_what_no_effects_leaves(self):
         text = run("simulate", "--help").stdout
-        self.assertRegex(text, r"--effects .*loads, initial velocities, stiffness, springs and stops stay")
+        self.assertRegex(text, r"--effects .*stiffness, springs, stops within reach, loads, tendons, comb drives and initial velocities stay")
 
     def test_wrong_mass_is_one_mistake(self):
         squeezer = ROOT / "docs/mechanisms/squeezer.xml"

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every effect of src/effects/effects.def has a page in docs/theory/effects with what a reader needs to judge
-it, each under a heading of its own; its README lists all of them, and the tests that pages name exist."""
+it, each under a heading of its own; its README lists all of them; what the table of the program keeps or prices is
+what pages say. That the tests that they name exist: pages.py."""
+import csv
 import pathlib
 import re
 import sys
@@ -15,8 +17,9 @@ problems = []
 names = re.findall(r"^FW_EFFECT\((\w+)\)", (ROOT / "src/effects/effects.def").read_text(), re.M)
 ids = [name.replace("_", "-") for name in names]
 readme = (PAGES / "README.md").read_text()
-tests = {path.name for path in (ROOT / "tests").rglob("test_*")}
-if len(ids) < 18:
+rows = dict(re.findall(r"^\| \[([\w-]+)\]\([\w-]+\.md\) \|(.*)\|$", readme, re.M))
+costs = list(csv.DictReader((ROOT / "docs/data/effect-costs.csv").open()))
+if len(ids) < 18 or len(costs) < 20:
     problems.append("effects.def has lost effects, or this test cannot read it")
 
 for name, effect in zip(names, ids):
@@ -32,14 +35,26 @@ for name, effect in zip(names, ids):
             problems.append(f"{effect}.md says nothing under '## {heading}'")
     if f"src/effects/{name}.c" not in text and f"`{name}.c`" not in text:
         problems.append(f"{effect}.md does not say where its code is (src/effects/{name}.c)")
-    if not re.search(r"^\| \[" + effect + r"\]\(" + effect + r"\.md\) \|", readme, re.M):
+    if effect not in rows:
         problems.append(f"the table of README.md does not list {effect}")
+        continue
+    source = (ROOT / f"src/effects/{name}.c").read_text()
+    kept, bound = ".kept = true" in source, sections.get("Bound", "")
+    if kept != rows[effect].endswith(" ∞, kept "):
+        problems.append(f"README.md and {name}.c disagree on whether {effect} is kept")
+    if kept and not re.match(r"\s*∞, and the effect is kept whatever was asked for", bound):
+        problems.append(f"{effect}.md does not begin its bound with what is kept")
+    if not kept and effect not in ("joint-stop", "contact", "friction") and not re.search(r"\b(tested|proved)\b", bound):
+        problems.append(f"{effect}.md does not say whether its bound is proved or tested")
+    if re.search(r"\d instructions", text):
+        problems.append(f"{effect}.md states a cost: that is in costs.md, which is counted")
+    cost = re.search(r"\.cost = (\d+)", source)
+    counted = [float(row["each"]) for row in costs if row["effect"] == effect]
+    if counted and abs(max(counted) - float(cost.group(1) if cost else 0)) > 0.25 * max(counted):
+        problems.append(f"{name}.c states a cost of {cost and cost.group(1)}, and {max(counted)} was counted")
 for page in PAGES.glob("*.md"):
     if page.stem not in OTHERS and page.stem not in ids:
         problems.append(f"{page.name} is of no effect")
-    for test in re.findall(r"test_\w+\.(?:c|py)\b", page.read_text()):
-        if test not in tests:
-            problems.append(f"{page.name} names {test}, which is not there")
 if "theory/effects/README.md" not in (ROOT / "docs/index.md").read_text():
     problems.append("docs/index.md does not link the effects")
 

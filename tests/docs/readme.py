@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What README.md, docs/tutorial.md and docs/mechanisms/README.md tell a newcomer to type works, and the files that they name exist.
+"""What README.md, the tutorial and the pages on mechanisms and gallery tell a newcomer to type works, and the files that they name exist.
 ./demo and ./test are not run from inside a test; everything else is."""
 import pathlib
 import re
@@ -20,7 +20,7 @@ with tempfile.TemporaryDirectory() as here:
     (pathlib.Path(here) / "out").mkdir()
     (pathlib.Path(here) / "docs").symlink_to(ROOT / "docs")
     pages = text + "".join((ROOT / "docs" / page).read_text()
-                           for page in ("tutorial.md", "mechanisms/README.md"))
+                           for page in ("tutorial.md", "mechanisms/README.md", "gallery/README.md"))
     commands = [line.strip() for line in pages.splitlines() if line.startswith("    build/flexwright")]
     if len(commands) < 12:
         problems.append("README or the tutorial has lost its commands")
@@ -37,6 +37,14 @@ printed += subprocess.run([program, "check", "-"], input=short, capture_output=T
 for line in re.findall(r"^    (reference-six-bar: .*|governing hinge .*|flexure \w+: .*)$", text, re.M):
     if line not in printed:
         problems.append(f"README quotes '{line}', which the program does not print")
+
+# and what the gallery's page quotes is in its verdicts and ledgers, which another test keeps as they are today
+gallery = (ROOT / "docs/gallery/README.md").read_text()
+for name, section in re.findall(r"^## ([\w-]+)\n(.*?)(?=^## |\Z)", gallery, re.M | re.S):
+    made = "".join((ROOT / f"docs/gallery/{name}/{file}.txt").read_text() for file in ("verdict", "ledger"))
+    for quoted in re.findall(r"\d+\.\d+ (?:%|V)", section):
+        if quoted not in made:
+            problems.append(f"the gallery quotes {quoted} of {name}, which is not in its verdict or ledger")
 
 for target in re.findall(r"\]\(([^)#:]+)\)", text):
     if not (ROOT / target).exists():

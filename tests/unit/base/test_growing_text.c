@@ -30,6 +30,19 @@ static void numbers_are_strict(void **state) {
         assert_true(fw_number_parse(good[i], strlen(good[i]), &x));
 }
 
+static void percents_keep_three_digits(void **state) {
+    (void)state;
+    static const struct {
+        double part;
+        const char *shown;
+    } row[] = {{0, "0"},           {0.001, "0.1"},    {0.0036409, "0.364"}, {9.996, "1000"},
+               {43.449, "4340"},   {99.96, "10000"},  {110.59, "11100"},    {999.6, "100000"},
+               {5678.9, "568000"}, {9995.1, "1e+06"}, {1e30, "1e+32"},      {3.2e-9, "3.2e-07"}};
+    char buffer[32];
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++)
+        assert_string_equal(fw_percent_text(buffer, sizeof buffer, row[i].part), row[i].shown);
+}
+
 static void fixed_and_escaped(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
@@ -90,9 +103,10 @@ static void zero_has_no_sign(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(zero_has_no_sign),    cmocka_unit_test(numbers_round_trip),
-        cmocka_unit_test(numbers_are_strict),  cmocka_unit_test(fixed_and_escaped),
-        cmocka_unit_test(short_memory_sticks), cmocka_unit_test(spelling),
+        cmocka_unit_test(zero_has_no_sign),           cmocka_unit_test(numbers_round_trip),
+        cmocka_unit_test(numbers_are_strict),         cmocka_unit_test(fixed_and_escaped),
+        cmocka_unit_test(short_memory_sticks),        cmocka_unit_test(spelling),
+        cmocka_unit_test(percents_keep_three_digits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""docs/reference/json.md explains every key that the program prints, in the section of its document; and what the
+ledger's numbers are said to be holds: a fraction, null for what is not bounded, 0 for what is not called for."""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+program = pathlib.Path(sys.argv[1]).resolve()
+page = (ROOT / "docs/reference/json.md").read_text()
+sections = {name: set(re.findall(r"`(\w+)`", text))
+            for name, text in re.findall(r"^## ([^\n]+)\n(.*?)(?=^## |\Z)", page, re.M | re.S)}
+# keys of these objects are ids of bodies and joints
+BY_ID = {"q", "v", "a", "before", "after", "shape", "damped_shape", "velocity", "acceleration", "revolute_N", "tie_N_Nm",
+         "driver_N_or_Nm"}
+SHARED = {"effects": "Effects: the ledger", "pull_in": "Pull-in"}
+problems, seen, documents = [], {}, 0
+
+SIX = "docs/gallery/reference-six-bar/device.xml"
+COMB = "docs/gallery/comb-stage/device.xml"
+RUNS = (
+    ("verdict", ["check", SIX]),
+    ("verdict", ["check", SIX, "--set", "limits/@safety-factor=12"]),
+    ("verdict", ["check", COMB, "--set", "volts=110 V"]),
+    ("simulate", ["simulate", COMB]),
+    ("simulate", ["simulate", "docs/mechanisms/slider-crank.xml"]),
+    ("simulate", ["simulate", SIX, "--method", "minimal", "--effects", "all"]),
+    ("statics", ["statics", COMB]),
+    ("statics", ["statics", "docs/mechanisms/toggle.xml", "--path"]),
+    ("statics", ["statics", "docs/mechanisms/slider-crank.xml"]),
+    ("modes", ["modes", COMB]),
+    ("assemble", ["assemble", "docs/mechanisms/squeezer.xml", "--rates", "1 rad/s"]),
+    ("assemble", ["assemble", "docs/mechanisms/slider-crank.xml"]),
+    ("hinge", ["hinge", SIX]),
+    ("recipe", ["recipe", COMB]),
+    ("recipe", ["recipe", SIX]),
+    ("mask", ["mask", COMB]),
+)
+
+
+def walk(value, section, shared=None):
+    if isinstance(value, list):
+        for item in value:
+            walk(item, section, shared)
+    elif isinstance(value, dict):
+        for key, inner in value.items():
+            known = sections[SHARED[shared] if shared else section] | {"schema", "recipes", "masks"}
+            seen.setdefault(section, set()).add(key)
+            if key not in known:
+                problems.append(f"json.md does not explain {key} under '## {SHARED.get(shared, section)}'")
+            if key not in BY_ID:
+                walk(inner, section, key if key in SHARED else shared)
+
+
+def ledger(document, what):
+    for entry in document.get("effects", []):
+        bound, cost = entry["bound"], entry["cost"]
+        if not entry["called_for"] and (entry["active"] or bound != 0 or cost != 0):
+            problems.append(f"{what}: {entry['id']} is not called for, and yet something")
+        if bound is not None and "at most" in entry["reason"]:
+            said = float(re.search(r"at most ([0-9.e+-]+) %", entry["reason"]).group(1))
+            if abs(said - 100 * bound) > 0.006 * said + 1e-300:
+                problems.append(f"{what}: {entry['id']} says {said} % for {bound}")
+    if document.get("effects") and len({e["id"] for e in document["effects"]}) != 18:
+        problems.append(f"{what}: not 18 effects")
+
+
+for section, command in RUNS:
+    done = subprocess.run([program, *command, "--json"], cwd=ROOT, capture_output=True, text=True, timeout=120)
+    if done.returncode not in (0, 1, 4):
+        problems.append(f"{' '.join(command)}: status {done.returncode}\n{done.stderr}")
+        continue
+    document = json.loads(done.stdout)
+    documents += 1
+    if not document["schema"].startswith(f"flexwright.{section}"):
+        problems.append(f"{' '.join(command)} prints {document['schema']}")
+    walk(document, section)
+    ledger(document, " ".join(command))
+with tempfile.TemporaryDirectory() as here:
+    subprocess.run([program, "plan", COMB, "-q", "-o", f"{here}/o", "--set", "volts=49 V"], cwd=ROOT, capture_output=True,
+                   timeout=120)
+    walk(json.loads((pathlib.Path(here) / "o/manifest.json").read_text()), "manifest")
+
+print("\n".join(dict.fromkeys(problems)) or f"{documents} documents, {sum(map(len, seen.values()))} keys explained")
+sys.exit(1 if problems else 0)
