@@ -175,6 +175,26 @@ static bool pass_event(fw_run *r, fw_stepper *s, int which, double theta, double
     return true;
 }
 
+/* A joint at its limit within round-off may be unfit on the dense output and hold all the same when
+   all are decided, at the same time again and again. From the third time on its event is passed
+   over for a step that doubles with every further one, until it is clear which of the two it is: at
+   most as late as the force needs to grow out of its round-off. Test: test_hard_nonsmooth.c. */
+enum { PATIENT = 3 };
+
+static bool left_alone(const fw_run *r, const fw_stepper *s) {
+    return r->nudge > 0 && s->t - s->t_old <= 1.5 * r->nudge;
+}
+
+/* behind an event (which >= 0; `before`: how many there were) or a step without one */
+static void mind_idle(fw_run *r, fw_stepper *s, int which, long before, double end) {
+    const double final = r->end[r->npiece - 1];
+    bool went_on = which < 0 && s->t - s->t_old > 1.5 * r->nudge;
+    if (went_on || r->model->events > before) r->idle = 0, r->nudge = 0;
+    if (which < 0 || r->model->events > before || ++r->idle < PATIENT) return;
+    r->nudge = fmin(1e-6 * final, fmax(2 * r->nudge, 32 * DBL_EPSILON * final));
+    if (s->t + r->nudge < end) start_stepper(r, s, s->t, r->moved, s->t + r->nudge);
+}
+
 /* ---- pieces ---- */
 
 /* a law that jumps changes what its element stores: that is its work. Switches fit the new law. */
@@ -246,6 +266,7 @@ static fw_status begin(fw_run *r, fw_stepper *s) {
     fw_model *m = r->model;
     if (r->full && r->options->observe) r->options->observe(r->options->context, NULL);
     m->projections = m->events = 0;
+    r->idle = 0, r->nudge = 0;
     m->worst_position = m->worst_velocity = 0;
     m->stuck = -1;
     m->piece = 0.5 * r->end[0] * m->scale.time_s;
@@ -287,13 +308,17 @@ fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks) {
                 }
                 patience += 1000; /* looked at again */
             }
+            if (which >= 0 && left_alone(r, s)) which = -1, theta = 1;
             if (which >= 0 && aim(r, s, theta)) continue;
             r->aims = 0;
             if (!look(r, s, peaks, theta)) return stopped(r, s, FW_ODE_SMALL);
+            long before = m->events;
+            double met = s->t_old + theta * s->h;
             if (which >= 0 && !pass_event(r, s, which, theta, end)) {
-                FW_TRY(fw_run_jammed(r, s->t_old + theta * s->h));
+                FW_TRY(fw_run_jammed(r, met));
                 return stopped(r, s, FW_ODE_SMALL);
             }
+            mind_idle(r, s, which, before, end);
             FW_TRY(fw_run_valid(r, s->t, s->y));
             ended = turned_too_far(r, peaks);
         }

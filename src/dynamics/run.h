@@ -78,6 +78,8 @@ typedef struct fw_run {
     int nstride;
     bool sudden;          /* a load or driver may begin at any time: an expression limits steps */
     int aims;             /* steps made again for the event at hand */
+    int idle;             /* joints that were to let go and held after all, one after the other */
+    double nudge;         /* how far such a one is left alone, scaled time; 0: not */
     int row;              /* next sample */
     bool full;            /* samples, observer and energy too */
     fw_extreme *extreme;  /* (channels) of this pass; NULL: not asked for */

@@ -3,6 +3,7 @@
    integrations of their own, every event, every tolerance, every integrator. Hard because each
    event begins where the last one ended, so that one that is lost, doubled or late spoils all that
    follows; and because what comes to rest on a spring must stop switching. */
+#include "bounce.h"
 #include "hard.h"
 #include "reference.h"
 
@@ -77,7 +78,9 @@ static void agree(fw_arena *arena, trial *c) {
         if (c->r.m.npin == 0 && strcmp(by[i][1], "minimal") == 0) continue; /* knows pins only */
         if (hard_quick() && i % 4) continue;
         bool fixed = strcmp(by[i][0], "rk4") == 0, low = strcmp(by[i][0], "generalised-alpha") == 0;
-        fw_motion_options o = {.rtol = low ? 1e-8 : fixed && c->r.m.npin ? 1e-12 : 1e-10,
+        fw_motion_options o = {.rtol = low                    ? 1e-8
+                                       : fixed && c->r.m.npin ? 1e-12
+                                                              : 1e-10,
                                .integrator = by[i][0],
                                .method = by[i][1],
                                .samples = SAMPLES};
@@ -92,93 +95,6 @@ static void agree(fw_arena *arena, trial *c) {
 }
 
 /* ---- bounces ---- */
-
-/* g overlap, downwards: g'' = G in flight, m g'' = m G - k g - c g' in touch. It takes hold where
-   g = 0 comes back (or, when it never left, where k g + c g' is 0 again) and lets go at
-   k g + c g' = 0; in touch g = g_s + e^(-a t) (A cos w t + B sin w t) */
-typedef struct bounce {
-    double m, k, c, g0, v0; /* overlap and its rate at the start */
-    double sign, offset;    /* component = offset + sign g */
-    long double t, g, v;    /* of the present phase's start */
-    bool on;
-    long double end; /* of the present phase */
-    long count;
-} bounce;
-
-static void bounce_state(const bounce *b, long double s, long double *g, long double *v) {
-    if (!b->on) {
-        *g = b->g + s * (b->v + 0.5L * (long double)G * s), *v = b->v + (long double)G * s;
-        return;
-    }
-    long double a = (long double)b->c / (2 * (long double)b->m), still;
-    long double w = sqrtl((long double)b->k / (long double)b->m - a * a);
-    still = (long double)b->m * (long double)G / (long double)b->k;
-    long double p = b->g - still, q = (b->v + a * p) / w, e = expl(-a * s);
-    *g = still + e * (p * cosl(w * s) + q * sinl(w * s));
-    *v = e * ((q * w - a * p) * cosl(w * s) - (p * w + a * q) * sinl(w * s));
-}
-
-static long double bounce_push(const bounce *b, long double s) {
-    long double g, v;
-    bounce_state(b, s, &g, &v);
-    return (long double)b->k * g + (long double)b->c * v;
-}
-
-/* zero of the push in (low, high), of opposite signs there */
-static long double bounce_zero(const bounce *b, long double low, long double high) {
-    bool up = bounce_push(b, high) > 0;
-    for (int i = 0; i < 120; i++) {
-        long double middle = 0.5L * (low + high);
-        if ((bounce_push(b, middle) > 0) == up)
-            high = middle;
-        else
-            low = middle;
-    }
-    return high;
-}
-
-/* how long the phase that begins now lasts; infinite: for good */
-static long double bounce_lasts(const bounce *b) {
-    if (!b->on) {
-        long double top = b->g - b->v * b->v / (2 * (long double)G), back = -b->v / (long double)G;
-        if (b->v > 0 || top < 0) /* through g = 0 downwards */
-            return back + sqrtl(fmaxl(0, back * back - 2 * b->g / (long double)G));
-        return bounce_zero(b, fmaxl(0, back - (long double)b->c / (long double)b->k), 1e3L);
-    }
-    /* push - m G = e^(-a t) (P cos + Q sin): least half a period behind its largest */
-    long double a = (long double)b->c / (2 * (long double)b->m);
-    long double w = sqrtl((long double)b->k / (long double)b->m - a * a), step = 1e-3L / w, s = 0;
-    long double now = bounce_push(b, 0), next;
-    while ((next = bounce_push(b, s + step)) >= now)
-        s += step, now = next;
-    long double high = s;
-    while ((next = bounce_push(b, high + step)) < now)
-        high += step, now = next;
-    return now > 0 ? (long double)INFINITY : bounce_zero(b, s, high);
-}
-
-static void bounce_again(void *exact) {
-    bounce *b = exact;
-    b->t = 0, b->g = (long double)b->g0, b->v = (long double)b->v0, b->on = false, b->count = 0;
-    b->end = bounce_lasts(b);
-}
-
-static double bounce_at(void *exact, double t) {
-    bounce *b = exact;
-    while (b->end < (long double)t) {
-        long double g, v;
-        bounce_state(b, b->end - b->t, &g, &v);
-        b->g = g, b->v = v, b->t = b->end, b->on = !b->on, b->count++;
-        b->end = b->t + bounce_lasts(b);
-    }
-    long double g, v;
-    bounce_state(b, (long double)t - b->t, &g, &v);
-    return b->offset + b->sign * (double)g;
-}
-
-static long bounce_events(void *exact) {
-    return ((const bounce *)exact)->count;
-}
 
 static fw_contact_use *touch(fw_arena *arena, rig *r, fw_contact_side side, int a, int b,
                              double distance, double k, double c) {
@@ -202,7 +118,7 @@ static trial bouncing(fw_arena *arena, fw_contact_side side, double height, doub
     bounce *b = fw_arena_one(arena, bounce);
     double m = 0.3, c = 2 * zeta * sqrt(k * m), d = side == FW_CONTACT_INSIDE ? 0.6 : 0.2;
     double sign = -1, floor = side == FW_CONTACT_INSIDE ? -d : d;
-    *b = (bounce){.m = m, .k = k, .c = c, .g0 = -height, .sign = sign, .offset = floor};
+    *b = (bounce){.m = m, .k = k, .c = c, .fall = G, .g0 = -height, .sign = sign, .offset = floor};
     trial t = {.name = side == FW_CONTACT_INSIDE ? "bounces in a hole" : "bounces on a guide",
                .r = rig_new(arena, 1, 0, 0),
                .part = 1,
