@@ -242,6 +242,42 @@ static void methods_agree(void **state) {
     }
 }
 
+/* electrodes on a ground that grows: where its growth ends energy balances, also where samples
+   were taken in the step before */
+static void ends_of_ramps(void **state) {
+    (void)state;
+    for (int i = 0; i < 20; i++) {
+        fixture f = begin();
+        rig r = rig_new(f.arena, 1, 1, 0);
+        rig_body(&r, "lever", 1, 3, 1, 0, 0);
+        rig_pin(&r, "A", FW_GROUND, 0, 0, 0, 16, 0);
+        fw_comb plate = {.id = "plate",
+                         .kind = FW_ELECTRODES_PLATE,
+                         .body_a = FW_GROUND,
+                         .body_b = 0,
+                         .bx_m = 0.5,
+                         .direction_rad = 0.7,
+                         .gap_m = 1,
+                         .length_m = 0.5,
+                         .depth_m = 1,
+                         .voltage_V = 4e5};
+        r.scene.comb = &plate, r.scene.ncomb = 1;
+        const fw_law ramp = {.kind = FW_LAW_RAMP, .rise_s = 1.003 + 0.1 * i};
+        fw_temperature warm = {.change_K = 100,
+                               .expansion_per_K = 2e-5,
+                               .substrate_expansion_per_K = 5e-4,
+                               .modulus_change_per_K = 0,
+                               .law = &ramp};
+        r.scene.temperature = &warm, r.scene.ntemperature = 1;
+        r.scene.duration_s = 4;
+        fw_motion_options o = {.rtol = 1e-12, .samples = 401, .effects = {FW_EFFECTS_ALL, NULL}};
+        const fw_motion *m = NULL;
+        assert_int_equal(fw_simulate(f.arena, &r.m, &r.scene, &o, &f.diags, &m), FW_OK);
+        assert_true(m->stats.energy_error < 1e-10);
+        fw_arena_free(f.arena);
+    }
+}
+
 /* a lever on a flexure: its frequency goes with sqrt(1 + beta dT), its joint's own spring does not
  */
 static void softer_flexure(void **state) {
@@ -371,9 +407,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(portal_leans),   cmocka_unit_test(ramp_ends_like_a_constant),
         cmocka_unit_test(from_the_start), cmocka_unit_test(moved_by_the_ground_alone),
-        cmocka_unit_test(methods_agree),  cmocka_unit_test(softer_flexure),
-        cmocka_unit_test(mistakes),       cmocka_unit_test(stressed_layer),
-        cmocka_unit_test(points_follow),
+        cmocka_unit_test(methods_agree),  cmocka_unit_test(ends_of_ramps),
+        cmocka_unit_test(softer_flexure), cmocka_unit_test(mistakes),
+        cmocka_unit_test(stressed_layer), cmocka_unit_test(points_follow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
