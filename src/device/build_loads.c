@@ -2,6 +2,15 @@
 /* <force>, <torque>, <gravity>, <initial>. */
 #include "device/scene_parts.h"
 
+/* 0 may be stated, for example by a parameter that a study changes; nothing at all is a slip */
+static void needs_size(fw_scene_reader *s, const fw_record *record, const char *element,
+                       const char *x, const char *y, const char *example) {
+    if (fw_given(record, x) || fw_given(record, y)) return;
+    fw_diag_error(s->r->diags, 93, record->element->place,
+                  "<%s> without a size does nothing; give %s or %s, for example %s, or remove it",
+                  element, x, y, example);
+}
+
 fw_status fw_build_force(fw_scene_reader *s, int at) {
     const fw_record *record = &s->r->record[at];
     fw_force f = {.body = fw_reference(s->r, record, "on"),
@@ -10,6 +19,7 @@ fw_status fw_build_force(fw_scene_reader *s, int at) {
                   .fx_N = fw_number_or(record, "fx", 0.0),
                   .fy_N = fw_number_or(record, "fy", 0.0),
                   .place = record->element->place};
+    needs_size(s, record, "force", "fx", "fy", "fx=\"20 uN\"");
     FW_TRY(fw_time_law(s->r, record, &f.law));
     s->scene->force[s->scene->nforce++] = f;
     return FW_OK;
@@ -27,6 +37,7 @@ fw_status fw_build_torque(fw_scene_reader *s, int at) {
 
 fw_status fw_build_gravity(fw_scene_reader *s, int at) {
     const fw_record *record = &s->r->record[at];
+    needs_size(s, record, "gravity", "gx", "gy", "gy=\"-9.81 m/s^2\"");
     s->scene->gravity = true;
     s->scene->gx_m_per_s2 = fw_number_or(record, "gx", 0.0);
     s->scene->gy_m_per_s2 = fw_number_or(record, "gy", 0.0);

@@ -200,6 +200,7 @@ static void mind_idle(fw_run *r, fw_stepper *s, int which, long before, double e
 /* a law that jumps changes what its element stores: that is its work. Switches fit the new law. */
 static void jump_of_elements(fw_run *r, double t, double *y, double stored) {
     fw_model *m = r->model;
+    fw_model_at(m, t);
     fw_model_pose(m, y);
     /* a blow may tear a damped stop or cable loose: what it holds is lost then */
     for (int i = 0; i < m->nstop + m->ncable; i++)
@@ -217,6 +218,7 @@ static fw_status next_piece(fw_run *r, fw_stepper *s, int piece) {
     double t = s->t, *y = r->moved, stored = 0;
     memcpy(y, s->y, (size_t)m->ny * sizeof *y);
     if (m->nelement > 0) {
+        fw_model_at(m, t); /* samples were taken at other times */
         fw_model_pose(m, y);
         stored = fw_model_element_energy(m, t, y, true);
     }

@@ -29,6 +29,7 @@ typedef struct fw_seen { /* what an element sees */
                             its body in rad */
     const double *w;     /* (3 ports) their velocities */
     const bool *on;      /* (switches) held during a step, changed by events */
+    bool still;          /* an equilibrium: laws have their values there, but no rates */
 } fw_seen;
 
 typedef struct fw_force_element fw_force_element;

@@ -44,7 +44,7 @@ static bool pulled(const tendon *d) {
 static pace pace_of(const fw_force_element *e, const fw_seen *s) {
     double value[3] = {1, 0, 0};
     if (e->law[0]) fw_law_value(e->law[0], s->t_s, s->piece_s, value);
-    return (pace){value[0], value[1]};
+    return (pace){value[0], s->still ? 0 : value[1]};
 }
 
 /* ---- the path ---- */

@@ -82,7 +82,7 @@ static fw_seen look(const fw_model *m, const fw_model_element *e, double t, cons
                 fw_stretch_gain(m, local, gain);
                 for (int c = 0; c < 2; c++) {
                     p[c] += length * gain[c] * m->stretch.now[0];
-                    w[c] = length * per_s * gain[c] * m->stretch.now[1];
+                    w[c] = m->held_s < 0 ? length * per_s * gain[c] * m->stretch.now[1] : 0;
                 }
             }
             continue;
@@ -98,7 +98,8 @@ static fw_seen look(const fw_model *m, const fw_model_element *e, double t, cons
                      .load = e->electrodes ? m->drive : m->actuation,
                      .p = k->p,
                      .w = k->w,
-                     .on = e->on};
+                     .on = e->on,
+                     .still = m->held_s >= 0};
 }
 
 void fw_model_element_forces(fw_model *m, double t, const double *y) {

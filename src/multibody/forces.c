@@ -49,7 +49,7 @@ fw_pull fw_model_pull(const fw_model *m, const fw_model_spring *s, const double 
         double *p = state[i];
         p[4] = rx, p[5] = ry;
         p[0] = m->origin[3 * b] + rx, p[1] = m->origin[3 * b + 1] + ry;
-        if (b == m->nbody && m->stretch.law) {
+        if (b == m->nbody && m->stretch.law && m->held_s < 0) {
             const double *grows = m->stretch.spring + 4 * (s - m->spring) + 2 * i;
             p[2] = m->stretch.now[1] * grows[0], p[3] = m->stretch.now[1] * grows[1];
         }
@@ -83,7 +83,8 @@ void fw_model_travel(const fw_model *m, const fw_model_slide *s, const double *y
         if (!side) psi_rate += w[2] * (n[0] * d[0] + n[1] * d[1]);
     }
     const double *grows = m->stretch.block + 2 * s->block;
-    if (m->stretch.law) psi_rate += m->stretch.now[1] * (e[0] * grows[0] + e[1] * grows[1]);
+    if (m->stretch.law && m->held_s < 0)
+        psi_rate += m->stretch.now[1] * (e[0] * grows[0] + e[1] * grows[1]);
     *rate = psi_rate;
 }
 

@@ -17,6 +17,7 @@
 
 enum { FW_POINTS = 2000, FW_CORRECTIONS = 14 };
 static const double fw_first_length = 0.02, fw_longest = 0.05, fw_shortest = 1e-10;
+static const double fw_beside = 1e-6;   /* step onto a point where stability may be lost */
 static const double fw_turn = 0.995;    /* cosine between two tangents, at least */
 static const double fw_most_move = 0.1; /* of any coordinate in one step, scaled */
 static const double fw_far_away = 32;   /* |u| or |s| */
@@ -337,6 +338,15 @@ static bool acceptable(const follower *f, double length) {
     return cosine >= fw_turn && largest_move(f) <= fw_most_move * f->w->reach;
 }
 
+/* An eigenvalue passes zero without a limit point: a bifurcation, or the step went across from a
+   branch that turns back onto another one. Imperfections d (of the load) make the first the second,
+   with a turn of radius d^(1/3) that long steps pass over; the loss of stability would be found at
+   a place that is off by up to d^(2/3). */
+static bool may_have_crossed(const follower *f, double length) {
+    return f->w->until_unstable && length > fw_beside && f->at.dof == f->next.dof &&
+           f->next.negative > f->at.negative && !sign_changes(f->at.rate, f->next.rate);
+}
+
 static bool out_of_reach(const follower *f) {
     for (int i = 0; i < f->w->model->nq; i++)
         if (!(fabs(f->at.u[i]) < fw_far_away)) return true;
@@ -350,7 +360,7 @@ static fw_status walk(follower *f) {
         if (fw_cancel_requested()) return FW_CANCELLED;
         fw_status status = correct(f, &f->at, length, &f->next);
         if (status != FW_OK && status != FW_SOLVER) return status;
-        if (status != FW_OK || !acceptable(f, length)) {
+        if (status != FW_OK || !acceptable(f, length) || may_have_crossed(f, length)) {
             length /= 2;
             if (length < fw_shortest) return FW_OK;
             continue;

@@ -147,23 +147,39 @@ static fw_status lowest_at(seeker *k, const double *near, double s, double *lowe
     return FW_OK;
 }
 
-/* Branches cross at a bifurcation, so that paths stop some 1e-9 beside it. The lowest eigenvalue is
-   smooth there: s at 0 of the cubic through four values at s (1 - i h); error about h^4, 1e-15 */
-static fw_status refine(seeker *k, const double *near, double *s) {
+/* s at which the cubic through the lowest eigenvalue at four values s (1 - i h) is 0 */
+static fw_status extrapolate(seeker *k, const double *near, double s, double h, double *root) {
     enum { POINTS = 4 };
-    const double h = 2e-4;
-    double at[POINTS], value[POINTS], root = 0;
+    double at[POINTS], value[POINTS];
+    *root = 0;
     for (int i = 0; i < POINTS; i++) {
-        at[i] = *s * (1 - (i + 1) * h);
+        at[i] = s * (1 - (i + 1) * h);
         FW_TRY(lowest_at(k, near, at[i], &value[i]));
     }
     for (int i = 0; i < POINTS; i++) { /* Lagrange's formula for s(value) at 0 */
         double share = 1;
         for (int j = 0; j < POINTS; j++)
             if (j != i) share *= value[j] / (value[j] - value[i]);
-        root += share * at[i];
+        *root += share * at[i];
     }
-    if (fabs(root - *s) <= h * *s) *s = root; /* not where eigenvalues cross each other */
+    return FW_OK;
+}
+
+/* Branches cross at a bifurcation, so that paths stop some 1e-9 beside it. The lowest eigenvalue is
+   smooth there, but only until it meets the next one, of a softer mode that the field does not
+   touch: h becomes smaller until two cubics agree. Error about h^4, 1e-15 where the first two do.
+ */
+static fw_status refine(seeker *k, const double *near, double *s) {
+    const double first = 2e-4, agreed = 1e-12, found = *s;
+    double before = (double)NAN;
+    for (double h = first; h > 1e-7; h /= 8) {
+        double root;
+        FW_TRY(extrapolate(k, near, found, h, &root));
+        if (!(fabs(root - found) <= h * found)) continue;
+        *s = root;
+        if (fabs(root - before) <= agreed * found) break;
+        before = root;
+    }
     return FW_OK;
 }
 

@@ -163,24 +163,25 @@ static void sets(void **state) {
 static void one_mistake_one_message(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    only_error(arena,
-               DEVICE("<parameter name=\"a\" value=\"1/0\"/>" ARM
-                      "<scene name=\"s\" duration=\"1 s\"><force on=\"arm\" law=\"table\" "
-                      "table=\"0 s: 0; 1 s: a\"/><force on=\"arm\" law=\"expression\" "
-                      "factor=\"a*t/(1 s)\"/><force on=\"arm\" law=\"step\" start=\"a*1 s\"/>"
-                      "</scene>"),
-               NULL, 0, 27, "zero");
+    only_error(
+        arena,
+        DEVICE("<parameter name=\"a\" value=\"1/0\"/>" ARM
+               "<scene name=\"s\" duration=\"1 s\"><force on=\"arm\" fx=\"1 N\" law=\"table\" "
+               "table=\"0 s: 0; 1 s: a\"/><force on=\"arm\" fx=\"1 N\" law=\"expression\" "
+               "factor=\"a*t/(1 s)\"/><force on=\"arm\" fx=\"1 N\" law=\"step\" start=\"a*1 s\"/>"
+               "</scene>"),
+        NULL, 0, 27, "zero");
     fw_arena_free(arena);
 }
 
 static void memory_runs_out(void **state) {
     (void)state;
-    const char *xml =
-        DEVICE("<mechanism>" BODIES "<prismatic id=\"s\" a=\"p\" b=\"q\" axis=\"0 deg\"/>"
-               "<driver id=\"d\" joint=\"s\" value=\"1 mm*sin(t/(1 s))\"/></mechanism><scene "
-               "name=\"s\" duration=\"1 s\"><force on=\"p\" law=\"table\" table=\"0 s: 0; 1 s: "
-               "1\"/><torque on=\"q\" value=\"1 N m\" law=\"expression\" factor=\"t/(1 s)\"/>"
-               "</scene>");
+    const char *xml = DEVICE(
+        "<mechanism>" BODIES "<prismatic id=\"s\" a=\"p\" b=\"q\" axis=\"0 deg\"/>"
+        "<driver id=\"d\" joint=\"s\" value=\"1 mm*sin(t/(1 s))\"/></mechanism><scene "
+        "name=\"s\" duration=\"1 s\"><force on=\"p\" fx=\"1 N\" law=\"table\" table=\"0 s: 0; 1 s: "
+        "1\"/><torque on=\"q\" value=\"1 N m\" law=\"expression\" factor=\"t/(1 s)\"/>"
+        "</scene>");
     for (int ever = 0; ever < 2; ever++)
         for (long at = 1;; at++) {
             fw_arena *arena = fw_arena_new(0);

@@ -146,8 +146,9 @@ static void large_files(void **state) {
         {"a name like a law's", 10, "<d tables=\"", "xxxxxxxx", "\"/>", 513},
         {"a table of 65544 bytes", 10, "<d table=\"", "1 s: 1; ", "\"/>", 8193},
         {"brackets, 64 KiB of them", 31,
-         ROOT ARM "<scene name=\"s\" duration=\"1 s\"><force on=\"arm\" law=\"expression\" "
-                  "factor=\"",
+         ROOT ARM
+         "<scene name=\"s\" duration=\"1 s\"><force on=\"arm\" fx=\"1 N\" law=\"expression\" "
+         "factor=\"",
          "((((((((", "\"/></scene></device>", 8192},
         {"a name of 8 MB", 0, "<", "aaaaaaaa", "/>", 1000000},
         {"an attribute's name of 8 MB", 0, "<d ", "aaaaaaaa", "=\"\"/>", 1000000},
@@ -160,9 +161,9 @@ static void large_files(void **state) {
         {"text in many elements", 40, ROOT, "<a>some text here</a>", "</device>", 199999},
         {"unknown attributes", 42, ROOT, "<parameter nam=\"a\" valu=\"1\"/>\n", "</device>", 200},
         {"dangling references", 46, ROOT ARM "<scene name=\"s\" duration=\"1 s\">",
-         "<force on=\"armm\"/>", "</scene></device>", 19000},
+         "<force on=\"armm\" fx=\"1 N\"/>", "</scene></device>", 19000},
         {"gravity again and again", 51, ROOT ARM "<scene name=\"s\" duration=\"1 s\">",
-         "<force on=\"arm\"/><gravity/>", "</scene></device>", 9000},
+         "<force on=\"arm\" fx=\"1 N\"/><gravity gx=\"1 m/s^2\"/>", "</scene></device>", 9000},
         {"broken expressions", 24, ROOT ARM "<scene name=\"s\" duration=\"1 s\">",
          "<force on=\"arm\" fx=\"((((((((1))))))))\"/>\n", "</scene></device>", 19000},
         {"too many flexures", 66, ROOT ARM,
@@ -199,13 +200,13 @@ static void mistakes_at_the_limit(void **state) {
         size_t count;
     } big[] = {
         {"dangling references", 46, ROOT ARM "<scene name=\"s\" duration=\"1 s\">",
-         "<force on=\"armm\"/>", "</scene></device>", 199000},
+         "<force on=\"armm\" fx=\"1 N\"/>", "</scene></device>", 199000},
         {"one body, one driver, often", 45, ROOT "<mechanism>",
          "<body id=\"a\" mass=\"1 mg\" inertia=\"1 mg mm^2\" x=\"0 m\" y=\"0 m\"/>"
          "<driver joint=\"b\" value=\"t\"/>",
          "</mechanism></device>", 50000},
         {"gravity again and again", 51, ROOT ARM "<scene name=\"s\" duration=\"1 s\">",
-         "<force on=\"arm\"/><gravity/>", "</scene></device>", 99000},
+         "<force on=\"arm\" fx=\"1 N\"/><gravity gx=\"1 m/s^2\"/>", "</scene></device>", 99000},
         {"initial again and again", 45, ROOT ARM "<scene name=\"s\" duration=\"1 s\">",
          "<initial body=\"arm\"/>", "</scene></device>", 199000},
     };

@@ -192,6 +192,59 @@ static void test_side_with_offset(void **state) {
     }
 }
 
+/* forces across from a hundredth of the gap down to 1e-12 of it: limit points that become sharper
+   and sharper, of the same closed form; paths of long steps pass over them onto the branch that the
+   comb in the middle has */
+static void test_side_almost_in_the_middle(void **state) {
+    (void)state;
+    for (int i = 0; i < 24; i++) {
+        fixture f = begin();
+        offset c = {.kx = i % 2 ? 2 : 20,
+                    .ky = 80,
+                    .face = eps0 * 50e-6 * 40,
+                    .gap = 4e-6,
+                    .overlap = 50e-6};
+        c.force = pow(10, -1 - 0.5 * i) * c.ky * c.gap;
+        double low = c.force / c.ky * (1 + 1e-9), high = 0.9 * c.gap;
+        const double golden = 0.5 * (sqrt(5.0) - 1);
+        for (int k = 0; k < 100; k++) {
+            double a = high - golden * (high - low), b = low + golden * (high - low);
+            if (square_at(&c, a) > square_at(&c, b))
+                high = b;
+            else
+                low = a;
+        }
+        rig r = comb_on_stage(&f, c.kx, c.ky);
+        add_drive(&f, &r, &comb_drive);
+        rig_force(&r, 1, 0, c.force);
+        const fw_pull_in *p = find(&f, &r);
+        assert_non_null(p);
+        assert_int_equal(p->kind, FW_PULL_IN_SIDE);
+        assert_relative(p->voltage_V, sqrt(square_at(&c, low)), 1e-9);
+        fw_arena_free(f.arena);
+    }
+}
+
+/* along on a spring so soft that its mode is the lowest until just before the comb moves aside */
+static void test_side_of_a_soft_stage(void **state) {
+    (void)state;
+    for (int i = 0; i < 12; i++) {
+        fixture f = begin();
+        double kx = 0.02 * pow(2, i), ky = 150, g = 4e-6, o = 50e-6, face = eps0 * 50e-6 * 40;
+        double a = 2 * face * face / (g * g * g * g * kx), b = 2 * face * o / (g * g * g);
+        double square = 2 * ky / (b + sqrt(b * b + 4 * a * ky));
+        rig r = comb_on_stage(&f, kx, ky);
+        fw_comb long_fingers = comb_drive;
+        long_fingers.length_m = 5e-3;
+        add_drive(&f, &r, &long_fingers);
+        const fw_pull_in *p = find(&f, &r);
+        assert_non_null(p);
+        assert_int_equal(p->kind, FW_PULL_IN_SIDE);
+        assert_relative(p->voltage_V, sqrt(square), 1e-9);
+        fw_arena_free(f.arena);
+    }
+}
+
 /* a rotor that can only turn about the middle of its overlap: V^2 = 6 k g^3/(face o^3) */
 static void test_tilt(void **state) {
     (void)state;
@@ -305,6 +358,8 @@ int main(void) {
         cmocka_unit_test(test_two_plates),
         cmocka_unit_test(test_side),
         cmocka_unit_test(test_side_with_offset),
+        cmocka_unit_test(test_side_almost_in_the_middle),
+        cmocka_unit_test(test_side_of_a_soft_stage),
         cmocka_unit_test(test_tilt),
         cmocka_unit_test(test_end_of_the_formula),
         cmocka_unit_test(test_around_it),

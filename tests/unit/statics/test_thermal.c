@@ -242,6 +242,83 @@ static void methods_agree(void **state) {
     }
 }
 
+/* electrodes on a ground that grows: where its growth ends energy balances, also where samples
+   were taken in the step before */
+static void ends_of_ramps(void **state) {
+    (void)state;
+    for (int i = 0; i < 20; i++) {
+        fixture f = begin();
+        rig r = rig_new(f.arena, 1, 1, 0);
+        rig_body(&r, "lever", 1, 3, 1, 0, 0);
+        rig_pin(&r, "A", FW_GROUND, 0, 0, 0, 16, 0);
+        fw_comb plate = {.id = "plate",
+                         .kind = FW_ELECTRODES_PLATE,
+                         .body_a = FW_GROUND,
+                         .body_b = 0,
+                         .bx_m = 0.5,
+                         .direction_rad = 0.7,
+                         .gap_m = 1,
+                         .length_m = 0.5,
+                         .depth_m = 1,
+                         .voltage_V = 4e5};
+        r.scene.comb = &plate, r.scene.ncomb = 1;
+        const fw_law ramp = {.kind = FW_LAW_RAMP, .rise_s = 1.003 + 0.1 * i};
+        fw_temperature warm = {.change_K = 100,
+                               .expansion_per_K = 2e-5,
+                               .substrate_expansion_per_K = 5e-4,
+                               .modulus_change_per_K = 0,
+                               .law = &ramp};
+        r.scene.temperature = &warm, r.scene.ntemperature = 1;
+        r.scene.duration_s = 4;
+        fw_motion_options o = {.rtol = 1e-12, .samples = 401, .effects = {FW_EFFECTS_ALL, NULL}};
+        const fw_motion *m = NULL;
+        assert_int_equal(fw_simulate(f.arena, &r.m, &r.scene, &o, &f.diags, &m), FW_OK);
+        assert_true(m->stats.energy_error < 1e-10);
+        fw_arena_free(f.arena);
+    }
+}
+
+/* equilibria know laws by their values: how fast a cable is drawn and a ground grows at the end of
+   the scene is nothing to dampers. k x = K (draw law - slack - x) for a cable along the guide */
+static void dampers_rest(void **state) {
+    (void)state;
+    static const fw_eyelet line[] = {{.body = 0}, {.body = FW_GROUND, .x_m = 1}};
+    const fw_law swings = {
+        .kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 0.6, .phase_rad = 1};
+    double q[2][2];
+    for (int i = 0; i < 2; i++) {
+        fixture f = begin();
+        rig r = rig_new(f.arena, 1, 0, 1);
+        rig_body(&r, "slider", 1, 1, 0, 0, 0);
+        rig_guide(&f, &r, 0, 0, 0, 0)->stiffness_N_per_m = 3;
+        fw_tendon cable = {.id = "cable",
+                           .eyelet = (fw_eyelet *)line,
+                           .neyelet = 2,
+                           .pull_N = (double)NAN,
+                           .draw_m = 0.02,
+                           .slack_m = -0.1,
+                           .stiffness_N_per_m = 7,
+                           .damping_Ns_per_m = i ? 4 : 0,
+                           .law = &swings};
+        r.scene.tendon = &cable, r.scene.ntendon = 1;
+        r.scene.duration_s = 1;
+        double law = sin(1.2 * acos(-1.0) + 1);
+        q[i][0] = rest(&f, &r)->q[0];
+        assert_near(q[i][0], 7 * (0.02 * law + 0.1) / 10, 1e-12);
+        r.scene.ntendon = 0;
+        rig_spring(&r, FW_GROUND, -1, 0.3, 0, 0, 0, 5, 1.2)->damping_Ns_per_m = i ? 4 : 0;
+        fw_temperature warm = {.change_K = 100,
+                               .expansion_per_K = 2e-5,
+                               .substrate_expansion_per_K = 5e-4,
+                               .law = &swings};
+        r.scene.temperature = &warm, r.scene.ntemperature = 1;
+        q[i][1] = rest(&f, &r)->q[0];
+        assert_true(fabs(q[i][1]) > 1e-2);
+        fw_arena_free(f.arena);
+    }
+    assert_near(q[1][1], q[0][1], 1e-12);
+}
+
 /* a lever on a flexure: its frequency goes with sqrt(1 + beta dT), its joint's own spring does not
  */
 static void softer_flexure(void **state) {
@@ -371,7 +448,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(portal_leans),   cmocka_unit_test(ramp_ends_like_a_constant),
         cmocka_unit_test(from_the_start), cmocka_unit_test(moved_by_the_ground_alone),
-        cmocka_unit_test(methods_agree),  cmocka_unit_test(softer_flexure),
+        cmocka_unit_test(methods_agree),  cmocka_unit_test(ends_of_ramps),
+        cmocka_unit_test(dampers_rest),   cmocka_unit_test(softer_flexure),
         cmocka_unit_test(mistakes),       cmocka_unit_test(stressed_layer),
         cmocka_unit_test(points_follow),
     };
