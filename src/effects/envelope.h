@@ -16,15 +16,16 @@ typedef struct fw_envelope {
     double *shape;       /* (modes x n) mass-normalised: shape^T M shape = 1 */
     double *turn;        /* (modes x npin) rotation of every pin in the mode */
     /* upper bounds over the scene, SI */
-    double *reach; /* (n) |displacement| of every coordinate */
-    double *speed; /* (n) |velocity| */
-    double *angle; /* (npin) |rotation| */
-    double *rate;  /* (npin) |angular velocity| */
-    double *force; /* (npin) N: on the joint's force */
-    double *give;  /* (npin) m: W of b from W of a where a hinge stands for the pin, its drift not
-                      counted */
-    double floor;  /* rad: the largest hinge deflection of the scene is at least this */
-    double most;   /* rad: and at most this */
+    double *reach;  /* (n) |displacement| of every coordinate */
+    double *speed;  /* (n) |velocity| */
+    double *angle;  /* (npin) |rotation| */
+    double *rate;   /* (npin) |angular velocity| */
+    double *force;  /* (npin) N: on the joint's force */
+    double *across; /* (ntie) N: of a slide on its guide, across */
+    double *give;   /* (npin) m: W of b from W of a where a hinge stands for the pin, its drift not
+                       counted */
+    double floor;   /* rad: the largest hinge deflection of the scene is at least this */
+    double most;    /* rad: and at most this */
     /* for the answers */
     int npin;
     double duration_s;

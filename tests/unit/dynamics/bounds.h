@@ -64,7 +64,7 @@ static const bounds_effect bounds_effects[] = {
     {"tendon", 0.12, bounds_tendon},
     {"comb-drive", 0.15, bounds_comb_drive},
     {"contact", 0.08, bounds_contact},
-    {"friction", 0.04, bounds_friction},
+    {"friction", 0.2, bounds_friction},
     {"inertia", 0, NULL},
 };
 enum { BOUNDS_EFFECTS = sizeof bounds_effects / sizeof bounds_effects[0] };

@@ -233,15 +233,22 @@ static inline void bounds_contact(fw_arena *arena, bounds_device *d, uint64_t *s
     u->distance_m = u->side == FW_CONTACT_INSIDE ? now + room : now - fmin(room, 0.9 * now);
 }
 
+/* one joint to three, slides too; a joint twice has twice the friction */
 static inline void bounds_friction(fw_arena *arena, bounds_device *d, uint64_t *seed) {
-    d->r.scene.friction = fw_arena_array(arena, fw_friction_use, 1);
-    d->r.scene.friction[d->r.scene.nfriction++] =
-        (fw_friction_use){.joint = (int)(d->r.m.npin * rig_random(seed)),
-                          .tie = FW_NONE,
-                          .coefficient = bounds_log(seed, 1e-3, 0.3),
-                          .static_coefficient = (double)NAN,
-                          .radius_m = bounds_log(seed, 1e-6, 1e-4),
-                          .preload_N = rig_random(seed) < 0.5 ? 0 : 1e-3 * d->turn};
+    int count = 1 + (int)(3 * rig_random(seed));
+    d->r.scene.friction = fw_arena_array(arena, fw_friction_use, 3);
+    for (int i = 0; i < count; i++) {
+        bool slides = d->r.m.ntie > 0 && d->r.m.tie[0].kind == FW_TIE_PRISMATIC;
+        slides = slides && rig_random(seed) < 0.4;
+        int joint = (int)(d->r.m.npin * rig_random(seed));
+        d->r.scene.friction[d->r.scene.nfriction++] = (fw_friction_use){
+            .joint = slides ? FW_NONE : joint,
+            .tie = slides ? 0 : FW_NONE,
+            .coefficient = bounds_log(seed, slides ? 1e-6 : 1e-3, slides ? 1e-2 : 0.3),
+            .static_coefficient = (double)NAN,
+            .radius_m = bounds_log(seed, 1e-6, 1e-4),
+            .preload_N = rig_random(seed) < 0.5 ? 0 : 1e-3 * d->turn};
+    }
 }
 
 #endif
