@@ -37,6 +37,8 @@ typedef struct fw_envelope {
        is it */
     const struct fw_envelope *pinned;
     bool *taken; /* (rows of the table) it is in this envelope; what is not must not change much */
+    double loose_pull; /* bound of the tendons that may go slack: they are not in it, and `taken`
+                          says so */
 } fw_envelope;
 
 /* of the scene with everything that it calls for and that linear theory can take in; what is

@@ -169,15 +169,16 @@ static inline void bounds_tendon(fw_arena *arena, bounds_device *d, uint64_t *se
     t->eyelet[0] = bounds_eyelet(d, seed, false);
     t->eyelet[1] = bounds_eyelet(d, seed, t->neyelet == 2 || rig_random(seed) < 0.5);
     t->eyelet[2] = bounds_eyelet(d, seed, true);
-    if (rig_random(seed) < 0.7) {
+    if (rig_random(seed) < 0.5) {
         t->pull_N = share * bounds_stiffness_Nm / bounds_length_m;
         if (rig_random(seed) < 0.4) t->law = bounds_law(d, seed);
         return;
     }
     t->draw_m = share * bounds_length_m;
-    t->stiffness_N_per_m = bounds_log(seed, 0.1, 10);
+    t->stiffness_N_per_m = bounds_log(seed, 1e-4, 10);
     t->damping_Ns_per_m = rig_random(seed) < 0.5 ? 0 : 0.1 * t->stiffness_N_per_m / d->omega;
     t->slack_m = (rig_random(seed) - 0.5) * t->draw_m;
+    if (rig_random(seed) < 0.4) t->slack_m = -t->draw_m * bounds_log(seed, 1, 30); /* taut */
     t->law = bounds_law(d, seed);
 }
 
