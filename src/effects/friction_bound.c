@@ -197,6 +197,22 @@ static fw_status room(rubbing *r) {
     return FW_OK;
 }
 
+/* One mode under constant loads: friction takes energy from its swing about the equilibrium, so
+   that no extreme goes farther than without, and the farthest comes with the first swing, or the
+   second of a motion that starts with a velocity or away from its springs' rest: at most one arch
+   of the response, or two. */
+static double first_swings(const fw_effect_case *c, const fw_envelope *e) {
+    const fw_modal *o = e->modal;
+    const fw_terms *t = o->terms;
+    if (e->modes != 1 || t->ntimed > 0 || o->shift[0] || o->shift[1]) return (double)INFINITY;
+    for (int i = 0; i < t->nelement; i++)
+        if (t->element[i].laws > 0) return (double)INFINITY;
+    bool rest = o->velocity[0] == 0;
+    for (int i = 0; i < e->npin; i++)
+        rest = rest && fw_pin_deflection(c->mechanism, i) == 0;
+    return (rest ? 2 : 4) / (e->omega[0] * e->omega[0]);
+}
+
 /* bound in the motion of one envelope, over the floor of the other */
 static fw_status in_motion(const fw_effect_case *c, const fw_envelope *e, const fw_terms *rubs,
                            double *value) {
@@ -207,6 +223,9 @@ static fw_status in_motion(const fw_effect_case *c, const fw_envelope *e, const 
     double *force, *passed;
     bool known;
     seen.floor = c->envelope->floor;
+    FW_NEED(seen.yield = fw_arena_array(c->arena, double, modes));
+    for (size_t l = 0; l < modes; l++)
+        seen.yield[l] = fmin(e->yield[l], first_swings(c, e));
     FW_TRY(room(&r));
     FW_NEED(force = fw_arena_array(c->arena, double, modes));
     FW_NEED(passed = fw_arena_array(c->arena, double, modes));

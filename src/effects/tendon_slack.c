@@ -13,7 +13,8 @@
    where that system has T >= 0 (its matrix contracts), else there is no bound; without them, what
    they change is the answer to T of any course. Inputs SI; output relative to the floor. Proved
    within linear theory, whose margin is tested. Cost: modes times eyelets. Source:
-   docs/theory/effects/tendon.md. Test: test_tendon.c, test_hard_bounds.c. */
+   docs/theory/effects/tendon.md. Test: test_tendon_slack.c,
+   test_hard_bounds.c. */
 #include "effects/tendon_slack.h"
 #include "effects/modal.h"
 #include "maths/lu.h"
