@@ -146,7 +146,7 @@ void fw_hinge_sources_at(void *data, const double *q, const double *load, double
                 force[j] += part[k] * fw_hinge_source_mode(h, k, j);
     }
     for (int j = 0; j < o->modes; j++)
-        all->force[j] = fmax(all->force[j], fabs(force[j]));
+        all->force[j] = isfinite(force[j]) ? fmax(all->force[j], fabs(force[j])) : (double)INFINITY;
     for (size_t i = 0; i < pins; i++) {
         double sum = 0;
         for (int j = all->slow; j < o->modes; j++)

@@ -8,11 +8,12 @@
    that matrix, dampers between modes included. A cell begins with what the jump of p and p' to it
    gives to the ring. Between instants the modes of the grid are Hermite's cubic, off by
    (w h)^4/384 of their ring (w h <= 1/2: 1.6e-4); faster ones count with the size of their ring.
-   Loads that bend by more than a hundredth in a cell are refused: what remains is a hundredth of
-   their share of the motion, the same for every mechanism. Inputs SI; outputs rad. Cost cells times
-   (2 modes)^2, up to 16384 cells. Source: Duhamel's integral, Clough and Penzien, Dynamics of
-   Structures, ch. 6; exponential by scaling and squaring, Moler and Van Loan, SIAM Review 45
-   (2003). Test: test_peaks.c. */
+   Forces that depend on the motion (`source`) join the loads, at the end of a cell as they are
+   after a step with those at its start: error of second order in the cell. Loads that bend by more
+   than a hundredth in a cell are refused: what remains is a hundredth of their share of the motion,
+   the same for every mechanism. Inputs SI; outputs rad. Cost cells times (2 modes)^2, up to 16384
+   cells. Source: Duhamel's integral, Clough and Penzien, Dynamics of Structures, ch. 6; exponential
+   by scaling and squaring, Moler and Van Loan, SIAM Review 45 (2003). Test: test_peaks.c. */
 #include "effects/peaks.h"
 #include <math.h>
 #include <string.h>
