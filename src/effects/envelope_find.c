@@ -3,6 +3,7 @@
    act on both sides, and free strains. */
 #include "effects/effect.h"
 #include "effects/envelope.h"
+#include "effects/modal.h"
 #include "effects/tendon_slack.h"
 #include <math.h>
 #include <string.h>
@@ -119,6 +120,12 @@ static fw_status settle_tendons(const search *s, int hinges, bool alone, fw_enve
     for (size_t i = 0; i < count; i++)
         if (strcmp(row[i]->id, "tendon") == 0) s->taken[i] = false;
     if (!envelope->valid) return FW_OK;
+    const fw_terms *t = envelope->modal->terms;
+    if (t->strained || t->stretch.law) { /* what strains do to the cable is in no bound */
+        envelope->valid = false;
+        envelope->why_not = "strains move the ends of cables that may go slack";
+        return FW_OK;
+    }
     FW_TRY(fw_tendons_pull(c, envelope, s->loose, &envelope->loose_pull));
     if (!envelope->pinned) return FW_OK;
     double pinned;

@@ -11,10 +11,10 @@
      T_i = k_i g_i+ + c_i g_i'+ + sum_j sum_l |a_il| (k_i + c_i w_l) y_l |a_jl| T_j
 
    where that system has T >= 0 (its matrix contracts), else there is no bound; without them, what
-   they change is the answer to T of any course. Inputs SI; output relative to the floor. Proved
-   within linear theory, whose margin is tested. Cost: modes times eyelets. Source:
-   docs/theory/effects/tendon.md. Test: test_tendon_slack.c,
-   test_hard_bounds.c. */
+   they change is the answer to T of any course. Any other change of the motion comes back through
+   them, by the largest row sum of the matrix at most; that is added. Inputs SI; output relative to
+   the floor. Proved within linear theory, whose margin is tested. Cost: modes times eyelets.
+   Source: docs/theory/effects/tendon.md. Test: test_tendon_slack.c, test_hard_bounds.c. */
 #include "effects/tendon_slack.h"
 #include "effects/modal.h"
 #include "maths/lu.h"
@@ -128,6 +128,7 @@ fw_status fw_tendons_pull(const fw_effect_case *c, const fw_envelope *e, const b
     double *a, *system, *pull, *mode;
     int *pivot;
     bool known = true;
+    double back = 0;
     *bound = (double)INFINITY;
     fw_mark mark = fw_arena_mark(c->arena);
     FW_NEED(a = fw_arena_array(c->arena, double, count *modes));
@@ -141,6 +142,10 @@ fw_status fw_tendons_pull(const fw_effect_case *c, const fw_envelope *e, const b
     for (size_t i = 0; i < count; i++) {
         pull_of(c, e, loose, (int)i, a, system + i * count, &pull[i]);
         known = known && isfinite(pull[i]) && isfinite(system[i * count + i]);
+        double row = 0;
+        for (size_t j = 0; j < count; j++)
+            row += fabs((i == j) - system[i * count + j]);
+        if (pull[i] > 0) back = fmax(back, row);
     }
     known = known && fw_lu_factor((int)count, system, pivot);
     if (known) fw_lu_solve((int)count, system, pivot, pull);
@@ -151,7 +156,7 @@ fw_status fw_tendons_pull(const fw_effect_case *c, const fw_envelope *e, const b
     }
     fw_effect_case seen = *c;
     seen.envelope = e;
-    if (known) *bound = fw_envelope_mode_answer(&seen, mode, (double)INFINITY);
+    if (known) *bound = fw_envelope_mode_answer(&seen, mode, (double)INFINITY) + back;
     fw_arena_rewind(c->arena, mark);
     return FW_OK;
 }
