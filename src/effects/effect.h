@@ -14,6 +14,10 @@ fw_force_element *fw_terms_add_element(fw_arena *arena, fw_terms *terms,
                                        const fw_element_class *class_, int ports);
 fw_friction *fw_terms_add_friction(fw_arena *arena, fw_terms *terms);
 
+/* of the joints with friction in `rubs`; the envelope is valid */
+fw_status fw_friction_bound(const fw_effect_case *c, const fw_terms *rubs, double *value,
+                            const char **reason);
+
 /* the entry of a pin, made on first use */
 fw_torsion *fw_terms_torsion(const fw_mechanism *mechanism, fw_terms *terms, int pin);
 /* of a prismatic joint, made on first use */

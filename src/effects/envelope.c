@@ -20,6 +20,7 @@ double fw_pin_deflection(const fw_mechanism *m, int i) {
 
 static fw_status arrays(fw_arena *arena, const fw_modal *o, fw_envelope *e) {
     size_t n = (size_t)o->n, m = (size_t)o->modes, pins = (size_t)o->mechanism->npin;
+    FW_NEED(e->across = fw_arena_array(arena, double, (size_t)o->mechanism->ntie));
     e->n = o->n, e->modes = o->modes, e->npin = o->mechanism->npin;
     e->omega = o->omega, e->shape = o->shape, e->turn = o->turn;
     double **of[] = {&e->reach, &e->speed, &e->angle,     &e->rate, &e->force,
@@ -31,6 +32,14 @@ static fw_status arrays(fw_arena *arena, const fw_modal *o, fw_envelope *e) {
 }
 
 /* ---- modes ---- */
+
+/* integral of |e^(-zeta w t) sin(v t)/v| over the scene at most, v = w sqrt(1 - zeta^2): without
+   the decay, whole arches have 2 / v^2 */
+static double undamped(double w, double zeta, double end) {
+    double v = w * sqrt(fmax(0, 1 - zeta * zeta)), arches = floor(v * end / PI);
+    double whole = (2 * arches + 1 - cos(v * end - PI * arches)) / (v * v);
+    return v > 0.5 * w ? fmin(end / w, whole) : end / w;
+}
 
 /* Amplitude and speed of a mode, whatever its damping. By parts
      q = (f(t) - f(0) cos wt - int f' cos w(t - s) ds) / w^2:  |q| <= (sup|f| + |f(0+)| + var f) /
@@ -48,7 +57,7 @@ static void size_of_modes(const fw_modal *o, const fw_pushes *p, fw_envelope *e)
         }
         e->amplitude[j] = q, e->pace[j] = v;
         double zeta = 0.5 * o->damping[j * m + j] / w;
-        e->yield[j] = fmin(end / w, (1 + 2 / (PI * fmax(zeta, 1e-12))) / (w * w));
+        e->yield[j] = fmin(undamped(w, zeta, end), (1 + 2 / (PI * fmax(zeta, 1e-12))) / (w * w));
     }
     for (size_t j = 0; j < m; j++) { /* to first order in their damping */
         double more = 0;
@@ -100,17 +109,21 @@ static void add_shifts(const fw_modal *o, fw_envelope *e) {
             e->rate[k] += size.slope * fabs(o->shift_turn[i][k]);
             if (i == 1) e->force[k] = (double)INFINITY; /* the ground pulls with its own inertia */
         }
+        for (int k = 0; k < o->mechanism->ntie && i == 1; k++)
+            e->across[k] = (double)INFINITY;
     }
 }
 
 /* ---- joint forces ---- */
 
-static void add_pins(const fw_modal *o, const double *lambda, double factor, double *force) {
+static void add_joints(const fw_modal *o, const double *lambda, double factor, fw_envelope *e) {
     const fw_linear *s = &o->linear;
+    double unit = factor * s->stiffness_N_per_m * s->length_m;
     for (int i = 0; i < o->mechanism->npin; i++)
         if (s->pin_row[i] != FW_NONE)
-            force[i] += factor * s->stiffness_N_per_m * s->length_m *
-                        hypot(lambda[s->pin_row[i]], lambda[s->pin_row[i] + 1]);
+            e->force[i] += unit * hypot(lambda[s->pin_row[i]], lambda[s->pin_row[i] + 1]);
+    for (int i = 0; i < o->mechanism->ntie; i++)
+        e->across[i] += unit * fabs(lambda[s->tie_row[i]]);
 }
 
 /* lambda(t) = static multipliers of F(t) less those of M shape q'' of every mode, with
@@ -134,7 +147,7 @@ static fw_status joint_forces(fw_arena *arena, const fw_modal *o, const fw_pushe
         } else if (f->law)
             most = fw_law_largest(f->law, o->scene->duration_s);
         fw_modal_multipliers(o, push, work, lambda);
-        add_pins(o, lambda, most, e->force);
+        add_joints(o, lambda, most, e);
     }
     for (int j = 0; j < o->modes; j++) {
         double w = o->omega[j], soft = w * w * e->amplitude[j], kick = w * fabs(o->velocity[j]);
@@ -147,7 +160,7 @@ static fw_status joint_forces(fw_arena *arena, const fw_modal *o, const fw_pushe
             push[k] = (k % 3 == 2 ? b->inertia_kg_m2 : b->mass_kg) * o->shape[(size_t)j * n + k];
         }
         fw_modal_multipliers(o, push, work, lambda);
-        add_pins(o, lambda, fmin(soft, kick), e->force);
+        add_joints(o, lambda, fmin(soft, kick), e);
     }
     fw_arena_rewind(arena, mark);
     return FW_OK;
@@ -228,7 +241,7 @@ static double largest(const double *value, int from, int step, int count) {
 
 /* Bounds grow by the margin, and by a share of the largest of their kind: what does not move in
    linear theory moves with the square of what does */
-static void widen(fw_envelope *e, double unsure) {
+static void widen(fw_envelope *e, int ties, double unsure) {
     double *of[] = {e->reach, e->speed, e->angle, e->rate, e->force, e->give};
     e->margin = 1 + widening * unsure;
     for (int k = 0; k < 2; k++) {
@@ -237,6 +250,11 @@ static void widen(fw_envelope *e, double unsure) {
         for (int i = 0; i < e->n; i++)
             of[k][i] = of[k][i] * e->margin + unsure * (i % 3 == 2 ? turn : x);
     }
+    double pressed = largest(e->across, 0, 1, ties);
+    for (int i = 0; i < e->npin; i++)
+        if (isfinite(e->force[i])) pressed = fmax(pressed, e->force[i]);
+    for (int i = 0; i < ties; i++)
+        e->across[i] = e->across[i] * e->margin + unsure * pressed;
     for (int k = 2; k < 6; k++) {
         double most = 0;
         for (int i = 0; i < e->npin; i++)
@@ -281,7 +299,7 @@ fw_status fw_envelope_of(fw_arena *arena, const fw_mechanism *m, const fw_scene 
         return fail(e, "the mechanism turns too far, or its loads change its stiffness too much, "
                        "for linear theory");
     FW_TRY(fw_modal_floor(arena, o, &pushes, unsure, &e->floor));
-    widen(e, unsure);
+    widen(e, m->ntie, unsure);
     for (int i = 0; i < e->npin; i++)
         e->most = fmax(e->most, fabs(fw_pin_deflection(m, i)) + e->angle[i]);
     if (!(e->floor > 0)) return fail(e, "no hinge is deflected for sure");

@@ -16,15 +16,16 @@ typedef struct fw_envelope {
     double *shape;       /* (modes x n) mass-normalised: shape^T M shape = 1 */
     double *turn;        /* (modes x npin) rotation of every pin in the mode */
     /* upper bounds over the scene, SI */
-    double *reach; /* (n) |displacement| of every coordinate */
-    double *speed; /* (n) |velocity| */
-    double *angle; /* (npin) |rotation| */
-    double *rate;  /* (npin) |angular velocity| */
-    double *force; /* (npin) N: on the joint's force */
-    double *give;  /* (npin) m: W of b from W of a where a hinge stands for the pin, its drift not
-                      counted */
-    double floor;  /* rad: the largest hinge deflection of the scene is at least this */
-    double most;   /* rad: and at most this */
+    double *reach;  /* (n) |displacement| of every coordinate */
+    double *speed;  /* (n) |velocity| */
+    double *angle;  /* (npin) |rotation| */
+    double *rate;   /* (npin) |angular velocity| */
+    double *force;  /* (npin) N: on the joint's force */
+    double *across; /* (ntie) N: of a slide on its guide, across */
+    double *give;   /* (npin) m: W of b from W of a where a hinge stands for the pin, its drift not
+                       counted */
+    double floor;   /* rad: the largest hinge deflection of the scene is at least this */
+    double most;    /* rad: and at most this */
     /* for the answers */
     int npin;
     double duration_s;
@@ -36,6 +37,8 @@ typedef struct fw_envelope {
        is it */
     const struct fw_envelope *pinned;
     bool *taken; /* (rows of the table) it is in this envelope; what is not must not change much */
+    double loose_pull; /* bound of the tendons that may go slack: they are not in it, and `taken`
+                          says so */
 } fw_envelope;
 
 /* of the scene with everything that it calls for and that linear theory can take in; what is

@@ -3,7 +3,16 @@
    act on both sides, and free strains. */
 #include "effects/effect.h"
 #include "effects/envelope.h"
+#include "effects/modal.h"
+#include "effects/tendon_slack.h"
+#include <math.h>
 #include <string.h>
+
+typedef struct search {
+    const fw_effect_case *c;
+    bool *taken; /* (rows) */
+    bool *loose; /* (ntendon) drawn tendons that may go slack: not in the envelope */
+} search;
 
 static bool linear(const fw_terms *t) {
     for (int i = 0; i < t->nelement; i++)
@@ -23,33 +32,106 @@ static fw_status can_take(const fw_effect_case *c, const fw_effect_row *row, boo
     return FW_OK;
 }
 
-static fw_status add_taken(const fw_effect_case *c, const bool *taken, fw_terms *terms) {
+/* Tendons that stay taut, and those that are pulled, need no switch; loose ones go */
+static void hold_tendons(const search *s, fw_terms *terms) {
+    int kept = 0, tendon = 0;
+    for (int i = 0; i < terms->nelement; i++) {
+        fw_force_element *e = &terms->element[i];
+        bool is = strcmp(e->class_->effect, "tendon") == 0;
+        if (is) e->switches = 0;
+        if (is && s->loose[tendon++]) continue;
+        terms->element[kept++] = *e;
+    }
+    terms->nelement = kept;
+}
+
+static fw_status add_taken(const search *s, fw_terms *terms) {
+    const fw_effect_case *c = s->c;
+    const bool *taken = s->taken;
     size_t count;
     const fw_effect_row *const *row = fw_effect_rows(&count);
     FW_TRY(fw_terms_new(c->arena, c->mechanism, c->scene, terms));
     for (size_t i = 0; i < count; i++)
         if (taken[i]) FW_TRY(row[i]->add(c, terms));
+    hold_tendons(s, terms);
     return FW_OK;
 }
 
 /* Where flexures are to act as they are there are two of them: with the hinges as linear springs
    about the drawn pose, which all bounds go by, and with pins in their place, against which
    nonlinear-hinge is measured. */
-static fw_status with_hinges(const fw_effect_case *c, bool *taken, int hinges,
-                             fw_envelope *envelope) {
+static fw_status with_hinges(const search *s, int hinges, fw_envelope *envelope) {
+    const fw_effect_case *c = s->c;
+    bool *taken = s->taken;
     fw_terms *terms;
     fw_envelope *pinned;
     FW_NEED(terms = fw_arena_one(c->arena, fw_terms));
     FW_NEED(pinned = fw_arena_one(c->arena, fw_envelope));
     *pinned = *envelope;
     taken[hinges] = true;
-    FW_TRY(add_taken(c, taken, terms));
+    FW_TRY(add_taken(s, terms));
     if (terms->strained || terms->stretch.law) { /* what strains do to hinges that give: unknown */
         taken[hinges] = false;
         return FW_OK;
     }
     FW_TRY(fw_envelope_of(c->arena, c->mechanism, c->scene, terms, envelope));
     envelope->pinned = pinned;
+    return FW_OK;
+}
+
+/* with everything that `taken` says, and the tendons that are not loose */
+static fw_status find_all(const search *s, int hinges, fw_envelope *envelope) {
+    fw_terms *terms;
+    FW_NEED(terms = fw_arena_one(s->c->arena, fw_terms));
+    FW_TRY(add_taken(s, terms));
+    FW_TRY(fw_envelope_of(s->c->arena, s->c->mechanism, s->c->scene, terms, envelope));
+    if (hinges != FW_NONE) FW_TRY(with_hinges(s, hinges, envelope));
+    return FW_OK;
+}
+
+/* any tendon more, with hinges that give or with pins */
+static bool slackens(const search *s, const fw_envelope *e) {
+    bool more = fw_tendons_loosen(s->c, e, s->loose);
+    if (e->pinned) more = fw_tendons_loosen(s->c, e->pinned, s->loose) || more;
+    return more;
+}
+
+/* Tendons are taut until the envelope does not say so, fewer every time; what it does not have
+   besides could slacken any of them. */
+static fw_status settle_tendons(const search *s, int hinges, bool alone, fw_envelope *envelope) {
+    const fw_effect_case *c = s->c;
+    size_t count;
+    const fw_effect_row *const *row = fw_effect_rows(&count);
+    bool any = false;
+    for (int i = 0; i < c->scene->ntendon; i++)
+        any = any || isnan(c->scene->tendon[i].pull_N);
+    if (!any) return FW_OK;
+    bool loose = false;
+    while (alone && slackens(s, envelope)) {
+        loose = true;
+        if (hinges != FW_NONE) s->taken[hinges] = false;
+        FW_TRY(find_all(s, hinges, envelope));
+    }
+    if (!alone) {
+        envelope->valid = false;
+        envelope->why_not = "cables may go slack by what the envelope does not have";
+    }
+    if (!loose) return FW_OK;
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(row[i]->id, "tendon") == 0) s->taken[i] = false;
+    if (!envelope->valid) return FW_OK;
+    const fw_terms *t = envelope->modal->terms;
+    if (t->strained || t->stretch.law) { /* what strains do to the cable is in no bound */
+        envelope->valid = false;
+        envelope->why_not = "strains move the ends of cables that may go slack";
+        return FW_OK;
+    }
+    FW_TRY(fw_tendons_pull(c, envelope, s->loose, &envelope->loose_pull));
+    if (!envelope->pinned) return FW_OK;
+    double pinned;
+    FW_TRY(fw_tendons_pull(c, envelope->pinned, s->loose, &pinned));
+    pinned *= envelope->pinned->floor / envelope->floor;
+    envelope->loose_pull = fmax(envelope->loose_pull, pinned);
     return FW_OK;
 }
 
@@ -61,28 +143,27 @@ fw_status fw_envelope_find(fw_arena *arena, const fw_mechanism *mechanism, const
     fw_diags quiet =
         fw_diags_new(arena); /* what an effect objects to is said when it is compiled */
     const fw_effect_case c = {arena, mechanism, scene, &first, &quiet};
-    fw_terms *terms, all;
-    bool *taken, more = false;
+    search s = {.c = &c};
+    fw_terms all;
+    bool more = false, alone = true;
     int hinges = FW_NONE;
-    FW_NEED(taken = fw_arena_array(arena, bool, count));
-    FW_NEED(terms = fw_arena_one(arena, fw_terms));
+    FW_NEED(s.taken = fw_arena_array(arena, bool, count));
+    FW_NEED(s.loose = fw_arena_array(arena, bool, (size_t)scene->ntendon));
     for (size_t i = 0; i < count; i++)
-        taken[i] = row[i]->kept && row[i]->called_for(&c);
-    FW_TRY(add_taken(&c, taken, &all));
+        s.taken[i] = row[i]->kept && row[i]->called_for(&c);
+    FW_TRY(add_taken(&s, &all));
     FW_TRY(fw_envelope_of(arena, mechanism, scene, &all, &first));
     for (size_t i = 0; i < count; i++)
         if (!row[i]->kept && row[i]->called_for(&c)) {
-            FW_TRY(can_take(&c, row[i], &taken[i]));
-            if (taken[i] && strcmp(row[i]->id, "nonlinear-hinge") == 0)
-                hinges = (int)i, taken[i] = false;
-            more = more || taken[i];
+            FW_TRY(can_take(&c, row[i], &s.taken[i]));
+            alone = alone && s.taken[i];
+            if (s.taken[i] && strcmp(row[i]->id, "nonlinear-hinge") == 0)
+                hinges = (int)i, s.taken[i] = false;
+            more = more || s.taken[i];
         }
     *envelope = first;
-    if (more) {
-        FW_TRY(add_taken(&c, taken, terms));
-        FW_TRY(fw_envelope_of(arena, mechanism, scene, terms, envelope));
-    }
-    if (hinges != FW_NONE) FW_TRY(with_hinges(&c, taken, hinges, envelope));
-    envelope->taken = taken;
+    if (more || hinges != FW_NONE) FW_TRY(find_all(&s, hinges, envelope));
+    FW_TRY(settle_tendons(&s, hinges, alone, envelope));
+    envelope->taken = s.taken;
     return FW_OK;
 }

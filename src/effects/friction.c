@@ -7,6 +7,7 @@
    N = preload + the force of the joint, or of the <contact> of the hinge. Theory:
    docs/theory/effects/friction.md. Test: test_friction_effect.c, test_friction.c. */
 #include "effects/effect.h"
+#include "effects/envelope.h"
 #include <math.h>
 #include <string.h>
 
@@ -34,15 +35,6 @@ static int count(const fw_effect_case *c) {
     for (int i = 0; i < c->scene->nfriction; i++)
         sum += rubs(c, &c->scene->friction[i]);
     return sum;
-}
-
-/* The torque stays below mu N r, but N is a joint force of the motion with friction, which linear
-   theory without friction does not bound; and a joint that holds once changes all that follows. */
-static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
-    (void)c;
-    *value = (double)INFINITY;
-    *reason = "dry friction holds or lets go, by joint forces that it changes itself: kept";
-    return FW_OK;
 }
 
 /* of the hinge's convex conjugate surface; NaN: there is none */
@@ -109,6 +101,27 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
                            .place = u->place};
     }
     return status;
+}
+
+/* What it changes at most: friction_bound.c. Contacts press with forces of their own, which no
+   envelope has. */
+static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
+    fw_effect_case quiet = *c; /* a radius that is missing is reported when it is compiled */
+    fw_terms rubs;
+    *value = (double)INFINITY;
+    *reason = "kept: contacts may press, with forces that friction changes itself";
+    if (c->scene->ncontact > 0) return FW_OK;
+    *reason = "kept: dry friction has no bound where linear theory has none";
+    if (!c->envelope || !c->envelope->valid) return FW_OK;
+    quiet.diags = NULL;
+    fw_mark mark = fw_arena_mark(c->arena);
+    FW_TRY(fw_terms_new(c->arena, c->mechanism, c->scene, &rubs));
+    fw_status status = add(&quiet, &rubs);
+    if (status == FW_NOMEM) return status;
+    *reason = "kept: the radius of what slides is not known";
+    if (status == FW_OK) FW_TRY(fw_friction_bound(c, &rubs, value, reason));
+    fw_arena_rewind(c->arena, mark);
+    return FW_OK;
 }
 
 const fw_effect_row fw_effect_friction = {

@@ -281,6 +281,7 @@ static const char *reason_to_keep(const fw_effect_case *c) {
     if (c->mechanism->ndriver > 0)
         return "drivers move the mechanism, and its joint forces are those of inertia too";
     if (!e->valid || !e->modal) return e->why_not ? e->why_not : "the motion has no linear theory";
+    if (e->loose_pull > 0) return "cables may go slack";
     for (int i = 0; i < e->modal->terms->nelement; i++)
         if (e->modal->terms->element[i].laws > 0)
             return "a force depends on the pose and on time at once";

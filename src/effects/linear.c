@@ -271,12 +271,16 @@ fw_status fw_linear_new(fw_arena *arena, const fw_mechanism *m, const fw_terms *
     s->total = s->n + s->rows;
     s->stiffness_N_per_m = typical_stiffness(terms, s->length_m);
     *elastic = s->stiffness_N_per_m > 0;
+    int row = 0;
     FW_NEED(s->pin_row = fw_arena_array(arena, int, (size_t)m->npin));
-    for (int i = 0, row = 0; i < m->npin; i++) {
+    FW_NEED(s->tie_row = fw_arena_array(arena, int, (size_t)m->ntie));
+    for (int i = 0; i < m->npin; i++) {
         bool released = terms->released && terms->released[i];
         s->pin_row[i] = released ? FW_NONE : row;
         row += released ? 0 : 2;
     }
+    for (int i = 0; i < m->ntie; row += tie_rows(&m->tie[i]), i++)
+        s->tie_row[i] = row;
     if (!*elastic) return FW_OK;
     FW_NEED(s->a = fw_arena_array(arena, double, (size_t)s->total *(size_t)s->total));
     add_elastic(s, m, terms);

@@ -13,6 +13,7 @@ typedef struct fw_linear {
     int total;    /* n + rows */
     double *a;    /* (total x total) [K G^T; G 0], scaled; symmetric unless elements are not */
     int *pin_row; /* (npin) first of the two rows of a pin, counted from 0; FW_NONE: released */
+    int *tie_row; /* (ntie) first row of a tie; of a slide the force across */
     double length_m, stiffness_N_per_m;
 } fw_linear;
 

@@ -8,11 +8,12 @@
    that matrix, dampers between modes included. A cell begins with what the jump of p and p' to it
    gives to the ring. Between instants the modes of the grid are Hermite's cubic, off by
    (w h)^4/384 of their ring (w h <= 1/2: 1.6e-4); faster ones count with the size of their ring.
-   Loads that bend by more than a hundredth in a cell are refused: what remains is a hundredth of
-   their share of the motion, the same for every mechanism. Inputs SI; outputs rad. Cost cells times
-   (2 modes)^2, up to 16384 cells. Source: Duhamel's integral, Clough and Penzien, Dynamics of
-   Structures, ch. 6; exponential by scaling and squaring, Moler and Van Loan, SIAM Review 45
-   (2003). Test: test_peaks.c. */
+   Forces that depend on the motion (`source`) join the loads, at the end of a cell as they are
+   after a step with those at its start: error of second order in the cell. Loads that bend by more
+   than a hundredth in a cell are refused: what remains is a hundredth of their share of the motion,
+   the same for every mechanism. Inputs SI; outputs rad. Cost cells times (2 modes)^2, up to 16384
+   cells. Source: Duhamel's integral, Clough and Penzien, Dynamics of Structures, ch. 6; exponential
+   by scaling and squaring, Moler and Van Loan, SIAM Review 45 (2003). Test: test_peaks.c. */
 #include "effects/peaks.h"
 #include <math.h>
 #include <string.h>
@@ -31,7 +32,9 @@ typedef struct walk {
     double *leap, *power, *square;       /* (2 modes)^2 */
     double *rapid;              /* (modes) amplitude of a mode that is not followed, or 0 */
     double *start, *start_rate; /* (npin) followed part at the left of the cell */
-    double h;                   /* of leap */
+    const fw_peaks_source *source;
+    double *load, *q, *kept; /* (modes), (modes), (4 modes): for the source */
+    double h;                /* of leap */
     double bend;
     bool begun;
 } walk;
@@ -103,7 +106,7 @@ static void enter(walk *w, double h) {
                    (o->omega[l] * o->omega[l]);
         double p = (w->left[j] - lag) / k, jump = o->omega[j] * (w->p[j] - p);
         double kick = w->slope[j] - slope;
-        if (w->begun) w->out->late[j] += hypot(jump, kick) / o->omega[j];
+        if (w->begun && !w->source) w->out->late[j] += hypot(jump, kick) / o->omega[j];
         w->z[j] += jump, w->z[w->m + j] += kick;
         w->p[j] = p, w->slope[j] = slope;
     }
@@ -125,6 +128,37 @@ static void leave(walk *w, double h) {
 static void note_rings(walk *w) {
     for (size_t j = 0; j < w->m; j++)
         w->out->ring[j] = fmax(w->out->ring[j], hypot(w->z[j], w->z[w->m + j]) / w->o->omega[j]);
+}
+
+static void source_at(walk *w, double *force) {
+    for (size_t j = 0; j < w->m; j++)
+        w->q[j] = w->p[j] + w->z[j] / w->o->omega[j];
+    w->source->at(w->source->data, w->q, force, w->load);
+    for (size_t j = 0; j < w->m; j++)
+        force[j] += w->load[j];
+}
+
+/* what depends on the motion joins the loads: at the left as it is there, at the right as it is
+   after a step in which it stays the same */
+static void add_source(walk *w, double h) {
+    size_t size = w->m * sizeof *w->z;
+    double *z = w->kept, *p = z + 2 * w->m, *slope = p + w->m, *right = slope + w->m;
+    bool begun = w->begun;
+    memcpy(right, w->right, size);
+    source_at(w, w->left);
+    for (size_t j = 0; j < w->m; j++)
+        w->right[j] += w->load[j];
+    memcpy(z, w->z, 2 * size);
+    memcpy(p, w->p, size);
+    memcpy(slope, w->slope, size);
+    enter(w, h);
+    leave(w, h);
+    memcpy(w->right, right, size);
+    source_at(w, w->right);
+    memcpy(w->z, z, 2 * size);
+    memcpy(w->p, p, size);
+    memcpy(w->slope, slope, size);
+    w->begun = begun;
 }
 
 /* deflection of a pin: of the equilibrium, of all, and of what is followed with its rate */
@@ -168,6 +202,7 @@ static void cell(walk *w, double t, double h, double piece) {
         double bend = fabs(w->middle[j] - 0.5 * (w->left[j] + w->right[j]));
         if (bend > bend_most * w->sup[j]) w->bend = fmax(w->bend, bend);
     }
+    if (w->source) add_source(w, h);
     enter(w, h);
     note_rings(w);
     for (size_t i = 0; i < w->pins; i++) {
@@ -197,6 +232,7 @@ static void walk_on(walk *w, const double *t_s, int count, double longest) {
         memset(none[i], 0, w->pins * sizeof *w->z);
     for (size_t j = 0; j < w->m; j++)
         w->rapid[j] = w->o->omega[j] * longest > followed_rad;
+    if (w->source) memcpy(w->out->late, w->source->late, w->m * sizeof *w->z);
     w->bend = 0;
     memcpy(w->z + w->m, w->o->velocity, w->m * sizeof *w->z);
     w->begun = false;
@@ -212,9 +248,10 @@ static void walk_on(walk *w, const double *t_s, int count, double longest) {
 
 static fw_status room(fw_arena *arena, walk *w) {
     size_t m = w->m, n = 2 * m;
-    double **of[] = {&w->left, &w->middle, &w->right, &w->sup,   &w->p,      &w->slope,
-                     &w->z,    &w->next,   &w->leap,  &w->power, &w->square, &w->rapid};
-    const size_t size[] = {m, m, m, m, m, m, n, n, n * n, n * n, n * n, m};
+    double **of[] = {&w->left,   &w->middle, &w->right, &w->sup,  &w->p,
+                     &w->slope,  &w->z,      &w->next,  &w->leap, &w->power,
+                     &w->square, &w->rapid,  &w->load,  &w->q,    &w->kept};
+    const size_t size[] = {m, m, m, m, m, m, n, n, n * n, n * n, n * n, m, m, m, n + 3 * m};
     for (size_t i = 0; i < sizeof of / sizeof of[0]; i++)
         FW_NEED(*of[i] = fw_arena_array(arena, double, size[i]));
     FW_NEED(w->start = fw_arena_array(arena, double, w->pins));
@@ -245,10 +282,11 @@ static fw_status new_peaks(fw_arena *arena, size_t modes, size_t pins, fw_peaks 
 }
 
 fw_status fw_peaks_find(fw_arena *arena, const fw_modal *o, const fw_pushes *pushes, double fastest,
-                        const double *amplitude, fw_peaks *peaks) {
+                        const double *amplitude, const fw_peaks_source *source, fw_peaks *peaks) {
     walk w = {.o = o,
               .pushes = pushes,
               .out = peaks,
+              .source = source,
               .m = (size_t)o->modes,
               .pins = (size_t)o->mechanism->npin};
     double *t_s, end = o->scene->duration_s;

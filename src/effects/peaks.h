@@ -14,9 +14,18 @@ typedef struct fw_peaks {
     const char *why_not;
 } fw_peaks;
 
-/* `fastest_rad_per_s`: modes up to there are followed, others enter with the size of their ring,
-   at most `amplitude` (modes; NULL: not known) */
+/* modal forces that depend on the motion: force (modes) at modal coordinates q under loads `load`
+   (modes). Straight in every cell, to second order in it */
+typedef struct fw_peaks_source {
+    void (*at)(void *data, const double *q, const double *load, double *force);
+    void *data;
+    const double *late; /* (modes) of the motion without them */
+} fw_peaks_source;
+
+/* `source`: NULL without. `fastest_rad_per_s`: modes up to there are followed, others enter with
+   the size of their ring, at most `amplitude` (modes; NULL: not known) */
 fw_status fw_peaks_find(fw_arena *arena, const fw_modal *modal, const fw_pushes *pushes,
-                        double fastest_rad_per_s, const double *amplitude, fw_peaks *peaks);
+                        double fastest_rad_per_s, const double *amplitude,
+                        const fw_peaks_source *source, fw_peaks *peaks);
 
 #endif

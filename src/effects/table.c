@@ -75,7 +75,7 @@ static fw_status settle(const fw_effect_case *c, fw_effect_entry *entry) {
     double loose = 0;
     int largest = -1;
     for (int i = 0; i < ROWS; i++) {
-        if (!entry[i].called_for || rows[i]->kept || c->envelope->taken[i]) continue;
+        if (!entry[i].called_for || c->envelope->taken[i]) continue;
         loose += entry[i].bound;
         if (largest < 0 || entry[i].bound > entry[largest].bound) largest = i;
     }

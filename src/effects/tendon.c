@@ -19,6 +19,7 @@
    Source: principle of virtual work, e.g. Shabana, Dynamics of Multibody Systems, ch. 3.
    Test: test_tendon.c. */
 #include "effects/effect.h"
+#include "effects/envelope.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -103,7 +104,10 @@ static double tension(const fw_force_element *e, const fw_seen *s, double length
     pace at = pace_of(e, s);
     double stretch, speed;
     if (e->switches > 0 && !s->on[0]) return 0;
-    if (pulled(d)) return d->pull_N * at.factor * s->load;
+    if (pulled(d)) {
+        double pull = d->pull_N * at.factor * s->load;
+        return e->switches > 0 ? pull : fmax(0, pull);
+    }
     stretch_of(d, at, s->load, length, rate, &stretch, &speed);
     return d->k_N_per_m * stretch + d->c_Ns_per_m * speed;
 }
@@ -225,10 +229,15 @@ static bool called_for(const fw_effect_case *c) {
     return c->scene->ntendon > 0;
 }
 
+/* Kept whatever it is. Of tendons that may go slack it says how far the motion without them, which
+   the other bounds are made from, is from the one with them: tendon_slack.c */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
-    (void)c;
-    *value = (double)INFINITY;
-    *reason = "the scene has tendons: they are the motion itself";
+    const fw_envelope *e = c->envelope;
+    bool loose = e && e->valid && e->loose_pull > 0 && isfinite(e->loose_pull);
+    *value = loose ? e->loose_pull : (double)INFINITY;
+    *reason = loose ? "kept; bound: answer to the largest pull of those that may go slack, of any "
+                      "course"
+                    : "the scene has tendons: they are the motion itself";
     return FW_OK;
 }
 

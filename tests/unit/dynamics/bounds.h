@@ -64,7 +64,7 @@ static const bounds_effect bounds_effects[] = {
     {"tendon", 0.12, bounds_tendon},
     {"comb-drive", 0.15, bounds_comb_drive},
     {"contact", 0.08, bounds_contact},
-    {"friction", 0.04, bounds_friction},
+    {"friction", 0.2, bounds_friction},
     {"inertia", 0, NULL},
 };
 enum { BOUNDS_EFFECTS = sizeof bounds_effects / sizeof bounds_effects[0] };
@@ -202,7 +202,9 @@ static inline double bounds_judge(const bounds_trial *t, const fw_motion *other,
     if (change <= bound + *unknown) return change;
     const rig *r = &t->d->r;
     const fw_motion *all = bounds_run_at(t->arena, r, FW_EFFECTS_ALL, NULL, 1e-3, 1e-12, &ended);
-    other = bounds_run_at(t->arena, r, mode, list, t->accuracy, 1e-12, &ended);
+    rig bare = *r;
+    if (strcmp(what, "tendon") == 0) bare.scene.ntendon = 0;
+    other = bounds_run_at(t->arena, &bare, mode, list, t->accuracy, 1e-12, &ended);
     if (all && other) change = bounds_apart(all, other, unknown);
     if (change <= bound + *unknown) return change;
     t->score->bad++;
@@ -232,8 +234,12 @@ static inline void bounds_singles(const bounds_trial *t) {
         if (!isfinite(e->bound)) continue;
         tally->finite++;
         bounds_but(ledger, i, list, sizeof list);
+        rig bare = t->d->r; /* tendons are kept: what their bound is of is a scene without */
+        bool kept = strcmp(e->id, "tendon") == 0;
+        if (kept) bare.scene.ntendon = 0;
         const fw_motion *without =
-            bounds_run(t->arena, &t->d->r, FW_EFFECTS_LIST, list, t->accuracy, &ended);
+            kept ? bounds_run(t->arena, &bare, FW_EFFECTS_ALL, NULL, t->accuracy, &ended)
+                 : bounds_run(t->arena, &t->d->r, FW_EFFECTS_LIST, list, t->accuracy, &ended);
         t->score->ended += ended;
         if (ended > 0) continue; /* nothing to compare */
         if (!without) {
@@ -242,7 +248,8 @@ static inline void bounds_singles(const bounds_trial *t) {
                         (unsigned long long)t->seed, e->id, e->bound);
             continue;
         }
-        double change = bounds_judge(t, without, FW_EFFECTS_LIST, list, e->bound, &unknown, e->id);
+        double change = bounds_judge(t, without, kept ? FW_EFFECTS_ALL : FW_EFFECTS_LIST, list,
+                                     e->bound, &unknown, e->id);
         if (change > 3 * unknown && tally->count < t->score->room)
             tally->tight[tally->count++] = e->bound / change;
     }

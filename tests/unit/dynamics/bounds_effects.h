@@ -169,15 +169,16 @@ static inline void bounds_tendon(fw_arena *arena, bounds_device *d, uint64_t *se
     t->eyelet[0] = bounds_eyelet(d, seed, false);
     t->eyelet[1] = bounds_eyelet(d, seed, t->neyelet == 2 || rig_random(seed) < 0.5);
     t->eyelet[2] = bounds_eyelet(d, seed, true);
-    if (rig_random(seed) < 0.7) {
+    if (rig_random(seed) < 0.5) {
         t->pull_N = share * bounds_stiffness_Nm / bounds_length_m;
         if (rig_random(seed) < 0.4) t->law = bounds_law(d, seed);
         return;
     }
     t->draw_m = share * bounds_length_m;
-    t->stiffness_N_per_m = bounds_log(seed, 0.1, 10);
+    t->stiffness_N_per_m = bounds_log(seed, 1e-4, 10);
     t->damping_Ns_per_m = rig_random(seed) < 0.5 ? 0 : 0.1 * t->stiffness_N_per_m / d->omega;
     t->slack_m = (rig_random(seed) - 0.5) * t->draw_m;
+    if (rig_random(seed) < 0.4) t->slack_m = -t->draw_m * bounds_log(seed, 1, 30); /* taut */
     t->law = bounds_law(d, seed);
 }
 
@@ -233,15 +234,22 @@ static inline void bounds_contact(fw_arena *arena, bounds_device *d, uint64_t *s
     u->distance_m = u->side == FW_CONTACT_INSIDE ? now + room : now - fmin(room, 0.9 * now);
 }
 
+/* one joint to three, slides too; a joint twice has twice the friction */
 static inline void bounds_friction(fw_arena *arena, bounds_device *d, uint64_t *seed) {
-    d->r.scene.friction = fw_arena_array(arena, fw_friction_use, 1);
-    d->r.scene.friction[d->r.scene.nfriction++] =
-        (fw_friction_use){.joint = (int)(d->r.m.npin * rig_random(seed)),
-                          .tie = FW_NONE,
-                          .coefficient = bounds_log(seed, 1e-3, 0.3),
-                          .static_coefficient = (double)NAN,
-                          .radius_m = bounds_log(seed, 1e-6, 1e-4),
-                          .preload_N = rig_random(seed) < 0.5 ? 0 : 1e-3 * d->turn};
+    int count = 1 + (int)(3 * rig_random(seed));
+    d->r.scene.friction = fw_arena_array(arena, fw_friction_use, 3);
+    for (int i = 0; i < count; i++) {
+        bool slides = d->r.m.ntie > 0 && d->r.m.tie[0].kind == FW_TIE_PRISMATIC;
+        slides = slides && rig_random(seed) < 0.4;
+        int joint = (int)(d->r.m.npin * rig_random(seed));
+        d->r.scene.friction[d->r.scene.nfriction++] = (fw_friction_use){
+            .joint = slides ? FW_NONE : joint,
+            .tie = slides ? 0 : FW_NONE,
+            .coefficient = bounds_log(seed, slides ? 1e-6 : 1e-3, slides ? 1e-2 : 0.3),
+            .static_coefficient = (double)NAN,
+            .radius_m = bounds_log(seed, 1e-6, 1e-4),
+            .preload_N = rig_random(seed) < 0.5 ? 0 : 1e-3 * d->turn};
+    }
 }
 
 #endif

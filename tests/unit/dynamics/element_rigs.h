@@ -199,7 +199,8 @@ static inline const fw_motion *rig_run_by(fw_arena *arena, const rig *r, const f
     const fw_motion *m;
     const fw_motion_options o = {
         .method = method, .integrator = integrator, .rtol = rtol, .samples = samples};
-    fw_status status = fw_simulate_compiled(arena, &r->m, &r->scene, &o, &(fw_effect_ledger){0}, t, &diags, &m);
+    fw_status status =
+        fw_simulate_compiled(arena, &r->m, &r->scene, &o, &(fw_effect_ledger){0}, t, &diags, &m);
     if (status != FW_OK)
         fail_msg("%s: %s", method ? method : "(default)",
                  diags.count ? diags.item[diags.count - 1].message : "no message");

@@ -138,12 +138,70 @@ static void test_contact_presses(void **state) {
     fw_arena_free(arena);
 }
 
+/* the arm about A under a torque from rest, w^2 = k/(J + m l^2), for half a period: the swing to 2
+   F/k ends at 2 (F - T)/k with a constant friction T. By closed forms: the change is T/F; the bound
+   is T/F but for the margin, T = mu r (p + N0)/(1 - mu r g), where N0 and g are joint forces of the
+   order of F/l and 1/l */
+static double bound_of(fw_arena *arena, double mu, double radius, double preload, double halves,
+                       const fw_law *law) {
+    arm s;
+    fw_diags diags = fw_diags_new(arena);
+    fw_effect_ledger ledger;
+    fw_terms terms;
+    const double k = 1e-6, F = 1e-10, w = sqrt(k / (3e-15 + 2e-8 * 1e-6));
+    fw_torque torque = {.body = 0, .value_Nm = F, .law = law};
+    arm_new(&s);
+    s.m.npin = 1, s.m.ntie = 0, s.m.nhinge = 0;
+    s.pin[0].hinge = FW_NONE;
+    s.pin[0].stiffness_Nm_per_rad = k;
+    s.scene.torque = &torque;
+    s.scene.ntorque = 1;
+    s.scene.duration_s = halves * acos(-1.0) / w;
+    fw_friction_use *u = use(&s, 0, FW_NONE, mu);
+    u->radius_m = radius, u->preload_N = preload;
+    const fw_effect_choice all = {FW_EFFECTS_AUTO, NULL};
+    assert_int_equal(fw_effects_compile(arena, &s.m, &s.scene, &all, 1e-3, &diags, &ledger, &terms),
+                     FW_OK);
+    for (int i = 0; i < ledger.count; i++)
+        if (strcmp(ledger.item[i].id, "friction") == 0) {
+            assert_int_equal(ledger.item[i].active, !(ledger.item[i].bound < 1e-3));
+            return ledger.item[i].bound;
+        }
+    return (double)NAN;
+}
+
+static void test_bound(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const double F = 1e-10, mu = 0.3, r = 1e-10;
+    for (double share = 1e-4; share < 0.2; share *= 3) {
+        double preload = share * F / (mu * r), bound = bound_of(arena, mu, r, preload, 1, NULL);
+        bound /= 1 + bound; /* the ledger's grows by what it may do to its own floor */
+        assert_true(bound >= share);
+        assert_true(bound <= 1.02 * share);
+        /* the peak comes with the first swing; under a load with a law it may come late, and
+           friction in step with the motion counts every swing: four */
+        assert_near(bound_of(arena, mu, r, preload, 4, NULL), bound / (1 - bound), 1e-2 * share);
+        const fw_law step = {.kind = FW_LAW_STEP, .end_s = 1}; /* behind the scene */
+        double late = bound_of(arena, mu, r, preload, 4, &step);
+        late /= 1 + late;
+        if (share < 0.02) assert_true(late >= 4 * share && late <= 4.1 * share);
+    }
+    /* its own reaction alone: 2 F m l/(J + m l^2) at the turning points and less */
+    double reaction = 2e-8 * 1e-3 / (3e-15 + 2e-8 * 1e-6),
+           bound = bound_of(arena, mu, r, 0, 1, NULL);
+    assert_true(bound >= mu * r * reaction && bound <= 4 * mu * r * reaction);
+    /* jams: mu r reaction = 1 */
+    assert_true(isinf(bound_of(arena, mu, 1 / (mu * reaction), 0, 1, NULL)));
+    assert_true(isinf(bound_of(arena, mu, r, 0.5 * F / (mu * r), 1, NULL))); /* more than a third */
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_called_for),
-        cmocka_unit_test(test_values),
-        cmocka_unit_test(test_unknown_radius),
-        cmocka_unit_test(test_contact_presses),
+        cmocka_unit_test(test_called_for),     cmocka_unit_test(test_values),
+        cmocka_unit_test(test_unknown_radius), cmocka_unit_test(test_contact_presses),
+        cmocka_unit_test(test_bound),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

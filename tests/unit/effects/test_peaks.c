@@ -46,7 +46,7 @@ static void row_find(row *x, double end_s) {
     assert_null(x->modal.why_not);
     assert_int_equal(fw_pushes_find(r->arena, &x->modal, &x->pushes), FW_OK);
     assert_int_equal(fw_peaks_find(r->arena, &x->modal, &x->pushes,
-                                   x->modal.omega[x->modal.modes - 1], NULL, &x->peaks),
+                                   x->modal.omega[x->modal.modes - 1], NULL, NULL, &x->peaks),
                      FW_OK);
     assert_null(x->peaks.why_not);
 }
@@ -123,11 +123,50 @@ static void tied(void **state) {
     fw_arena_free(x.r.arena);
 }
 
+/* a force -part W^2 q that follows the motion is a stiffer spring: of one mode under a step the
+   peak is 2 f/(W^2 (1 + part)); and a constant one a load */
+static void follow(void *data, const double *q, const double *load, double *force) {
+    const fw_modal *o = data;
+    (void)load;
+    for (int j = 0; j < o->modes; j++)
+        force[j] = -0.1 * o->omega[j] * o->omega[j] * q[j];
+}
+
+static void like_the_load(void *data, const double *q, const double *load, double *force) {
+    const fw_modal *o = data;
+    (void)q;
+    for (int j = 0; j < o->modes; j++)
+        force[j] = 0.1 * load[j];
+}
+
+static void sources(void **state) {
+    (void)state;
+    void (*const at[])(void *, const double *, const double *, double *) = {follow, like_the_load};
+    const double factor[] = {1 / 1.1, 1.1};
+    for (int i = 0; i < 2; i++) {
+        row x;
+        row_new(&x, 1, 0);
+        double omega = sqrt(k_Nm / (inertia + mass * arm * arm));
+        x.torque[0] = (fw_torque){.body = 0, .value_Nm = 1e-8};
+        x.r.scene.ntorque = 1;
+        row_find(&x, 60 / omega);
+        double late[1] = {0}, linear = 2e-8 / k_Nm;
+        const fw_peaks_source source = {at[i], &x.modal, late};
+        assert_int_equal(fw_peaks_find(x.r.arena, &x.modal, &x.pushes, x.modal.omega[0], NULL,
+                                       &source, &x.peaks),
+                         FW_OK);
+        assert_near(x.peaks.low[0], linear * factor[i], 2e-3 * linear);
+        assert_near(x.peaks.high[0], linear * factor[i], 2e-3 * linear);
+        fw_arena_free(x.r.arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(step),
         cmocka_unit_test(ramp),
         cmocka_unit_test(tied),
+        cmocka_unit_test(sources),
     };
     return cmocka_run_group_tests_name("peaks", tests, NULL, NULL);
 }

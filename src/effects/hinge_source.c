@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a flexure does that its tangent as drawn does not. With F the force that it carries (world),
+   e and n its axes turned by psi = half of what both bodies have turned, C its softness:
+
+     opening  (R C(th) R^T - C(0)) F + o d(o th) n(psi)      turned, softer, drifted
+     torque   F_n d'(o th) - o (1/2) (kx'/kx^2 F_e^2 + ky'/ky^2 F_n^2)  on th
+     couple   -(1/2) F_e (F_n (1/ky - 1/kx) + o d)  on both bodies
+
+   (negative gradient of the energy U of hinge_element.c; d: drift). An opening D pushes mode j with
+   -pull_j . D, pull_j the force of the hinge in the mode. F is that of the slow modes as they are
+   and of the others as they follow the loads: pins hold a mechanism without repeated joints
+   whatever the openings are, so that F does not change with them.
+
+   Fast modes ring besides, with F + r, |r| <= ring: what is linear in r comes at their frequencies
+   (`wave`), what is quadratic stays (`lasting`). Inputs SI. Exact in the law; first order in the
+   geometry of arms, which pins have too. Cost per instant: a law per hinge, and hinges times modes.
+   Source: docs/theory/effects/nonlinear-hinge.md. Test: test_hinge_give.c. */
+#include "effects/hinge_source.h"
+#include <math.h>
+
+double fw_hinge_source_mode(const fw_hinge_source *s, int part, int mode) {
+    switch (part) {
+    case 0:
+        return -s->pull_e[mode];
+    case 1:
+        return -s->pull_n[mode];
+    case 2:
+        return s->turn[mode];
+    default:
+        return s->both[mode];
+    }
+}
+
+void fw_hinge_source_of(const fw_hinge *h, fw_hinge_source *s) {
+    fw_hinge_at drawn;
+    *s = (fw_hinge_source){.hinge = h, .sense = h->first_is_a ? 1 : -1};
+    s->rest = fw_hinge_rest_of(&h->law);
+    fw_hinge_law_slopes(&h->law, &s->rest, 0, &drawn);
+    s->softness_m_per_N[0] = 1 / drawn.kx_N_per_m.value;
+    s->softness_m_per_N[1] = 1 / drawn.ky_N_per_m.value;
+}
+
+static fw_status new_source(fw_arena *arena, const fw_modal *o, const fw_hinge *h, int slow,
+                            const double *ring, fw_hinge_source *s) {
+    size_t modes = (size_t)o->modes, pins = (size_t)o->mechanism->npin, n = (size_t)o->n;
+    const fw_pin *p = &o->mechanism->pin[h->pin];
+    fw_hinge_source_of(h, s);
+    double **of[] = {&s->pull_e, &s->pull_n, &s->turn, &s->both};
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++)
+        FW_NEED(*of[i] = fw_arena_array(arena, double, modes));
+    double c = cos(h->axis_rad), sine = sin(h->axis_rad);
+    for (size_t j = 0; j < modes; j++) {
+        const double *pull = o->pull + 2 * (j * pins + (size_t)h->pin);
+        s->pull_e[j] = c * pull[0] + sine * pull[1];
+        s->pull_n[j] = c * pull[1] - sine * pull[0];
+        s->turn[j] = o->turn[j * pins + (size_t)h->pin];
+        if (p->body_a != FW_GROUND) s->both[j] += o->shape[j * n + 3 * (size_t)p->body_a + 2];
+        if (p->body_b != FW_GROUND) s->both[j] += o->shape[j * n + 3 * (size_t)p->body_b + 2];
+        if (j < (size_t)slow) continue;
+        s->ring_N[0] += fabs(s->pull_e[j]) * ring[j];
+        s->ring_N[1] += fabs(s->pull_n[j]) * ring[j];
+    }
+    return FW_OK;
+}
+
+fw_status fw_hinge_sources_new(fw_arena *arena, const fw_modal *o, int slow, const double *ring,
+                               fw_hinge_sources *all) {
+    const fw_mechanism *m = o->mechanism;
+    *all = (fw_hinge_sources){.modal = o, .slow = slow};
+    FW_NEED(all->item = fw_arena_array(arena, fw_hinge_source, (size_t)m->nhinge));
+    FW_NEED(all->force = fw_arena_array(arena, double, (size_t)o->modes));
+    FW_NEED(all->rapid_rad = fw_arena_array(arena, double, (size_t)m->npin));
+    for (int i = 0; i < m->nhinge; i++)
+        if (o->terms->released[m->hinge[i].pin])
+            FW_TRY(new_source(arena, o, &m->hinge[i], slow, ring, &all->item[all->count++]));
+    return FW_OK;
+}
+
+/* of a hinge at an instant: its law, and where its axes are */
+typedef struct posture {
+    fw_hinge_at law;
+    double sense, c, s; /* of psi */
+} posture;
+
+static posture posture_of(const fw_hinge_source *h, double rotation, double turned) {
+    posture p = {.sense = h->sense, .c = cos(turned), .s = sin(turned)};
+    fw_hinge_law_slopes(&h->hinge->law, &h->rest, h->sense * rotation, &p.law);
+    return p;
+}
+
+/* the parts under a force along e and n as drawn */
+static void parts_at(const fw_hinge_source *h, const posture *at, double fe, double fn,
+                     double *part) {
+    double kx = at->law.kx_N_per_m.value, ky = at->law.ky_N_per_m.value, o = at->sense;
+    double e = at->c * fe + at->s * fn, n = at->c * fn - at->s * fe; /* as turned */
+    double w = e / kx, y = n / ky + o * at->law.drift_m.value;
+    double bend = at->law.kx_N_per_m.slope * (e / kx) * (e / kx) +
+                  at->law.ky_N_per_m.slope * (n / ky) * (n / ky);
+    part[0] = at->c * w - at->s * y - h->softness_m_per_N[0] * fe;
+    part[1] = at->s * w + at->c * y - h->softness_m_per_N[1] * fn;
+    part[2] = n * at->law.drift_m.slope - 0.5 * o * bend;
+    part[3] = -0.5 * (e * y - n * w);
+}
+
+void fw_hinge_source_parts(const fw_hinge_source *h, double rotation, double turned, double fe,
+                           double fn, double *part) {
+    const posture p = posture_of(h, rotation, turned);
+    parts_at(h, &p, fe, fn, part);
+}
+
+/* what r along e, or n, can add in either direction */
+static void open_parts(fw_hinge_source *h, const posture *at, double fe, double fn,
+                       const double *now) {
+    for (int d = 0; d < 2; d++) {
+        double r = h->ring_N[d], plus[FW_HINGE_PARTS], minus[FW_HINGE_PARTS];
+        parts_at(h, at, fe + (d ? 0 : r), fn + (d ? r : 0), plus);
+        parts_at(h, at, fe - (d ? 0 : r), fn - (d ? r : 0), minus);
+        for (int k = 0; k < FW_HINGE_PARTS; k++) {
+            h->wave[k] = fmax(h->wave[k], fabs(plus[k] - minus[k]));
+            h->lasting[k] = fmax(h->lasting[k], 2 * fabs(0.5 * (plus[k] + minus[k]) - now[k]));
+        }
+    }
+    double mixed = fabs(1 / at->law.kx_N_per_m.value - 1 / at->law.ky_N_per_m.value);
+    h->lasting[3] = fmax(h->lasting[3], h->ring_N[0] * h->ring_N[1] * mixed);
+}
+
+void fw_hinge_sources_at(void *data, const double *q, const double *load, double *force) {
+    fw_hinge_sources *all = data;
+    const fw_modal *o = all->modal;
+    size_t pins = (size_t)o->mechanism->npin;
+    for (int j = 0; j < o->modes; j++)
+        force[j] = 0;
+    for (int i = 0; i < all->count; i++) {
+        fw_hinge_source *h = &all->item[i];
+        double fe = 0, fn = 0, angle = 0, turned = 0, part[FW_HINGE_PARTS];
+        for (int j = 0; j < o->modes; j++) {
+            double at = j < all->slow ? q[j] : load[j] / (o->omega[j] * o->omega[j]);
+            fe -= h->pull_e[j] * at, fn -= h->pull_n[j] * at;
+            angle += h->turn[j] * at, turned += 0.5 * h->both[j] * at;
+        }
+        posture p = posture_of(h, angle, turned);
+        parts_at(h, &p, fe, fn, part);
+        open_parts(h, &p, fe, fn, part);
+        for (int j = 0; j < o->modes; j++)
+            for (int k = 0; k < FW_HINGE_PARTS; k++)
+                force[j] += part[k] * fw_hinge_source_mode(h, k, j);
+    }
+    for (int j = 0; j < o->modes; j++)
+        all->force[j] = isfinite(force[j]) ? fmax(all->force[j], fabs(force[j])) : (double)INFINITY;
+    for (size_t i = 0; i < pins; i++) {
+        double sum = 0;
+        for (int j = all->slow; j < o->modes; j++)
+            sum += o->turn[(size_t)j * pins + i] * force[j] / (o->omega[j] * o->omega[j]);
+        all->rapid_rad[i] = fmax(all->rapid_rad[i], fabs(sum));
+    }
+}
