@@ -12,13 +12,13 @@ typedef struct goal { /* what is given, without units */
 } goal;
 
 typedef struct newton {
-    double tolerance; /* on the change that would come next */
+    double tolerance; /* on the change that would come next, over the largest rotation */
     double last;      /* on the last change itself, so that the tangent is as good */
     double contract;  /* largest quotient of two changes */
     double sign;      /* wanted of the determinant, 0: any */
     /* out: */
-    double ratio, change, stability;
-    fw_end_state end; /* after the last change, derivatives before it */
+    double ratio, change, stability, span; /* span: largest rotation inside, at most 1 */
+    fw_end_state end;                      /* after the last change, derivatives before it */
 } newton;
 
 enum { MOST_PASSES = 25 };
@@ -38,7 +38,8 @@ static bool step_of(fw_elastica *e, int level, const goal *g, newton *n, double 
     for (int i = 0; i < 6; i++)
         for (int k = 0; k < 3; k++)
             n->end.value[i] += n->end.by[i][k] * dp[k];
-    *change = fw_mesh_update(e, level, dp);
+    *change = fw_mesh_update(e, level, dp, &n->span);
+    n->span = fmin(n->span, 1);
     return isfinite(*change);
 }
 
@@ -55,7 +56,8 @@ static bool newton_run(fw_elastica *e, int level, const goal *g, newton *n) {
             double ratio = n->change / before;
             if (ratio > n->contract && n->change > 1e-11) return false;
             if (i == 1) n->ratio = ratio;
-            if (n->change <= n->last && 10 * n->change * ratio * ratio < n->tolerance) return true;
+            if (n->change <= n->last && 10 * n->change * ratio * ratio < n->tolerance * n->span)
+                return true;
             if (ratio > 0.5 && n->change < 1e-11) return true;
         }
         before = n->change;
@@ -148,7 +150,7 @@ static void look_unloaded(fw_elastica *e, const goal *g) {
    there. */
 static double load_steps(fw_elastica *e, int level, const double from[3], const goal *to,
                          double sign, int *steps) {
-    enum { HALVINGS = 14 };
+    enum { HALVINGS = 13 };
     const double least = ldexp(1, -HALVINGS);
     double at = 0, step = 0.25;
     while (at < 1 && step >= least) {
@@ -161,7 +163,7 @@ static double load_steps(fw_elastica *e, int level, const double from[3], const 
         ++*steps;
         if (newton_run(e, level, &part, &n)) {
             at = next;
-            if (n.ratio < 0.03) step *= 2;
+            if (n.ratio < 0.08) step *= 2;
         } else {
             restore(e, level);
             step *= 0.5;

@@ -77,8 +77,8 @@ void fw_mesh_refine(fw_elastica *e, int level); /* phi of the next level from th
 
 void fw_element_pass(fw_element *el, const double force[2], fw_carried *carried);
 void fw_mesh_pass(fw_elastica *e, int level, fw_end_state *end);
-/* adds the change for dp to phi and p; answers the largest change */
-double fw_mesh_update(fw_elastica *e, int level, const double *dp);
+/* adds the change for dp to phi and p; answers the largest change, *span the largest |phi| */
+double fw_mesh_update(fw_elastica *e, int level, const double *dp, double *span);
 void fw_elastica_begin(const fw_elastica *e, fw_carried *carried);
 
 /* solves a x = x for the first `columns` columns of x, rows exchanged for size; false: singular.

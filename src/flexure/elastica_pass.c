@@ -175,19 +175,23 @@ static double applied(const double *by, const double *dp) {
     return by[0] + by[1] * dp[0] + by[2] * dp[1] + by[3] * dp[2];
 }
 
-double fw_mesh_update(fw_elastica *e, int level, const double *dp) {
+double fw_mesh_update(fw_elastica *e, int level, const double *dp, double *span) {
     fw_mesh *mesh = &e->mesh[level];
     double most = 0, size = 1;
+    *span = 0;
     for (int n = 0; n < mesh->count; n++) {
         fw_element *el = &mesh->element[n];
         fw_nodes change =
             el->change[0] + dp[0] * el->change[1] + dp[1] * el->change[2] + dp[2] * el->change[3];
         el->phi += change;
         el->start = applied(el->start_by, dp);
-        for (int i = 0; i < FW_NODES; i++)
-            most = fmax(most, fabs(change[i]));
+        for (int i = 0; i < FW_NODES; i++) {
+            most = fabs(change[i]) > most ? fabs(change[i]) : most;
+            *span = fabs(el->phi[i]) > *span ? fabs(el->phi[i]) : *span;
+        }
     }
-    mesh->end = applied(mesh->end_by, dp);
+    mesh->end = applied(mesh->end_by, dp); /* a number that is none anywhere comes to here */
+    if (!isfinite(mesh->end)) most = (double)INFINITY;
     for (int k = 0; k < FW_UNKNOWN; k++) {
         e->p[k] += dp[k];
         size = fmax(size, fabs(e->p[k]));

@@ -3,7 +3,7 @@
 #include <math.h>
 
 /* P_0 .. P_n at x by their recurrence */
-static void legendre(int n, double x, double *p) {
+static void legendre(int n, long double x, long double *p) {
     p[0] = 1;
     if (n > 0) p[1] = x;
     for (int k = 2; k <= n; k++)
@@ -15,16 +15,16 @@ static void legendre(int n, double x, double *p) {
    place; exact for polynomials of degree 2 n - 1. Source: Abramowitz and Stegun 25.4.29. Test:
    test_beam.c rules_are_exact */
 void fw_gauss_rule(int n, double *node, double *weight) {
-    double p[FW_GAUSS_MOST + 1];
+    long double p[FW_GAUSS_MOST + 1];
     for (int i = 0; i < n; i++) {
-        double x = cos(M_PI * (i + 0.75) / (n + 0.5));
+        long double x = cosl((long double)M_PI * (i + 0.75L) / (n + 0.5L));
         for (int k = 0; k < 8; k++) {
             legendre(n, x, p);
             x -= p[n] * (x * x - 1) / (n * (x * p[n] - p[n - 1]));
         }
         legendre(n, x, p);
-        node[n - 1 - i] = 0.5 * (1 + x);
-        weight[n - 1 - i] = (1 - x * x) / ((double)n * n * p[n - 1] * p[n - 1]);
+        node[n - 1 - i] = (double)(0.5L * (1 + x));
+        weight[n - 1 - i] = (double)((1 - x * x) / ((long double)n * n * p[n - 1] * p[n - 1]));
     }
 }
 
@@ -33,16 +33,16 @@ void fw_gauss_rule(int n, double *node, double *weight) {
    Source: Hairer and Wanner, Solving Ordinary Differential Equations II, IV.5.
    Test: test_beam.c rules_are_exact */
 void fw_gauss_integrals(int n, const double *node, const double *weight, double *a) {
-    double at[FW_GAUSS_MOST + 2], of[FW_GAUSS_MOST + 2];
+    long double at[FW_GAUSS_MOST + 2], of[FW_GAUSS_MOST + 2];
     for (int i = 0; i < n; i++) {
-        double x = 2 * node[i] - 1;
+        long double x = 2 * (long double)node[i] - 1;
         legendre(n, x, at);
         for (int j = 0; j < n; j++) {
-            legendre(n, 2 * node[j] - 1, of);
-            double sum = x + 1;
+            legendre(n, 2 * (long double)node[j] - 1, of);
+            long double sum = x + 1;
             for (int k = 1; k < n; k++)
                 sum += of[k] * (at[k + 1] - at[k - 1]);
-            a[i * n + j] = 0.5 * weight[j] * sum;
+            a[i * n + j] = (double)(0.5L * weight[j] * sum);
         }
     }
 }
