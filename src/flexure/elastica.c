@@ -16,6 +16,7 @@ typedef struct newton {
     double last;      /* on the last change itself, so that the tangent is as good */
     double contract;  /* largest quotient of two changes */
     double sign;      /* wanted of the determinant, 0: any */
+    double square;    /* a change over the square of the one before; 0: not known. In and out */
     /* out: */
     double ratio, change, stability, span; /* span: largest rotation inside, at most 1 */
     fw_end_state end;                      /* after the last change, derivatives before it */
@@ -44,8 +45,8 @@ static bool step_of(fw_elastica *e, int level, const goal *g, newton *n, double 
 }
 
 /* contraction by the affine covariant test of Deuflhard (Newton Methods for Nonlinear Problems,
-   section 2.1): each change a fraction of the one before. The next one is then that fraction
-   squared of the last; rounding ends what no longer falls. */
+   section 2.1): each change a fraction of the one before, and the next one in proportion to the
+   square of the last; rounding ends what no longer falls. */
 static bool newton_run(fw_elastica *e, int level, const goal *g, newton *n) {
     double before = 0;
     n->ratio = 0;
@@ -55,11 +56,12 @@ static bool newton_run(fw_elastica *e, int level, const goal *g, newton *n) {
         if (i > 0) {
             double ratio = n->change / before;
             if (ratio > n->contract && n->change > 1e-11) return false;
-            if (i == 1) n->ratio = ratio;
-            if (n->change <= n->last && 10 * n->change * ratio * ratio < n->tolerance * n->span)
-                return true;
             if (ratio > 0.5 && n->change < 1e-11) return true;
+            if (i == 1) n->ratio = ratio;
+            n->square = ratio / before;
         }
+        double next = 10 * n->change * n->change * n->square;
+        if (n->square > 0 && n->change <= n->last && next < n->tolerance * n->span) return true;
         before = n->change;
     }
     return false;
@@ -322,9 +324,10 @@ static void refine(fw_elastica *e, int level, goal *g, way *w, newton *n, fw_ela
             coarse[i] = n->end.value[i];
         fw_mesh_refine(e, level);
         *n = (newton){.tolerance = 0.1 * w->tolerance,
-                      .last = fmin(1e-8, w->tolerance),
+                      .last = fmin(1e-7, w->tolerance),
                       .contract = 0.5,
-                      .sign = w->sign};
+                      .sign = w->sign,
+                      .square = n->square};
         have = newton_run(e, level + 1, g, n);
         if (!have) {
             w->warm = false;

@@ -10,10 +10,11 @@ static void legendre(int n, long double x, long double *p) {
         p[k] = ((2 * k - 1) * x * p[k - 1] - (k - 1) * p[k - 2]) / k;
 }
 
-/* roots of P_n by Newton's method from cos(pi (i + 3/4)/(n + 1/2)); weight 2 (1 - x^2)/(n
-   P_(n-1))^2 in: n <= FW_GAUSS_MOST; out: nodes and weights on [0, 1], error some units of the last
-   place; exact for polynomials of degree 2 n - 1. Source: Abramowitz and Stegun 25.4.29. Test:
-   test_beam.c rules_are_exact */
+/* roots of P_n by Newton's method from cos(pi (i + 3/4)/(n + 1/2)), weight on [-1, 1]
+     w = 2 (1 - x^2)/(n P_(n-1)(x))^2
+   in: n <= FW_GAUSS_MOST. out: nodes and weights on [0, 1], rounded from long double; exact for
+   polynomials of degree 2 n - 1. Source: Abramowitz and Stegun 25.4.29.
+   Test: test_beam.c rules_are_exact */
 void fw_gauss_rule(int n, double *node, double *weight) {
     long double p[FW_GAUSS_MOST + 1];
     for (int i = 0; i < n; i++) {
@@ -42,7 +43,7 @@ void fw_gauss_integrals(int n, const double *node, const double *weight, double 
             long double sum = x + 1;
             for (int k = 1; k < n; k++)
                 sum += of[k] * (at[k + 1] - at[k - 1]);
-            a[i * n + j] = (double)(0.5L * weight[j] * sum);
+            a[i * n + j] = (double)(0.5L * (long double)weight[j] * sum);
         }
     }
 }

@@ -257,8 +257,8 @@ static void errors_are_told(void **state) {
     enum { N = 1000000 };
     long double sum = 0, first = 0;
     for (int i = 0; i <= N; i++) {
-        double w = (i == 0 || i == N ? 1 : i % 2 ? 4 : 2) / (3.0 * N);
-        double bend = pow(notch(NULL, 0, (double)i / N), -3);
+        long double w = (i == 0 || i == N ? 1 : i % 2 ? 4 : 2) / (3.0L * N);
+        long double bend = (long double)pow(notch(NULL, 0, (double)i / N), -3);
         sum += w * bend, first += w * bend * i / N;
     }
     assert_relative(got.c[0][0], (double)sum, got.error + 1e-12);
