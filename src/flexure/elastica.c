@@ -1,225 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The solver of the elastica: Newton's method on all rotations and three unknowns at once, load
-   steps where it does not contract, and a finer mesh for the error. */
+/* The solver of the elastica: a solution on one mesh, a finer one for the error, the result. */
 #include "flexure/elastica.h"
 #include "flexure/elastica_core.h"
 #include <float.h>
 #include <math.h>
-
-typedef struct goal { /* what is given, without units */
-    fw_elastica_end given[3];
-    double value[3];
-} goal;
-
-typedef struct newton {
-    double tolerance; /* on the change that would come next, over the largest rotation */
-    double last;      /* on the last change itself, so that the tangent is as good */
-    double contract;  /* largest quotient of two changes */
-    double sign;      /* wanted of the determinant, 0: any */
-    double square;    /* a change over the square of the one before; 0: not known. In and out */
-    /* out: */
-    double ratio, change, stability, span; /* span: largest rotation inside, at most 1 */
-    fw_end_state end;                      /* after the last change, derivatives before it */
-} newton;
-
-enum { MOST_PASSES = 25 };
-
-static bool step_of(fw_elastica *e, int level, const goal *g, newton *n, double *change) {
-    double a[3][3], x[3][3] = {{0}}, det;
-    fw_mesh_pass(e, level, &n->end);
-    for (int i = 0; i < 3; i++) {
-        x[i][0] = g->value[i] - n->end.value[g->given[i]];
-        for (int k = 0; k < 3; k++)
-            a[i][k] = n->end.by[g->given[i]][k];
-    }
-    bool regular = fw_solve3(a, 1, x, &det);
-    n->stability = e->unloaded != 0 ? det / e->unloaded : (double)NAN;
-    if (!regular || !isfinite(det) || n->stability * n->sign < 0) return false;
-    const double dp[3] = {x[0][0], x[1][0], x[2][0]};
-    for (int i = 0; i < 6; i++)
-        for (int k = 0; k < 3; k++)
-            n->end.value[i] += n->end.by[i][k] * dp[k];
-    *change = fw_mesh_update(e, level, dp, &n->span);
-    n->span = fmin(n->span, 1);
-    return isfinite(*change);
-}
-
-/* contraction by the affine covariant test of Deuflhard (Newton Methods for Nonlinear Problems,
-   section 2.1): each change a fraction of the one before, and the next one in proportion to the
-   square of the last; rounding ends what no longer falls. */
-static bool newton_run(fw_elastica *e, int level, const goal *g, newton *n) {
-    double before = 0;
-    n->ratio = 0;
-    for (int i = 0; i < MOST_PASSES; i++) {
-        if (!step_of(e, level, g, n, &n->change)) return false;
-        if (n->change < 4e-14) return true;
-        if (i > 0) {
-            double ratio = n->change / before;
-            if (ratio > n->contract && n->change > 1e-11) return false;
-            if (ratio > 0.5 && n->change < 1e-11) return true;
-            if (i == 1) n->ratio = ratio;
-            n->square = ratio / before;
-        }
-        double next = 10 * n->change * n->change * n->square;
-        if (n->square > 0 && n->change <= n->last && next < n->tolerance * n->span) return true;
-        before = n->change;
-    }
-    return false;
-}
-
-/* ---- where to begin ---- */
-
-static bool gives(const goal *g, fw_elastica_end end, double *value) {
-    for (int i = 0; i < 3; i++)
-        if (g->given[i] == end) {
-            *value = g->value[i];
-            return true;
-        }
-    return false;
-}
-
-static void set_moment(fw_elastica *e, int level, double moment) {
-    fw_mesh *mesh = &e->mesh[level];
-    fw_mesh_fill(e, level);
-    e->p[0] = moment;
-    e->p[1] = e->p[2] = 0;
-    for (int n = 0; n < mesh->count; n++) {
-        fw_element *el = &mesh->element[n];
-        el->phi = moment * (el->cumulative + el->turned);
-        el->start = moment * el->cumulative;
-    }
-    mesh->end = moment;
-}
-
-/* an exact equilibrium: the beam wound by a moment alone, which has the rotation or the moment that
-   is given; the first Newton step from there is the law of finite.h */
-static void begin_wound(fw_elastica *e, int level, const goal *g) {
-    double moment = 0;
-    if (!e->hinged && !gives(g, FW_END_THETA, &moment)) gives(g, FW_END_M, &moment);
-    set_moment(e, level, moment);
-}
-
-static void keep(fw_elastica *e, int level) {
-    const fw_mesh *mesh = &e->mesh[level];
-    for (int n = 0; n < mesh->count; n++)
-        mesh->element[n].kept = mesh->element[n].phi;
-    for (int k = 0; k < FW_UNKNOWN; k++)
-        e->kept[k] = e->p[k];
-}
-
-static void restore(fw_elastica *e, int level) {
-    const fw_mesh *mesh = &e->mesh[level];
-    for (int n = 0; n < mesh->count; n++)
-        mesh->element[n].phi = mesh->element[n].kept;
-    for (int k = 0; k < FW_UNKNOWN; k++)
-        e->p[k] = e->kept[k];
-}
-
-static double determinant(fw_elastica *e, int level, const goal *g, double *size) {
-    double a[3][3], x[3][3] = {{0}}, det;
-    fw_end_state end;
-    fw_mesh_pass(e, level, &end);
-    *size = 1;
-    for (int i = 0; i < 3; i++) {
-        for (int k = 0; k < 3; k++)
-            a[i][k] = end.by[g->given[i]][k];
-        *size *= hypot(hypot(a[i][0], a[i][1]), a[i][2]);
-    }
-    fw_solve3(a, 0, x, &det);
-    return det;
-}
-
-/* for another kind of task than the last: the determinant of the unloaded beam, 0 where nothing
-   holds it, and the sign of the present one */
-static void look_unloaded(fw_elastica *e, const goal *g) {
-    if (e->kind[0] == g->given[0] && e->kind[1] == g->given[1] && e->kind[2] == g->given[2]) return;
-    double size;
-    fw_mesh_fill(e, 0);
-    keep(e, 0);
-    set_moment(e, 0, 0);
-    e->unloaded = determinant(e, 0, g, &size);
-    if (!(fabs(e->unloaded) > 1e-11 * size)) e->unloaded = 0;
-    restore(e, 0);
-    for (int i = 0; i < 3; i++)
-        e->kind[i] = g->given[i];
-    if (e->solved > 0) e->sign = determinant(e, e->solved - 1, g, &size) * e->unloaded < 0 ? -1 : 1;
-}
-
-/* ---- the primary branch ---- */
-
-/* all values change together, from those of the present state; a step is taken when the corrector
-   contracts well and the determinant keeps its sign. Answers the part reached, with the state
-   there. */
-static double load_steps(fw_elastica *e, int level, const double from[3], const goal *to,
-                         double sign, int *steps) {
-    enum { HALVINGS = 13 };
-    const double least = ldexp(1, -HALVINGS);
-    double at = 0, step = 0.25;
-    while (at < 1 && step >= least) {
-        double next = fmin(1, at + step);
-        goal part = *to;
-        for (int i = 0; i < 3; i++)
-            if (next < 1) part.value[i] = from[i] + next * (to->value[i] - from[i]);
-        newton n = {.tolerance = 1e-7, .last = 1e-4, .contract = 0.25, .sign = sign};
-        keep(e, level);
-        ++*steps;
-        if (newton_run(e, level, &part, &n)) {
-            at = next;
-            if (n.ratio < 0.08) step *= 2;
-        } else {
-            restore(e, level);
-            step *= 0.5;
-        }
-    }
-    return at;
-}
-
-typedef struct way {
-    bool warm;
-    double tolerance;
-    double sign;
-    double reached;
-    int steps;
-} way;
-
-static bool from_last(fw_elastica *e, int level, const goal *g, way *w, newton *n) {
-    const newton direct = *n;
-    double from[3];
-    for (int i = 0; i < 3; i++)
-        from[i] = e->last[g->given[i]];
-    keep(e, level);
-    if (newton_run(e, level, g, n)) return true;
-    restore(e, level);
-    *n = direct;
-    n->contract = 1;
-    return load_steps(e, level, from, g, w->sign, &w->steps) == 1 && newton_run(e, level, g, n);
-}
-
-/* a solution on this mesh: from the last one, from the wound beam, or along the branch; false:
-   none. Where the branch ends before, w->reached is below 1 and g holds that part of the values. */
-static bool reach(fw_elastica *e, int level, goal *g, way *w, newton *n) {
-    static const double nothing[3] = {0};
-    const newton direct = {
-        .tolerance = 0.1 * w->tolerance, .last = 1e-3, .contract = 0.4, .sign = w->sign};
-    *n = direct;
-    w->reached = 1;
-    if (w->warm && from_last(e, level, g, w, n)) return true;
-    if (w->warm && (e->unloaded == 0 || w->sign < 0)) return false; /* no other way to it */
-    w->warm = false;
-    w->sign = 1;
-    begin_wound(e, level, g);
-    *n = direct;
-    n->sign = 1;
-    if (newton_run(e, level, g, n)) return true;
-    set_moment(e, level, 0);
-    w->reached = load_steps(e, level, nothing, g, 1, &w->steps);
-    for (int i = 0; i < 3; i++)
-        g->value[i] *= w->reached;
-    *n = direct;
-    n->sign = 1;
-    n->contract = 1;
-    return newton_run(e, level, g, n);
-}
 
 /* ---- the result ---- */
 
@@ -264,8 +48,8 @@ static double relative(const double twist[3], const double wrench[3], const doub
     return worst;
 }
 
-static void judge(const newton *fine, const double *coarse, const goal *g, const double k[3][3],
-                  errors *out) {
+static void judge(const fw_newton *fine, const double *coarse, const fw_goal *g,
+                  const double k[3][3], errors *out) {
     double round[2][3], rest = 10 * fine->change * fine->change; /* what the next pass would do */
     for (int i = 0; i < 3; i++) {
         out->twist[i] = fabs(fine->end.value[i] - coarse[i]) + rest;
@@ -286,7 +70,7 @@ static double unit(const fw_elastica *e, int which) {
     return which == 0 ? 1 : which < 3 ? l : which == 3 ? 1 / C : 1 / (C * l);
 }
 
-static void report(fw_elastica *e, const newton *n, const goal *g, const double k[3][3],
+static void report(fw_elastica *e, const fw_newton *n, const fw_goal *g, const double k[3][3],
                    const errors *err, fw_elastica_result *out) {
     double value[6];
     for (int i = 0; i < 6; i++)
@@ -313,22 +97,24 @@ static void report(fw_elastica *e, const newton *n, const goal *g, const double 
 
 /* the solution on one mesh is the start on the next finer one and their difference the error of the
    coarser; what is handed out is the finer. The tangent is that of the finer mesh's last pass. */
-static void refine(fw_elastica *e, int level, goal *g, way *w, newton *n, fw_elastica_result *out) {
+static void refine(fw_elastica *e, int level, const fw_goal *g, fw_way *w, fw_newton *n,
+                   fw_elastica_result *out) {
     bool have = true;
     out->code = FW_ELASTICA_FAILED;
     for (; level + 1 < FW_LEVELS; level++) {
         double coarse[6], k[3][3];
         errors err;
-        if (!have && !reach(e, level, g, w, n)) continue;
+        fw_goal whole = *g;
+        if (!have && (!fw_elastica_reach(e, level, &whole, w, n) || w->reached < 1)) continue;
         for (int i = 0; i < 6; i++)
             coarse[i] = n->end.value[i];
         fw_mesh_refine(e, level);
-        *n = (newton){.tolerance = 0.1 * w->tolerance,
-                      .last = fmin(1e-7, w->tolerance),
-                      .contract = 0.5,
-                      .sign = w->sign,
-                      .square = n->square};
-        have = newton_run(e, level + 1, g, n);
+        *n = (fw_newton){.tolerance = 0.1 * w->tolerance,
+                         .last = fmin(1e-7, w->tolerance),
+                         .contract = 0.5,
+                         .sign = w->sign,
+                         .square = n->square};
+        have = fw_newton_run(e, level + 1, g, n);
         if (!have) {
             w->warm = false;
             continue;
@@ -344,7 +130,26 @@ static void refine(fw_elastica *e, int level, goal *g, way *w, newton *n, fw_ela
     }
 }
 
-static bool sensible(const fw_elastica_task *task, goal *g, const fw_elastica *e) {
+/* at a limit the tangent is singular and a finer mesh has it a little elsewhere: the result is the
+   nearest state before it that both meshes have */
+static double stop_before(fw_elastica *e, int level, const fw_goal *g, double reached, fw_way *w,
+                          fw_newton *n, fw_elastica_result *out) {
+    for (int i = 0; i < 8; i++) {
+        fw_goal part = *g;
+        double to = reached * (1 - 1e-4 * (ldexp(1, i) - 1));
+        for (int k = 0; k < 3; k++)
+            part.value[k] *= to;
+        if (!fw_elastica_reach(e, level, &part, w, n) || w->reached < 1) continue;
+        refine(e, level, &part, w, n, out);
+        if (out->code == FW_ELASTICA_FAILED) continue;
+        out->code = FW_ELASTICA_LIMIT;
+        return to;
+    }
+    out->code = FW_ELASTICA_FAILED;
+    return 0;
+}
+
+static bool sensible(const fw_elastica_task *task, fw_goal *g, const fw_elastica *e) {
     for (int i = 0; i < 3; i++) {
         g->given[i] = task->given[i];
         g->value[i] = task->value[i] / unit(e, (int)task->given[i]);
@@ -369,25 +174,25 @@ static bool sensible(const fw_elastica_task *task, goal *g, const fw_elastica *e
    docs/theory/flexure.md. Test: test_elastica.c, test_elastica_bench.c */
 void fw_elastica_solve(fw_elastica *e, const fw_elastica_task *task, double tolerance, bool warm,
                        fw_elastica_result *out) {
-    goal g, part = {0};
-    newton n = {0};
+    fw_goal g = {0}, part = {0};
+    fw_newton n = {0};
     *out = (fw_elastica_result){.code = FW_ELASTICA_LOOSE};
     e->passes = 0;
     if (!sensible(task, &g, e)) return;
     warm = warm && e->solved > 0;
-    look_unloaded(e, &g);
+    fw_elastica_look_unloaded(e, &g);
     if (e->unloaded == 0 && !warm) return;
-    way w = {.warm = warm,
-             .tolerance = fmax(tolerance, 1e-13),
-             .sign = e->unloaded == 0 ? 0
-                     : warm           ? e->sign
-                                      : 1};
+    fw_way w = {.warm = warm,
+                .tolerance = fmax(tolerance, 1e-13),
+                .sign = e->unloaded == 0 ? 0
+                        : warm           ? e->sign
+                                         : 1};
     double reached = -1;
     bool found = false;
     for (int level = warm ? e->solved - 1 : 0; level < FW_LEVELS - 1; level++) {
         fw_mesh_fill(e, level);
         part = g;
-        found = reach(e, level, &part, &w, &n);
+        found = fw_elastica_reach(e, level, &part, &w, &n);
         if (found && w.reached == 1) {
             refine(e, level, &part, &w, &n, out);
             break;
@@ -395,15 +200,14 @@ void fw_elastica_solve(fw_elastica *e, const fw_elastica_task *task, double tole
         bool agrees = found && fabs(w.reached - reached) < 1e-3 * reached;
         reached = found ? w.reached : -1;
         if (agrees || (found && level == FW_LEVELS - 2)) {
-            refine(e, level, &part, &w, &n, out);
-            out->code = FW_ELASTICA_LIMIT;
+            reached = stop_before(e, level, &g, reached, &w, &n, out);
             break;
         }
         out->code = FW_ELASTICA_FAILED;
         if (w.warm) break;
     }
     if (out->code == FW_ELASTICA_FAILED) e->solved = -1;
-    out->reached = found ? w.reached : 0;
+    out->reached = out->code == FW_ELASTICA_LIMIT ? reached : found ? 1 : 0;
     out->passes = e->passes;
     out->steps = w.steps;
 }
@@ -424,7 +228,7 @@ void fw_elastica_of_wrench(fw_elastica *e, const double wrench[3], double tolera
 
 /* ---- tables ---- */
 
-/* an element of eight nodes takes up to 3/4 of a turn of an arc to 1e-10 */
+/* an element of eight nodes takes up to 3/4 of a turn of an arc to 1e-8, halved to 1e-12 */
 static int elements_of(const fw_beam_piece *piece) {
     return 1 + (int)(fabs(piece->curvature_per_m) * piece->length_m / 4.8);
 }

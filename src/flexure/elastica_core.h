@@ -82,7 +82,41 @@ double fw_mesh_update(fw_elastica *e, int level, const double *dp, double *span)
 void fw_elastica_begin(const fw_elastica *e, fw_carried *carried);
 
 /* solves a x = x for the first `columns` columns of x, rows exchanged for size; false: singular.
- *det: its determinant */
+   *det: its determinant */
 bool fw_solve3(const double a[3][3], int columns, double x[3][3], double *det);
+
+typedef struct fw_goal { /* what is given, without units */
+    fw_elastica_end given[3];
+    double value[3];
+    bool eased;     /* of the place only what lies along `soft`; the force across stays */
+    double soft[2]; /* unit vector */
+} fw_goal;
+
+typedef struct fw_newton {
+    double tolerance; /* on the change that would come next, over the largest rotation */
+    double last;      /* on the last change itself, so that the tangent is as good */
+    double contract;  /* largest quotient of two changes */
+    double sign;      /* wanted of the determinant, 0: any */
+    double square;    /* a change over the square of the one before; 0: not known. In and out */
+    /* out: */
+    double ratio, change, stability, span; /* span: largest rotation inside, at most 1 */
+    fw_end_state end;                      /* after the last change, derivatives before it */
+} fw_newton;
+
+typedef struct fw_way {
+    bool warm;
+    double tolerance;
+    double sign;
+    double reached;
+    int steps;
+} fw_way;
+
+bool fw_newton_run(fw_elastica *e, int level, const fw_goal *g, fw_newton *n);
+/* for another kind of task than the last: the determinant of the unloaded beam, 0 where nothing
+   holds it, and the sign of the present one */
+void fw_elastica_look_unloaded(fw_elastica *e, const fw_goal *g);
+/* a solution on this mesh: from the last one, from the wound beam, or along the branch; false:
+   none. Where the branch ends before, w->reached is below 1 and g holds that part of the values. */
+bool fw_elastica_reach(fw_elastica *e, int level, fw_goal *g, fw_way *w, fw_newton *n);
 
 #endif

@@ -121,6 +121,39 @@ static void warm_is_cold(void **state) {
     assert_true(passes[0] < passes[1]);
 }
 
+/* A leaf hardly stretches: the place of its end is met by Newton's method all the same, without
+   load steps, along its chord only where there is force */
+static void leaves_are_met_at_once(void **state) {
+    (void)state;
+    for (int n = 0; n < 60; n++) {
+        double t = 8 * um, L = 471 * um, angle = uniform(-3, 3);
+        rig r = {.beam = {.npiece = 1,
+                          .psi_rad = angle,
+                          .depth_m = 50 * um,
+                          .youngs_Pa = 169e9,
+                          .shear_Pa = 69e9}};
+        r.piece[0] = (fw_beam_piece){.length_m = L, .width_m = {t, t, t}};
+        begin(&r, NULL, false);
+        fw_elastica_result at[2];
+        for (int i = 0; i < 10; i++) {
+            const fw_elastica_task task = {
+                {FW_END_THETA, FW_END_FX, FW_END_FY},
+                {0.2 * sin(n + 0.2 * i), 3e-4 * cos(n + 0.1 * i), 3e-4 * sin(n + 0.3 * i)}};
+            fw_elastica_solve(r.e, &task, 1e-11, false, &at[0]);
+            assert_true(at[0].code <= FW_ELASTICA_ROUGH);
+            fw_elastica_of_twist(r.e, at[0].twist, 1e-8, i > 4, &at[1]);
+            assert_int_equal(at[1].code, FW_ELASTICA_OK);
+            assert_int_equal(at[1].steps, 0);
+            assert_true(at[1].passes < 40);
+            for (int k = 0; k < 3; k++)
+                assert_near(at[1].wrench[k], at[0].wrench[k],
+                            at[1].wrench_error[k] + at[0].wrench_error[k] +
+                                1e-9 * (k ? 3e-4 : fabs(at[0].wrench[0])));
+        }
+        fw_arena_free(r.arena);
+    }
+}
+
 /* Half of a shallow arch, its apex guided downwards: it snaps. Held at a place instead, the apex
    can be led past the limit; the greatest load there is where the loaded one stops. */
 static void limits_are_told(void **state) {
@@ -320,11 +353,11 @@ static void memory_runs_out(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(errors_are_told),       cmocka_unit_test(warm_is_cold),
-        cmocka_unit_test(limits_are_told),       cmocka_unit_test(primary_branch),
-        cmocka_unit_test(inside_a_wound_arc),    cmocka_unit_test(inside_any_beam),
-        cmocka_unit_test(nothing_gives_nothing), cmocka_unit_test(what_is_refused),
-        cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(errors_are_told),        cmocka_unit_test(warm_is_cold),
+        cmocka_unit_test(leaves_are_met_at_once), cmocka_unit_test(limits_are_told),
+        cmocka_unit_test(primary_branch),         cmocka_unit_test(inside_a_wound_arc),
+        cmocka_unit_test(inside_any_beam),        cmocka_unit_test(nothing_gives_nothing),
+        cmocka_unit_test(what_is_refused),        cmocka_unit_test(memory_runs_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
