@@ -46,7 +46,11 @@ static bool step_of(fw_elastica *e, int level, const fw_goal *g, fw_newton *n, d
 
 /* contraction by the affine covariant test of Deuflhard (Newton Methods for Nonlinear Problems,
    section 2.1): each change a fraction of the one before, and the next one in proportion to the
-   square of the last; rounding ends what no longer falls. */
+   square of the last; rounding ends what no longer falls.
+   in: a state near the solution. out: the solution, n->change the last change (rad, and of p over
+   its size), n->end twist and wrench after it with derivatives before it; false: no contraction,
+   another sign of the determinant, or not finite. Cost 2 to 5 passes.
+   Test: test_elastica_ways.c warm_is_cold, primary_branch */
 bool fw_newton_run(fw_elastica *e, int level, const fw_goal *g, fw_newton *n) {
     double before = 0;
     n->ratio = 0;
@@ -164,7 +168,8 @@ void fw_elastica_look_unloaded(fw_elastica *e, const fw_goal *g) {
 
 /* all values change together, from those of the present state; a step is taken when the corrector
    contracts well and the determinant keeps its sign. Answers the part reached, with the state
-   there. */
+   there: below 1 where steps of 2^-13 are still refused. Cost: in test_elastica_bench.c up to 80
+   passes. Source: Deuflhard, section 5.1. Test: test_elastica_ways.c limits_are_told */
 static double load_steps(fw_elastica *e, int level, const double from[3], const fw_goal *to,
                          double sign, int *steps) {
     enum { HALVINGS = 13 };

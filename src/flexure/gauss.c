@@ -17,15 +17,17 @@ static void legendre(int n, long double x, long double *p) {
    Test: test_beam.c rules_are_exact */
 void fw_gauss_rule(int n, double *node, double *weight) {
     long double p[FW_GAUSS_MOST + 1];
-    for (int i = 0; i < n; i++) {
+    for (int i = 0; i < (n + 1) / 2; i++) {
         long double x = cosl((long double)M_PI * (i + 0.75L) / (n + 0.5L));
-        for (int k = 0; k < 8; k++) {
+        for (int k = 0; k < 5; k++) {
             legendre(n, x, p);
             x -= p[n] * (x * x - 1) / (n * (x * p[n] - p[n - 1]));
         }
         legendre(n, x, p);
         node[n - 1 - i] = (double)(0.5L * (1 + x));
-        weight[n - 1 - i] = (double)((1 - x * x) / ((long double)n * n * p[n - 1] * p[n - 1]));
+        node[i] = (double)(0.5L * (1 - x));
+        weight[i] = weight[n - 1 - i] =
+            (double)((1 - x * x) / ((long double)n * n * p[n - 1] * p[n - 1]));
     }
 }
 
