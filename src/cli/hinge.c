@@ -18,17 +18,17 @@ typedef struct row {
 static double measured_s(const fw_mechanism *m, const fw_hinge *h) {
     const fw_flexure *f = &m->device->flexure[h->flexure];
     const fw_material *material = &m->variant->material;
-    fw_flexure_input in = {f->kind,
-                           f->length_m,
-                           f->angle_rad,
-                           f->radius_m,
-                           f->width_m,
-                           fw_flexure_default_fillet(f),
-                           m->variant->thickness_m,
-                           material->youngs.value,
-                           material->poisson.value,
-                           material->strength.value,
-                           m->device->safety_factor};
+    fw_flexure_input in = {.kind = f->kind,
+                           .length_m = f->length_m,
+                           .angle_rad = f->angle_rad,
+                           .radius_m = f->radius_m,
+                           .width_m = f->width_m,
+                           .fillet_m = fw_flexure_default_fillet(f),
+                           .depth_m = m->variant->thickness_m,
+                           .youngs_Pa = material->youngs.value,
+                           .poisson = material->poisson.value,
+                           .strength_Pa = material->strength.value,
+                           .safety_factor = m->device->safety_factor};
     struct timespec before, after;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &before);
     for (int i = 0; i < 1000; i++) {

@@ -30,6 +30,20 @@ static void loaded(const fw_hinge_law *law, double th, double fx, double fy, dou
          0.5 * at.ky_N_per_m.slope * v * v - fn * at.drift_m.slope + 0.5 * (fe * y - fn * w);
 }
 
+/* everything that a law can have */
+static fw_hinge_law example(double half_angle_rad) {
+    return (fw_hinge_law){.stiffness_Nm_per_rad = 1e-6,
+                          .half_angle_rad = half_angle_rad,
+                          .length_m = 300e-6,
+                          .share = 0.97,
+                          .bend_m_per_N = 0.05,
+                          .root_m_per_N = 1e-3,
+                          .axial_m_per_N = 2e-4,
+                          .shear_m_per_N = 5e-4,
+                          .uneven_x = 0.1,
+                          .uneven_y = -0.05};
+}
+
 static FILE *table(const char *name) {
     char line[600], path[600];
     snprintf(path, sizeof path, "%s/tests/data/hinge/%s", FW_TEST_SOURCE_DIR, name);
@@ -136,7 +150,7 @@ static void derivatives(void **state) {
     const double weight[7] = {-1, 9, -45, 0, 45, -9, 1};
     for (int i = 0; i < 8; i++)
         for (int j = 0; j < 6; j++) {
-            fw_hinge_law law = {1e-6, half[i], 300e-6, 0.97, 0.05, 1e-3, 2e-4, 5e-4};
+            fw_hinge_law law = example(half[i]);
             fw_hinge_at at, near;
             const double h = 1e-3;
             double slope[3] = {0}, curve[3] = {0};
@@ -186,7 +200,12 @@ static void at_rest(void **state) {
     assert_near(at.drift_m.value, 0, 1e-19);
     assert_near(at.drift_m.slope, 0, 1e-18); /* W is the elastic centre, the roots included */
 
-    fw_hinge_law leaf = {1e-6, 0, L, 1, L * L * L / (8 * EI), 0, L / (2 * 5.0), L / (2 * 2.0)};
+    fw_hinge_law leaf = {.stiffness_Nm_per_rad = 1e-6,
+                         .length_m = L,
+                         .share = 1,
+                         .bend_m_per_N = L * L * L / (8 * EI),
+                         .axial_m_per_N = L / (2 * 5.0),
+                         .shear_m_per_N = L / (2 * 2.0)};
     fw_hinge_law_at(&leaf, 0, &at);
     assert_relative(at.kx_N_per_m.value, 1 / (L * L * L / (12 * EI) + L / 2.0), 1e-13);
     assert_relative(at.ky_N_per_m.value, 5.0 / L, 1e-13);
@@ -197,6 +216,20 @@ static void at_rest(void **state) {
     }
 }
 
+static fw_flexure_input real_root(double angle_rad, double width_m) {
+    return (fw_flexure_input){.kind = FW_FLEXURE_CSFH,
+                              .length_m = 100e-6 * angle_rad,
+                              .angle_rad = angle_rad,
+                              .radius_m = 100e-6,
+                              .width_m = width_m,
+                              .fillet_m = 4e-6,
+                              .depth_m = 50e-6,
+                              .youngs_Pa = 169e9,
+                              .poisson = 0.22,
+                              .strength_Pa = 1e9,
+                              .safety_factor = 1};
+}
+
 /* with real roots: forces against 3-D finite elements of H1 and H2 (N/m), and the drift, less what
    the printed centre was off by (um) */
 static void against_finite_elements(void **state) {
@@ -205,21 +238,8 @@ static void against_finite_elements(void **state) {
         fw_flexure_input in;
         double kx, ky, deg, shift, centre, thin_centre;
     } row[] = {
-        {{FW_FLEXURE_CSFH, 150e-6 * M_PI, 1.5 * M_PI, 100e-6, 8e-6, 4e-6, 50e-6, 169e9, 0.22, 1e9,
-          1},
-         127.020,
-         251.951,
-         10,
-         0.66283,
-         29.8787,
-         30.0105},
-        {{FW_FLEXURE_CSFH, 100e-6 * M_PI, M_PI, 100e-6, 10e-6, 4e-6, 50e-6, 169e9, 0.22, 1e9, 1},
-         443.768,
-         2269.21,
-         10,
-         0.70753,
-         63.1165,
-         63.6620},
+        {real_root(1.5 * M_PI, 8e-6), 127.020, 251.951, 10, 0.66283, 29.8787, 30.0105},
+        {real_root(M_PI, 10e-6), 443.768, 2269.21, 10, 0.70753, 63.1165, 63.6620},
     };
     for (int i = 0; i < 2; i++) {
         fw_flexure_result out;
