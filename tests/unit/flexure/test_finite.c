@@ -177,6 +177,65 @@ static void derivatives(void **state) {
         }
 }
 
+static double energy(const fw_hinge_law *law, const double p[3]) {
+    fw_hinge_at at;
+    fw_hinge_law_at(law, p[0], &at);
+    double c = cos(0.5 * p[0]), s = sin(0.5 * p[0]);
+    double w = c * p[1] + s * p[2], v = c * p[2] - s * p[1] - at.drift_m.value;
+    return 0.5 * (law->stiffness_Nm_per_rad * p[0] * p[0] + at.kx_N_per_m.value * w * w +
+                  at.ky_N_per_m.value * v * v);
+}
+
+/* the wrench is the energy's gradient, the tangent the wrench's: differences of order 6 */
+static void wrench_and_tangent(void **state) {
+    (void)state;
+    const double weight[7] = {-1, 9, -45, 0, 45, -9, 1}, size[3] = {1, 1e-5, 1e-5};
+    for (int i = 0; i < 40; i++) {
+        fw_hinge_law law = example(0.08 * i);
+        const fw_hinge_rest rest = fw_hinge_rest_of(&law);
+        double p[3] = {0.5 * sin(i), 8e-6 * cos(3 * i), 6e-6 * sin(2 * i)};
+        double F[3], T[3][3], near[3], unused[3][3];
+        fw_hinge_law_wrench(&law, &rest, p, F, T);
+        double scale = law.stiffness_Nm_per_rad;
+        for (int k = 0; k < 3; k++) {
+            double slope = 0, curve[3] = {0}, h = 1e-3 * size[k];
+            for (int n = -3; n <= 3; n++) {
+                double q[3] = {p[0], p[1], p[2]};
+                q[k] += n * h;
+                slope += weight[n + 3] * energy(&law, q) / (60 * h);
+                fw_hinge_law_wrench(&law, &rest, q, near, unused);
+                for (int j = 0; j < 3; j++)
+                    curve[j] += weight[n + 3] * near[j] / (60 * h);
+            }
+            assert_near(F[k] * size[k], slope * size[k], 1e-9 * scale);
+            for (int j = 0; j < 3; j++) {
+                assert_near(T[j][k] * size[j] * size[k], curve[j] * size[j] * size[k],
+                            1e-8 * scale);
+                assert_near(T[j][k], T[k][j], 0);
+            }
+        }
+    }
+}
+
+/* large turns leave the short series: same law, to rounding */
+static void far_turns(void **state) {
+    (void)state;
+    for (int i = 0; i < 20; i++) {
+        fw_hinge_law law = example(1.2 + 0.05 * i);
+        const fw_hinge_rest rest = fw_hinge_rest_of(&law);
+        for (int side = -1; side <= 1; side += 2) {
+            fw_hinge_at in, out;
+            double th = side * 1.6;
+            fw_hinge_law_slopes(&law, &rest, th - side * 1e-9, &in);
+            fw_hinge_law_slopes(&law, &rest, th + side * 1e-9, &out);
+            assert_relative(in.kx_N_per_m.value, out.kx_N_per_m.value, 1e-7);
+            assert_near(in.drift_m.value + side * 2e-9 * in.drift_m.slope, out.drift_m.value,
+                        1e-15 * law.length_m + 1e-17 * law.length_m);
+            assert_near(in.drift_m.slope, out.drift_m.slope, 1e-8 * law.length_m);
+        }
+    }
+}
+
 /* linear theory: exact integrals of the free arc at no rotation, straight leaf, roots as weights */
 static void at_rest(void **state) {
     (void)state;
@@ -258,9 +317,14 @@ static void against_finite_elements(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(against_the_beam), cmocka_unit_test(against_the_reference),
-        cmocka_unit_test(gaps_close),       cmocka_unit_test(derivatives),
-        cmocka_unit_test(at_rest),          cmocka_unit_test(against_finite_elements),
+        cmocka_unit_test(against_the_beam),
+        cmocka_unit_test(against_the_reference),
+        cmocka_unit_test(gaps_close),
+        cmocka_unit_test(derivatives),
+        cmocka_unit_test(wrench_and_tangent),
+        cmocka_unit_test(far_turns),
+        cmocka_unit_test(at_rest),
+        cmocka_unit_test(against_finite_elements),
     };
     return cmocka_run_group_tests_name("finite", tests, NULL, NULL);
 }
