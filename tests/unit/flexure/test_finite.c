@@ -236,6 +236,119 @@ static void far_turns(void **state) {
     }
 }
 
+/* ---- the inextensible elastica by shooting, independent of the law ---- */
+
+typedef struct strip { /* clamped at the first root, frame of the free arc, W at rest at W[] */
+    double a, L, W[2], EI;
+} strip;
+
+/* end of the strip for a moment M at W, W displaced by u, a dead force F there: angle of the end
+   less that at rest, and its place; RK4 */
+static void shoot(const strip *b, const double z[3], const double F[2], double end[3]) {
+    enum { N = 240 };
+    double r = b->a > 0 ? b->L / (2 * b->a) : 0, h = b->L / N;
+    double p[3] = {r * cos(b->a), b->a > 0 ? -r * sin(b->a) : -0.5 * b->L, 0.5 * M_PI - b->a};
+    double phi0 = p[2] + 2 * b->a;
+    for (int i = 0; i < N; i++) {
+        double k[4][3], sum[3] = {0};
+        for (int j = 0; j < 4; j++) {
+            double step = j == 0 ? 0 : j == 3 ? h : 0.5 * h, q[3];
+            for (int n = 0; n < 3; n++)
+                q[n] = p[n] + (j > 0 ? step * k[j - 1][n] : 0);
+            double moment = z[0] + (b->W[0] + z[1] - q[0]) * F[1] - (b->W[1] + z[2] - q[1]) * F[0];
+            k[j][0] = cos(q[2]), k[j][1] = sin(q[2]);
+            k[j][2] = 2 * b->a / b->L + moment / b->EI;
+            for (int n = 0; n < 3; n++)
+                sum[n] += k[j][n] * (j == 0 || j == 3 ? h / 6 : h / 3);
+        }
+        for (int n = 0; n < 3; n++)
+            p[n] += sum[n];
+    }
+    end[0] = p[2] - phi0, end[1] = p[0], end[2] = p[1];
+}
+
+/* by how much the end misses where body 2, turned by th and displaced by u, holds it */
+static void miss(const strip *b, double th, const double z[3], const double F[2], double g[3]) {
+    double end[3], free[3];
+    const double none[3] = {0}, nothing[2] = {0};
+    shoot(b, z, F, end);
+    shoot(b, none, nothing, free);
+    double x = free[1] - b->W[0], y = free[2] - b->W[1];
+    g[0] = (end[0] - th) * b->L;
+    g[1] = end[1] - (b->W[0] + z[1] + cos(th) * x - sin(th) * y);
+    g[2] = end[2] - (b->W[1] + z[2] + sin(th) * x + cos(th) * y);
+}
+
+/* Newton, derivatives by differences; z from the law */
+static void exact(const strip *b, double th, const double F[2], double z[3]) {
+    const double size[3] = {b->EI / b->L, b->L, b->L};
+    for (int round = 0; round < 8; round++) {
+        double g[3], near[3], J[3][4];
+        miss(b, th, z, F, g);
+        for (int k = 0; k < 3; k++) {
+            double y[3] = {z[0], z[1], z[2]}, h = 1e-5 * size[k];
+            y[k] += h;
+            miss(b, th, y, F, near);
+            y[k] -= 2 * h;
+            double back[3];
+            miss(b, th, y, F, back);
+            for (int n = 0; n < 3; n++)
+                J[n][k] = (near[n] - back[n]) / 2e-5;
+        }
+        for (int n = 0; n < 3; n++)
+            J[n][3] = g[n];
+        for (int c = 0; c < 3; c++) { /* Gauss with pivoting */
+            int best = c;
+            for (int n = c + 1; n < 3; n++)
+                if (fabs(J[n][c]) > fabs(J[best][c])) best = n;
+            for (int k = 0; k < 4; k++) {
+                double t = J[c][k];
+                J[c][k] = J[best][k], J[best][k] = t;
+            }
+            for (int n = 0; n < 3; n++) {
+                double part = n == c ? 0 : J[n][c] / J[c][c];
+                for (int k = 0; k < 4; k++)
+                    J[n][k] -= part * J[c][k];
+            }
+        }
+        for (int k = 0; k < 3; k++)
+            z[k] -= size[k] * J[k][3] / J[k][k];
+    }
+}
+
+/* displacement by the law against the elastica: the error falls with the square of the force, at
+   every rotation, for arcs and the straight leaf */
+static void error_goes_with_the_square_of_the_force(void **state) {
+    (void)state;
+    const double angle[] = {0, 90, 180, 270};
+    for (int i = 0; i < 4; i++)
+        for (int deg = -30; deg <= 60; deg += 15) {
+            double a = 0.5 * angle[i] * degree, EI = 1e-10, L = 400e-6, last = 0;
+            strip b = {.a = a, .L = L, .EI = EI};
+            if (a > 0) b.W[0] = L / (2 * a) * sin(a) / a;
+            fw_hinge_law law = {.stiffness_Nm_per_rad = EI / L,
+                                .half_angle_rad = a,
+                                .length_m = L,
+                                .share = 1,
+                                .bend_m_per_N = L * L * L / (8 * EI),
+                                .axial_m_per_N = i == 0 ? 1e-9 : 0}; /* else 0/0 at no turn */
+            for (int half = 0; half < 3; half++) {
+                double f = EI / (L * L) * 0.2 / (1 << half), F[2] = {0.77 * f, 0.64 * f}, u[2], M;
+                if (i == 0) F[0] = 0.3 * f;
+                loaded(&law, deg * degree, F[0], F[1], u, &M);
+                double z[3] = {M, u[0], u[1]};
+                exact(&b, deg * degree, F, z);
+                double off = hypot(z[1] - u[0], z[2] - u[1]);
+                if (!(off < 2e-3 * L))
+                    fail_msg("%g deg %d deg %d: u %g %g exact %g %g M %g %g", angle[i], deg, half,
+                             u[0], u[1], z[1], z[2], M, z[0]);
+                if (half > 0) assert_relative(last / off, 4, 0.06 / half);
+                last = off;
+                assert_relative(z[0], M, deg == 0 ? 1 : 1e-2);
+            }
+        }
+}
+
 /* linear theory: exact integrals of the free arc at no rotation, straight leaf, roots as weights */
 static void at_rest(void **state) {
     (void)state;
@@ -323,6 +436,7 @@ int main(void) {
         cmocka_unit_test(derivatives),
         cmocka_unit_test(wrench_and_tangent),
         cmocka_unit_test(far_turns),
+        cmocka_unit_test(error_goes_with_the_square_of_the_force),
         cmocka_unit_test(at_rest),
         cmocka_unit_test(against_finite_elements),
     };
