@@ -185,7 +185,7 @@ static void hinge_text(fw_text *out, const ladder *l) {
         fw_text_real(out, "%.3f", c->offset_m[0] * 1e6);
         fw_text_add(out, " um along and ");
         fw_text_real(out, "%.3f", c->offset_m[1] * 1e6);
-        fw_text_add(out, " um across from the pin as drawn");
+        fw_text_add(out, " um across from where it is drawn");
     }
     fw_text_add(out, c->error.outside
                          ? "\n    outside of the shapes that were compared with finite "

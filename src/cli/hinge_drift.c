@@ -27,10 +27,13 @@ void fw_ladder_drift_of(const fw_ladder_case *c, fw_ladder_drift *out) {
     const fw_flexure *f = &c->mechanism->device->flexure[h->flexure];
     double sense = h->first_is_a ? 1 : -1; /* of the pin's rotation against the law's */
     double most = 1.9 * (M_PI - law->half_angle_rad) / law->share;
-    *out = (fw_ladder_drift){.surfaces = {.gap_m = f->gap_m, .aside_rad = aside(c)},
-                             .limit_rad = fmin(fmin(h->closed_form.limit_angle_rad, most), 3),
-                             .contact_rad = {(double)NAN, (double)NAN},
-                             .closing_N = {(double)NAN, (double)NAN}};
+    *out = (fw_ladder_drift){
+        .surfaces = {.gap_m = f->gap_m,
+                     .aside_rad = aside(c),
+                     .centre_m = {-h->closed_form.offset_m[0], -h->closed_form.offset_m[1]}},
+        .limit_rad = fmin(fmin(h->closed_form.limit_angle_rad, most), 3),
+        .contact_rad = {(double)NAN, (double)NAN},
+        .closing_N = {(double)NAN, (double)NAN}};
     out->advice = fw_drift_advise(law, -out->limit_rad, out->limit_rad);
     fw_drift_curve(law, &out->surfaces, -sense * out->limit_rad, sense * out->limit_rad,
                    FW_DRIFT_POINTS, out->point);

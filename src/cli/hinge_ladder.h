@@ -30,7 +30,7 @@ const fw_ladder_level *fw_ladder_levels(size_t *count);
 /* one level, repeated until the clock can see it (at least once, at most for 2 ms) */
 fw_status fw_ladder_climb(const fw_ladder_case *c, const fw_ladder_level *level, fw_ladder_row *row,
                           bool *exists);
-/* hinge frame to world: where W + (along, across) is in the drawn pose */
+/* hinge frame to world: where the pin + (along, across) is in the drawn pose; the pin is at W */
 void fw_ladder_place(const fw_ladder_case *c, double along_m, double across_m, double world_m[2]);
 
 fw_status fw_ladder_closed_form(const fw_ladder_case *c, fw_ladder_row *row, bool *exists);

@@ -12,6 +12,6 @@ fw_status fw_ladder_closed_form(const fw_ladder_case *c, fw_ladder_row *row, boo
                            .strain_per_rad = r.strain_per_rad,
                            .limit_angle_rad = r.limit_angle_rad,
                            .error = r.error};
-    fw_ladder_place(c, r.offset_m[0], r.offset_m[1], row->centre_m);
+    fw_ladder_place(c, 0, 0, row->centre_m);
     return FW_OK;
 }

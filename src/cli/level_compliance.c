@@ -27,6 +27,6 @@ fw_status fw_ladder_compliance(const fw_ladder_case *c, fw_ladder_row *row, bool
                            .error = r->error};
     row->error.kx += 0.002, row->error.ky += 0.002; /* its own thick arc: Winkler's is 0.2 % off */
     row->error.centre_m += 0.01 * hypot(u[0], u[1]);
-    fw_ladder_place(c, r->offset_m[0] + u[0], r->offset_m[1] + u[1], row->centre_m);
+    fw_ladder_place(c, u[0], u[1], row->centre_m);
     return FW_OK;
 }

@@ -33,11 +33,13 @@ static void displaced(const fw_hinge_law *law, double th, const double F[2], dou
     u[1] = (c * y - s * x) / at.ky_N_per_m.value + at.drift_m.value;
 }
 
-/* the offset o along y of the first body is o (sin h, cos h) in the frame half turned */
+/* the offset o along y of the first body is o (sin h, cos h) in the frame half turned; a point c
+   that both bodies carry parts by (R(h) - R(-h)) c = 2 sin h (-c_y, c_x) */
 static double left_at(const fw_hinge_law *law, const fw_surfaces *s, double th, const double F[2]) {
     double u[2], h = 0.5 * th;
     displaced(law, th, F, u);
-    return left(s, u[0] - s->offset_m * sin(h), u[1] - s->offset_m * cos(h));
+    double turn = 2 * sin(h), x = u[0] - turn * s->centre_m[1], y = u[1] + turn * s->centre_m[0];
+    return left(s, x - s->offset_m * sin(h), y - s->offset_m * cos(h));
 }
 
 void fw_drift_displacement(const fw_hinge_law *law, double th, const double F[2], double u_m[2]) {

@@ -8,10 +8,10 @@
 
 typedef struct fw_surfaces { /* conjugate surfaces, one on each body */
     double gap_m;
-    double aside_rad; /* zeta: least angle between the direction of the displacement and one in
-                         which both surfaces are there; 0: they are there */
-    double offset_m;  /* of the first body's surface from W along its +y; the second body's is
-                         centred at W */
+    double aside_rad;   /* zeta: least angle between the direction of the displacement and one in
+                           which both surfaces are there; 0: they are there */
+    double centre_m[2]; /* where both are drawn, from W along and across the axis: of a crystal */
+    double offset_m;    /* of the first body's surface alone, from there along its +y */
 } fw_surfaces;
 
 typedef struct fw_drift_point {

@@ -243,8 +243,8 @@ void fw_hinge_law_slopes(const fw_hinge_law *law, const fw_hinge_rest *rest, dou
 
 /* EI is what makes K = EI/(L + 2 dL) the stiffness of the closed form, so that depth and curvature
    corrections hold for forces too. A crystal's arc is one of its mean modulus that bends more along
-   or across by what makes kx and ky at rest differ from those of that modulus; its C_xy and the
-   offset of its W are not in the law. */
+   or across by what makes kx and ky at rest differ from those of that modulus; its C_xy is not in
+   the law; the pins are at its own W. */
 void fw_hinge_law_of(const fw_flexure_input *in, const fw_flexure_result *closed_form,
                      fw_hinge_law *law) {
     double L = in->length_m, dL = closed_form->root_length_m;

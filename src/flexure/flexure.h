@@ -28,7 +28,7 @@ typedef struct fw_flexure_error {
 
 typedef struct fw_flexure_result {
     double centre_m;    /* W on the symmetry axis, from O (leaf: from the middle: 0), of a uniform
-                           modulus: where pin and conjugate surfaces are drawn */
+                           modulus: where hinge and conjugate surfaces are drawn */
     double offset_m[2]; /* true centre of compliance less that, along and across the axis: of a
                            crystal; else 0 */
     double stiffness_Nm_per_rad;   /* with depth and root corrections */

@@ -227,6 +227,25 @@ static void set_hinge_shape(const fw_builder *b, int j, const fw_joint *from, fw
     to->cover_to_rad = to->cover_from_rad + h->facing_rad;
 }
 
+static fw_vec2 turned_back(const fw_mass *m, fw_vec2 world) {
+    if (!m) return world;
+    double c = cos(m->phi_rad), s = sin(m->phi_rad);
+    return (fw_vec2){c * world.x + s * world.y, -s * world.x + c * world.y};
+}
+
+/* the pin of a crystal goes from where the hinge is drawn to its own centre of compliance; what is
+   drawn, the conjugate surfaces too, stays, since one drawing serves all materials */
+static void move_pin(const fw_builder *b, fw_hinge *hinge, fw_pin *pin) {
+    const double *off = hinge->closed_form.offset_m;
+    double c = cos(hinge->axis_rad), s = sin(hinge->axis_rad);
+    if (!isfinite(hinge->axis_rad)) return;
+    const fw_vec2 world = {c * off[0] - s * off[1], s * off[0] + c * off[1]};
+    hinge->off_a_m = turned_back(body_of(b, pin->body_a), world);
+    hinge->off_b_m = turned_back(body_of(b, pin->body_b), world);
+    pin->ax_m += hinge->off_a_m.x, pin->ay_m += hinge->off_a_m.y;
+    pin->bx_m += hinge->off_b_m.x, pin->by_m += hinge->off_b_m.y;
+}
+
 static fw_status build_pin(const fw_builder *b, int j) {
     const fw_joint *from = &b->device->joint[j];
     const fw_variant *v = b->variant;
@@ -244,6 +263,7 @@ static fw_status build_pin(const fw_builder *b, int j) {
         *hinge = (fw_hinge){.pin = j, .flexure = from->flexure};
         FW_TRY(flexure_result(b, j, from, hinge));
         set_hinge_shape(b, j, from, hinge);
+        move_pin(b, hinge, to);
         to->hinge = b->mechanism->nhinge++;
         double own = hinge->closed_form.stiffness_Nm_per_rad;
         if (isnan(to->stiffness_Nm_per_rad))

@@ -54,6 +54,11 @@ typedef struct fw_hinge { /* a pin that is a flexure */
        flexure.h) */
     double axis_rad;
     bool first_is_a;
+    /* The pin is at the true centre of compliance. Of a crystal that is not where the hinge is
+       drawn: pin less drawn point (centre of both conjugate surfaces), in the frames of body a and
+       b; else
+       0 */
+    fw_vec2 off_a_m, off_b_m;
     double surface_radius_m; /* of the convex conjugate surface; 0: none */
     /* directions, in body a's frame and the drawn pose, in which they can touch, counter-clockwise;
        NaN: not drawn. Where they begin the surface of the body at polar angle +a ends, where they

@@ -128,12 +128,26 @@ static void advice_halves_the_gap(void **state) {
     }
 }
 
+/* surfaces drawn beside W part as the hinge turns: by hand, in the first body's frame */
+static void surfaces_beside_W(void **state) {
+    (void)state;
+    fw_hinge_law law = thin(100e-6, 270, 1e-6);
+    for (double th = -0.4; th < 0.5; th += 0.1) {
+        const double c[2] = {0.7e-6, -1.1e-6};
+        fw_surfaces s = {.gap_m = 8e-6, .centre_m = {c[0], c[1]}, .offset_m = 0.3e-6};
+        double u[2];
+        fw_drift_displacement(&law, th, NULL, u);
+        double x = u[0] + cos(th) * c[0] - sin(th) * c[1] - c[0];
+        double y = u[1] + sin(th) * c[0] + cos(th) * c[1] - (c[1] + 0.3e-6);
+        assert_near(fw_drift_at(&law, &s, th).left_m, 8e-6 - hypot(x, y), 1e-17);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(surfaces_meet),
-        cmocka_unit_test(pole_stands_still),
-        cmocka_unit_test(under_a_force),
-        cmocka_unit_test(advice_halves_the_gap),
+        cmocka_unit_test(surfaces_meet),     cmocka_unit_test(pole_stands_still),
+        cmocka_unit_test(under_a_force),     cmocka_unit_test(advice_halves_the_gap),
+        cmocka_unit_test(surfaces_beside_W),
     };
     return cmocka_run_group_tests_name("drift", tests, NULL, NULL);
 }
