@@ -93,6 +93,14 @@ static soft crystalline(const fw_flexure_shape *f, const fw_crystal *k) {
         .root_m_per_Pa = {fw_root_m_per_Pa(f, k, c4 + s4), fw_root_m_per_Pa(f, k, c4 - s4)}};
 }
 
+static void centre_of(const fw_flexure_shape *f, const soft *m, double centre[2]) {
+    const double *root = m->root_m_per_Pa;
+    double r = f->radius_m, rn = f->neutral_m;
+    double per = 1 / (r * m->bend.w + root[0] + root[1]);
+    centre[0] = (r * rn * m->bend.x + r * f->cosine * (root[0] + root[1])) * per;
+    centre[1] = (r * rn * m->bend.y + r * f->sine * (root[1] - root[0])) * per;
+}
+
 /* Compliance at the centre of elastic weights W, the roots as weights dL/(EI) at the ends:
      W    = int P dw / int dw,  dw = db r/(EI), P at rn; dL/(EI) at r (cos a, -+ sin a)
             (dL/E of a crystal: fw_root_m_per_Pa)
@@ -103,20 +111,18 @@ static soft crystalline(const fw_flexure_shape *f, const fw_crystal *k) {
    Winkler's bending about the neutral radius takes axial force and its coupling to bending along:
    M^2/EAe - 2MN/EA + r N^2/EA = (M - eN)^2/EAe + rn N^2/EA. A pure moment has neither N nor V, so
    W is the true centre of compliance and C_th,x = C_th,y = 0 there; weights of the arc in C_th
-   (Golovin) and in the rest (Winkler) differ by 1.5 (t/2r)^2 of themselves.
+   (Golovin) and in the rest (Winkler) differ by 0.4 (t/2r)^2 of themselves.
    in: depth h m, D 1, 1/E and 1/G 1/Pa; out: W m, C SI. Valid t/r <= 0.3. Error against 3-D finite
    elements, real roots: 0.4 % in C_th, 1 % in C_xx, 1.4 % in C_yy. Cost 15 ns.
    source: docs/theory/flexure.md eq. 1-4, 13; test_ladder.c */
 static inline void comply(const fw_flexure_shape *f, double depth_m, double D, const soft *m,
-                          double centre[2], double C[3][3]) {
+                          const double centre[2], double C[3][3]) {
     double r = f->radius_m, rn = f->neutral_m, t = f->width_m;
-    double per_A = 1 / (depth_m * t), over = per_A / D, e = f->eccentric_m;
+    double over = 1 / (depth_m * t * D), per_A = over * D, e = f->eccentric_m;
     double end = f->per_section * over, bend = over * f->per_eccentric;
     const fw_arc_sums *S = &m->bend, *G = &m->shear;
     double rx = r * f->cosine, ry = r * f->sine, both = m->root_m_per_Pa[0] + m->root_m_per_Pa[1];
-    double weight = r * S->w + both, per = 1 / weight;
-    double X = centre[0] = (r * rn * S->x + rx * both) * per;
-    double Y = centre[1] = (r * rn * S->y + ry * (m->root_m_per_Pa[1] - m->root_m_per_Pa[0])) * per;
+    double weight = r * S->w + both, X = centre[0], Y = centre[1];
     double x = rx - X, low = -ry - Y, high = ry - Y, shear = 6.0 / 5.0 * r * per_A, axial = e * rn;
     double ends = m->root_m_per_Pa[0] * low + m->root_m_per_Pa[1] * high;
     C[0][0] = weight * f->per_section * over * f->per_golovin;
@@ -131,8 +137,9 @@ static inline void comply(const fw_flexure_shape *f, double depth_m, double D, c
         end * x * ends + shear * G->xy;
 }
 
-/* of the free arc's modulus: that of its mean compliance. Share that a crystal has over it in C_xx
-   and C_yy: the law at finite rotation knows a uniform arc only */
+/* The crystal's arc, and beside it a uniform one of the same rotational stiffness: modulus that of
+   the mean compliance along the arc, nu of that modulus. The law at finite rotation knows uniform
+   arcs only; it takes the shares by which C_xx and C_yy differ. */
 static void crystal_arc(const fw_flexure_shape *f, const fw_flexure_input *in, fw_depth *depth,
                         double centre[2], fw_flexure_result *out) {
     const soft m = crystalline(f, &in->crystal);
@@ -140,11 +147,13 @@ static void crystal_arc(const fw_flexure_shape *f, const fw_flexure_input *in, f
     out->youngs_Pa = 2 * f->half_angle_rad / m.bend.w;
     out->poisson = -in->crystal.s12_per_Pa * out->youngs_Pa;
     *depth = fw_depth_at(in->depth_m * f->per_root_rt, out->poisson);
+    centre_of(f, &m, centre);
     comply(f, in->depth_m, depth->stiffness, &m, centre, out->compliance);
     soft mean = uniform(f, out->youngs_Pa, out->poisson);
     double root = 0.5 * (m.root_m_per_Pa[0] + m.root_m_per_Pa[1]);
     mean.root_m_per_Pa[0] = mean.root_m_per_Pa[1] = root;
     out->root_length_m = root * out->youngs_Pa;
+    centre_of(f, &mean, other);
     comply(f, in->depth_m, depth->stiffness, &mean, other, C);
     out->uneven_x = out->compliance[1][1] / C[1][1] - 1;
     out->uneven_y = out->compliance[2][2] / C[2][2] - 1;
@@ -155,7 +164,7 @@ static void crystal_arc(const fw_flexure_shape *f, const fw_flexure_input *in, f
      eps/rad = t/(2 (L + 2 dL)) Kt max((1 + t/3r) F_inner, (1 - t/3r) F_outer), at the root fillet
      crystal: sigma/rad = t/(2 int ds/E) Kt max(...) q, eps = sigma/E (fw_crystal_stress)
    error: K 0.15-0.51 %, W 0.2 um, strain -0.2..+2.9 % against 3-D finite elements on held-out
-   shapes. Cost 40 ns with the shape at hand; a crystal 80.
+   shapes. Cost 50 ns with the shape at hand, a crystal 75 (bench_hinge_closed.c).
    source: docs/theory/flexure.md eq. 1-13; test_ladder.c, test_crystal.c */
 void fw_flexure_csfh(const fw_flexure_shape *f, const fw_flexure_input *in,
                      fw_flexure_result *out) {
@@ -167,7 +176,7 @@ void fw_flexure_csfh(const fw_flexure_shape *f, const fw_flexure_input *in,
         out->youngs_Pa = in->youngs_Pa, out->poisson = in->poisson;
         const soft m = uniform(f, in->youngs_Pa, in->poisson);
         depth = fw_depth_at(h * f->per_root_rt, in->poisson);
-        comply(f, h, depth.stiffness, &m, centre, out->compliance);
+        comply(f, h, depth.stiffness, &m, (const double[2]){f->centre_m, 0}, out->compliance);
     }
     double EI = out->youngs_Pa * h * t * t * t * (1 / 12.0);
     out->depth_factor = depth.stiffness;

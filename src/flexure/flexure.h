@@ -19,7 +19,7 @@ typedef struct fw_flexure_input {
 } fw_flexure_input;
 
 /* What the closed form may be off by, against 3-D finite elements with real roots: largest
-   deviation on held-out shapes, wider outside of what was compared (table.c, estimate_errors) */
+   deviation on held-out shapes, wider outside of what was compared (table.c, outline_errors) */
 typedef struct fw_flexure_error {
     double stiffness, kx, ky, strain; /* relative */
     double centre_m;                  /* of W, on and across the axis */
@@ -88,7 +88,7 @@ typedef struct fw_flexure_model { /* one row per kind: adding a hinge kind is on
 } fw_flexure_model;
 const fw_flexure_model *fw_flexure_models(size_t *count);
 void fw_flexure_closed_form(const fw_flexure_input *in, fw_flexure_result *out);
-/* the same in two steps: outline (70 ns), then everything else (45 ns) */
+/* the same in two steps: outline (70 ns), then everything else (50 ns) */
 void fw_flexure_shape_of(const fw_flexure_input *in, fw_flexure_shape *shape);
 void fw_flexure_closed_form_at(const fw_flexure_shape *shape, const fw_flexure_input *in,
                                fw_flexure_result *out);

@@ -56,12 +56,12 @@ fw_depth fw_depth_factors(double radius_m, double width_m, double depth_m, doubl
 }
 
 fw_depth fw_depth_at(double deep, double poisson) {
-    double nu2 = poisson * poisson;
+    double nu2 = poisson * poisson, per = 1.0 / (1.0 - nu2);
     double root = sqrt(3.0 * (1.0 - nu2)); /* lambda^2 r t */
     double x = deep * sqrt(root), X = 0.5 * x;
     double f, c1, edge; /* c1 = C1 / (rt/2); edge = the bracket / (rt/2) */
-    double unit = poisson / root;
-    if (x > 60.0) { /* cosh would swamp everything: the limits */
+    double unit = poisson * root * per * (1.0 / 3.0); /* nu/root */
+    if (x > 60.0) {                                   /* cosh would swamp everything: the limits */
         f = 2.0 / x;
         c1 = 0.0;
         edge = unit;
@@ -71,13 +71,15 @@ fw_depth fw_depth_at(double deep, double poisson) {
         edge = 0.0;
     } else {
         double s = sin(X), c = cos(X), up = exp(X), down = 1.0 / up;
-        double sh = 0.5 * (up - down), ch = 0.5 * (up + down), over = 1.0 / (s * c + sh * ch);
-        f = (sh * sh + s * s) * over / X; /* (2/x)(cosh x - cos x)/(sinh x + sin x) */
+        double sh = 0.5 * (up - down), ch = 0.5 * (up + down), D = s * c + sh * ch,
+               q = 1.0 / (D * X);
+        double over = q * X;       /* 1/D */
+        f = (sh * sh + s * s) * q; /* (2/x)(cosh x - cos x)/(sinh x + sin x) */
         c1 = unit * over * (sh * c - ch * s);
         double c2 = unit * over * (ch * s + sh * c);
         edge = c1 * ch * c + c2 * sh * s;
     }
-    return (fw_depth){(1.0 - nu2 * f) / (1.0 - nu2), 1.0 - c1, 1.0 + edge};
+    return (fw_depth){(1.0 - nu2 * f) * per, 1.0 - c1, 1.0 + edge};
 }
 
 /* Peak stress at the fillet of a crystal over Kt M/Z of the same closed form:

@@ -60,9 +60,8 @@ static fw_flexure_error crystal_errors(const fw_flexure_shape *f, const fw_cryst
     return e;
 }
 
-static fw_flexure_error errors_of(const fw_flexure_shape *f, const fw_flexure_input *in) {
-    bool deep = in->depth_m > 10 * f->width_m;
-    if (!in->crystal.known && !deep) return f->error;
+static fw_flexure_error errors_of(const fw_flexure_shape *f, const fw_flexure_input *in,
+                                  bool deep) {
     fw_flexure_error e = in->crystal.known ? crystal_errors(f, &in->crystal) : f->error;
     return deep ? widened(&e, 2) : e;
 }
@@ -77,12 +76,17 @@ void fw_flexure_closed_form_at(const fw_flexure_shape *f, const fw_flexure_input
     out->root_length_m = f->root_length_m;
     out->offset_m[0] = out->offset_m[1] = out->uneven_x = out->uneven_y = 0;
     model_of(f->kind)->closed_form(f, in, out);
-    out->kx_N_per_m = 1 / out->compliance[1][1];
-    out->ky_N_per_m = 1 / out->compliance[2][2];
+    double along = out->compliance[1][1], across = out->compliance[2][2];
+    double both = 1 / (along * across);
+    out->kx_N_per_m = across * both, out->ky_N_per_m = along * both;
     out->strain_bound_per_rad = FW_FLEXURE_STRAIN_SAFE * out->strain_per_rad;
     out->stress_per_rad_Pa = in->youngs_Pa * out->strain_per_rad;
     out->limit_angle_rad = in->strength_Pa / (in->safety_factor * out->stress_per_rad_Pa);
-    out->error = errors_of(f, in);
+    bool deep = in->depth_m > 10 * f->width_m;
+    if (in->crystal.known || deep)
+        out->error = errors_of(f, in, deep);
+    else
+        out->error = f->error;
     out->limit_uncertainty = (in->crystal.known ? 0.03 : FW_FLEXURE_STRAIN_UNCERTAINTY) +
                              (f->beyond_fit ? 0.065 - FW_FLEXURE_STRAIN_UNCERTAINTY : 0);
 }

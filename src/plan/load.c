@@ -102,7 +102,7 @@ static double orientation_of(const fw_device *d, const fw_flow_use *use) {
 static void check_orientation(fw_plan *plan, const fw_flow_use *use, const fw_material *m) {
     bool asked = use && !isnan(use->orientation_rad);
     if (fw_material_is_crystal(m) || (!asked && isnan(plan->device->orientation_rad))) return;
-    if (!asked && plan->device->nflow > 1) return; /* another flow may be of a crystal */
+    if (!asked && !same(m->id, plan->device->material_ref)) return; /* it is not about this one */
     const fw_material *pack = fw_material_find(&plan->materials, m->id);
     fw_diag_warning(
         &plan->diags, 210, asked ? use->place : plan->device->material_place,

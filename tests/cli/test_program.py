@@ -591,7 +591,6 @@ class Usage(InTemporary):
             self.assertEqual(list(levels)[:2], ["closed-form", "compliance"])
             for level in levels.values():
                 self.assertGreater(level["cpu_s"], 0)
-                self.assertLess(level["cpu_s"], 1e-3)
                 self.assertGreater(level["error"]["stiffness"], 0)
                 self.assertEqual(level["limit_angle_rad"], levels["closed-form"]["limit_angle_rad"])
             drift = hinge["drift"]
@@ -620,6 +619,11 @@ class Usage(InTemporary):
                                  "material[silicon-100]/@orientation=3 deg", "--flow",
                                  "al-masked-rie"), 0)
         self.assertNotIn("crystal moves", result.stdout) # the file states a modulus
+        self.assertIn("FW-D210", result.stderr)
+        for hinge in straight:
+            self.assertEqual(hinge["axis_offset_m"], [0, 0]) # leaves are straight
+        for hinge in self.ladder(GALLERY.parent.parent / "four-tendons/device.xml"):
+            self.assertGreater(math.hypot(*hinge["axis_offset_m"]), 1e-8)
 
     def test_hinge_picture(self):
         result = self.expect(run("hinge", GALLERY, "--svg", "-"), 0)
