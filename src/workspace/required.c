@@ -5,7 +5,7 @@
 
 enum { COARSE = 9, FINE = 17, MOST_BOXES = 20000 };
 
-static const double sharpness = 1e-4; /* of the proved ends of ranges, relative */
+static const double sharpness = 1e-3; /* of the proved ends of ranges, relative */
 
 static double along(const fw_box3 *box, int axis, int i, int n) {
     return box->lo[axis] + (box->hi[axis] - box->lo[axis]) * i / (n - 1);
