@@ -8,7 +8,7 @@
 enum { GRID = 72, PANEL = 300, COLUMNS = 3, HEAD = 54, PLOT = 232, MARGIN = 46 };
 enum { EDGES = 2 * (GRID + 1) * (GRID + 1) };
 
-/* Okabe-Ito, and a dash pattern each, so that hinges are told apart without colour */
+/* Okabe-Ito; the names stand beside the lines, so that hinges are told apart without colour */
 static const char *const ink[FW_SIX] = {"#0072B2", "#D55E00", "#009E73",
                                         "#CC79A7", "#E69F00", "#56B4E9"};
 
@@ -20,7 +20,8 @@ typedef struct slice {
     unsigned char governs[GRID + 1][GRID + 1];
     int next[EDGES]; /* following point of the boundary; -1: none */
     unsigned char seen[EDGES];
-    double x0, y0; /* upper left corner of the plot, pixels */
+    double plot_wide, plot_high; /* pixels */
+    double x0, y0;               /* upper left corner of the plot, pixels */
     fw_text *out;
 } slice;
 
@@ -56,8 +57,8 @@ static void point(const slice *s, int e, double *x, double *y) {
     int at[2], to[2];
     double t;
     ends_of(s, e, at, to, &t);
-    *x = s->x0 + PLOT * (at[0] + t * (to[0] - at[0])) / GRID;
-    *y = s->y0 + PLOT * (1.0 - (at[1] + t * (to[1] - at[1])) / GRID);
+    *x = s->x0 + s->plot_wide * (at[0] + t * (to[0] - at[0])) / GRID;
+    *y = s->y0 + s->plot_high * (1.0 - (at[1] + t * (to[1] - at[1])) / GRID);
 }
 
 /* the hinge at its limit where the boundary crosses an edge: that of the end outside */
@@ -118,25 +119,61 @@ static void fill(slice *s) {
     fw_text_add(s->out, "\"/>\n");
 }
 
+/* the hinge's name outside of the middle of its part of the boundary, which has the inside to its
+ * left */
+static void name_it(const slice *s, int who, int e) {
+    double x, y, u, v;
+    point(s, e, &x, &y);
+    point(s, s->next[e], &u, &v);
+    double d = fmax(hypot(u - x, v - y), 1e-9);
+    fw_report_markup(s->out,
+                     "<text x=\"{c}\" y=\"{c}\" font-size=\"11\" font-weight=\"600\" "
+                     "text-anchor=\"middle\" fill=\"{r}\">{s}</text>\n",
+                     x - 11.0 * (v - y) / d, y + 11.0 * (u - x) / d + 4.0, ink[who],
+                     s->flow->mechanism->pin[who].id);
+}
+
 static void outline(slice *s) {
     for (int who = 0; who < FW_SIX; who++) {
-        bool any = false;
+        int count = 0, middle = -1;
         for (int e = 0; e < EDGES; e++) {
             if (s->next[e] < 0 || owner(s, e) != who) continue;
             double x, y, u, v;
-            if (!any)
+            if (count++ == 0)
                 fw_report_markup(s->out,
                                  "<path fill=\"none\" stroke=\"{r}\" stroke-width=\"3\" "
                                  "stroke-linecap=\"round\" d=\"",
                                  ink[who]);
-            any = true;
             point(s, e, &x, &y);
             point(s, s->next[e], &u, &v);
             fw_report_markup(s->out, "M{c} {c}L{c} {c}", x, y, u, v);
         }
-        if (any)
-            fw_report_markup(s->out, "\"><title>{s}</title></path>\n",
-                             s->flow->mechanism->pin[who].id);
+        if (count == 0) continue;
+        fw_report_markup(s->out, "\"><title>{s}</title></path>\n", s->flow->mechanism->pin[who].id);
+        for (int e = 0, k = 0; e < EDGES && middle < 0; e++)
+            if (s->next[e] >= 0 && owner(s, e) == who && k++ == count / 2) middle = e;
+        name_it(s, who, middle);
+    }
+}
+
+/* the required boxes that hold at this rotation, dashed */
+static void required(const slice *s) {
+    const fw_device *d = s->flow->mechanism->device;
+    for (int k = 0; k < d->nworkspace; k++) {
+        const fw_workspace_box *b = &d->workspace[k];
+        if (!fw_device_in_flow(b->flow, s->flow->flow) || s->phi_rad < b->phi_min_rad ||
+            s->phi_rad > b->phi_max_rad)
+            continue;
+        double fx = s->plot_wide / (s->high[0] - s->low[0]);
+        double left = fmin(fmax((b->x_min_m - s->low[0]) * fx, 0.0), s->plot_wide);
+        double right = fmin(fmax((b->x_max_m - s->low[0]) * fx, 0.0), s->plot_wide);
+        double bottom = fmin(fmax((s->high[1] - b->y_min_m) * fx, 0.0), s->plot_high);
+        double top = fmin(fmax((s->high[1] - b->y_max_m) * fx, 0.0), s->plot_high);
+        fw_report_markup(s->out,
+                         "<rect x=\"{c}\" y=\"{c}\" width=\"{c}\" height=\"{c}\" fill=\"none\" "
+                         "stroke=\"#1f2328\" stroke-width=\"1.2\" stroke-dasharray=\"4 3\">"
+                         "<title>required</title></rect>\n",
+                         s->x0 + left, s->y0 + top, right - left, bottom - top);
     }
 }
 
@@ -152,19 +189,19 @@ static void frame(const slice *s) {
     for (int axis = 0; axis < 2; axis++)
         for (double k = ceil(s->low[axis] / step[axis]); k * step[axis] <= s->high[axis];
              k += 1.0) {
-            double t = PLOT * (k * step[axis] - s->low[axis]) / (s->high[axis] - s->low[axis]);
+            double t = (k * step[axis] - s->low[axis]) / (s->high[axis] - s->low[axis]);
             const char *grey = fabs(k) < 0.5 ? "#8c959f" : "#eaeef2";
-            double x = s->x0 + t, y = s->y0 + PLOT - t;
+            double x = s->x0 + s->plot_wide * t, y = s->y0 + s->plot_high * (1.0 - t);
             if (axis == 0)
                 fw_report_markup(s->out,
-                                 "<path d=\"M{c} {c}v{i}\" stroke=\"{r}\"/><text x=\"{c}\" "
+                                 "<path d=\"M{c} {c}v{c}\" stroke=\"{r}\"/><text x=\"{c}\" "
                                  "y=\"{c}\" text-anchor=\"middle\">",
-                                 x, s->y0, PLOT, grey, x, s->y0 + PLOT + 13.0);
+                                 x, s->y0, s->plot_high, grey, x, s->y0 + s->plot_high + 13.0);
             else
                 fw_report_markup(s->out,
-                                 "<path d=\"M{c} {c}h{i}\" stroke=\"{r}\"/><text x=\"{c}\" "
+                                 "<path d=\"M{c} {c}h{c}\" stroke=\"{r}\"/><text x=\"{c}\" "
                                  "y=\"{c}\" text-anchor=\"end\">",
-                                 s->x0, y, PLOT, grey, s->x0 - 4.0, y + 3.5);
+                                 s->x0, y, s->plot_wide, grey, s->x0 - 4.0, y + 3.5);
             number(s->out, k * step[axis] * 1e6, 4);
             fw_text_add(s->out, "</text>");
         }
@@ -181,9 +218,9 @@ static void caption(const slice *s, const fw_workspace_slice *at) {
                      "\u00b0</text><text x=\"{c}\" y=\"{c}\" font-size=\"11\" fill=\"#57606a\">"
                      "area ",
                      s->x0, s->y0 - 6.0);
-    fw_report_number(s->out, at->area.value.lo * 1e12, 5);
+    fw_text_number(s->out, at->area.value.lo * 1e12, 6);
     fw_text_add(s->out, " to ");
-    fw_report_number(s->out, at->area.value.hi * 1e12, 5);
+    fw_text_number(s->out, at->area.value.hi * 1e12, 6);
     fw_text_add(s->out, " \u00b5m\u00b2</text>\n");
 }
 
@@ -200,7 +237,7 @@ static void shares(const slice *s) {
         "font-size=\"11\" fill=\"#57606a\">share of the growth with its limit</text>\n",
         s->x0, s->y0 - 20.0, s->x0, s->y0 - 6.0);
     for (int i = 0; i < FW_SIX; i++) {
-        double y = s->y0 + 10.0 + 36.0 * i;
+        double y = s->y0 + 10.0 + 30.0 * i;
         fw_report_markup(s->out,
                          "<text x=\"{c}\" y=\"{c}\" font-size=\"12\" fill=\"#1f2328\">{s}</text>"
                          "<rect x=\"{c}\" y=\"{c}\" width=\"{c}\" height=\"16\" fill=\"{r}\"/>"
@@ -220,30 +257,37 @@ fw_status fw_report_slices(fw_arena *arena, const fw_report_workspace_flow *flow
     slice *s = fw_arena_one(arena, slice);
     FW_NEED(s);
     s->flow = flow, s->out = out;
-    double middle[2], half = 0.0;
-    for (int c = 0; c < 2; c++) { /* the same scale along both axes */
+    double middle[2], half[2];
+    for (int c = 0; c < 2; c++) {
         double low = map->survey.least[c].lo, high = map->survey.most[c].hi;
         middle[c] = 0.5 * (low + high);
-        half = fmax(half, 0.54 * (high - low));
+        half[c] = 0.56 * (high - low);
     }
+    /* the same scale along both axes; a flat or narrow set leaves room for the bars */
+    half[1] = fmax(half[1], 0.8 * half[0]);
+    half[0] = fmax(half[0], 0.6 * half[1]);
+    double scale = PLOT / (2.0 * fmax(half[0], half[1]));
+    s->plot_wide = 2.0 * half[0] * scale, s->plot_high = 2.0 * half[1] * scale;
+    const double row = s->plot_high + HEAD + 28.0;
     for (int i = 0; i <= FW_SLICES; i++) {
         s->x0 = MARGIN + PANEL * (i % COLUMNS);
-        s->y0 = top + HEAD + (PLOT + HEAD + 28.0) * (i / COLUMNS);
+        s->y0 = top + HEAD + row * (i / COLUMNS);
         if (i == FW_SLICES) {
             shares(s);
             break;
         }
         s->phi_rad = map->slice[i].phi_rad;
         for (int c = 0; c < 2; c++)
-            s->low[c] = middle[c] - half, s->high[c] = middle[c] + half;
+            s->low[c] = middle[c] - half[c], s->high[c] = middle[c] + half[c];
         sample(s);
         march(s);
         fill(s);
         frame(s);
         outline(s);
+        required(s);
         caption(s, &map->slice[i]);
     }
-    *height = 2.0 * (PLOT + HEAD + 28.0);
+    *height = 2.0 * row;
     return FW_OK;
 }
 
@@ -278,7 +322,7 @@ fw_status fw_report_workspace_svg(fw_arena *arena, const fw_report_workspace *in
                      "<text x=\"14\" y=\"26\" font-size=\"15\" font-weight=\"600\" "
                      "fill=\"#1f2328\">{s}: workspace at constant rotation, x and y in \u00b5m"
                      "</text>\n",
-                     COLUMNS * PANEL + 10, top, COLUMNS * PANEL + 10, top, in->device->name,
+                     FW_SLICES_WIDTH, top, FW_SLICES_WIDTH, top, in->device->name,
                      in->device->name);
     fw_text_bytes(out, body.data, body.length);
     fw_text_add(out, "</svg>\n");
