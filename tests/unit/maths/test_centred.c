@@ -67,7 +67,8 @@ static void values_stay_within_radii(void **state) {
             middle[k] = 4 * unit() - 2;
             half[k] = pow(10, -1 - 5 * unit());
             shift[k] = unit() < 0.3 ? 1.0 : 2 * unit() - 1;
-            at[k] = middle[k] + (long double)s * shift[k] * half[k];
+            at[k] = (long double)middle[k] +
+                    (long double)s * (long double)shift[k] * (long double)half[k];
         }
         pair v[24];
         evaluate(i, middle, half, at, v);
@@ -75,9 +76,10 @@ static void values_stay_within_radii(void **state) {
             fw_centred c = v[k].c;
             if (!(c.r < 1e100 && fabs(c.m) < 1e100)) continue;
             finite++;
-            long double allowed = (1 - (long double)s) * c.e + (long double)s * c.r;
+            long double share = (long double)s, m = (long double)c.m;
+            long double allowed = (1 - share) * (long double)c.e + share * (long double)c.r;
             long double own = 0x1p-61L * (1 + fabsl(v[k].x)); /* of the point itself */
-            if (!(fabsl(v[k].x - c.m) <= allowed + own))
+            if (!(fabsl(v[k].x - m) <= allowed + own))
                 fail_msg("function %d step %d: %.20Lg, m %.17g e %.3g r %.3g s %.3g", (int)i, k,
                          v[k].x, c.m, c.e, c.r, s);
             fw_interval range = fw_centred_range(c);
@@ -109,10 +111,12 @@ static void direction_encloses(void **state) {
     for (int i = 0; i < 100000; i++) {
         double x = 2 * unit() - 1, y = 2 * unit() - 1, e = pow(10, -16 + 15 * unit());
         fw_interval a = fw_centred_direction((fw_centred){y, e, e}, (fw_centred){x, e, e});
-        long double dx = (2 * unit() - 1) * e, dy = (2 * unit() - 1) * e;
-        long double turn = atan2l(y + dy, x + dx) - (long double)atan2(y, x);
+        long double r = (long double)e, dx = (long double)(2 * unit() - 1) * r,
+                    dy = (long double)(2 * unit() - 1) * r;
+        long double exact = atan2l((long double)y + dy, (long double)x + dx);
+        long double turn = exact - (long double)atan2(y, x);
         if (fabsl(turn) > 3) continue; /* the cut: callers look at the range */
-        assert_true(a.lo <= atan2l(y + dy, x + dx) && atan2l(y + dy, x + dx) <= a.hi);
+        assert_true((long double)a.lo <= exact && exact <= (long double)a.hi);
     }
 }
 
