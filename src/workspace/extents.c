@@ -40,11 +40,18 @@ static void plane(planes *p, const fw_form *f, double sign, double limit, const 
     if (p->t[p->count] < reach && p->count + 1 < PLANES) p->count++; /* it cuts the box */
 }
 
+/* may the rotation be that of the range, less a whole turn? Then no plane bounds it. */
+static bool wraps(const fw_form *f, const fw_bound *range, const double half[3]) {
+    const double turn = 6.283; /* somewhat less than one */
+    fw_interval now = fw_form_range(f, half);
+    return !(now.hi < turn + range->low.lo && now.lo > range->high.hi - turn);
+}
+
 static void planes_of(const end *e, const fw_loop_box *known, const double half[3], planes *p) {
     p->count = 0;
     if (known->reached != FW_REACHED) return;
     for (int i = 3; i < FW_SIX; i++) {
-        if (i == 4) continue;
+        if (i == 4 || wraps(&known->psi[i], &e->allowed->psi[i], half)) continue;
         plane(p, &known->psi[i], 1.0, e->allowed->psi[i].high.hi, half);
         plane(p, &known->psi[i], -1.0, -e->allowed->psi[i].low.lo, half);
     }

@@ -91,7 +91,8 @@ static fw_inside one_hinge(const fw_form *f, const fw_bound *range, double perio
                            const double half[3], double slack, fw_interval *share) {
     fw_interval now = fw_form_range(f, half);
     if (now.lo >= range->low.hi && now.hi <= range->high.lo) return FW_INSIDE;
-    double next = period + range->low.lo, last = range->high.hi - period;
+    double most = period - 1e-9; /* less than a turn, whatever rounding does */
+    double next = most + range->low.lo, last = range->high.hi - most;
     bool beyond = now.lo > range->high.hi && now.hi < next;
     bool before = now.hi < range->low.lo && now.lo > last;
     if (beyond || before) return FW_OUTSIDE;
