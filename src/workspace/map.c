@@ -3,7 +3,7 @@
 #include <math.h>
 
 const fw_workspace_effort fw_workspace_usual = {.relative = 2e-3, .most = 400000, .level = 6};
-const fw_workspace_effort fw_workspace_quick = {.relative = 2e-2, .most = 30000, .level = 5};
+const fw_workspace_effort fw_workspace_quick = {.relative = 1e-2, .most = 80000, .level = 5};
 
 static const double slice_relative = 1e-3, extent_relative = 1e-3;
 enum { SLICE_BOXES = 100000, EXTENT_BOXES = 20000 };

@@ -28,7 +28,7 @@ typedef struct fw_workspace_effort {
     int level;       /* of the survey */
 } fw_workspace_effort;
 extern const fw_workspace_effort fw_workspace_usual; /* some 0.2 s */
-extern const fw_workspace_effort fw_workspace_quick; /* some 20 ms, for the report */
+extern const fw_workspace_effort fw_workspace_quick; /* some 50 ms, for the report */
 
 fw_status fw_workspace_map_make(fw_arena *arena, const fw_mechanism *mechanism,
                                 fw_workspace_effort effort, fw_workspace_map *map);
