@@ -177,6 +177,13 @@ FW_API int fw_design_statics(fw_design *design);
    rates that do not fit. Other errors as fw_design_simulate. Cost for a six-bar: about 5 ms. */
 FW_API int fw_design_assemble(fw_design *design);
 
+/* The set of platform poses of a <six-bar> that the elastic limits leave, in every flow: volume,
+   areas at constant rotation, extents, singular poses; and the required boxes, proved by interval
+   arithmetic where that can be. After reading. FW_STATUS_INPUT where the mechanism is no <six-bar>;
+   other errors as fw_design_judge. Again after FW_STATUS_OK: does nothing. Cost: about 0.2 s per
+   flow. */
+FW_API int fw_design_workspace(fw_design *design);
+
 enum {                        /* what fw_design_write writes, added up, with a manifest.json */
        FW_DESIGN_VERDICT = 1, /* verdict.json */
        FW_DESIGN_MASKS = 2,   /* masks/FLOW.gds, .svg, .lyp, .json */
@@ -214,13 +221,19 @@ enum {                                    /* what it is; what must have been cal
        FW_DOCUMENT_MODES_SVG = 13,        /* the first twelve shapes, moving; modes */
        FW_DOCUMENT_STATICS_JSON = 14,     /* schema flexwright.statics/1; statics */
        FW_DOCUMENT_STATICS_TEXT = 15,     /* for a terminal; statics */
-       FW_DOCUMENT_STATICS_SVG = 16,   /* the equilibrium over rest; moving with a path; statics */
-       FW_DOCUMENT_LOAD_PATH_CSV = 17, /* a row per point, or the equilibrium alone; statics */
-       FW_DOCUMENT_LOAD_PATH_SVG = 18, /* load against displacement; statics with options.path */
-       FW_DOCUMENT_ASSEMBLE_JSON = 19, /* schema flexwright.assemble/1; assemble */
-       FW_DOCUMENT_ASSEMBLE_TEXT = 20, /* for a terminal; assemble */
-       FW_DOCUMENT_ASSEMBLE_SVG = 21,  /* before and after; assemble, also when it failed */
-       FW_DOCUMENT_FORCES_CSV = 22     /* accelerations and joint forces, 17 digits; simulate */
+       FW_DOCUMENT_STATICS_SVG = 16,    /* the equilibrium over rest; moving with a path; statics */
+       FW_DOCUMENT_LOAD_PATH_CSV = 17,  /* a row per point, or the equilibrium alone; statics */
+       FW_DOCUMENT_LOAD_PATH_SVG = 18,  /* load against displacement; statics with options.path */
+       FW_DOCUMENT_ASSEMBLE_JSON = 19,  /* schema flexwright.assemble/1; assemble */
+       FW_DOCUMENT_ASSEMBLE_TEXT = 20,  /* for a terminal; assemble */
+       FW_DOCUMENT_ASSEMBLE_SVG = 21,   /* before and after; assemble, also when it failed */
+       FW_DOCUMENT_FORCES_CSV = 22,     /* accelerations and joint forces, 17 digits; simulate */
+       FW_DOCUMENT_WORKSPACE_JSON = 23, /* schema flexwright.workspace/1; workspace */
+       FW_DOCUMENT_WORKSPACE_TEXT = 24, /* for a terminal; workspace */
+       FW_DOCUMENT_WORKSPACE_SVG = 25,  /* slices at constant rotation; workspace */
+       /* proofs of the required boxes, to be verified by other programs: schema
+          flexwright.workspace-certificate/1; workspace */
+       FW_DOCUMENT_CERTIFICATE_JSON = 26
 };
 
 /* One document as UTF-8 text, NUL-terminated; `length` (may be NULL) without the NUL. The text

@@ -21,6 +21,7 @@ fw_script_test(library.symbols LABEL quick COMMAND ${Python3_EXECUTABLE} tests/b
 fw_script_test(cli.program COMMAND ${Python3_EXECUTABLE} tests/cli/test_program.py ${FW_PROGRAM})
 fw_script_test(cli.benchmarks COMMAND ${Python3_EXECUTABLE} tests/cli/test_benchmarks.py ${FW_PROGRAM})
 fw_script_test(cli.rest COMMAND ${Python3_EXECUTABLE} tests/cli/test_rest.py ${FW_PROGRAM})
+fw_script_test(cli.workspace COMMAND ${Python3_EXECUTABLE} tests/cli/test_workspace.py ${FW_PROGRAM})
 fw_script_test(cli.assemble COMMAND ${Python3_EXECUTABLE} tests/cli/test_assemble.py ${FW_PROGRAM})
 fw_script_test(cli.effects COMMAND ${Python3_EXECUTABLE} tests/cli/test_effects.py ${FW_PROGRAM})
 fw_script_test(cli.pictures COMMAND ${Python3_EXECUTABLE} tests/cli/test_pictures.py ${FW_PROGRAM})

@@ -78,6 +78,17 @@ static const fw_command table[] = {
      "where\n"
      "the conjugate surfaces meet. --svg, or -o DIR with hinge.json and hinge.svg, draws it.",
      FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_HINGE, fw_command_hinge},
+    {"workspace", "DEVICE.xml", "reachable set under the strain limit, certified; picture",
+     "flexwright workspace device.xml -o workspace-out",
+     "The platform poses of a <six-bar> at which no hinge is beyond its elastic limit: volume, "
+     "areas "
+     "at\n"
+     "constant rotation, extents, singular poses; and the required boxes. All bounds are proved "
+     "by\n"
+     "interval arithmetic. -o DIR writes workspace.json, workspace.svg and certificate.json, which "
+     "other\n"
+     "programs can verify. It reports and does not judge: check has the verdict.",
+     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT, fw_command_workspace},
     {"init", "[NAME]", "a starter device on standard output",
      "flexwright init my-device > device.xml",
      "Prints a small six-bar with comments; every command accepts it as it is.", FW_OPT_COMMON,
@@ -90,7 +101,7 @@ static const fw_command table[] = {
 };
 
 /* named in the contract, not in this version: say so instead of "unknown" */
-static const char *const later[] = {"workspace", "tradeoff", "study", "calibrate", "serve"};
+static const char *const later[] = {"tradeoff", "study", "calibrate", "serve"};
 
 const fw_command *fw_command_table(size_t *count) {
     *count = sizeof table / sizeof table[0];

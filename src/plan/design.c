@@ -337,6 +337,16 @@ int fw_design_simulate(fw_design *design) {
     return stage(design, READ, "read a description before simulating it", SIMULATED, simulate_work);
 }
 
+static fw_status workspace_work(fw_design *d, void *argument) {
+    (void)argument;
+    return fw_plan_workspace(d->plan, &d->workspace);
+}
+
+int fw_design_workspace(fw_design *design) {
+    return stage(design, READ, "read a description before its workspace is computed", WORKSPACE,
+                 workspace_work);
+}
+
 /* ---- assemble ---- */
 
 static fw_status assemble_work(fw_design *d, void *argument) {

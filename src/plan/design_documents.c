@@ -93,6 +93,22 @@ static fw_status assemble_svg(fw_design *d, fw_text *out) {
     return fw_report_assemble_svg(d->plan->arena, &in, out);
 }
 
+static fw_status workspace_json(fw_design *d, fw_text *out) {
+    return fw_report_workspace_json(&d->workspace, out);
+}
+
+static fw_status workspace_text(fw_design *d, fw_text *out) {
+    return fw_report_workspace_text(&d->workspace, out);
+}
+
+static fw_status workspace_svg(fw_design *d, fw_text *out) {
+    return fw_report_workspace_svg(d->plan->arena, &d->workspace, out);
+}
+
+static fw_status certificate_json(fw_design *d, fw_text *out) {
+    return fw_report_certificate_json(&d->workspace, out);
+}
+
 static fw_status masks_json(fw_design *d, fw_text *out) {
     return fw_plan_masks_json(d->plan, out);
 }
@@ -152,6 +168,10 @@ static const struct {
     [FW_DOCUMENT_ASSEMBLE_JSON] = {ASSEMBLED, assemble_json},
     [FW_DOCUMENT_ASSEMBLE_TEXT] = {ASSEMBLED, assemble_text},
     [FW_DOCUMENT_ASSEMBLE_SVG] = {ASSEMBLY_TRIED, assemble_svg},
+    [FW_DOCUMENT_WORKSPACE_JSON] = {WORKSPACE, workspace_json},
+    [FW_DOCUMENT_WORKSPACE_TEXT] = {WORKSPACE, workspace_text},
+    [FW_DOCUMENT_WORKSPACE_SVG] = {WORKSPACE, workspace_svg},
+    [FW_DOCUMENT_CERTIFICATE_JSON] = {WORKSPACE, certificate_json},
 };
 
 static fw_status document_work(fw_design *d, void *argument) {

@@ -6,8 +6,8 @@
 #include <locale.h>
 
 enum { READ = 1, JUDGED = 2, FABRICATED = 4, SIMULATED = 8, MODES = 16, STATICS = 32 }; /* done */
-enum { ASSEMBLED = 64, ASSEMBLY_TRIED = 128 };
-enum { NDOCUMENT = FW_DOCUMENT_FORCES_CSV + 1 };
+enum { ASSEMBLED = 64, ASSEMBLY_TRIED = 128, WORKSPACE = 256 };
+enum { NDOCUMENT = FW_DOCUMENT_CERTIFICATE_JSON + 1 };
 
 struct fw_design {
     fw_plan *plan; /* its arena holds this struct too */
@@ -23,6 +23,7 @@ struct fw_design {
     const fw_mechanism *mechanism; /* of `scene`, the same for all three */
     const fw_scene *scene;
     fw_plan_assembly assembly;
+    fw_report_workspace workspace;
     fw_terminal_style style;
     fw_text document[NDOCUMENT]; /* data NULL: not composed, or out of date */
     fw_diagnostic *diagnostic;   /* (FW_DIAG_MOST) */

@@ -10,6 +10,7 @@
 #include "statics/modes.h"
 #include "report/assembly.h"
 #include "report/terminal.h"
+#include "report/workspace.h"
 
 typedef struct fw_plan_options {
     const char *data_directory; /* packs and layer tables; NULL: installed, else source tree */
@@ -95,6 +96,9 @@ fw_status fw_plan_modes(fw_plan *plan, const fw_modes **modes, const fw_mechanis
                         const fw_scene **scene);
 fw_status fw_plan_statics(fw_plan *plan, const fw_statics **statics, const fw_mechanism **mechanism,
                           const fw_scene **scene);
+
+/* the reachable set and the required poses in every flow, proved where that can be */
+fw_status fw_plan_workspace(fw_plan *plan, fw_report_workspace *workspace);
 
 typedef struct fw_plan_assembly {
     const fw_scene *scene;         /* its loads; NULL: the device has none */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/page.h"
+#include "report/workspace.h"
 #include <math.h>
 
 static void span(fw_text *out, double low, double high, bool angle) {
@@ -64,6 +65,43 @@ static void peaks(fw_page *page, const fw_variant_verdict *v) {
     fw_text_add(out, "</tbody></table></div>\n");
 }
 
+/* the reachable set of the flow; what is not a six-bar with flexures has none */
+static fw_status reachable(fw_page *page, const fw_variant_verdict *v) {
+    fw_workspace_map *map = fw_arena_one(page->arena, fw_workspace_map);
+    FW_NEED(map);
+    FW_TRY(fw_workspace_map_make(page->arena, v->mechanism, fw_workspace_quick, map));
+    if (map->none || !(map->volume.value.lo > 0.0)) return FW_OK;
+    const fw_report_workspace_flow flow = {v->variant ? v->variant->flow : NULL, v->mechanism, map,
+                                           &v->workspace, NULL};
+    fw_text picture = fw_text_new(page->arena);
+    double height;
+    FW_TRY(fw_report_slices(page->arena, &flow, 0.0, &height, &picture));
+    FW_TRY(fw_text_end(&picture));
+    fw_report_markup(
+        page->out,
+        "<p>Reachable with every hinge inside its elastic limit: {n} to {n} "
+        "mm\u00b2\u00b7\u00b0, <strong>certified</strong>; x from {u} to {u}, y from {u} "
+        "to {u}, rotation {d} to {d}. It grows with all limits to the power ",
+        map->volume.value.lo * 1e6 * 57.29577951308232,
+        map->volume.value.hi * 1e6 * 57.29577951308232, map->survey.least[0].hi, "m",
+        map->survey.most[0].lo, "m", map->survey.least[1].hi, "m", map->survey.most[1].lo, "m",
+        map->survey.least[2].hi, map->survey.most[2].lo);
+    fw_report_number(page->out, map->survey.exponent, 3);
+    fw_report_markup(page->out,
+                     ".</p>\n<figure class=\"wide\"><svg role=\"img\" viewBox=\"0 0 {i} {c}\" "
+                     "width=\"{i}\" height=\"{c}\" font-family=\"system-ui,'DejaVu Sans',"
+                     "sans-serif\"><title>Workspace at constant rotation, x and y in \u00b5m"
+                     "</title><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
+                     FW_SLICES_WIDTH, height, FW_SLICES_WIDTH, height);
+    fw_text_bytes(page->out, picture.data, picture.length);
+    fw_text_add(page->out,
+                "</svg><figcaption>Workspace at constant rotation, x and y of the "
+                "platform in \u00b5m from the drawn pose. The boundary has the colour of "
+                "the hinge that is at its limit; dashed: the required box. The line is "
+                "drawn from samples, areas and volume are proved.</figcaption></figure>\n");
+    return FW_OK;
+}
+
 fw_status fw_report_section_workspace(fw_page *page) {
     const fw_verdict *verdict = page->in->verdict;
     bool any = false;
@@ -76,6 +114,7 @@ fw_status fw_report_section_workspace(fw_page *page) {
         boxes(page, flow);
         judgement(page->out, &v->workspace);
         if (v->workspace.reachable) peaks(page, v);
+        FW_TRY(reachable(page, v));
     }
     if (!any) fw_text_add(page->out, "<p>The description asks for no workspace.</p>\n");
     return fw_text_end(page->out);

@@ -1,20 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "workspace/inverse.h"
+#include "workspace/certify.h"
 #include <math.h>
 #include <string.h>
 
-enum { COARSE = 9, FINE = 17 };
+enum { COARSE = 9, FINE = 17, MOST_BOXES = 20000 };
 
-typedef struct box3 {
-    double low[3], high[3]; /* x m, y m, phi rad */
-} box3;
+static const double sharpness = 1e-3; /* of the proved ends of ranges, relative */
 
-static double along(const box3 *box, int axis, int i, int n) {
-    return box->low[axis] + (box->high[axis] - box->low[axis]) * i / (n - 1);
+static double along(const fw_box3 *box, int axis, int i, int n) {
+    return box->lo[axis] + (box->hi[axis] - box->lo[axis]) * i / (n - 1);
 }
 
 /* largest |angle| of every joint over an n x n x n grid; false at a pose out of reach (in `at`) */
-static bool scan(const fw_six_bar *k, const box3 *box, int n, fw_workspace_peak peak[FW_SIX],
+static bool scan(const fw_six_bar *k, const fw_box3 *box, int n, fw_workspace_peak peak[FW_SIX],
                  double at[3]) {
     for (int j = 0; j < FW_SIX; j++)
         peak[j] = (fw_workspace_peak){0};
@@ -33,16 +31,16 @@ static bool scan(const fw_six_bar *k, const box3 *box, int n, fw_workspace_peak 
 }
 
 /* climbs from the best grid pose by steps that halve, staying inside the box */
-static void refine(const fw_six_bar *k, const box3 *box, int joint, fw_workspace_peak *peak) {
+static void refine(const fw_six_bar *k, const fw_box3 *box, int joint, fw_workspace_peak *peak) {
     double at[3] = {peak->x_m, peak->y_m, peak->phi_rad};
     for (double step = 1.0 / (FINE - 1); step > 1e-9;) {
         bool better = false;
         for (int move = 0; move < 6; move++) {
             int axis = move / 2, leg;
-            double width = box->high[axis] - box->low[axis], angle[FW_SIX], to[3];
+            double width = box->hi[axis] - box->lo[axis], angle[FW_SIX], to[3];
             memcpy(to, at, sizeof to);
             to[axis] += (move % 2 ? -step : step) * width;
-            to[axis] = fmin(fmax(to[axis], box->low[axis]), box->high[axis]);
+            to[axis] = fmin(fmax(to[axis], box->lo[axis]), box->hi[axis]);
             if (fw_six_bar_solve(k, to[0], to[1], to[2], angle, &leg) &&
                 fabs(angle[joint]) > fabs(peak->angle_rad)) {
                 *peak = (fw_workspace_peak){angle[joint], 0, to[0], to[1], to[2]};
@@ -54,29 +52,27 @@ static void refine(const fw_six_bar *k, const box3 *box, int joint, fw_workspace
     }
 }
 
-/* Hinge rotations over the required box of platform poses: grid of 17^3 poses, best one climbed to
-   its local maximum. Not an interval proof: `certified` is false; the error is what the refinement
-   from a 9^3 to the 17^3 grid and the climb still changed. Cost about 6000 inverse kinematics, 1
-   ms. source: docs/theory/workspace.md; test_required.c corners_and_interior */
-static bool one_box(const fw_six_bar *k, const fw_workspace_box *asked,
-                    fw_workspace_result *result) {
-    const box3 box = {{asked->x_min_m, asked->y_min_m, asked->phi_min_rad},
-                      {asked->x_max_m, asked->y_max_m, asked->phi_max_rad}};
+static void unreachable(fw_workspace_result *result, const double at[3]) {
+    if (!result->reachable) return; /* the first one is named */
+    result->fail_x_m = at[0];
+    result->fail_y_m = at[1];
+    result->fail_phi_rad = at[2];
+}
+
+/* Where the proof is left undecided (close to a stretched leg, for instance): grid of 17^3 poses,
+   best one climbed to its local maximum. Not a proof; the error is what the refinement from a 9^3
+   to the 17^3 grid and the climb still changed. Cost about 6000 inverse kinematics, 1 ms. source:
+   docs/theory/workspace.md; test_required.c corners_and_interior */
+static bool sampled(const fw_six_bar *k, const fw_box3 *box, fw_workspace_result *result) {
     fw_workspace_peak coarse[FW_SIX], fine[FW_SIX];
     double at[3];
-    result->volume_m2_rad +=
-        (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]) * (box.high[2] - box.low[2]);
-    if (!scan(k, &box, COARSE, coarse, at) || !scan(k, &box, FINE, fine, at)) {
-        if (result->reachable) { /* the first one is named */
-            result->fail_x_m = at[0];
-            result->fail_y_m = at[1];
-            result->fail_phi_rad = at[2];
-        }
+    if (!scan(k, box, COARSE, coarse, at) || !scan(k, box, FINE, fine, at)) {
+        unreachable(result, at);
         return false;
     }
     for (int j = 0; j < FW_SIX; j++) {
-        refine(k, &box, j, &coarse[j]);
-        refine(k, &box, j, &fine[j]);
+        refine(k, box, j, &coarse[j]);
+        refine(k, box, j, &fine[j]);
         fine[j].error_rad = fabs(fabs(fine[j].angle_rad) - fabs(coarse[j].angle_rad)) +
                             1e-9 * fabs(fine[j].angle_rad);
         if (fabs(coarse[j].angle_rad) > fabs(fine[j].angle_rad)) {
@@ -88,16 +84,56 @@ static bool one_box(const fw_six_bar *k, const fw_workspace_box *asked,
     return true;
 }
 
+/* the end of the proved range that is farther from zero, and how much nearer the truth may be */
+static fw_workspace_peak peak_of(const fw_workspace_proof *proof, int hinge) {
+    fw_interval range = proof->angle_rad[hinge];
+    bool above = range.hi >= -range.lo;
+    const fw_workspace_extreme *at = above ? &proof->most[hinge] : &proof->least[hinge];
+    double far = above ? range.hi : range.lo, near = above ? at->angle_rad.lo : at->angle_rad.hi;
+    return (fw_workspace_peak){far, fw_up(fabs(far - near)), at->pose[0], at->pose[1], at->pose[2]};
+}
+
+/* one required box: proved where that can be, else sampled; false: not reachable */
+static fw_status one_box(fw_arena *arena, const fw_six_bar *k, const fw_loop *loop,
+                         const fw_workspace_box *asked, fw_workspace_proof *proof,
+                         fw_workspace_result *result, bool *whole) {
+    const fw_box3 box = {{asked->x_min_m, asked->y_min_m, asked->phi_min_rad},
+                         {asked->x_max_m, asked->y_max_m, asked->phi_max_rad}};
+    result->volume_m2_rad +=
+        (box.hi[0] - box.lo[0]) * (box.hi[1] - box.lo[1]) * (box.hi[2] - box.lo[2]);
+    fw_proof_end end = FW_UNDECIDED;
+    double at[3];
+    if (loop) FW_TRY(fw_certify_box(arena, loop, &box, sharpness, MOST_BOXES, proof, at, &end));
+    *whole = end == FW_PROVED;
+    if (end == FW_REFUTED) unreachable(result, at);
+    if (end == FW_UNDECIDED) {
+        result->certified = false;
+        *whole = sampled(k, &box, result);
+    }
+    for (int j = 0; j < FW_SIX && end == FW_PROVED; j++) {
+        fw_workspace_peak now = peak_of(proof, j);
+        if (fabs(now.angle_rad) > fabs(result->peak[j].angle_rad)) result->peak[j] = now;
+    }
+    return FW_OK;
+}
+
 fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *m, fw_diags *diags,
                                 fw_workspace_result *result) {
-    bool *in_flow = fw_arena_array(arena, bool, (size_t)m->device->nworkspace);
-    bool *whole = fw_arena_array(arena, bool, (size_t)m->device->nworkspace);
+    size_t n = (size_t)m->device->nworkspace;
+    bool *in_flow = fw_arena_array(arena, bool, n), *whole = fw_arena_array(arena, bool, n);
+    fw_workspace_proof *proof = fw_arena_array(arena, fw_workspace_proof, n);
     FW_NEED(in_flow);
     FW_NEED(whole);
-    *result = (fw_workspace_result){
-        .reachable = true, .fail_box = FW_NONE, .asked = in_flow, .box_reachable = whole};
+    FW_NEED(proof);
+    *result = (fw_workspace_result){.reachable = true,
+                                    .certified = true,
+                                    .fail_box = FW_NONE,
+                                    .asked = in_flow,
+                                    .box_reachable = whole,
+                                    .proof = proof};
     fw_six_bar k;
-    bool known = fw_six_bar_set_up(m, &k);
+    fw_loop loop;
+    bool known = fw_six_bar_set_up(m, &k), provable = known && fw_loop_set_up(m, &loop);
     const char *held = NULL;
     if (known) FW_TRY(fw_six_bar_restrained(arena, m, &held));
     for (int i = 0; i < m->device->nworkspace; i++) {
@@ -117,11 +153,12 @@ fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *m, fw_diags
                                  held);
         result->required = true;
         in_flow[i] = true;
-        whole[i] = one_box(&k, asked, result);
+        FW_TRY(one_box(arena, &k, provable ? &loop : NULL, asked, &proof[i], result, &whole[i]));
         if (!whole[i] && result->reachable) {
             result->reachable = false;
             result->fail_box = i;
         }
     }
+    result->certified = result->certified && result->required && result->reachable;
     return FW_OK;
 }

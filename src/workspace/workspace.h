@@ -2,6 +2,7 @@
 /* Inverse kinematics of the six-bar ABCDEF and the hinge rotations over the required workspace. */
 #ifndef FW_WORKSPACE_WORKSPACE_H
 #define FW_WORKSPACE_WORKSPACE_H
+#include "maths/interval.h"
 #include "mechanism/mechanism.h"
 
 enum { FW_SIX = 6 };
@@ -12,10 +13,30 @@ bool fw_six_bar_inverse(const fw_mechanism *mechanism, double x_m, double y_m, d
                         double angle_rad[FW_SIX], int *leg);
 
 typedef struct fw_workspace_peak {
-    double angle_rad; /* with its sign */
-    double error_rad;
+    double angle_rad;         /* with its sign; certified: the far end of the proved range */
+    double error_rad;         /* certified: the truth is at most this much nearer to zero */
     double x_m, y_m, phi_rad; /* where */
 } fw_workspace_peak;
+
+typedef struct fw_workspace_extreme { /* a pose, and the range that its joint angle is proved to be
+                                         in */
+    double pose[3];                   /* x m, y m, phi rad */
+    fw_interval angle_rad;
+} fw_workspace_extreme;
+
+/* One required box: every pose of it can be assembled on the drawn branch with every hinge's angle
+   in `angle_rad`. The tree says how the box was taken apart: a node is x, y or p (halved at 0.5
+   (low + high) along that coordinate; lower half first) or . (a leaf, where one enclosure is
+   enough). */
+typedef struct fw_workspace_proof {
+    bool proved;
+    double low[3], high[3];                           /* the box: x m, y m, phi rad */
+    fw_interval angle_rad[FW_SIX];                    /* holds the joint angle at every pose */
+    fw_workspace_extreme least[FW_SIX], most[FW_SIX]; /* near the ends of that range */
+    const char *tree;
+    long boxes; /* looked at */
+    int leaves;
+} fw_workspace_proof;
 
 typedef struct fw_workspace_result {
     bool required;                           /* the device asks for one in this flow */
@@ -26,6 +47,7 @@ typedef struct fw_workspace_result {
     int fail_box;                            /* ... of this one of the device's boxes; FW_NONE */
     const bool *asked,
         *box_reachable; /* (device->nworkspace) holds in this flow; all of it reachable */
+    const fw_workspace_proof *proof; /* (device->nworkspace) */
     fw_workspace_peak peak[FW_SIX];
 } fw_workspace_result;
 

@@ -29,7 +29,7 @@ static void corners_and_interior(void **state) {
     uint64_t seed = 1;
     for (size_t b = 0; b < 3; b++) {
         fw_workspace_result r = run(&f, box[b][0], box[b][1], box[b][2]);
-        assert_true(r.required && r.reachable && !r.certified);
+        assert_true(r.required && r.reachable && r.certified);
         assert_relative(r.volume_m2_rad, 8 * box[b][0] * box[b][1] * box[b][2], 1e-12);
         for (int i = 0; i < 50000; i++) {
             double u[3], angle[FW_SIX];

@@ -1,0 +1,275 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "workspace/survey.h"
+#include "base/cancel.h"
+
+typedef struct open_box {
+    fw_box3 box;
+    double far; /* not passed within it */
+} open_box;
+
+typedef struct end { /* largest of sign * coordinate */
+    const fw_loop *loop;
+    const fw_allowed *allowed;
+    fw_box3 whole;
+    int coordinate;
+    double sign, slack, relative;
+    double found, bound; /* proved to be reached; proved not to be passed */
+    double pose[3];
+    long boxes;
+    open_box *heap; /* (open) the farthest first */
+    long open;
+} end;
+
+/* ---- bound over the part of a box that the hinges' planes leave ---- */
+
+enum { PLANES = 8 };
+
+typedef struct planes { /* a[i].d <= t[i] for every pose of the set in the box */
+    double a[PLANES][3], t[PLANES];
+    int count;
+} planes;
+
+static void plane(planes *p, const fw_form *f, double sign, double limit, const double half[3]) {
+    double reach = 0.0;
+    for (int i = 0; i < 3; i++) {
+        p->a[p->count][i] = sign * f->grad[i];
+        reach += fabs(f->grad[i]) * half[i];
+    }
+    double at = sign > 0.0 ? f->at.lo : -f->at.hi;
+    p->t[p->count] = fw_up(fw_up(limit - at) + f->rest);
+    if (p->t[p->count] < reach && p->count + 1 < PLANES) p->count++; /* it cuts the box */
+}
+
+/* may the rotation be that of the range, less a whole turn? Then no plane bounds it. */
+static bool wraps(const fw_form *f, const fw_bound *range, const double half[3]) {
+    const double turn = 6.283; /* somewhat less than one */
+    fw_interval now = fw_form_range(f, half);
+    return !(now.hi < turn + range->low.lo && now.lo > range->high.hi - turn);
+}
+
+static void planes_of(const end *e, const fw_loop_box *known, const double half[3], planes *p) {
+    p->count = 0;
+    if (known->reached != FW_REACHED) return;
+    for (int i = 3; i < FW_SIX; i++) {
+        if (i == 4 || wraps(&known->psi[i], &e->allowed->psi[i], half)) continue;
+        plane(p, &known->psi[i], 1.0, e->allowed->psi[i].high.hi, half);
+        plane(p, &known->psi[i], -1.0, -e->allowed->psi[i].low.lo, half);
+    }
+    plane(p, &known->d2[1], 1.0, e->allowed->d2.high.hi, half);
+    plane(p, &known->d2[1], -1.0, -e->allowed->d2.low.lo, half);
+}
+
+/* weak duality: g.d <= sum lambda_i t_i + sum_k |g_k - sum lambda_i a_ik| half_k for every lambda
+ * >= 0 */
+static double dual(const double g[3], const double half[3], const planes *p, const int *use,
+                   const double *lambda, int n) {
+    double bound = 0.0, size = 0.0;
+    for (int i = 0; i < n; i++) {
+        if (!(lambda[i] >= 0.0)) return (double)INFINITY;
+        bound += lambda[i] * p->t[use[i]];
+        size += fabs(lambda[i] * p->t[use[i]]);
+    }
+    for (int k = 0; k < 3; k++) {
+        double rest = g[k], all = fabs(g[k]);
+        for (int i = 0; i < n; i++) {
+            rest -= lambda[i] * p->a[use[i]][k];
+            all += fabs(lambda[i] * p->a[use[i]][k]);
+        }
+        bound += fabs(rest) * half[k];
+        size += all * half[k];
+    }
+    return bound + 0x1p-48 * size; /* some 20 roundings of numbers below `size` */
+}
+
+/* multipliers that make g - sum lambda a vanish in n of the coordinates */
+static double from_coordinates(const double g[3], const double half[3], const planes *p,
+                               const int *use, const int *row, int n) {
+    double a[3][4], lambda[3];
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n; j++)
+            a[i][j] = p->a[use[j]][row[i]];
+        a[i][n] = g[row[i]];
+    }
+    for (int i = 0; i < n; i++) { /* elimination; a bad pivot only gives a bad bound */
+        for (int j = i + 1; j < n; j++)
+            if (fabs(a[j][i]) > fabs(a[i][i]))
+                for (int k = i; k <= n; k++) {
+                    double swap = a[i][k];
+                    a[i][k] = a[j][k];
+                    a[j][k] = swap;
+                }
+        for (int j = i + 1; j < n; j++)
+            for (int k = n; k >= i; k--)
+                a[j][k] -= a[i][k] * (a[j][i] / a[i][i]);
+    }
+    for (int i = n - 1; i >= 0; i--) {
+        lambda[i] = a[i][n];
+        for (int j = i + 1; j < n; j++)
+            lambda[i] -= a[i][j] * lambda[j];
+        lambda[i] /= a[i][i];
+    }
+    double bound = dual(g, half, p, use, lambda, n);
+    return bound == bound ? bound : (double)INFINITY;
+}
+
+/* least of the bounds from every one, two or three planes */
+static double constrained(const double g[3], const double half[3], const planes *p) {
+    double best = fabs(g[0]) * half[0] + fabs(g[1]) * half[1] + fabs(g[2]) * half[2];
+    best *= 1.0 + 0x1p-48;
+    static const int rows[7][3] = {{0}, {1}, {2}, {0, 1}, {0, 2}, {1, 2}, {0, 1, 2}};
+    for (int i = 0; i < p->count; i++) {
+        for (int r = 0; r < 3; r++)
+            best = fmin(best, from_coordinates(g, half, p, (int[]){i}, rows[r], 1));
+        for (int j = i + 1; j < p->count; j++) {
+            for (int r = 3; r < 6; r++)
+                best = fmin(best, from_coordinates(g, half, p, (int[]){i, j}, rows[r], 2));
+            for (int k = j + 1; k < p->count; k++)
+                best = fmin(best, from_coordinates(g, half, p, (int[]){i, j, k}, rows[6], 3));
+        }
+    }
+    return best;
+}
+
+static double most_of(const end *e, const fw_loop_box *known, const double half[3]) {
+    const fw_form *f = &known->extent[e->coordinate];
+    planes p;
+    planes_of(e, known, half, &p);
+    double g[3], at = e->sign > 0.0 ? f->at.hi : -f->at.lo;
+    for (int i = 0; i < 3; i++)
+        g[i] = e->sign * f->grad[i];
+    return fw_up(fw_up(at + constrained(g, half, &p)) + f->rest);
+}
+
+/* a pose of the set, if the point is one */
+static void try_point(end *e, const fw_box3 *box) {
+    fw_box3 point;
+    fw_loop_box known;
+    fw_interval share;
+    double half[3];
+    for (int i = 0; i < 3; i++) {
+        point.lo[i] = point.hi[i] = 0.5 * (box->lo[i] + box->hi[i]);
+        fw_box3_middle(&point, i, &half[i]);
+    }
+    if (fw_reach_judge(e->loop, e->allowed, 3, 0.0, &point, &known, &share) != FW_INSIDE) return;
+    fw_interval range = fw_form_range(&known.extent[e->coordinate], half);
+    double now = e->sign > 0.0 ? range.lo : -range.hi;
+    if (!(now > e->found)) return;
+    e->found = now;
+    e->pose[0] = known.place.x.m, e->pose[1] = known.place.y.m, e->pose[2] = known.phi.m;
+}
+
+static int longest(const end *e, const fw_box3 *box) {
+    int axis = 0;
+    double most = 0.0;
+    for (int i = 0; i < 3; i++) {
+        double width = (box->hi[i] - box->lo[i]) / (e->whole.hi[i] - e->whole.lo[i]);
+        if (width > most) most = width, axis = i;
+    }
+    return axis;
+}
+
+/* ---- the search ---- */
+
+static void put(end *e, const fw_box3 *box, double far) {
+    long at = e->open++;
+    for (; at > 0 && e->heap[(at - 1) / 2].far < far; at = (at - 1) / 2)
+        e->heap[at] = e->heap[(at - 1) / 2];
+    e->heap[at] = (open_box){*box, far};
+}
+
+static open_box take(end *e) {
+    open_box first = e->heap[0], last = e->heap[--e->open];
+    long at = 0;
+    for (long child; (child = 2 * at + 1) < e->open; at = child) {
+        if (child + 1 < e->open && e->heap[child + 1].far > e->heap[child].far) child++;
+        if (last.far >= e->heap[child].far) break;
+        e->heap[at] = e->heap[child];
+    }
+    e->heap[at] = last;
+    return first;
+}
+
+/* bounds a box and keeps it when it may lead farther than what is found, by more than the slack */
+static void look(end *e, const fw_box3 *box, double far) {
+    fw_loop_box known;
+    fw_interval share;
+    double half[3];
+    e->boxes++;
+    if (fw_reach_judge(e->loop, e->allowed, 3, 0.0, box, &known, &share) == FW_OUTSIDE) return;
+    for (int i = 0; i < 3; i++)
+        fw_box3_middle(box, i, &half[i]);
+    far = fmin(far, most_of(e, &known, half));
+    try_point(e, box);
+    put(e, box, far);
+}
+
+/* One end of the set along a coordinate, by branch and bound, the box that may lead farthest first;
+   a box is bounded by its Taylor form under the planes of its hinges (a linear program, by weak
+   duality). Done when no box leads farther than a pose that is proved to be inside, within the
+   slack; when boxes run out before, what is left bounds the end. */
+static fw_status search(end *e, long most) {
+    look(e, &e->whole, (double)INFINITY);
+    while (e->open > 0) {
+        if (fw_cancel_requested()) return FW_CANCELLED;
+        double far = e->heap[0].far, near = fmin(e->slack, e->relative * fabs(e->found));
+        if (far <= e->found + near || e->boxes + 2 > most) {
+            e->bound = far;
+            break;
+        }
+        open_box next = take(e);
+        int axis = longest(e, &next.box);
+        double middle = 0.5 * (next.box.lo[axis] + next.box.hi[axis]);
+        fw_box3 lower = next.box, upper = next.box;
+        lower.hi[axis] = upper.lo[axis] = middle;
+        look(e, &lower, next.far);
+        look(e, &upper, next.far);
+    }
+    e->bound = fmax(e->bound, e->found);
+    return FW_OK;
+}
+
+fw_status fw_reach_extents(fw_arena *arena, const fw_loop *loop, const fw_limits *limits,
+                           double relative, long most, fw_survey *survey) {
+    fw_allowed allowed = fw_limits_allow(loop, limits);
+    fw_box3 whole = fw_reach_whole(loop, &allowed);
+    double nan_ = (double)NAN;
+    for (int c = 0; c < 3; c++) {
+        survey->least[c] = survey->most[c] = (fw_interval){nan_, nan_};
+        if (!(whole.lo[c] < whole.hi[c])) return FW_OK;
+    }
+    fw_mark mark = fw_arena_mark(arena);
+    open_box *heap = fw_arena_array(arena, open_box, (size_t)most + 2);
+    FW_NEED(heap);
+    for (int c = 0; c < 3; c++)
+        for (int s = 0; s < 2; s++) {
+            fw_loop_box known;
+            double half[3];
+            fw_loop_joint_box(loop, &whole, (fw_interval){-(double)INFINITY, (double)INFINITY},
+                              &known);
+            for (int i = 0; i < 3; i++)
+                fw_box3_middle(&whole, i, &half[i]);
+            end e = {.loop = loop,
+                     .allowed = &allowed,
+                     .whole = whole,
+                     .coordinate = c,
+                     .sign = s ? 1.0 : -1.0,
+                     .relative = relative,
+                     .heap = heap,
+                     .found = -(double)INFINITY,
+                     .bound = -(double)INFINITY};
+            e.slack = relative * fw_interval_width(fw_form_range(&known.extent[c], half));
+            fw_status status = search(&e, most);
+            if (status != FW_OK) {
+                fw_arena_rewind(arena, mark);
+                return status;
+            }
+            if (!(e.found > -(double)INFINITY)) continue; /* no pose was found */
+            fw_interval end_of =
+                s ? (fw_interval){e.found, e.bound} : (fw_interval){-e.bound, -e.found};
+            *(s ? &survey->most[c] : &survey->least[c]) = end_of;
+            for (int i = 0; i < 3; i++)
+                (s ? survey->most_at : survey->least_at)[c][i] = e.pose[i];
+        }
+    fw_arena_rewind(arena, mark);
+    return FW_OK;
+}

@@ -1,0 +1,285 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "workspace/loop.h"
+
+static fw_centred2 plus(fw_centred2 a, fw_centred2 b) {
+    return (fw_centred2){fw_centred_add(a.x, b.x), fw_centred_add(a.y, b.y)};
+}
+
+static fw_centred2 minus(fw_centred2 a, fw_centred2 b) {
+    return (fw_centred2){fw_centred_sub(a.x, b.x), fw_centred_sub(a.y, b.y)};
+}
+
+static fw_centred dot(fw_centred2 a, fw_centred2 b) {
+    return fw_centred_add(fw_centred_mul(a.x, b.x), fw_centred_mul(a.y, b.y));
+}
+
+static fw_centred cross(fw_centred2 a, fw_centred2 b) {
+    return fw_centred_sub(fw_centred_mul(a.x, b.y), fw_centred_mul(a.y, b.x));
+}
+
+static fw_centred2 quarter(fw_centred2 a) { /* J a */
+    return (fw_centred2){fw_centred_negated(a.y), a.x};
+}
+
+static fw_centred2 exactly(fw_vec2 p) {
+    return (fw_centred2){fw_centred_exact(p.x), fw_centred_exact(p.y)};
+}
+
+static fw_centred2 rotated(fw_vec2 p, fw_centred s, fw_centred c) {
+    return (fw_centred2){fw_centred_sub(fw_centred_scaled(c, p.x), fw_centred_scaled(s, p.y)),
+                         fw_centred_add(fw_centred_scaled(s, p.x), fw_centred_scaled(c, p.y))};
+}
+
+/* ---- the mechanism ---- */
+
+static fw_vec2 from_to(fw_vec2 a, fw_vec2 b) {
+    return (fw_vec2){b.x - a.x, b.y - a.y};
+}
+
+static fw_leg leg_of(fw_vec2 o, fw_vec2 elbow, fw_vec2 q, fw_vec2 centre) {
+    fw_leg leg = {.base = o, .a = from_to(o, elbow), .b = from_to(elbow, q)};
+    leg.to = from_to(centre, q);
+    leg.a2 = dot(exactly(leg.a), exactly(leg.a));
+    leg.b2 = dot(exactly(leg.b), exactly(leg.b));
+    fw_interval side = fw_centred_range(cross(exactly(leg.a), exactly(leg.b)));
+    leg.sign = side.lo > 0.0 ? 1.0 : side.hi < 0.0 ? -1.0 : 0.0;
+    return leg;
+}
+
+bool fw_loop_make(const fw_vec2 p[FW_SIX], fw_vec2 centre, const double start_rad[FW_SIX],
+                  fw_loop *out) {
+    *out = (fw_loop){.leg = {leg_of(p[0], p[1], p[2], centre), leg_of(p[5], p[4], p[3], centre)},
+                     .centre = centre};
+    for (int i = 0; i < FW_SIX; i++)
+        out->start_rad[i] = start_rad[i];
+    return out->leg[0].sign != 0.0 && out->leg[1].sign != 0.0;
+}
+
+bool fw_loop_set_up(const fw_mechanism *m, fw_loop *out) {
+    fw_six_bar k;
+    if (!fw_six_bar_set_up(m, &k)) return false;
+    fw_vec2 p[FW_SIX];
+    for (int i = 0; i < FW_SIX; i++)
+        p[i] = fw_pin_place(m, &m->pin[i], 0);
+    return fw_loop_make(p, k.centre, k.start_rad, out);
+}
+
+static double sense(int hinge) {
+    return hinge < 3 ? 1.0 : -1.0;
+}
+
+fw_interval fw_loop_psi_range(const fw_loop *k, int hinge, fw_interval angle) {
+    fw_interval turn = fw_interval_sub(angle, fw_interval_point(k->start_rad[hinge]));
+    return sense(hinge) > 0.0 ? turn : fw_interval_negated(turn);
+}
+
+fw_interval fw_loop_angle_range(const fw_loop *k, int hinge, fw_interval psi) {
+    fw_interval turn = sense(hinge) > 0.0 ? psi : fw_interval_negated(psi);
+    return fw_interval_add(turn, fw_interval_point(k->start_rad[hinge]));
+}
+
+double fw_box3_middle(const fw_box3 *box, int axis, double *half) {
+    double c = 0.5 * (box->lo[axis] + box->hi[axis]);
+    *half = fw_up(fmax(box->hi[axis] - c, c - box->lo[axis]));
+    return c;
+}
+
+/* ---- forms ---- */
+
+/* at the middle of the box */
+static fw_interval middle_of(fw_centred a) {
+    return (fw_interval){fw_down(a.m - a.e), fw_up(a.m + a.e)};
+}
+
+/* f(c + d) = f(c) + g(c).d within sum |d_i| (g_i.e + g_i.r)/2 (centred.h) */
+static fw_form form(fw_interval at, const fw_centred *grad, int n, const double half[3]) {
+    fw_form f = {.at = at};
+    for (int i = 0; i < n; i++) {
+        f.grad[i] = grad[i].m;
+        f.rest += half[i] * 0.5 * (grad[i].e + grad[i].r);
+    }
+    f.rest = fw_grown(f.rest);
+    return f;
+}
+
+fw_interval fw_form_range(const fw_form *f, const double half[3]) {
+    double reach = 0.0;
+    for (int i = 0; i < 3; i++)
+        reach += fabs(f->grad[i]) * half[i];
+    reach = fw_grown(reach + f->rest);
+    return (fw_interval){fw_down(f->at.lo - reach), fw_up(f->at.hi + reach)};
+}
+
+/* ---- one leg ---- */
+
+static const fw_interval any = {-(double)INFINITY, (double)INFINITY};
+
+typedef struct coordinates { /* of the box: how the platform depends on them */
+    int n;
+    double turns[3]; /* d phi / d coordinate: 0 or 1 */
+    double half[3];
+} coordinates;
+
+/* A dyad O-a-b to Q, with k = (1 + (|a|^2 - |b|^2)/d^2)/2, h^2 = |a|^2/d^2 - k^2, v = Q - O, d =
+   |v|: a = k v + h J v,  b = v - a,  a x b = -h d^2,  h of the sign opposite to the branch's
+   Rotations of both links from the drawn pose are those of a and b; with Q' the derivative of Q
+     a' = (Q'.b)/(a x b),  b' = -(Q'.a)/(a x b)
+   in: Q, Q' (n); out: psi of the leg's three hinges (base, elbow, platform), rad, the elbow's
+   place, a x b. Error: proved by centred.h. Out of reach where h^2 < 0. Cost about 80 centred
+   operations. Source: the velocity of Q = O + a + b, dotted with b and with a. Test: test_loop.c.
+ */
+static fw_reached solve(const fw_leg *leg, fw_centred2 q, const fw_centred2 *dq,
+                        const coordinates *on, fw_centred phi, fw_interval d2_allowed,
+                        fw_form *reach, fw_form psi[3], fw_centred2 *elbow, fw_centred *side) {
+    fw_centred2 v = minus(q, exactly(leg->base));
+    fw_centred d2 = dot(v, v), of_a[3], of_b[3], grad[3];
+    for (int i = 0; i < on->n; i++)
+        grad[i] = fw_centred_scaled(dot(v, dq[i]), 2.0);
+    *reach = form(middle_of(d2), grad, on->n, on->half);
+    fw_interval range = fw_form_range(reach, on->half);
+    if (range.hi < d2_allowed.lo || range.lo > d2_allowed.hi) return FW_OUT_OF_REACH;
+    fw_centred inverse = fw_centred_inverse(d2);
+    fw_centred k =
+        fw_centred_scaled(fw_centred_add(fw_centred_exact(1.0),
+                                         fw_centred_mul(fw_centred_sub(leg->a2, leg->b2), inverse)),
+                          0.5);
+    fw_centred h2 = fw_centred_sub(fw_centred_mul(leg->a2, inverse), fw_centred_mul(k, k));
+    if (h2.m + h2.r < 0.0) return FW_OUT_OF_REACH;
+    if (!(h2.m - h2.r > 0.0)) return FW_MAY_BE_OUT;
+    fw_centred h = fw_centred_scaled(fw_centred_sqrt(h2), -leg->sign);
+    fw_centred2 jv = quarter(v);
+    fw_centred2 a = {fw_centred_add(fw_centred_mul(k, v.x), fw_centred_mul(h, jv.x)),
+                     fw_centred_add(fw_centred_mul(k, v.y), fw_centred_mul(h, jv.y))};
+    fw_centred2 b = minus(v, a), a0 = exactly(leg->a), b0 = exactly(leg->b);
+    *side = fw_centred_negated(fw_centred_mul(h, d2));
+    *elbow = plus(exactly(leg->base), a);
+    fw_centred gain = fw_centred_inverse(*side);
+    for (int i = 0; i < on->n; i++) {
+        of_a[i] = fw_centred_mul(dot(dq[i], b), gain);
+        of_b[i] = fw_centred_negated(fw_centred_mul(dot(dq[i], a), gain));
+    }
+    fw_interval turn_a = fw_centred_direction(cross(a0, a), dot(a0, a));
+    fw_interval turn_b = fw_centred_direction(cross(b0, b), dot(b0, b));
+    psi[0] = form(turn_a, of_a, on->n, on->half);
+    for (int i = 0; i < on->n; i++)
+        grad[i] = fw_centred_sub(of_b[i], of_a[i]);
+    psi[1] = form(fw_interval_sub(turn_b, turn_a), grad, on->n, on->half);
+    for (int i = 0; i < on->n; i++)
+        grad[i] = fw_centred_sub(fw_centred_exact(on->turns[i]), of_b[i]);
+    psi[2] = form(fw_interval_sub(middle_of(phi), turn_b), grad, on->n, on->half);
+    return FW_REACHED;
+}
+
+/* platform hinge Q of a leg at the pose: T + R(phi) to, and its derivatives by x, y, phi */
+static fw_centred2 platform_hinge(const fw_leg *leg, fw_centred2 at, fw_centred s, fw_centred c,
+                                  fw_centred2 dq[3]) {
+    fw_centred2 arm = rotated(leg->to, s, c);
+    dq[0] = exactly((fw_vec2){1.0, 0.0});
+    dq[1] = exactly((fw_vec2){0.0, 1.0});
+    dq[2] = quarter(arm);
+    return plus(at, arm);
+}
+
+void fw_loop_pose_box(const fw_loop *k, const fw_box3 *box, fw_loop_box *out) {
+    coordinates on = {.n = 3, .turns = {0.0, 0.0, 1.0}};
+    fw_centred axis[3], s, c;
+    for (int i = 0; i < 3; i++) {
+        double middle = fw_box3_middle(box, i, &on.half[i]);
+        axis[i] = fw_centred_axis(middle, on.half[i]);
+    }
+    fw_centred_turn(axis[2], &s, &c);
+    out->place = (fw_centred2){axis[0], axis[1]};
+    out->phi = axis[2];
+    fw_centred2 at = plus(exactly(k->centre), out->place), dq[3];
+    out->reached = FW_REACHED;
+    for (int side = 0; side < 2; side++) {
+        const fw_leg *leg = &k->leg[side];
+        fw_form psi[3];
+        int base = side ? 5 : 0, step = side ? -1 : 1;
+        fw_centred2 q = platform_hinge(leg, at, s, c, dq);
+        out->hinge[base] = exactly(leg->base);
+        out->hinge[base + 2 * step] = q;
+        fw_reached now = solve(leg, q, dq, &on, axis[2], any, &out->d2[side], psi,
+                               &out->hinge[base + step], &out->cross[side]);
+        for (int i = 0; i < 3 && now == FW_REACHED; i++)
+            out->psi[base + i * step] = psi[i];
+        if (now == FW_REACHED || out->reached == FW_OUT_OF_REACH) continue;
+        out->reached = now;
+        out->leg = side;
+    }
+}
+
+/* ---- boxes of the left leg's rotations ---- */
+
+/* C and D for rotations of the three left links, their derivatives by the coordinates. With the
+   platform's rotation given (`slice`) it does not depend on them. */
+static void from_joints(const fw_loop *k, const coordinates *on, const fw_centred turn[3],
+                        fw_interval d2_m2, fw_loop_box *out) {
+    fw_centred s, c;
+    const fw_leg *left = &k->leg[0], *right = &k->leg[1];
+    fw_centred_turn(turn[0], &s, &c);
+    fw_centred2 a = rotated(left->a, s, c);
+    fw_centred_turn(turn[1], &s, &c);
+    fw_centred2 b = rotated(left->b, s, c);
+    fw_centred_turn(turn[2], &s, &c);
+    fw_centred2 to_c = rotated(left->to, s, c);
+    fw_centred2 platform = rotated(from_to(left->to, right->to), s, c);
+    fw_centred2 at_c = plus(plus(exactly(left->base), a), b), at_d = plus(at_c, platform);
+    fw_centred2 ja = quarter(a), jb = quarter(b), jp = quarter(platform), jc = quarter(to_c);
+    fw_centred2 zero = exactly((fw_vec2){0.0, 0.0}), dq[3], dt[3];
+    /* coordinates A, B, C turn the links from there on; a slice's platform does not turn */
+    bool turns = on->n == 3;
+    dq[2] = jp, dt[2] = (fw_centred2){fw_centred_negated(jc.x), fw_centred_negated(jc.y)};
+    dq[1] = plus(jb, turns ? dq[2] : zero), dt[1] = plus(jb, turns ? dt[2] : zero);
+    dq[0] = plus(ja, dq[1]), dt[0] = plus(ja, dt[1]);
+    out->phi = turn[2];
+    out->cross[0] = cross(a, b);
+    out->hinge[0] = exactly(left->base);
+    out->hinge[1] = plus(exactly(left->base), a);
+    out->hinge[2] = at_c;
+    out->hinge[3] = at_d;
+    out->hinge[5] = exactly(right->base);
+    out->place = minus(minus(at_c, to_c), exactly(k->centre));
+    fw_centred x[3], y[3], one[3];
+    for (int i = 0; i < on->n; i++)
+        x[i] = dt[i].x, y[i] = dt[i].y, one[i] = fw_centred_exact(on->turns[i]);
+    fw_centred2 p = out->place;
+    out->extent[0] = form(middle_of(p.x), x, on->n, on->half);
+    out->extent[1] = form(middle_of(p.y), y, on->n, on->half);
+    out->extent[2] = form(middle_of(turn[2]), one, on->n, on->half);
+    fw_form psi[3];
+    out->leg = 1;
+    out->reached = solve(right, at_d, dq, on, turn[2], d2_m2, &out->d2[1], psi, &out->hinge[4],
+                         &out->cross[1]);
+    for (int i = 0; i < 3 && out->reached == FW_REACHED; i++)
+        out->psi[5 - i] = psi[i];
+}
+
+void fw_loop_joint_box(const fw_loop *k, const fw_box3 *box, fw_interval d2_m2, fw_loop_box *out) {
+    coordinates on = {.n = 3, .turns = {1.0, 1.0, 1.0}};
+    fw_centred axis[3], turn[3];
+    for (int i = 0; i < 3; i++) {
+        double middle = fw_box3_middle(box, i, &on.half[i]);
+        axis[i] = fw_centred_axis(middle, on.half[i]);
+        turn[i] = i ? fw_centred_add(turn[i - 1], axis[i]) : axis[i];
+        out->psi[i] = (fw_form){.at = fw_interval_point(middle), .grad = {i == 0, i == 1, i == 2}};
+    }
+    from_joints(k, &on, turn, d2_m2, out);
+}
+
+void fw_loop_slice_box(const fw_loop *k, const fw_box3 *box, double phi_rad, fw_interval d2_m2,
+                       fw_loop_box *out) {
+    coordinates on = {.n = 2};
+    fw_centred axis[2], turn[3];
+    for (int i = 0; i < 2; i++) {
+        double middle = fw_box3_middle(box, i, &on.half[i]);
+        axis[i] = fw_centred_axis(middle, on.half[i]);
+        out->psi[i] = (fw_form){.at = fw_interval_point(middle), .grad = {i == 0, i == 1}};
+    }
+    turn[0] = axis[0];
+    turn[1] = fw_centred_add(axis[0], axis[1]);
+    turn[2] = fw_centred_exact(phi_rad);
+    out->psi[2] = (fw_form){.at = fw_interval_sub(fw_interval_point(phi_rad), middle_of(turn[1])),
+                            .grad = {-1.0, -1.0}};
+    from_joints(k, &on, turn, d2_m2, out);
+}

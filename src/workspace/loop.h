@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The six-bar over a whole box of poses or of joint rotations, with proved bounds. Private to the
+   room, to its tests and to what writes its certificate.
+
+   Hinges count A..F as everywhere; inside this header the six rotations are those of the legs'
+   convention, from the ground up: A, B, C of the left leg and D, E, F of the right one, where the
+   joint angle of the engine is sense[i] psi_i + start_i, sense +1 for A, B, C and -1 for D, E, F.
+ */
+#ifndef FW_WORKSPACE_LOOP_H
+#define FW_WORKSPACE_LOOP_H
+#include "maths/centred.h"
+#include "workspace/inverse.h"
+
+typedef struct fw_centred2 {
+    fw_centred x, y;
+} fw_centred2;
+
+typedef struct fw_leg { /* from the ground up, as drawn; the mechanism is what these doubles say */
+    fw_vec2 base;       /* A or F, m */
+    fw_vec2 a, b;       /* base to elbow, elbow to platform hinge, m */
+    fw_vec2 to;         /* from the platform's centre of mass to that hinge, m */
+    double sign;        /* of the elbow's cross product a x b: the assembly branch */
+    fw_centred a2, b2;  /* squared lengths, m2 */
+} fw_leg;
+
+typedef struct fw_loop {
+    fw_leg leg[2];  /* A-B-C, F-E-D */
+    fw_vec2 centre; /* platform's centre of mass as drawn, m */
+    double start_rad[FW_SIX];
+} fw_loop;
+
+typedef struct fw_box3 {
+    double lo[3], hi[3];
+} fw_box3;
+
+typedef struct fw_form { /* value at the middle + grad.d within +- rest, for every d of the box */
+    fw_interval at;
+    double grad[3], rest;
+} fw_form;
+
+typedef enum fw_reached { FW_REACHED, FW_OUT_OF_REACH, FW_MAY_BE_OUT } fw_reached;
+
+typedef struct fw_loop_box {   /* what is known of a box */
+    fw_form d2[2];             /* squared reach of both legs, m2 */
+    fw_form psi[FW_SIX];       /* rotation of every hinge from the drawn pose, rad */
+    fw_centred2 hinge[FW_SIX]; /* where the hinges are, m */
+    fw_centred cross[2];       /* a x b of both legs, m2: 0 where the leg is stretched or folded */
+    fw_centred2 place;         /* of the platform's centre of mass from the drawn one, m */
+    fw_centred phi;            /* rotation of the platform, rad */
+    fw_form extent[3];         /* of x, y, phi; joint boxes only */
+    int leg;                   /* that is out of reach */
+    fw_reached reached;
+} fw_loop_box;
+
+/* false: the drawn pose has no branch (a leg stretched or folded) or it is no six-bar */
+bool fw_loop_set_up(const fw_mechanism *mechanism, fw_loop *loop);
+bool fw_loop_make(const fw_vec2 hinge[FW_SIX], fw_vec2 centre, const double start_rad[FW_SIX],
+                  fw_loop *loop);
+
+/* range of psi_i for a range of the engine's joint angle */
+fw_interval fw_loop_psi_range(const fw_loop *loop, int hinge, fw_interval angle);
+fw_interval fw_loop_angle_range(const fw_loop *loop, int hinge, fw_interval psi);
+
+/* poses: x, y (m) and phi (rad) from the drawn one; `middle` and the half widths are chosen so that
+   the box lies within middle +- half */
+void fw_loop_pose_box(const fw_loop *loop, const fw_box3 *box, fw_loop_box *out);
+/* rotations of A, B, C (rad). Where d2 of the right leg is certain to be outside of `d2_m2`, the
+   box is called out of reach and nothing more is computed. */
+void fw_loop_joint_box(const fw_loop *loop, const fw_box3 *box, fw_interval d2_m2,
+                       fw_loop_box *out);
+/* rotations of A and B (rad) with the platform at the rotation phi; box[2] is not used */
+void fw_loop_slice_box(const fw_loop *loop, const fw_box3 *box, double phi_rad, fw_interval d2_m2,
+                       fw_loop_box *out);
+
+/* range of a form over the box with these half widths */
+fw_interval fw_form_range(const fw_form *form, const double half[3]);
+double fw_box3_middle(const fw_box3 *box, int axis, double *half);
+
+#endif

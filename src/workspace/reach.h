@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The set of platform poses that the hinges' limits leave: its volume, areas at constant rotation
+   and extents, each as an interval that is proved to hold it. */
+#ifndef FW_WORKSPACE_REACH_H
+#define FW_WORKSPACE_REACH_H
+#include "workspace/loop.h"
+
+typedef struct fw_limits { /* of the joint angle A..F, the free angle taken off; rad */
+    double low_rad[FW_SIX], high_rad[FW_SIX];
+} fw_limits;
+
+typedef struct fw_bound { /* a range whose ends are known within rounding */
+    fw_interval low, high;
+} fw_bound;
+
+typedef struct fw_allowed { /* what the limits say of the rotations psi, and of the right elbow */
+    fw_bound psi[FW_SIX];   /* rad */
+    fw_bound d2;            /* squared reach of the right leg, m2: the same as that of its elbow */
+} fw_allowed;
+fw_allowed fw_limits_allow(const fw_loop *loop, const fw_limits *limits);
+
+fw_limits fw_limits_symmetric(const double limit_rad[FW_SIX]);
+
+typedef struct fw_measure {
+    fw_interval value; /* m2 rad of a volume, m2 of an area */
+    long boxes;        /* looked at */
+    int level;         /* halvings of every coordinate */
+    bool reached;      /* the relative width asked for */
+} fw_measure;
+
+/* stops when width <= relative * value.lo, or before more than `most` boxes would be looked at */
+typedef struct fw_effort {
+    double relative;
+    long most;
+} fw_effort;
+
+fw_status fw_reach_volume(fw_arena *arena, const fw_loop *loop, const fw_limits *limits,
+                          fw_effort effort, fw_measure *volume);
+fw_status fw_reach_area(fw_arena *arena, const fw_loop *loop, const fw_limits *limits,
+                        double phi_rad, fw_effort effort, fw_measure *area);
+
+typedef enum fw_inside { FW_OUTSIDE, FW_INSIDE, FW_CUT } fw_inside;
+/* where a box of joint rotations stands, for `dimensions` 3 (A, B, C) or 2 (A, B at rotation phi).
+   share: of the box that is within the limits */
+fw_inside fw_reach_judge(const fw_loop *loop, const fw_allowed *allowed, int dimensions,
+                         double phi_rad, const fw_box3 *box, fw_loop_box *known,
+                         fw_interval *share);
+/* all rotations of A, B (and C) that the limits of these hinges and the branch leave */
+fw_box3 fw_reach_whole(const fw_loop *loop, const fw_allowed *allowed);
+
+#endif

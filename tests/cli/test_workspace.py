@@ -1,0 +1,186 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The workspace through the program; its certificate verified, and refused when it was changed."""
+import copy
+import json
+import math
+import pathlib
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as tree
+
+from common import GALLERY, ROOT, run
+
+sys.path.insert(0, str(ROOT / "tests/accept"))
+import check_certificate  # noqa: E402
+from check_certificate import Refused, Undecided  # noqa: E402
+
+
+def bits(text, change):
+    return change(float.fromhex(text)).hex()
+
+
+class InTemporary(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.temporary.cleanup)
+        cls.here = pathlib.Path(cls.temporary.name)
+        cls.out = cls.here / "out"
+        cls.result = run("workspace", GALLERY, "-o", cls.out, "--json")
+        cls.data = json.loads(cls.result.stdout)
+        cls.certificate = json.loads((cls.out / "certificate.json").read_text())
+
+
+class Workspace(InTemporary):
+    def test_files_and_schema(self):
+        self.assertEqual(self.result.returncode, 0, self.result.stderr)
+        self.assertEqual(sorted(p.name for p in self.out.iterdir()),
+                         ["certificate.json", "workspace.json", "workspace.svg"])
+        self.assertEqual((self.out / "workspace.json").read_text(), self.result.stdout.rstrip("\n") + "\n")
+        self.assertEqual(self.data["schema"], "flexwright.workspace/1")
+        self.assertEqual([f["flow"] for f in self.data["flows"]],
+                         ["al-masked-rie", "copper-on-porous-silicon"])
+        picture = (self.out / "workspace.svg").read_text()
+        tree.fromstring(picture)
+        self.assertNotIn("nan", picture)
+
+    def test_numbers_hang_together(self):
+        for flow in self.data["flows"]:
+            reach = flow["reachable"]
+            low, high = reach["volume"]["m2_rad"]
+            self.assertLess(0, low)
+            self.assertLess(high, 1.02 * low)
+            self.assertAlmostEqual(sum(reach["boundary_share"].values()), 1, delta=1e-9)
+            extents = reach["extents"]
+            box = math.prod(e[1][1] - e[0][0] for e in extents.values())
+            self.assertLess(high, box)
+            middle = reach["areas"][2]
+            self.assertEqual(middle["phi_rad"], 0)
+            self.assertGreater(middle["area_m2"][1] * (extents["phi_rad"][1][1] - extents["phi_rad"][0][0]), low)
+            for required in flow["required"]:
+                self.assertTrue(required["reachable"] and required["certified"])
+                self.assertEqual(len(required["hinges"]), 6)
+                for hinge in required["hinges"]:
+                    self.assertEqual(hinge["within"], "yes")
+                    self.assertLess(max(map(abs, hinge["angle_rad"])), hinge["limit_rad"])
+                self.assertTrue(all(t["regular"] for t in required["singularities"]["parallel"]))
+
+    def test_the_verdict_uses_the_proof(self):
+        result = run("check", GALLERY, "--json")
+        verdict = json.loads(result.stdout)
+        self.assertTrue(verdict["workspace"]["certified"])
+        self.assertTrue(all(b["certified"] for b in verdict["workspace"]["required"]))
+
+    def test_same_bytes_twice(self):
+        again = self.here / "again"
+        run("workspace", GALLERY, "-o", again, "-q")
+        for path in self.out.iterdir():
+            self.assertEqual(path.read_bytes(), (again / path.name).read_bytes(), path.name)
+
+    def test_beyond_the_limit_and_out_of_reach(self):
+        """a box whose corner is beyond a limit is reachable, not within; a far one is not reachable"""
+        text = GALLERY.read_text()
+        wide = self.here / "wide.xml"
+        wide.write_text(text.replace('x-min="-20 um" x-max="20 um"', 'x-min="-20 um" x-max="190 um"'))
+        result = run("workspace", wide, "--flow", "copper-on-porous-silicon", "--json")
+        box = json.loads(result.stdout)["flows"][0]["required"][0]
+        self.assertTrue(box["certified"])
+        self.assertIn("no", [h["within"] for h in box["hinges"]])
+        far = self.here / "far.xml"
+        far.write_text(text.replace('x-min="-20 um" x-max="20 um"', 'x-min="-20 um" x-max="3000 um"'))
+        result = run("workspace", far, "--flow", "copper-on-porous-silicon", "--json")
+        box = json.loads(result.stdout)["flows"][0]["required"][0]
+        self.assertFalse(box["reachable"] or box["certified"])
+        self.assertIn("NOT REACHABLE", run("workspace", far).stdout)
+
+    def test_without_a_six_bar(self):
+        result = run("workspace", ROOT / "docs/mechanisms/slider-crank.xml")
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("FW-D217", result.stderr)
+
+
+class Certificate(InTemporary):
+    def test_accepted(self):
+        counts = check_certificate.check(self.certificate)
+        self.assertEqual(len(counts), 2)
+
+    def refused(self, change):
+        changed = copy.deepcopy(self.certificate)
+        changed["boxes"] = changed["boxes"][1:]  # the smaller one
+        change(changed["boxes"][0])
+        with self.assertRaises((Refused, Undecided, KeyError, ValueError)):
+            check_certificate.check(changed, most=3000)
+
+    def test_untouched_part_is_accepted(self):
+        changed = copy.deepcopy(self.certificate)
+        changed["boxes"] = changed["boxes"][1:]
+        check_certificate.check(changed, most=3000)
+
+    def test_smaller_angle(self):
+        for hinge in range(6):
+            for end in (0, 1):
+                def change(box, hinge=hinge, end=end):
+                    claim = box["hinges"][hinge]["angle_rad"]
+                    claim[end] = bits(claim[end], lambda v: v * 0.995)
+                self.refused(change)
+
+    def test_larger_angle(self):
+        def change(box):
+            claim = box["hinges"][2]["angle_rad"]
+            claim[1] = bits(claim[1], lambda v: v * 1.05)
+        self.refused(change)
+
+    def test_larger_box(self):
+        for axis in range(3):
+            def change(box, axis=axis):
+                box["box"][axis][1] = bits(box["box"][axis][1], lambda v: v * 1.05)
+            self.refused(change)
+
+    def test_tree(self):
+        self.refused(lambda box: box.update(tree=box["tree"][:-1]))
+        self.refused(lambda box: box.update(tree=box["tree"] + "."))
+        self.refused(lambda box: box.update(tree=box["tree"].replace("p", "q")))
+        self.refused(lambda box: box.update(tree=""))
+
+    def test_mechanism(self):
+        for side in ("left", "right"):
+            for key in ("base_m", "first_m", "second_m", "platform_m"):
+                def change(box, side=side, key=key):
+                    place = box["mechanism"][side][key]
+                    place[0] = bits(place[0], lambda v: v + 5e-6)
+                self.refused(change)
+
+        def both(box):  # closes again, but is another mechanism
+            for key, step in (("first_m", 2e-5), ("second_m", -2e-5)):
+                place = box["mechanism"]["left"][key]
+                place[1] = bits(place[1], lambda v, step=step: v + step)
+        self.refused(both)
+
+    def test_rest_angle(self):
+        def change(box):
+            start = box["mechanism"]["start_rad"]
+            start[4] = bits(start[4], lambda v: v + 1e-3)
+        self.refused(change)
+
+    def test_witness(self):
+        def outside(box):
+            pose = box["hinges"][0]["most"]["pose"]
+            pose[0] = bits(pose[0], lambda v: v * 1.5 + 1e-4)
+
+        def elsewhere(box):
+            box["hinges"][0]["most"] = box["hinges"][0]["least"]
+        self.refused(outside)
+        self.refused(elsewhere)
+
+    def test_not_a_number(self):
+        def change(box):
+            box["hinges"][0]["angle_rad"][1] = "nan"
+        self.refused(change)
+        with self.assertRaises(Refused):
+            check_certificate.check({"schema": "flexwright.workspace/1", "boxes": []})
+
+
+if __name__ == "__main__":
+    unittest.main()
