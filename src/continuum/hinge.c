@@ -1,16 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "continuum/deck.h"
-#include "continuum/program.h"
-#include "continuum/results.h"
-#include "base/cancel.h"
-#include "base/output.h"
+#include "continuum/solver.h"
 #include <math.h>
-#include <string.h>
-
-const char *const fw_continuum_install =
-    "CalculiX is not installed (program ccx): on Debian, apt install calculix-ccx";
-
-enum { MOST_BYTES = 400 << 20 };
 
 typedef struct job { /* of one mesh */
     fw_arena *arena; /* scratch, given back at the end */
@@ -23,36 +14,13 @@ typedef struct job { /* of one mesh */
     fw_continuum_mesh mesh;
 } job;
 
-static fw_status bad_shape(fw_diags *diags, fw_place place, const char *why) {
-    fw_diag_error(diags, 213, place, "the flexure cannot be meshed: %s", why);
-    return FW_GEOMETRY;
-}
-
-static fw_status usable(const fw_continuum_material *m, const fw_continuum_options *o,
+static fw_status usable(const fw_continuum_material *material, const fw_continuum_options *o,
                         fw_place place, fw_diags *diags) {
-    bool good = m->cubic ? m->c44_Pa > 0.0 && m->c11_Pa > fabs(m->c12_Pa) &&
-                               m->c11_Pa + 2.0 * m->c12_Pa > 0.0 && isfinite(m->crystal_rad)
-                         : m->youngs_Pa > 0.0 && m->poisson > -1.0 && m->poisson < 0.5;
-    if (!good) return bad_shape(diags, place, "the elastic constants are not those of a solid");
-    if (!(o->refinement == 0.0 || (o->refinement >= 0.5 && o->refinement <= 4.0)))
-        return bad_shape(diags, place, "the refinement is not between 0.5 and 4");
-    if (o->nangle < 0 || o->nangle > FW_CONTINUUM_ANGLES)
-        return bad_shape(diags, place, "there are more angles than steps");
-    return FW_OK;
-}
-
-static fw_status make_mesh(fw_arena *arena, const fw_continuum_shape *shape, double refinement,
-                           bool plane_stress, fw_place place, fw_diags *diags,
-                           fw_continuum_mesh *mesh) {
-    const char *why = "";
-    fw_status status = fw_continuum_mesh_build(arena, shape, refinement, plane_stress, mesh, &why);
-    if (status == FW_GEOMETRY) return bad_shape(diags, place, why);
-    FW_TRY(status);
-    if (!(fw_continuum_mesh_quality(mesh).least_jacobian > 0.02))
-        return bad_shape(diags, place,
-                         "bricks would fold over at the root; the fillet is too small or too "
-                         "large for the width, or the curve too tight");
-    return FW_OK;
+    FW_TRY(fw_continuum_usable(material, o->refinement, place, diags));
+    if (o->nangle >= 0 && o->nangle <= FW_CONTINUUM_ANGLES) return FW_OK;
+    fw_diag_error(diags, 213, place, "%d angles are more than the %d that one run reaches",
+                  o->nangle, FW_CONTINUUM_ANGLES);
+    return FW_USAGE;
 }
 
 fw_status fw_continuum_hinge_deck(fw_arena *arena, const fw_continuum_shape *shape,
@@ -61,91 +29,25 @@ fw_status fw_continuum_hinge_deck(fw_arena *arena, const fw_continuum_shape *sha
                                   fw_diags *diags, fw_text *deck) {
     fw_continuum_mesh mesh;
     FW_TRY(usable(material, options, place, diags));
-    FW_TRY(make_mesh(arena, shape, options->refinement > 0.0 ? options->refinement : 1.0,
-                     options->plane_stress, place, diags, &mesh));
+    FW_TRY(fw_continuum_good_mesh(arena, shape,
+                                  options->refinement > 0.0 ? options->refinement : 1.0,
+                                  options->plane_stress, place, diags, &mesh));
     return fw_deck_hinge(shape, material, options, &mesh,
                          options->large ? FW_DECK_LARGE : FW_DECK_LINEAR, deck);
 }
 
-/* ---- running ---- */
-
-static fw_status failed(const job *j, const fw_program_run *run) {
-    if (run->end == FW_PROGRAM_CANCELLED) return FW_CANCELLED;
-    if (run->end == FW_PROGRAM_TIMEOUT) {
-        char limit[32];
-        fw_diag_error(j->diags, 215, j->place,
-                      "CalculiX was ended after %s s; refine less, or allow more time",
-                      fw_number_text(limit, sizeof limit,
-                                     j->options->timeout_s > 0.0 ? j->options->timeout_s : 600.0,
-                                     4));
-        return FW_LIMIT;
-    }
-    fw_diag_error(j->diags, 215, j->place,
-                  "CalculiX ended with %s %d; run the written deck by "
-                  "hand to see its messages",
-                  run->code < 0 ? "signal" : "status", run->code < 0 ? -run->code : run->code);
-    return FW_SOLVER;
-}
-
-static fw_status read_result(const job *j, const fw_program_room *room, const char *name,
-                             char **text) {
-    size_t n;
-    const char *file = fw_arena_printf(j->arena, "%s/%s", room->path, name);
-    FW_NEED(file);
-    return fw_input_read(j->arena, file, MOST_BYTES, j->diags, text, &n);
-}
-
-typedef struct outcome {
-    fw_result_step step[FW_RESULT_STEPS];
-    fw_result_peak strain[FW_RESULT_STEPS], stress[FW_RESULT_STEPS];
-    int fields;
-    double cpu_s;
-} outcome;
-
-static fw_status run_in(const job *j, const fw_program_room *room, const fw_text *deck, int nstep,
-                        outcome *out) {
-    const char *argv[] = {j->program, "job", NULL};
-    const int node[2] = {j->mesh.nnode + 1, j->mesh.nnode + 2};
-    fw_program_run run;
-    char *text;
-    FW_TRY(fw_program_write(room, "job.inp", deck->data, deck->length));
-    FW_TRY(fw_program_call(room, argv, "log.txt",
-                           j->options->timeout_s > 0.0 ? j->options->timeout_s : 600.0, &run));
-    out->cpu_s = run.cpu_s;
-    if (run.end != FW_PROGRAM_DONE) return failed(j, &run);
-    FW_TRY(read_result(j, room, "job.dat", &text));
-    fw_status status = fw_results_print(text, node, 2, out->step, nstep);
-    if (status == FW_OK) {
-        FW_TRY(read_result(j, room, "job.frd", &text));
-        status = fw_results_fields(text, out->strain, out->stress, nstep, &out->fields);
-    }
-    for (int i = 0; i < nstep && status == FW_OK; i++)
-        if (!out->step[i].have_move[0] || !out->step[i].have_move[1]) status = FW_SOLVER;
-    if (status == FW_OK && out->fields < nstep) status = FW_SOLVER;
-    if (status == FW_SOLVER)
-        fw_diag_error(j->diags, 216, j->place,
-                      "CalculiX ended without an error, but its results are incomplete: it did not "
-                      "converge, or it writes another format than versions 2.17 to 2.21");
-    return status;
-}
-
-static fw_status solve(const job *j, fw_deck_steps steps, outcome *out) {
-    fw_program_room room;
+static fw_status solve(const job *j, fw_deck_steps steps, fw_solver_result *out) {
     fw_text deck = fw_text_new(j->arena);
-    int nstep = steps == FW_DECK_LARGE ? j->options->nangle : 3;
-    *out = (outcome){0};
+    const int node[2] = {j->mesh.nnode + 1, j->mesh.nnode + 2};
     FW_TRY(fw_deck_hinge(j->shape, j->material, j->options, &j->mesh, steps, &deck));
-    if (fw_cancel_requested()) return FW_CANCELLED;
-    if (fw_program_room_open(&room) != FW_OK) {
-        fw_diag_error(j->diags, 215, j->place, "no private directory could be made below TMPDIR");
-        return FW_IO;
-    }
-    fw_status status = run_in(j, &room, &deck, nstep, out);
-    fw_program_room_close(&room);
-    if (status == FW_IO)
-        fw_diag_error(j->diags, 215, j->place,
-                      "CalculiX could not be started, or the disk is full");
-    return status;
+    const fw_solver_call call = {.program = j->program,
+                                 .deck = &deck,
+                                 .node = node,
+                                 .nnode = 2,
+                                 .nstep = steps == FW_DECK_LARGE ? j->options->nangle : 3,
+                                 .timeout_s = j->options->timeout_s,
+                                 .place = j->place};
+    return fw_solver_run(j->arena, &call, j->diags, out);
 }
 
 /* ---- what follows from the numbers ---- */
@@ -154,7 +56,7 @@ static fw_status solve(const job *j, fw_deck_steps steps, outcome *out) {
    the pole, where nothing moves, is P + (-Cy,th, Cx,th)/Cth,th: the centre of compliance; there
    the translations decouple, C' = C_uu - C_u,th C_th,u/Cth,th.
    in: um, uN, uN um; out: m, N, N m. test_continuum.c: tables of finite elements made elsewhere */
-static void linear_results(const job *j, const outcome *out, fw_continuum_result *r) {
+static void linear_results(const job *j, const fw_solver_result *out, fw_continuum_result *r) {
     const double length = 1e-6, force = 1e-6, moment = 1e-12;
     double c[3][3];
     for (int n = 0; n < 3; n++) {
@@ -189,7 +91,7 @@ static void linear_results(const job *j, const outcome *out, fw_continuum_result
     r->mesh = (fw_continuum_mesh_size){m->nelement, m->nnode};
 }
 
-static void large_results(const job *j, const outcome *out, fw_continuum_result *r) {
+static void large_results(const job *j, const fw_solver_result *out, fw_continuum_result *r) {
     double share = j->shape->depth_m / j->mesh.depth_m;
     r->nlarge = j->options->nangle;
     for (int i = 0; i < r->nlarge; i++) {
@@ -203,10 +105,10 @@ static void large_results(const job *j, const outcome *out, fw_continuum_result 
 }
 
 static fw_status one_mesh(job *j, double refinement, bool large, fw_continuum_result *r) {
-    outcome *out;
-    FW_NEED(out = fw_arena_one(j->arena, outcome));
-    FW_TRY(make_mesh(j->arena, j->shape, refinement, j->options->plane_stress, j->place, j->diags,
-                     &j->mesh));
+    fw_solver_result *out;
+    FW_NEED(out = fw_arena_one(j->arena, fw_solver_result));
+    FW_TRY(fw_continuum_good_mesh(j->arena, j->shape, refinement, j->options->plane_stress,
+                                  j->place, j->diags, &j->mesh));
     FW_TRY(solve(j, FW_DECK_LINEAR, out));
     r->cpu_s += out->cpu_s;
     linear_results(j, out, r);

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { FW_RESULT_STEPS = 16, FW_RESULT_NODES = 16 };
+enum { FW_RESULT_STEPS = 16, FW_RESULT_NODES = 64 };
 
 /* of printed nodes, in the order of `node`, at the ends of the steps */
 typedef struct fw_result_step {

@@ -1,56 +1,56 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* External programs: private, limited, cleaned up; and reading what the solver writes. */
 #include "base/cancel.h"
-#include "continuum/program.h"
+#include "continuum/external.h"
 #include "continuum/results.h"
 #include "test.h"
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-static fw_program_run call(const fw_program_room *room, const char *program, const char *word,
+static fw_external_run call(const fw_external_room *room, const char *program, const char *word,
                            double timeout_s) {
     const char *argv[] = {program, word, NULL};
-    fw_program_run run;
-    assert_int_equal(fw_program_call(room, argv, "log", timeout_s, &run), FW_OK);
+    fw_external_run run;
+    assert_int_equal(fw_external_call(room, argv, "log", timeout_s, &run), FW_OK);
     return run;
 }
 
 static void ends(void **state) {
     (void)state;
-    fw_program_room room;
-    assert_int_equal(fw_program_room_open(&room), FW_OK);
+    fw_external_room room;
+    assert_int_equal(fw_external_room_open(&room), FW_OK);
     struct stat info;
     assert_int_equal(stat(room.path, &info), 0);
     assert_int_equal(info.st_mode & 0777, 0700);
-    fw_program_run run = call(&room, "/bin/true", NULL, 10);
-    assert_int_equal(run.end, FW_PROGRAM_DONE);
+    fw_external_run run = call(&room, "/bin/true", NULL, 10);
+    assert_int_equal(run.end, FW_EXTERNAL_DONE);
     run = call(&room, "/bin/false", NULL, 10);
-    assert_int_equal(run.end, FW_PROGRAM_FAILED);
+    assert_int_equal(run.end, FW_EXTERNAL_FAILED);
     assert_int_equal(run.code, 1);
     run = call(&room, "/nonexistent/program", NULL, 10);
-    assert_int_equal(run.end, FW_PROGRAM_FAILED);
+    assert_int_equal(run.end, FW_EXTERNAL_FAILED);
     assert_int_equal(run.code, 127);
     run = call(&room, "/bin/sleep", "1000", 0.01);
-    assert_int_equal(run.end, FW_PROGRAM_TIMEOUT);
+    assert_int_equal(run.end, FW_EXTERNAL_TIMEOUT);
     fw_cancel_request(2);
     run = call(&room, "/bin/sleep", "1000", 1000);
     fw_cancel_clear();
-    assert_int_equal(run.end, FW_PROGRAM_CANCELLED);
+    assert_int_equal(run.end, FW_EXTERNAL_CANCELLED);
     char path[sizeof room.path];
     memcpy(path, room.path, sizeof path);
-    fw_program_room_close(&room);
+    fw_external_room_close(&room);
     assert_int_not_equal(access(path, F_OK), 0);
-    fw_program_room_close(&room); /* twice does no harm */
+    fw_external_room_close(&room); /* twice does no harm */
 }
 
 /* the environment is ours, the directory too */
 static void surroundings(void **state) {
     (void)state;
-    fw_program_room room;
-    assert_int_equal(fw_program_room_open(&room), FW_OK);
+    fw_external_room room;
+    assert_int_equal(fw_external_room_open(&room), FW_OK);
     setenv("SOME_SECRET", "value", 1);
-    assert_int_equal(call(&room, "/usr/bin/env", NULL, 10).end, FW_PROGRAM_DONE);
+    assert_int_equal(call(&room, "/usr/bin/env", NULL, 10).end, FW_EXTERNAL_DONE);
     char file[700], text[2000] = {0};
     snprintf(file, sizeof file, "%s/log", room.path);
     FILE *log = fopen(file, "r");
@@ -60,9 +60,9 @@ static void surroundings(void **state) {
     assert_true(n > 0);
     assert_non_null(strstr(text, "OMP_NUM_THREADS=1\n"));
     assert_null(strstr(text, "SOME_SECRET"));
-    assert_int_equal(fw_program_write(&room, "a", "b", 1), FW_OK);
-    assert_int_equal(fw_program_write(&room, "a", "b", 1), FW_IO); /* nothing is written over */
-    fw_program_room_close(&room);
+    assert_int_equal(fw_external_write(&room, "a", "b", 1), FW_OK);
+    assert_int_equal(fw_external_write(&room, "a", "b", 1), FW_IO); /* nothing is written over */
+    fw_external_room_close(&room);
 }
 
 static void found(void **state) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "continuum/program.h"
+#include "continuum/external.h"
 #include "base/cancel.h"
 #include <dirent.h>
 #include <errno.h>
@@ -31,7 +31,7 @@ const char *fw_continuum_program(fw_arena *arena, const char *name) {
     return NULL;
 }
 
-fw_status fw_program_room_open(fw_program_room *room) {
+fw_status fw_external_room_open(fw_external_room *room) {
     const char *base = getenv("TMPDIR");
     if (!base || *base != '/' || strlen(base) > 400) base = "/tmp";
     snprintf(room->path, sizeof room->path, "%s/flexwright-XXXXXX", base);
@@ -40,7 +40,7 @@ fw_status fw_program_room_open(fw_program_room *room) {
     return FW_IO;
 }
 
-void fw_program_room_close(fw_program_room *room) {
+void fw_external_room_close(fw_external_room *room) {
     if (!room->path[0]) return;
     DIR *dir = opendir(room->path);
     if (dir) { /* programs that are run here write plain files only */
@@ -53,12 +53,12 @@ void fw_program_room_close(fw_program_room *room) {
     room->path[0] = 0;
 }
 
-static void path_in(char file[700], const fw_program_room *room, const char *name) {
+static void path_in(char file[700], const fw_external_room *room, const char *name) {
     snprintf(file, 700, "%s/%s", room->path, name);
 }
 
-fw_status fw_program_write(const fw_program_room *room, const char *name, const char *data,
-                           size_t n) {
+fw_status fw_external_write(const fw_external_room *room, const char *name, const char *data,
+                            size_t n) {
     char file[700];
     path_in(file, room, name);
     int fd = open(file, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
@@ -97,23 +97,23 @@ static double now_s(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static fw_status wait_for(pid_t child, double timeout_s, fw_program_run *run) {
+static fw_status wait_for(pid_t child, double timeout_s, fw_external_run *run) {
     double start = now_s();
     struct timespec nap = {0, 1000000};
     struct rusage used = {0};
     int state = 0;
     bool killed = false;
-    run->end = FW_PROGRAM_DONE;
+    run->end = FW_EXTERNAL_DONE;
     for (;;) {
         pid_t got = wait4(child, &state, killed ? 0 : WNOHANG, &used);
         if (got == child) break;
         if (got < 0 && errno != EINTR) return FW_IO;
         if (killed) continue;
         if (fw_cancel_requested())
-            run->end = FW_PROGRAM_CANCELLED;
+            run->end = FW_EXTERNAL_CANCELLED;
         else if (now_s() - start > timeout_s)
-            run->end = FW_PROGRAM_TIMEOUT;
-        if (run->end != FW_PROGRAM_DONE) {
+            run->end = FW_EXTERNAL_TIMEOUT;
+        if (run->end != FW_EXTERNAL_DONE) {
             kill(-child, SIGKILL);
             kill(child, SIGKILL); /* should it not yet lead its group */
             killed = true;
@@ -125,12 +125,12 @@ static fw_status wait_for(pid_t child, double timeout_s, fw_program_run *run) {
     run->cpu_s = (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
                  1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
     run->code = WIFEXITED(state) ? WEXITSTATUS(state) : -WTERMSIG(state);
-    if (run->end == FW_PROGRAM_DONE && run->code != 0) run->end = FW_PROGRAM_FAILED;
+    if (run->end == FW_EXTERNAL_DONE && run->code != 0) run->end = FW_EXTERNAL_FAILED;
     return FW_OK;
 }
 
-fw_status fw_program_call(const fw_program_room *room, const char *const *argv, const char *log,
-                          double timeout_s, fw_program_run *run) {
+fw_status fw_external_call(const fw_external_room *room, const char *const *argv, const char *log,
+                           double timeout_s, fw_external_run *run) {
     char file[700], home[700];
     path_in(file, room, log);
     snprintf(home, sizeof home, "HOME=%s", room->path);
@@ -139,7 +139,7 @@ fw_status fw_program_call(const fw_program_room *room, const char *const *argv, 
     char *words[16] = {NULL};
     for (int i = 0; argv[i] && i < 15; i++)
         memcpy(&words[i], &argv[i], sizeof words[i]); /* execve does not write to them */
-    *run = (fw_program_run){.end = FW_PROGRAM_FAILED};
+    *run = (fw_external_run){.end = FW_EXTERNAL_FAILED};
 
     int null = open("/dev/null", O_RDONLY | O_CLOEXEC);
     int out = open(file, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0600);
