@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 static fw_external_run call(const fw_external_room *room, const char *program, const char *word,
-                           double timeout_s) {
+                            double timeout_s) {
     const char *argv[] = {program, word, NULL};
     fw_external_run run;
     assert_int_equal(fw_external_call(room, argv, "log", timeout_s, &run), FW_OK);
