@@ -26,14 +26,14 @@ static fw_status representable(const fw_mechanism *m, const fw_scene *s, fw_diag
     return FW_OK;
 }
 
-static void hinge_of(const fw_mechanism *m, const fw_layout *layout, int h, fw_solid_hinge *to) {
-    const fw_hinge *hinge = &m->hinge[h];
-    const fw_pin *pin = &m->pin[hinge->pin];
-    const fw_flexure *f = &m->device->flexure[hinge->flexure];
+void fw_solid_shape_of(const fw_mechanism *m, const fw_layout *layout, int hinge,
+                       fw_continuum_shape *shape) {
+    const fw_hinge *h = &m->hinge[hinge];
+    const fw_flexure *f = &m->device->flexure[h->flexure];
     const fw_material *material = &m->variant->material;
     double fillet = isnan(f->fillet_m) ? fw_flexure_default_fillet(f) : f->fillet_m;
-    if (layout && layout->drawn && layout->hinge[hinge->pin].drawn)
-        fillet = layout->hinge[hinge->pin].fillet_m;
+    if (layout && layout->drawn && layout->hinge[h->pin].drawn)
+        fillet = layout->hinge[h->pin].fillet_m;
     const fw_flexure_input in = {.kind = f->kind,
                                  .length_m = f->length_m,
                                  .angle_rad = f->angle_rad,
@@ -45,7 +45,13 @@ static void hinge_of(const fw_mechanism *m, const fw_layout *layout, int h, fw_s
                                  .poisson = material->poisson.value,
                                  .strength_Pa = material->strength.value,
                                  .safety_factor = m->device->safety_factor};
-    fw_continuum_shape_of(&in, &to->shape);
+    fw_continuum_shape_of(&in, shape);
+}
+
+static void hinge_of(const fw_mechanism *m, const fw_layout *layout, int h, fw_solid_hinge *to) {
+    const fw_hinge *hinge = &m->hinge[h];
+    const fw_pin *pin = &m->pin[hinge->pin];
+    fw_solid_shape_of(m, layout, h, &to->shape);
     /* W of the closed form lies at the pin, as in the layout */
     double W = to->shape.centre_x_m, c = cos(hinge->axis_rad), s = sin(hinge->axis_rad);
     fw_vec2 at = fw_pin_place(m, pin, 0);

@@ -4,7 +4,9 @@
    and the platform's position. Needs CalculiX; skipped without. */
 #include "continuum/device_deck.h"
 #include "shapes.h"
+#include "statics/statics.h"
 #include "test.h"
+#include <stdlib.h>
 
 enum { AB, BC, CD, DE, EF, BODIES };
 
@@ -60,6 +62,8 @@ static void driven(void **state) {
         skip();
     }
     for (size_t n = 0; n < sizeof rows / sizeof rows[0]; n++) {
+        /* forty seconds of processor alone */
+        if (strcmp(rows[n].name, "L2") == 0 && !getenv("FLEXWRIGHT_SLOW")) continue;
         fw_solid_device d = six_bar(arena);
         fw_solid_result r;
         const double angle[3] = {rows[n].AB, rows[n].CD, rows[n].EF};
@@ -78,17 +82,156 @@ static void driven(void **state) {
                       r.body[AB].moment_Nm * 1e12, r.body[CD].moment_Nm * 1e12,
                       r.body[EF].moment_Nm * 1e12, r.strain, d.hinge[r.strain_hinge].id,
                       r.mesh.elements, r.cpu_s);
-        assert_near(r.body[CD].x_m * 1e6, rows[n].x_um, 0.02);
-        assert_near(r.body[CD].y_m * 1e6, rows[n].y_um, 0.02);
+        assert_near(r.body[CD].x_m * 1e6, rows[n].x_um, 0.01);
+        assert_near(r.body[CD].y_m * 1e6, rows[n].y_um, 0.01);
         for (int k = 0; k < 3; k++) {
             assert_near(r.body[body[k]].rotation_rad, angle[k], 1e-6 * fabs(angle[k]) + 1e-12);
-            assert_near(r.body[body[k]].moment_Nm * 1e12, moment[k], 300);
+            assert_near(r.body[body[k]].moment_Nm * 1e12, moment[k], 30);
         }
     }
     fw_arena_free(arena);
 }
 
+/* the gallery's six-bar without stated stiffnesses, small loads */
+static const char six_bar_xml[] =
+    "<device xmlns=\"urn:flexwright:device:1\" name=\"d\"><material ref=\"m\"/>"
+    "<flexure id=\"f\" kind=\"csfh\" length=\"300 um\" angle=\"240 deg\" width=\"9 um\" gap=\"8 "
+    "um\"/>"
+    "<six-bar>"
+    "<hinge at=\"A\" x=\"0.70 mm\" y=\"0.15 mm\" flexure=\"f\"/>"
+    "<hinge at=\"B\" x=\"0.20 mm\" y=\"1.40 mm\" flexure=\"f\"/>"
+    "<hinge at=\"C\" x=\"0.80 mm\" y=\"2.70 mm\" flexure=\"f\"/>"
+    "<hinge at=\"D\" x=\"2.20 mm\" y=\"2.75 mm\" flexure=\"f\"/>"
+    "<hinge at=\"E\" x=\"2.85 mm\" y=\"1.45 mm\" flexure=\"f\"/>"
+    "<hinge at=\"F\" x=\"2.30 mm\" y=\"0.15 mm\" flexure=\"f\"/>"
+    "<link id=\"AB\" width=\"120 um\"/><link id=\"BC\" width=\"120 um\"/>"
+    "<platform id=\"CD\" width=\"1.40 mm\" height=\"0.40 mm\" x=\"1.50 mm\" y=\"2.875 mm\"/>"
+    "<link id=\"DE\" width=\"120 um\"/><link id=\"EF\" width=\"120 um\"/></six-bar>"
+    "<scene name=\"s\" duration=\"10 ms\"><force on=\"CD\" x=\"0.1 mm\" fx=\"20 uN\" fy=\"-10 "
+    "uN\"/>"
+    "<torque on=\"AB\" value=\"-0.02 mN mm\"/></scene></device>";
+
+typedef struct engine {
+    const fw_device *device;
+    const fw_layout *layout;
+    const fw_mechanism *mechanism;
+    fw_variant variant;
+    fw_solid_device solid;
+} engine;
+
+static void read_engine(fw_arena *arena, fw_diags *diags, engine *e) {
+    const char *xml = six_bar_xml;
+    e->variant = (fw_variant){.thickness_m = 50e-6,
+                              .explicit_mass_scale = 1,
+                              .explicit_stiffness_scale = 1,
+                              .explicit_damping_scale = 1,
+                              .material = {.id = "m",
+                                           .youngs = {.value = 169e9},
+                                           .poisson = {.value = 0.22},
+                                           .density = {.value = 2330},
+                                           .strength = {.value = 1e9}}};
+    fw_status status = fw_device_read(arena, "d.xml", xml, strlen(xml), NULL, 0, diags, &e->device);
+    if (status == FW_OK) status = fw_layout_build(arena, e->device, diags, &e->layout);
+    if (status == FW_OK)
+        status = fw_mechanism_build(arena, e->device, e->layout, &e->variant, diags, &e->mechanism);
+    if (status == FW_OK)
+        status = fw_solid_device_of(arena, e->mechanism, e->layout, &e->device->scene[0], diags,
+                                    &e->solid);
+    if (status != FW_OK) fail_msg("%s", diags->count ? diags->item[0].message : "no message");
+}
+
+/* solids stand where the drawing has them, on the bodies it has them on */
+static void as_drawn(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    engine e;
+    read_engine(arena, &diags, &e);
+    assert_int_equal(e.solid.nhinge, 6);
+    assert_int_equal(e.solid.nforce, 1);
+    for (int h = 0; h < 6; h++) {
+        const fw_hinge_layout *drawn = &e.layout->hinge[h];
+        const fw_solid_hinge *solid = &e.solid.hinge[h];
+        assert_near(solid->pose.x_m, drawn->arc_centre.x, 1e-12);
+        assert_near(solid->pose.y_m, drawn->arc_centre.y, 1e-12);
+        assert_near(remainder(solid->pose.angle_rad - drawn->axis_rad, 2 * M_PI), 0, 1e-12);
+        assert_near(solid->shape.fillet_m, drawn->fillet_m, 0);
+        assert_int_equal(solid->first, drawn->lower);
+        assert_int_equal(solid->second, drawn->upper);
+    }
+    fw_text deck[2];
+    for (int n = 0; n < 2; n++) {
+        deck[n] = fw_text_new(arena);
+        assert_int_equal(fw_solid_deck(arena, &e.solid, &(fw_solid_options){0}, &diags, &deck[n]),
+                         FW_OK);
+    }
+    assert_string_equal(deck[0].data, deck[1].data);
+    fw_arena_free(arena);
+}
+
+/* the engine's equilibrium, its hinges in closed form, against solids with real roots: within what
+   the closed form says of itself */
+static void against_the_engine(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    if (!fw_continuum_program(arena, "ccx")) {
+        fw_arena_free(arena);
+        skip();
+    }
+    engine e;
+    const fw_statics *rest;
+    fw_solid_result r;
+    read_engine(arena, &diags, &e);
+    const fw_static_options all = {.path = false};
+    assert_int_equal(
+        fw_static_equilibrium(arena, e.mechanism, &e.device->scene[0], &all, &diags, &rest), FW_OK);
+    fw_status status =
+        fw_solid_solve(arena, &e.solid, &(fw_solid_options){.increments = 1}, &diags, &r);
+    if (status != FW_OK) fail_msg("%s", diags.count ? diags.item[0].message : "no message");
+    for (int b = 0; b < BODIES; b++) {
+        const double *q = &rest->q[3 * b], *q0 = &rest->rest_q[3 * b];
+        print_message("%s: %.4f %.4f um %.6f rad, engine %.4f %.4f %.6f\n", e.solid.body[b].id,
+                      r.body[b].x_m * 1e6, r.body[b].y_m * 1e6, r.body[b].rotation_rad,
+                      1e6 * (q[0] - q0[0]), 1e6 * (q[1] - q0[1]), q[2] - q0[2]);
+        assert_near(r.body[b].rotation_rad, q[2] - q0[2], 2e-4);
+        assert_near(r.body[b].x_m * 1e6, 1e6 * (q[0] - q0[0]), 0.25);
+        assert_near(r.body[b].y_m * 1e6, 1e6 * (q[1] - q0[1]), 0.25);
+    }
+    print_message("%d bricks, %.1f s\n", r.mesh.elements, r.cpu_s);
+    fw_arena_free(arena);
+}
+
+static void refusals(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    engine e;
+    fw_solid_device out;
+    read_engine(arena, &diags, &e);
+    fw_mechanism m = *e.mechanism;
+    fw_scene scene = e.device->scene[0];
+    m.nspring = 1;
+    assert_int_equal(fw_solid_device_of(arena, &m, NULL, NULL, &diags, &out), FW_GEOMETRY);
+    m = *e.mechanism;
+    m.npin = 7;
+    assert_int_equal(fw_solid_device_of(arena, &m, NULL, NULL, &diags, &out), FW_GEOMETRY);
+    scene.gravity = true;
+    assert_int_equal(fw_solid_device_of(arena, e.mechanism, NULL, &scene, &diags, &out),
+                     FW_GEOMETRY);
+    e.solid.nhinge = 2; /* three links hang in the air */
+    fw_text deck = fw_text_new(arena);
+    assert_int_equal(fw_solid_deck(arena, &e.solid, &(fw_solid_options){0}, &diags, &deck),
+                     FW_GEOMETRY);
+    assert_int_equal(diags.errors, 4);
+    for (size_t i = 0; i < diags.count; i++)
+        if (diags.item[i].severity == FW_ERROR) assert_int_equal(diags.item[i].number, 213);
+    fw_arena_free(arena);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(driven)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(as_drawn), cmocka_unit_test(refusals),
+                                       cmocka_unit_test(against_the_engine),
+                                       cmocka_unit_test(driven)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
