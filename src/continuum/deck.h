@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* CalculiX input decks: um, uN, MPa. Private to the room. */
+/* CalculiX input decks: um, uN, MPa. Not mm and N: there CalculiX stops with
+   moments off by a percent at finite rotation, whatever residual is asked for. Private to the room.
+ */
 #ifndef FW_CONTINUUM_DECK_H
 #define FW_CONTINUUM_DECK_H
 #include "continuum/mesh.h"

@@ -104,9 +104,12 @@ static void load(fw_text *deck, int node, int axis, double value) {
 /* `share`: of the depth that is meshed, half of it in reality */
 static void step(fw_text *deck, const fw_solid_device *d, const fw_solid_options *o,
                  const numbered *n, double share) {
-    fw_text_add(deck, "** 1e-6 as for one flexure does not converge where bodies are free\n"
-                      "*STEP, NLGEOM, INC=1000\n*STATIC, SOLVER=SPOOLES\n");
-    fw_deck_number(deck, 1.0 / (o->increments > 0 ? o->increments : 4));
+    fw_text_add(
+        deck,
+        "** 1e-6 as for one flexure does not converge where bodies are free; these take small "
+        "increments, too\n"
+        "*STEP, NLGEOM, INC=1000\n*STATIC, SOLVER=SPOOLES\n");
+    fw_deck_number(deck, 1.0 / (o->increments > 0 ? o->increments : 20));
     fw_text_add(deck, ", 1, 1e-5, 1\n*CONTROLS, PARAMETERS=FIELD\n1e-4, 1e-4, , , 1e-4\n");
     for (int b = 0; b < d->nbody; b++)
         if (d->body[b].driven) {

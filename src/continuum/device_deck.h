@@ -36,7 +36,8 @@ typedef struct fw_solid_device {
 typedef struct fw_solid_options {
     double refinement; /* as of one hinge; 0: 0.5 */
     bool plane_stress;
-    int increments;   /* equal parts of the load to begin with; 0: 4 */
+    int increments;   /* equal parts of the load to begin with; 0: 20, what free bodies
+                           need; 4 do where all rotations that matter are driven */
     double timeout_s; /* 0: 600 */
 } fw_solid_options;
 
