@@ -4,7 +4,8 @@
 
 build_packages="gcc libc6-dev cmake ninja-build pkg-config libxml2-dev libcairo2-dev libgsl-dev
 liblapacke-dev liblapack-dev libjansson-dev libcmocka-dev"
-test_packages="g++ valgrind clang libclang-rt-14-dev libxml2-utils python3 klayout python3-gdspy python3-tk libgeos-dev"
+test_packages="g++ valgrind clang libclang-rt-14-dev libxml2-utils python3 klayout python3-gdspy python3-tk libgeos-dev
+calculix-ccx"
 
 say() { printf '%s\n' "$*" >&2; }
 

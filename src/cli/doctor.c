@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/output.h"
 #include "cli/session.h"
+#include "continuum/continuum.h"
 #include <jansson.h>
 #include <stdio.h>
 
@@ -20,6 +21,8 @@ int fw_command_doctor(fw_cli_options *options) {
         printf("%-40s %s\n", needed[i], path ? path : "MISSING");
         missing += !path;
     }
+    const char *solver = fw_continuum_program(arena, "ccx"); /* no part of what must be there */
+    printf("%-40s %s\n", "ccx (continuum level of hinges)", solver ? solver : fw_continuum_install);
 #if defined(__x86_64__)
     printf("processor: fma %s, avx2 %s\n", __builtin_cpu_supports("fma") ? "yes" : "no",
            __builtin_cpu_supports("avx2") ? "yes" : "no");

@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "continuum/device_deck.h"
+#include "continuum/deck.h"
+#include "continuum/solver.h"
+#include <math.h>
+#include <stdio.h>
+
+typedef struct numbered {    /* meshes and where their numbers begin */
+    fw_continuum_mesh *mesh; /* (nhinge) */
+    int *node, *element;     /* (nhinge) */
+    int reference;           /* of body b: reference + 2 b, rotation: one more */
+    int force;               /* of force f: force + f */
+    int nnode, nelement;
+} numbered;
+
+static fw_status mesh_all(fw_arena *arena, const fw_solid_device *d, const fw_solid_options *o,
+                          fw_diags *diags, numbered *n) {
+    double refinement = o->refinement > 0.0 ? o->refinement : 0.5;
+    FW_TRY(fw_continuum_usable(&d->material, refinement, (fw_place){0}, diags));
+    FW_NEED(n->mesh = fw_arena_array(arena, fw_continuum_mesh, (size_t)d->nhinge));
+    FW_NEED(n->node = fw_arena_array(arena, int, (size_t)d->nhinge));
+    FW_NEED(n->element = fw_arena_array(arena, int, (size_t)d->nhinge));
+    n->nnode = n->nelement = 0;
+    for (int h = 0; h < d->nhinge; h++) {
+        FW_TRY(fw_continuum_good_mesh(arena, &d->hinge[h].shape, refinement, o->plane_stress,
+                                      (fw_place){0}, diags, &n->mesh[h]));
+        n->node[h] = n->nnode + 1, n->element[h] = n->nelement + 1;
+        n->nnode += n->mesh[h].nnode, n->nelement += n->mesh[h].nelement;
+    }
+    n->reference = n->nnode + 1;
+    n->force = n->reference + 2 * d->nbody;
+    return FW_OK;
+}
+
+static void point(fw_text *deck, int number, double x_m, double y_m) {
+    fw_text_printf(deck, "%d, ", number);
+    fw_deck_number(deck, 1e6 * x_m);
+    fw_text_add(deck, ", ");
+    fw_deck_number(deck, 1e6 * y_m);
+    fw_text_add(deck, ", 0\n");
+}
+
+static void nodes_and_bricks(fw_text *deck, const fw_solid_device *d, const numbered *n) {
+    for (int h = 0; h < d->nhinge; h++) {
+        fw_text_printf(deck, "** flexure %s\n*NODE\n", d->hinge[h].id);
+        fw_deck_nodes(deck, &n->mesh[h], d->hinge[h].pose, n->node[h]);
+    }
+    fw_text_add(deck, "** bodies: a point, then its rotation\n*NODE, NSET=NREF\n");
+    for (int b = 0; b < d->nbody; b++)
+        for (int k = 0; k < 2; k++)
+            point(deck, n->reference + 2 * b + k, d->body[b].x_m, d->body[b].y_m);
+    if (d->nforce > 0) fw_text_add(deck, "** where forces act\n*NODE\n");
+    for (int f = 0; f < d->nforce; f++)
+        point(deck, n->force + f, d->force[f].x_m, d->force[f].y_m);
+    for (int h = 0; h < d->nhinge; h++) {
+        fw_text_printf(deck, "*ELEMENT, TYPE=C3D20R, ELSET=E%d\n", h + 1);
+        fw_deck_bricks(deck, &n->mesh[h], n->node[h], n->element[h]);
+    }
+}
+
+static void sets_and_sections(fw_text *deck, const fw_solid_device *d, const numbered *n) {
+    fw_text_add(deck, "*NSET, NSET=MIDDLE\n");
+    for (int h = 0; h < d->nhinge; h++)
+        fw_deck_set(deck, &n->mesh[h], n->node[h], fw_deck_middle);
+    fw_text_add(deck, "*NSET, NSET=FIELD\n");
+    for (int h = 0; h < d->nhinge; h++)
+        fw_deck_set(deck, &n->mesh[h], n->node[h], fw_deck_field);
+    for (int b = -1; b < d->nbody; b++) {
+        fw_text_printf(deck, "** %s\n*NSET, NSET=B%d\n", b < 0 ? "ground" : d->body[b].id, b + 1);
+        for (int h = 0; h < d->nhinge; h++) {
+            if (d->hinge[h].first == b)
+                fw_deck_set(deck, &n->mesh[h], n->node[h], fw_deck_root_first);
+            if (d->hinge[h].second == b)
+                fw_deck_set(deck, &n->mesh[h], n->node[h], fw_deck_root_second);
+        }
+        for (int f = 0; f < d->nforce; f++)
+            if (d->force[f].body == b) fw_text_printf(deck, "%d\n", n->force + f);
+    }
+    for (int h = 0; h < d->nhinge; h++) {
+        char name[24], set[24];
+        snprintf(name, sizeof name, "M%d", h + 1);
+        snprintf(set, sizeof set, "E%d", h + 1);
+        fw_deck_material(deck, &d->material, name, set, 0.0);
+    }
+}
+
+static void constraints(fw_text *deck, const fw_solid_device *d, const numbered *n) {
+    for (int b = 0; b < d->nbody; b++)
+        fw_text_printf(deck, "*RIGID BODY, NSET=B%d, REF NODE=%d, ROT NODE=%d\n", b + 1,
+                       n->reference + 2 * b, n->reference + 2 * b + 1);
+    fw_text_add(deck, "** the upper half of the depth is meshed; its middle plane stays plane\n"
+                      "*BOUNDARY\nB0, 1, 3\nMIDDLE, 3, 3\n");
+    for (int b = 0; b < d->nbody; b++)
+        fw_text_printf(deck, "%d, 3, 3\n%d, 1, 2\n", n->reference + 2 * b,
+                       n->reference + 2 * b + 1);
+}
+
+static void load(fw_text *deck, int node, int axis, double value) {
+    fw_text_printf(deck, "%d, %d, ", node, axis);
+    fw_deck_number(deck, value);
+    fw_text_add(deck, "\n");
+}
+
+/* `share`: of the depth that is meshed, half of it in reality */
+static void step(fw_text *deck, const fw_solid_device *d, const fw_solid_options *o,
+                 const numbered *n, double share) {
+    fw_text_add(
+        deck,
+        "** 1e-6 as for one flexure does not converge where bodies are free; these take small "
+        "increments, too\n"
+        "*STEP, NLGEOM, INC=1000\n*STATIC, SOLVER=SPOOLES\n");
+    fw_deck_number(deck, 1.0 / (o->increments > 0 ? o->increments : 20));
+    fw_text_add(deck, ", 1, 1e-5, 1\n*CONTROLS, PARAMETERS=FIELD\n1e-4, 1e-4, , , 1e-4\n");
+    for (int b = 0; b < d->nbody; b++)
+        if (d->body[b].driven) {
+            fw_text_add(deck, "*BOUNDARY\n");
+            fw_text_printf(deck, "%d, 3, 3, ", n->reference + 2 * b + 1);
+            fw_deck_number(deck, d->body[b].rotation_rad);
+            fw_text_add(deck, "\n");
+        } else if (d->body[b].moment_Nm != 0.0) {
+            fw_text_add(deck, "*CLOAD\n");
+            load(deck, n->reference + 2 * b + 1, 3, 1e12 * share * d->body[b].moment_Nm);
+        }
+    for (int f = 0; f < d->nforce; f++) {
+        fw_text_add(deck, "*CLOAD\n");
+        load(deck, n->force + f, 1, 1e6 * share * d->force[f].fx_N);
+        load(deck, n->force + f, 2, 1e6 * share * d->force[f].fy_N);
+    }
+    fw_text_add(deck, "*NODE PRINT, NSET=NREF, FREQUENCY=1000\nU, RF\n"
+                      "*NODE FILE, NSET=FIELD, FREQUENCY=1000\nU\n"
+                      "*EL FILE, NSET=FIELD, FREQUENCY=1000\nS, E\n*END STEP\n");
+}
+
+static fw_status write_deck(const fw_solid_device *d, const fw_solid_options *o, const numbered *n,
+                            fw_text *deck) {
+    double share = 0.5 * n->mesh[0].depth_m / d->hinge[0].shape.depth_m;
+    fw_deck_head(deck, "mechanism of solid flexures and rigid bodies");
+    nodes_and_bricks(deck, d, n);
+    sets_and_sections(deck, d, n);
+    constraints(deck, d, n);
+    step(deck, d, o, n, share);
+    return fw_text_end(deck);
+}
+
+static fw_status refused(fw_diags *diags, const char *why) {
+    fw_diag_error(diags, 213, (fw_place){0}, "the mechanism cannot be meshed: %s", why);
+    return FW_GEOMETRY;
+}
+
+/* bodies that nothing holds would leave a singular matrix */
+static fw_status complete(const fw_solid_device *d, const fw_solid_options *o, fw_diags *diags) {
+    if (d->nhinge < 1 || d->nbody < 1) return refused(diags, "it has no flexure or no body");
+    if (2 * d->nbody > FW_RESULT_NODES) return refused(diags, "it has too many bodies");
+    for (int b = 0; b < d->nbody; b++) {
+        bool held = false;
+        for (int h = 0; h < d->nhinge; h++)
+            held = held || d->hinge[h].first == b || d->hinge[h].second == b;
+        if (!held) return refused(diags, "no flexure holds one of its bodies");
+    }
+    for (int h = 0; h < d->nhinge; h++)
+        if (!(d->hinge[h].shape.depth_m == d->hinge[0].shape.depth_m) ||
+            (o->plane_stress && d->hinge[h].shape.width_m != d->hinge[0].shape.width_m))
+            return refused(diags, "its flexures differ in depth, or in width where a thin layer "
+                                  "stands for plane stress");
+    return FW_OK;
+}
+
+fw_status fw_solid_deck(fw_arena *arena, const fw_solid_device *device,
+                        const fw_solid_options *options, fw_diags *diags, fw_text *deck) {
+    numbered n;
+    FW_TRY(complete(device, options, diags));
+    FW_TRY(mesh_all(arena, device, options, diags, &n));
+    return write_deck(device, options, &n, deck);
+}
+
+static fw_status solve(fw_arena *scratch, const char *program, const fw_solid_device *d,
+                       const fw_solid_options *o, fw_diags *diags, fw_solid_result *r) {
+    numbered n;
+    fw_text deck = fw_text_new(scratch);
+    fw_solver_result *out;
+    int node[FW_RESULT_NODES];
+    FW_NEED(out = fw_arena_one(scratch, fw_solver_result));
+    FW_TRY(mesh_all(scratch, d, o, diags, &n));
+    FW_TRY(write_deck(d, o, &n, &deck));
+    for (int i = 0; i < 2 * d->nbody; i++)
+        node[i] = n.reference + i;
+    const fw_solver_call call = {.program = program,
+                                 .deck = &deck,
+                                 .node = node,
+                                 .nnode = 2 * d->nbody,
+                                 .nstep = 1,
+                                 .timeout_s = o->timeout_s};
+    FW_TRY(fw_solver_run(scratch, &call, diags, out));
+    double share = 0.5 * n.mesh[0].depth_m / d->hinge[0].shape.depth_m;
+    for (int b = 0; b < d->nbody; b++) {
+        const double *move = out->step[0].move[2 * b], *turn = out->step[0].move[2 * b + 1];
+        r->body[b] = (fw_solid_pose){1e-6 * move[0], 1e-6 * move[1], turn[2],
+                                     1e-12 * out->step[0].force[2 * b + 1][2] / share};
+        if (!d->body[b].driven) r->body[b].moment_Nm = d->body[b].moment_Nm;
+    }
+    r->strain = out->strain[0].principal;
+    for (int h = 0; h < d->nhinge; h++)
+        if (out->strain[0].node >= n.node[h]) r->strain_hinge = h;
+    r->cpu_s = out->cpu_s;
+    r->mesh = (fw_continuum_mesh_size){n.nelement, n.nnode};
+    return FW_OK;
+}
+
+fw_status fw_solid_solve(fw_arena *arena, const fw_solid_device *device,
+                         const fw_solid_options *options, fw_diags *diags,
+                         fw_solid_result *result) {
+    *result = (fw_solid_result){.strain_hinge = 0};
+    FW_TRY(complete(device, options, diags));
+    const char *program = fw_continuum_program(arena, "ccx");
+    if (!program) {
+        result->missing = fw_continuum_install;
+        fw_diag_note(diags, 214, (fw_place){0}, "%s", fw_continuum_install);
+        return FW_OK;
+    }
+    result->installed = true;
+    FW_NEED(result->body = fw_arena_array(arena, fw_solid_pose, (size_t)device->nbody));
+    fw_arena *scratch = fw_arena_new((size_t)2 << 30);
+    FW_NEED(scratch);
+    fw_status status = solve(scratch, program, device, options, diags, result);
+    fw_arena_free(scratch);
+    return status;
+}
