@@ -124,8 +124,9 @@ bool fw_ode_finite(const double *y, int n) {
 }
 
 /* h such that an explicit Euler step keeps within 0.01 of |y|, and 0.01 of the error that y'' makes
-   in a step of this order, whichever is less. Inputs y, f at t; work 2 padded. Cost one evaluation.
-   Source: Hairer, Norsett and Wanner I, II.4. Test: test_ode_step.c */
+   in a step of this order, whichever is less; never so short that t would stay. Inputs y, f at t;
+   work 2 padded. Cost one evaluation. Source: Hairer, Norsett and Wanner I, II.4. Test:
+   test_ode_step.c */
 double fw_ode_first_step(fw_stepper *s, int order, double *work) {
     double span = s->t_end - s->t, *y = work, *f = work + s->padded;
     double size = fw_ode_norm(s, s->y, s->y, s->y), slope = fw_ode_norm(s, s->f, s->y, s->y);
@@ -139,7 +140,8 @@ double fw_ode_first_step(fw_stepper *s, int order, double *work) {
     double worst = fmax(slope, fw_ode_norm(s, f, s->y, s->y) / h);
     double other = worst <= 1e-15 ? fmax(1e-6 * span, h * 1e-3) : pow(0.01 / worst, 1.0 / order);
     h = fmin(100 * h, other);
-    return isfinite(h) && h > 0 ? fmin(h, fmin(span, s->h_max)) : 1e-6 * span;
+    h = isfinite(h) && h > 0 ? fmin(h, fmin(span, s->h_max)) : 1e-6 * span;
+    return fmin(span, fmax(h, 64 * DBL_EPSILON * fabs(s->t)));
 }
 
 double fw_ode_target(const fw_stepper *s, double *h) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What every integrator of the table keeps: ends, restarts, projection, failures, memory, bits. */
 #include "ode_problems.h"
+#include <float.h>
 
 static fw_stepper *started(fw_arena *arena, const fw_stepper_row *row, const problem *p,
                            double rtol, double t_end) {
@@ -103,6 +104,25 @@ static void test_before_the_first_step(void **state) {
         assert_memory_equal(y, s->y, 5 * sizeof *y);
         fw_stepper_component(s, 0, 2, 1, 1, 0.5, &value, &slope);
         assert_true(value == 2 * y[0] + y[1] && slope == 0);
+        fw_stepper_free(s);
+        fw_arena_free(arena);
+    }
+}
+
+/* far from t = 0 a short rest is still gone through: a first step that is a share of it would leave
+   t where it is */
+static void test_short_and_late(void **state) {
+    (void)state;
+    FOR_EACH_ROW(row, second_order) {
+        if (row->fixed_step) continue; /* its step is given */
+        fw_arena *arena = fw_arena_new(0);
+        fw_stepper *s = new_stepper(arena, row, &second_order.ode, 1e-6);
+        double y[8] = {0};
+        const double end = 1000 * (1 + 300 * DBL_EPSILON);
+        fw_stepper_start(s, 1000, y, end);
+        for (int k = 0; k < 1000 && s->t < end; k++)
+            assert_int_equal(fw_stepper_step(s), FW_ODE_STEP);
+        assert_true(s->t == end);
         fw_stepper_free(s);
         fw_arena_free(arena);
     }
@@ -348,6 +368,7 @@ int main(void) {
         cmocka_unit_test(test_wrong_input),
         cmocka_unit_test(test_ends_and_components),
         cmocka_unit_test(test_before_the_first_step),
+        cmocka_unit_test(test_short_and_late),
         cmocka_unit_test(test_counts),
         cmocka_unit_test(test_projection),
         cmocka_unit_test(test_restart_at_a_jump),
