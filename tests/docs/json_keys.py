@@ -16,7 +16,7 @@ sections = {name: set(re.findall(r"`(\w+)`", text))
             for name, text in re.findall(r"^## ([^\n]+)\n(.*?)(?=^## |\Z)", page, re.M | re.S)}
 # keys of these objects are ids of bodies and joints
 BY_ID = {"q", "v", "a", "before", "after", "shape", "damped_shape", "velocity", "acceleration", "revolute_N", "tie_N_Nm",
-         "driver_N_or_Nm"}
+         "driver_N_or_Nm", "limit_rad", "boundary_share"}
 SHARED = {"effects": "Effects: the ledger", "pull_in": "Pull-in"}
 problems, seen, documents = [], {}, 0
 
@@ -36,6 +36,7 @@ RUNS = (
     ("assemble", ["assemble", "docs/mechanisms/squeezer.xml", "--rates", "1 rad/s"]),
     ("assemble", ["assemble", "docs/mechanisms/slider-crank.xml"]),
     ("hinge", ["hinge", SIX]),
+    ("workspace", ["workspace", SIX]),
     ("recipe", ["recipe", COMB]),
     ("recipe", ["recipe", SIX]),
     ("mask", ["mask", COMB]),
