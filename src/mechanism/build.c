@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flexure/flare.h"
 #include "mechanism/builder.h"
 #include <math.h>
 
@@ -119,31 +120,39 @@ static double inertia_about(const fw_mass *m, double x, double y) {
     return m ? m->inertia_kg_m2 + m->mass_kg * (x * x + y * y) : (double)INFINITY;
 }
 
-static fw_status flexure_result(const fw_builder *b, int j, const fw_joint *joint,
-                                fw_flexure_result *result, fw_hinge_law *law) {
-    const fw_flexure *f = &b->device->flexure[joint->flexure];
-    const fw_material *m = &b->variant->material;
-    FW_TRY(need_property(b, &m->youngs, "Young's modulus", "a flexure", joint->place));
-    FW_TRY(need_property(b, &m->strength, "strength", "a flexure", joint->place));
+fw_flexure_input fw_mechanism_flexure(const fw_device *device, const fw_layout *layout,
+                                      const fw_variant *variant, int joint) {
+    const fw_flexure *f = &device->flexure[device->joint[joint].flexure];
+    const fw_material *m = &variant->material;
     double fillet = f->fillet_m;
-    if (b->layout && b->layout->drawn && b->layout->hinge[j].drawn)
-        fillet = b->layout->hinge[j].fillet_m;
+    if (layout && layout->drawn && layout->hinge[joint].drawn)
+        fillet = layout->hinge[joint].fillet_m;
     else if (isnan(fillet))
         fillet = fw_flexure_default_fillet(f);
-    const fw_flexure_input in = {
+    return (fw_flexure_input){
         .kind = f->kind,
         .length_m = f->length_m,
         .angle_rad = f->angle_rad,
         .radius_m = f->radius_m,
         .width_m = f->width_m,
         .fillet_m = fillet,
-        .depth_m = b->variant->thickness_m,
+        .depth_m = variant->thickness_m,
         .youngs_Pa = m->youngs.value,
         .poisson = m->poisson.unknown ? 0 : m->poisson.value,
         .strength_Pa = m->strength.value,
-        .safety_factor = b->device->safety_factor,
+        .safety_factor = device->safety_factor,
     };
+}
+
+static fw_status flexure_result(const fw_builder *b, int j, const fw_joint *joint,
+                                fw_flexure_result *result, fw_hinge_law *law) {
+    const fw_flexure *f = &b->device->flexure[joint->flexure];
+    const fw_material *m = &b->variant->material;
+    FW_TRY(need_property(b, &m->youngs, "Young's modulus", "a flexure", joint->place));
+    FW_TRY(need_property(b, &m->strength, "strength", "a flexure", joint->place));
+    const fw_flexure_input in = fw_mechanism_flexure(b->device, b->layout, b->variant, j);
     fw_flexure_closed_form(&in, result);
+    fw_flexure_flare(&in, f->flare_m, result);
     if (!isfinite(result->stiffness_Nm_per_rad) || !(result->stiffness_Nm_per_rad > 0))
         return fw_diag_error(
             b->diags, 85, f->place,
