@@ -120,6 +120,18 @@ static bool straddles(const fw_verdict *verdict) {
     return false;
 }
 
+/* what the flows make of it; the drawn verdict stays in each variant */
+static fw_status as_made(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                         const fw_verdict_options *options, fw_verdict *verdict) {
+    verdict->drawn = verdict->decision;
+    for (int i = 0; i < verdict->nvariant; i++) {
+        fw_variant_verdict *v = &verdict->variant[i];
+        FW_TRY(fw_verdict_made(arena, device, layout, options, v));
+        if (v->decision > verdict->decision) verdict->decision = v->decision;
+    }
+    return FW_OK;
+}
+
 fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
                          const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict,
                          const fw_layout **layout) {
@@ -140,6 +152,7 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
         verdict->accuracy_wanted = options->motion.accuracy;
     }
     verdict->layout = *layout;
+    FW_TRY(as_made(arena, device, *layout, options, verdict));
     if (options->with_advice && verdict->decision != FW_ACCEPT)
         FW_TRY(fw_verdict_advise(arena, device, options, verdict));
     return FW_OK;

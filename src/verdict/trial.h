@@ -22,7 +22,9 @@ typedef struct fw_trial {
     const fw_verdict *verdict; /* of the device as described */
     fw_trial_hinge *hinge;     /* (nhinge) of the last run */
     int nhinge;
-    double *share; /* (device->nscene) of each scene's loads that is left */
+    double *suspect; /* (nvariant x FW_MADE_INPUTS) corner of each flow that governed last */
+    bool *suspected; /* (nvariant) there is one */
+    double *share;   /* (device->nscene) of each scene's loads that is left */
     fw_decision decision;
     bool drawn;
 } fw_trial;

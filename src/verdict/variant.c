@@ -133,7 +133,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     if (motion.most_angle_rad <= 0) motion.most_angle_rad = whole_turn;
     FW_NEED(v->motion = fw_arena_alloc(arena, n, sizeof *v->motion));
     FW_NEED(v->pull_in = fw_arena_alloc(arena, n, sizeof *v->pull_in));
-    FW_NEED(v->reason = fw_arena_array(arena, fw_reason, FW_REASONS * n));
+    FW_NEED(v->reason = fw_arena_array(arena, fw_reason, FW_REASONS * n + 1)); /* as made */
     for (size_t i = 0; i < n; i++) {
         const fw_scene *scene = &device->scene[i];
         if (!fw_device_in_flow(scene->flow, m->variant->flow)) continue;
@@ -163,8 +163,11 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
                              fw_diags *diags, fw_variant_verdict *v) {
     v->mechanism = m;
     v->governing = FW_NONE;
+    v->nreason = 0;
     v->nhinge = m->nhinge;
     FW_NEED(v->hinge = fw_arena_array(arena, fw_hinge_verdict, (size_t)m->nhinge));
+    size_t rows = (size_t)m->nhinge * ((size_t)device->nscene + 1);
+    FW_NEED(v->used = fw_arena_array(arena, double, rows));
     fw_watch *watch = fw_arena_array(arena, fw_watch, (size_t)device->nscene);
     FW_NEED(watch);
     FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, watch));
@@ -179,18 +182,23 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
                                   .strain_limit = material->strength.value / device->safety_factor /
                                                   material->youngs.value};
         v->hinge[k] = blank;
+        double *used = v->used + (size_t)k * ((size_t)device->nscene + 1);
+        for (int i = 0; i <= device->nscene; i++)
+            used[i] = (double)NAN;
         for (int i = 0; i < device->nscene; i++) {
             if (!v->motion[i]) continue;
             fw_hinge_verdict now = blank;
             judge_scene(m, hinge, drawn, v->motion[i], &watch[i].hinge[k], device->scene[i].name,
                         &now);
             if (now.touches) warn_touching(device, drawn, &now, diags);
+            used[i] = now.utilisation;
             fw_verdict_keep_worst(&v->hinge[k], &now);
         }
         if (v->workspace.required) { /* the poses that can be reached */
             fw_hinge_verdict now = blank;
             judge_workspace(m, hinge, drawn, &v->workspace, &now);
             if (now.touches) warn_touching(device, drawn, &now, diags);
+            used[device->nscene] = now.utilisation;
             fw_verdict_keep_worst(&v->hinge[k], &now);
         }
     }
@@ -205,5 +213,6 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     if (v->workspace.required && !v->workspace.reachable) v->decision = FW_REJECT;
     for (int i = 0; i < v->nreason; i++)
         if (v->reason[i].decision > v->decision) v->decision = v->reason[i].decision;
+    v->drawn = v->decision;
     return FW_OK;
 }
