@@ -173,12 +173,10 @@ static int first_edge(const fw_variant_verdict *v) {
 }
 
 /* d ln U/dx by one run per input, at the low end of its range: thin flexures, where things change
-   fastest. A row that is not there at that end (a flexure gone) has no slope: NaN. Tolerances
-   are looser: the slopes choose what is run, and decide nothing. */
+   fastest. A row that is not there at that end (a flexure gone) has no slope: NaN */
 static fw_status slopes(fw_search *s) {
     const fw_variant_verdict *v = s->v;
-    double x[FW_MADE_INPUTS], accuracy = s->options.motion.accuracy;
-    s->options.motion.accuracy = fmax(accuracy, 1e-2);
+    double x[FW_MADE_INPUTS];
     for (int i = 0; i < v->ninput; i++) {
         const fw_made_input *in = &v->input[i];
         int like = edges_only(in) ? first_edge(v) : i, n = v->ninput;
@@ -192,7 +190,6 @@ static fw_status slopes(fw_search *s) {
         for (int r = 0; r < s->nrow; r++)
             s->slope[r * n + i] = (at[r] - s->ln[r]) / (x[i] - in->nominal);
     }
-    s->options.motion.accuracy = accuracy;
     s->first = s->made->ncorner;
     return FW_OK;
 }
