@@ -28,13 +28,19 @@ static void change_variant(fw_variant *v, const fw_made *made) {
 
 /* ---- flexures and their joints ---- */
 
+/* a concave fillet shrinks where the material grows. One that is wider than the flexure counts as
+   wide as it, where the fitted law ends: its concentration is then a little too high */
+static double made_fillet(double fillet_m, double edge_m, double width_m) {
+    return fmin(fmax(0.0, fillet_m - edge_m), width_m);
+}
+
 static fw_status change_flexure(fw_arena *arena, const fw_made *made, fw_flexure *f,
                                 const char **gone) {
     double drawn_width = f->width_m, edge = made->edge_m;
     if (isnan(f->fillet_m)) f->fillet_m = fw_flexure_default_fillet(f);
     f->width_m += 2.0 * edge;
     f->flare_m = made->flare_m;
-    f->fillet_m = fmax(0.0, f->fillet_m - edge);
+    f->fillet_m = made_fillet(f->fillet_m, edge, f->width_m);
     bool gap = f->gap_m > 0.0;
     f->gap_m = gap ? f->gap_m - 2.0 * edge : f->gap_m;
     char now[32], was[32];
@@ -106,9 +112,9 @@ static void change_body(const fw_body_layout *shape, double edge_m, fw_body *bod
     changed->polar_m4 *= ratio;
 }
 
-static void change_hinge_layout(double edge_m, fw_hinge_layout *h) {
-    if (!h->drawn) return;
-    h->fillet_m = fmax(0.0, h->fillet_m - edge_m);
+static void change_hinge_layout(double edge_m, const fw_flexure *f, fw_hinge_layout *h) {
+    if (!h->drawn || !f) return;
+    h->fillet_m = made_fillet(h->fillet_m, edge_m, f->width_m);
     if (h->surface_radius_m > 0.0) h->surface_radius_m += edge_m;
     if (h->gap_m > 0.0) h->gap_m -= 2.0 * edge_m;
 }
@@ -167,8 +173,11 @@ fw_status fw_made_build(fw_arena *arena, const fw_device *device, const fw_layou
         if (fw_device_in_flow(device->scene[i].flow, variant->flow))
             FW_TRY(change_scene(arena, made, &out->device.scene[i], &out->gone));
     if (out->gone) return FW_OK;
-    for (int j = 0; drawn && j < device->njoint; j++)
-        change_hinge_layout(made->edge_m, &out->layout.hinge[j]);
+    for (int j = 0; drawn && j < device->njoint; j++) {
+        int f = device->joint[j].flexure;
+        change_hinge_layout(made->edge_m, f == FW_NONE ? NULL : &out->device.flexure[f],
+                            &out->layout.hinge[j]);
+    }
     for (int j = 0; j < device->njoint; j++)
         change_joint(device, layout, out, j);
     for (int b = 0; drawn && b < device->nbody; b++)
