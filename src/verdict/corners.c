@@ -3,6 +3,7 @@
    hinge and scene: a given rotation strains a wide flexure more, a given load a thin one. Theory:
    docs/theory/as-fabricated.md. */
 #include "verdict/corners.h"
+#include "verdict/compare.h"
 #include "base/cancel.h"
 #include <math.h>
 #include <string.h>
@@ -100,6 +101,12 @@ static fw_status judge_point(fw_search *s, fw_arena *scratch, const double *x,
     if (status == FW_OK)
         status = fw_verdict_variant(scratch, &device->device, device->drawn, m, &s->options, &diags,
                                     &now);
+    if (status == FW_OK && fw_verdict_undecided(now.hinge, now.nhinge)) {
+        fw_verdict_options tight = fw_verdict_tighter(&s->options);
+        now = (fw_variant_verdict){.variant = &device->variant};
+        status =
+            fw_verdict_variant(scratch, &device->device, device->drawn, m, &tight, &diags, &now);
+    }
     if (status == FW_OK) return take(s, &now, corner, ln);
     if (status == FW_NOMEM || status == FW_CANCELLED) return status;
     corner->decision = FW_INCONCLUSIVE;

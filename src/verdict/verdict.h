@@ -19,7 +19,8 @@ typedef struct fw_hinge_verdict {
     double peak_angle_rad, angle_error_rad, limit_angle_rad;
     double peak_strain, strain_limit;
     double utilisation, utilisation_low, utilisation_high;
-    double t_s; /* NaN for the workspace */
+    double numeric; /* part of the band on either side that a tighter run would take away */
+    double t_s;     /* NaN for the workspace */
     fw_decision decision;
     int joint;
     double force_share; /* part of the peak strain that the joint force adds to the rotation's */

@@ -216,14 +216,6 @@ static fw_status judge(fw_arena *arena, const char *xml, double accuracy, fw_ver
     return status;
 }
 
-/* half the band, without the model's share: what the numbers may be wrong by */
-static double numeric(const fw_hinge_verdict *h) {
-    bool pose = strcmp(h->scene, "workspace") == 0;
-    if (pose) return h->angle_error_rad / h->limit_angle_rad;
-    double model = fw_verdict_model_error.motion + fw_verdict_model_error.strain;
-    return h->utilisation_high - h->utilisation * (1 + model);
-}
-
 typedef struct tally {
     int run, inconclusive, flipped, outside, refused;
     double largest; /* difference over both numerical bands */
@@ -242,13 +234,13 @@ static void compare(uint64_t seed, const fw_verdict *loose, const fw_verdict *ti
         if (!a->scene || !b->scene || strcmp(a->scene, b->scene) != 0) continue;
         if (a->utilisation > 50) continue; /* ended after a whole turn */
         double off = fabs(a->utilisation - b->utilisation);
-        double room = numeric(a) + numeric(b) + 1e-12;
+        double room = a->numeric + b->numeric + 1e-12;
         n->largest = fmax(n->largest, off / room);
         if (off <= room) continue;
         n->outside++;
         print_message("device %llu hinge %s in %s: %.9g +- %.3g, tighter %.9g +- %.3g\n",
-                      (unsigned long long)seed, a->id, a->scene, a->utilisation, numeric(a),
-                      b->utilisation, numeric(b));
+                      (unsigned long long)seed, a->id, a->scene, a->utilisation, a->numeric,
+                      b->utilisation, b->numeric);
     }
 }
 
