@@ -162,7 +162,7 @@ static void what_is_made_follows_the_edges(void **state) {
    accepted only where all are */
 static void no_corner_is_worse(void **state) {
     (void)state;
-    const char *const load[] = {"0.3 uN", "60 uN", "80 uN", "100 uN", "-75 uN"};
+    const char *const load[] = {"0.3 uN", "100 uN", "145 uN", "190 uN", "-150 uN"};
     int decisions[3] = {0};
     for (size_t n = 0; n < sizeof load / sizeof load[0]; n++) {
         set_up s;
@@ -223,7 +223,7 @@ static void sigma_is_first_order(void **state) {
 static void what_must_be_held_is_enough(void **state) {
     (void)state;
     set_up s;
-    begin(&s, "60 uN");
+    begin(&s, "150 uN");
     fw_verdict v = judge(&s, FW_CORNERS_AUTO);
     const fw_made_verdict *made = v.variant[0].made;
     assert_int_equal(v.drawn, FW_ACCEPT);
@@ -255,7 +255,7 @@ static void what_must_be_held_is_enough(void **state) {
 static void drawn_only_when_asked(void **state) {
     (void)state;
     set_up s;
-    begin(&s, "60 uN");
+    begin(&s, "150 uN");
     fw_verdict v = judge(&s, FW_CORNERS_NONE);
     assert_null(v.variant[0].made);
     assert_int_equal(v.decision, FW_ACCEPT);
