@@ -127,11 +127,11 @@ class Plan(InTemporary):
         self.assertIn("FW-D204", result.stderr)
 
     def test_loads_are_never_left_out(self):
-        heavy = self.device(GALLERY_TEXT.replace('fx="0.35 mN"', 'fx="0.9 mN"'))
+        heavy = self.device(GALLERY_TEXT.replace('fx="0.25 mN"', 'fx="0.9 mN"'))
         for effects in ("auto", "all", "gravity,inertia"):
             self.expect(run("check", heavy, "--effects", effects), 1)
         # without inertia a load that comes at once does not overshoot, and that is said
-        heavy = self.device(GALLERY_TEXT.replace('fx="0.35 mN"', 'fx="1.8 mN"'))
+        heavy = self.device(GALLERY_TEXT.replace('fx="0.25 mN"', 'fx="1.8 mN"'))
         for effects in ("none", "gravity"):
             self.assertIn("FW-D254", self.expect(run("check", heavy, "--effects", effects), 1).stderr)
 
@@ -149,7 +149,7 @@ class Plan(InTemporary):
                                         GALLERY_TEXT),
             "stricter": GALLERY_TEXT.replace('safety-factor="1.5"', 'safety-factor="2.2"'),
             "weaker": GALLERY_TEXT.replace("2.5 GPa", "1.9 GPa"),
-            "from the drawing": unstated.replace('fx="0.35 mN"', 'fx="0.5 mN"'),
+            "from the drawing": unstated.replace('fx="0.25 mN"', 'fx="0.5 mN"'),
             "leaf": (ROOT / "docs/gallery/leaf-four-bar/device.xml").read_text()
                     .replace('fx="0.06 mN"', 'fx="0.4 mN"'),
             "workspace": GALLERY_TEXT.replace('x-min="-150 um" x-max="150 um"',
