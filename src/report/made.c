@@ -142,10 +142,9 @@ fw_status fw_report_section_made(fw_page *page) {
     for (int i = 0; i < v->nvariant; i++)
         any = any || v->variant[i].made;
     if (!any)
-        fw_text_add(page->out,
-                    v->drawn == FW_REJECT
-                        ? "<p>Not looked at: the drawn geometry is rejected already.</p>\n"
-                        : "<p>Only the drawn geometry was judged.</p>\n");
+        fw_text_add(page->out, v->drawn != FW_ACCEPT
+                                   ? "<p>Not looked at: the drawn geometry is not accepted.</p>\n"
+                                   : "<p>Only the drawn geometry was judged.</p>\n");
     for (int i = 0; i < v->nvariant; i++)
         if (v->variant[i].made) one_flow(page->out, &v->variant[i]);
     return fw_text_end(page->out);

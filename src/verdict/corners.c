@@ -51,14 +51,19 @@ static void take_rows(const fw_search *s, const fw_variant_verdict *now, double 
     }
 }
 
-/* a reason beside the hinges that the drawn device does not have */
-static const char *first_reason(const fw_variant_verdict *now) {
+/* the first reason beside the hinges */
+static fw_status take_reason(fw_search *s, const fw_variant_verdict *now, fw_made_corner *corner) {
     const char *why = NULL;
-    for (int i = 0; i < now->nreason && !why; i++)
-        if (now->reason[i].decision != FW_ACCEPT) why = now->reason[i].text;
+    for (int i = 0; i < now->nreason && !why; i++) {
+        if (now->reason[i].decision == FW_ACCEPT) continue;
+        why = now->reason[i].text;
+        corner->scene = now->reason[i].scene;
+        corner->keep = now->reason[i].keep;
+    }
     if (now->workspace.required && !now->workspace.reachable)
         why = "part of the required workspace is out of reach";
-    return why;
+    if (why) FW_NEED(corner->why = fw_arena_strdup(s->arena, why));
+    return FW_OK;
 }
 
 static const char *last_error(const fw_diags *diags) {
@@ -75,8 +80,7 @@ static fw_status take(fw_search *s, const fw_variant_verdict *now, fw_made_corne
         corner->hinge[k].flow = s->v->variant->flow;
     }
     corner->decision = now->decision;
-    const char *why = first_reason(now);
-    if (why) FW_NEED(corner->why = fw_arena_strdup(s->arena, why));
+    FW_TRY(take_reason(s, now, corner));
     take_rows(s, now, ln);
     return FW_OK;
 }
@@ -448,9 +452,8 @@ fw_status fw_verdict_made(fw_arena *arena, const fw_device *device, const fw_lay
                           const fw_verdict_options *options, fw_variant_verdict *v) {
     fw_search s;
     bool decided, quick = options->corners == FW_CORNERS_FIRST;
-    if (v->ninput == 0 || options->corners == FW_CORNERS_NONE || v->drawn == FW_REJECT)
+    if (v->ninput == 0 || options->corners == FW_CORNERS_NONE || v->drawn != FW_ACCEPT)
         return FW_OK;
-    if (quick && v->drawn != FW_ACCEPT) return FW_OK;
     FW_TRY(new_search(arena, device, layout, options, v, &s));
     FW_TRY(look_at_suspect(&s, &decided));
     if (!decided) FW_TRY(search(&s));

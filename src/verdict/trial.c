@@ -61,6 +61,9 @@ static void remember_suspect(fw_trial *trial, const fw_verdict *verdict) {
 static void remember(fw_trial *trial, const fw_verdict *verdict, const fw_layout *layout) {
     trial->nhinge = verdict->nhinge;
     trial->decision = verdict->decision;
+    trial->made = false;
+    for (int i = 0; i < verdict->nvariant; i++)
+        trial->made = trial->made || verdict->variant[i].made;
     for (int k = 0; k < verdict->nhinge; k++) {
         const fw_hinge_verdict *h = &verdict->hinge[k];
         double meet = h->touches && layout ? layout->hinge[h->joint].free_rad : 0.0;
@@ -84,14 +87,17 @@ static void remember(fw_trial *trial, const fw_verdict *verdict, const fw_layout
                                                              .scene = r->scene,
                                                              .flow = r->flow};
         }
-    for (int i = 0; i < verdict->nvariant; i++) { /* a flexure that is gone has no utilisation */
+    for (int i = 0; i < verdict->nvariant; i++) { /* beside hinges; gone: has no utilisation */
         const fw_made_verdict *made = verdict->variant[i].made;
-        if (!made || made->decision == FW_ACCEPT || made->governing != FW_NONE) continue;
-        trial->hinge[trial->nhinge++] = (fw_trial_hinge){.joint = FW_NONE,
-                                                         .decision = made->decision,
-                                                         .utilisation_high = 1.3,
-                                                         .scene = "as made",
-                                                         .flow = verdict->variant[i].variant->flow};
+        if (!made || made->decision == FW_ACCEPT) continue;
+        const fw_made_corner *c = &made->corner[made->at];
+        if (!c->why) continue;
+        trial->hinge[trial->nhinge++] =
+            (fw_trial_hinge){.joint = FW_NONE,
+                             .decision = made->decision,
+                             .utilisation_high = c->scene ? 1 / c->keep : 1.3,
+                             .scene = c->scene ? c->scene : "as made",
+                             .flow = verdict->variant[i].variant->flow};
     }
 }
 

@@ -27,6 +27,7 @@ typedef struct fw_trial {
     double *share;   /* (device->nscene) of each scene's loads that is left */
     fw_decision decision;
     bool drawn;
+    bool made; /* the last run looked at what the flows make of it, too */
 } fw_trial;
 
 /* copies the device and takes over the verdict that it has */

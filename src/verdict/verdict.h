@@ -41,6 +41,8 @@ typedef struct fw_made_corner { /* one device that the flow may make, judged lik
     fw_hinge_verdict *hinge; /* (nhinge) worst over the scenes; utilisation 0 where `why` says that
                                 nothing was run */
     const char *why;         /* what speaks against it beside its hinges, or NULL */
+    const char *scene;       /* of `why`; NULL: of none (a flexure is gone) */
+    double keep;             /* share of its loads that it may bear */
     fw_decision decision;
 } fw_made_corner;
 
@@ -71,7 +73,7 @@ typedef struct fw_variant_verdict { /* one flow: a material and a thickness */
     const fw_made_input *input; /* (ninput) what the flow may make of it; none: as drawn only */
     int ninput;
     const double *suspect; /* (ninput) a corner to look at first, or NULL */
-    fw_made_verdict *made; /* NULL: not asked for, or the drawn device is rejected already */
+    fw_made_verdict *made; /* NULL: not asked for, or the drawn device is not accepted */
     fw_decision drawn;     /* decision of the drawn geometry alone */
     double *used;          /* (nhinge x (nscene + 1)) utilisation of each hinge in each scene and,
                               last, in the workspace; NaN: none */
@@ -140,7 +142,7 @@ extern const fw_model_error fw_verdict_model_error;
 fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_mechanism *mechanism, const fw_verdict_options *options,
                              fw_diags *diags, fw_variant_verdict *verdict);
-/* after fw_verdict_variant, where that is not a rejection: judges what the flow may make of the
+/* after fw_verdict_variant, where that accepts: judges what the flow may make of the
    device; raises verdict->decision and adds a reason where it is not accepted */
 fw_status fw_verdict_made(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                           const fw_verdict_options *options, fw_variant_verdict *verdict);

@@ -92,7 +92,7 @@ class Plan(InTemporary):
         self.expect(run("check", device, *arguments), 0)
 
     def test_forced_files_say_rejected(self):
-        device = self.device(self.shortened(1.5))
+        device = self.device(self.shortened(2))
         out = self.here / "out"
         self.expect(run("plan", device, "-o", out, "--force"), 1)
         for flow in FLOWS:
@@ -183,7 +183,7 @@ class Plan(InTemporary):
                 f'voltage="{volts} V" {law}/></scene>')
 
     def judged(self, device, status):
-        verdict = json.loads(self.expect(run("check", device, "--json"), status).stdout)
+        verdict = json.loads(self.expect(run("check", device, "--json", "--corners", "none"), status).stdout)
         self.assertEqual(verdict["verdict"], {0: "accept", 1: "reject", 4: "inconclusive"}[status])
         return verdict
 
@@ -367,7 +367,11 @@ class Simulate(InTemporary):
 
     def test_reference_motion_to_1e_9(self):
         csv_file = self.here / "m.csv"
-        self.expect(run("simulate", GALLERY, "--scene", "step-load", "--rtol", "1e-13",
+        text = GALLERY_TEXT  # the reference has larger loads than what is made would bear
+        for now, then in (("0.25 mN", "0.35 mN"), ("-0.14 mN", "-0.20 mN"), ("-0.11 mN mm", "-0.15 mN mm")):
+            self.assertEqual(text.count(f'"{now}"'), 1)
+            text = text.replace(f'"{now}"', f'"{then}"')
+        self.expect(run("simulate", self.device(text), "--scene", "step-load", "--rtol", "1e-13",
                         "--samples", "101", "--csv", csv_file), 0)
         rows = list(csv.reader(io.StringIO(csv_file.read_text())))
         bodies = ["AB", "BC", "CD", "DE", "EF"]

@@ -171,7 +171,7 @@ static void no_corner_is_worse(void **state) {
         const fw_made_verdict *made = v.variant[0].made;
         decisions[v.decision]++;
         if (!made) {
-            assert_int_equal(v.drawn, FW_REJECT);
+            assert_true(v.drawn != FW_ACCEPT);
             fw_arena_free(s.arena);
             continue;
         }
