@@ -86,36 +86,58 @@ static void ranges(fw_text *out, const fw_variant_verdict *v) {
     fw_text_add(out, "</tbody></table></div>\n");
 }
 
-static void head(fw_text *out, const fw_variant_verdict *v) {
-    fw_text_add(out, "<div class=\"wide\"><table><caption>Tightest of the devices that were run; "
-                     "contributions of the inputs to the standard uncertainty of the nominal one, "
-                     "in per cent of the limit</caption><thead><tr><th scope=\"col\">Hinge</th><th "
-                     "scope=\"col\" class=\"n\">As drawn</th><th scope=\"col\" class=\"n\">Nominal"
-                     "</th><th scope=\"col\" class=\"n\">Tightest</th><th scope=\"col\">Verdict"
-                     "</th><th scope=\"col\">Scene</th><th scope=\"col\">Where</th>");
-    for (int i = 0; i < v->ninput; i++)
-        fw_report_markup(out, "<th scope=\"col\" class=\"n\">{s}</th>", v->input[i].name);
-    fw_text_add(out, "</tr></thead><tbody>\n");
-}
-
-static void hinge_row(fw_text *out, const fw_variant_verdict *v, int k) {
+static void tightest_row(fw_text *out, const fw_variant_verdict *v, int k) {
     const fw_made_hinge *m = &v->made->hinge[k];
     const fw_made_corner *c = &v->made->corner[m->corner];
     const fw_hinge_verdict *h = &c->hinge[k];
-    fw_report_markup(out,
-                     "<tr{r}><th scope=\"row\">{s}</th><td class=\"n\">{p}</td><td class=\"n\">{p} "
-                     "\u00b1 {p}</td><td class=\"n\">{p} ({p} to {p})</td><td>{s}</td><td>{s}"
-                     "</td><td>{s}</td>",
-                     h->decision == FW_ACCEPT ? "" : " class=\"bad\"", h->id,
-                     v->hinge[k].utilisation, v->made->corner[0].hinge[k].utilisation, m->sigma,
-                     h->utilisation, h->utilisation_low, h->utilisation_high,
-                     fw_decision_text(h->decision), h->scene ? h->scene : "\u2013", c->what);
+    fw_report_markup(
+        out,
+        "<tr{r}><th scope=\"row\">{s}</th><td class=\"n\">{p}</td><td class=\"n\">{p}"
+        "</td><td class=\"n\">{p}</td><td class=\"n\">{p} to {p}</td><td class=\"n\">{p}"
+        "</td><td>{s}</td><td>{s}</td></tr>\n",
+        h->decision == FW_ACCEPT ? "" : " class=\"bad\"", h->id, v->hinge[k].utilisation,
+        v->made->corner[0].hinge[k].utilisation, h->utilisation, h->utilisation_low,
+        h->utilisation_high, m->most, h->scene, c->what);
+}
+
+static void tightest(fw_text *out, const fw_variant_verdict *v) {
+    fw_text_add(out,
+                "<div class=\"wide\"><table><caption>Tightest of the devices that were run, and "
+                "what no corner exceeds by first order</caption><thead><tr><th scope=\"col\">Hinge"
+                "</th><th scope=\"col\" class=\"n\">As drawn</th><th scope=\"col\" class=\"n\">"
+                "Nominal</th><th scope=\"col\" class=\"n\">Tightest</th><th scope=\"col\" "
+                "class=\"n\">Error band</th><th scope=\"col\" class=\"n\">At most</th><th "
+                "scope=\"col\">Scene</th><th scope=\"col\">Where</th></tr></thead><tbody>\n");
+    for (int k = 0; k < v->nhinge; k++)
+        if (v->made->corner[v->made->hinge[k].corner].hinge[k].scene) tightest_row(out, v, k);
+    fw_text_add(out, "</tbody></table></div>\n");
+}
+
+static void sigma_row(fw_text *out, const fw_variant_verdict *v, int k) {
+    const fw_made_hinge *m = &v->made->hinge[k];
+    fw_report_markup(out, "<tr><th scope=\"row\">{s}</th><td class=\"n\">", v->hinge[k].id);
+    fw_text_fixed(out, 100.0 * m->sigma, 2);
+    fw_text_add(out, "</td>");
     for (int i = 0; i < v->ninput; i++) {
         fw_text_add(out, "<td class=\"n\">");
         fw_text_fixed(out, 100.0 * m->share[i], 2);
         fw_text_add(out, "</td>");
     }
     fw_text_add(out, "</tr>\n");
+}
+
+static void sigmas(fw_text *out, const fw_variant_verdict *v) {
+    fw_text_add(out,
+                "<div class=\"wide\"><table><caption>Standard uncertainty of the nominal "
+                "utilisation, and what the inputs contribute, in per cent of the limit"
+                "</caption><thead><tr><th scope=\"col\">Hinge</th><th scope=\"col\" class=\"n\">"
+                "In all</th>");
+    for (int i = 0; i < v->ninput; i++)
+        fw_report_markup(out, "<th scope=\"col\" class=\"n\">{s}</th>", v->input[i].name);
+    fw_text_add(out, "</tr></thead><tbody>\n");
+    for (int k = 0; k < v->nhinge; k++)
+        sigma_row(out, v, k);
+    fw_text_add(out, "</tbody></table></div>\n");
 }
 
 static void one_flow(fw_text *out, const fw_variant_verdict *v) {
@@ -130,10 +152,8 @@ static void one_flow(fw_text *out, const fw_variant_verdict *v) {
         fw_report_markup(out, "<p><strong>{s}</strong>{s}{s}.</p>\n", m->reason,
                          m->control ? "; " : "", m->control);
     ranges(out, v);
-    head(out, v);
-    for (int k = 0; k < v->nhinge; k++)
-        if (m->corner[m->hinge[k].corner].hinge[k].scene) hinge_row(out, v, k);
-    fw_text_add(out, "</tbody></table></div>\n");
+    tightest(out, v);
+    sigmas(out, v);
 }
 
 fw_status fw_report_section_made(fw_page *page) {

@@ -264,15 +264,25 @@ static double largest_run(const fw_search *s) {
     return most;
 }
 
+/* a utilisation above this may be beyond its limit with the band of the model: wider for a required
+   pose, and outside the fitted range of fillets and arcs (10 % counted for every flexure) */
+static double near_limit(const fw_search *s, int row) {
+    int scenes = s->device->nscene + 1;
+    bool pose = row < s->v->nhinge * scenes && row % scenes == scenes - 1;
+    const fw_model_error *e = &fw_verdict_model_error;
+    return 0.95 / (1.1 + e->strain + (pose ? e->workspace : e->motion));
+}
+
 /* runs the corner of the row whose estimate, with the error seen so far, is highest and either
    above everything that was run or near a limit; false: there is none left */
 static fw_status run_next(fw_search *s, bool *ran) {
-    double bar = fmin(largest_run(s), log(0.9)), highest = -HUGE_VAL;
+    double largest = largest_run(s), highest = -HUGE_VAL;
     unsigned next = FW_NO_CORNER;
     for (int r = 0; r < s->nrow; r++) {
         if (isnan(s->ln[r])) continue;
         unsigned bits = choose(s, r);
         double upper = estimate(s, r, bits) + s->made->error;
+        double bar = fmin(largest, log(near_limit(s, r)));
         bool first = s->made->ncorner == s->first; /* one is run in any case */
         if (!first && (find_corner(s, bits) != FW_NONE || !(upper > bar))) continue;
         if (upper > highest) highest = upper, next = bits;
