@@ -149,7 +149,7 @@ class Plan(InTemporary):
                                         GALLERY_TEXT),
             "stricter": GALLERY_TEXT.replace('safety-factor="1.5"', 'safety-factor="2.2"'),
             "weaker": GALLERY_TEXT.replace("2.5 GPa", "1.9 GPa"),
-            "from the drawing": unstated.replace('fx="0.25 mN"', 'fx="0.5 mN"'),
+            "from the drawing": unstated.replace('fx="0.25 mN"', 'fx="0.3 mN"'),
             "leaf": (ROOT / "docs/gallery/leaf-four-bar/device.xml").read_text()
                     .replace('fx="0.06 mN"', 'fx="0.4 mN"'),
             "workspace": GALLERY_TEXT.replace('x-min="-150 um" x-max="150 um"',
