@@ -65,6 +65,11 @@ static const char *take_effects(fw_cli_options *o, const char *v) {
     return *v ? NULL : "needs auto, all, none or a list of effects";
 }
 
+static const char *take_corners(fw_cli_options *o, const char *v) {
+    o->design.corners = v;
+    return strcmp(v, "auto") == 0 || strcmp(v, "none") == 0 ? NULL : "needs auto or none";
+}
+
 static const char *take_quiet(fw_cli_options *o, const char *v) {
     (void)v;
     o->quiet = true;
@@ -240,6 +245,11 @@ static const option_row table[] = {
      "velocities stay, and weight and the motion of the base where nothing else moves the device: "
      "without them there would be nothing to judge",
      FW_OPT_PLAN, take_effects},
+    {"corners", 0, "WHICH",
+     "auto: the verdict holds for what each flow may make of the device, at the corners of its "
+     "ranges "
+     "(edges, etch, thickness, modulus); none: for the drawn geometry only",
+     FW_OPT_PLAN, take_corners},
     {"flow", 0, "NAME", "only this process flow", FW_OPT_PLAN, take_flow},
     {"hinge-model", 0, "MODEL", "auto or revolute", FW_OPT_PLAN, take_hinge_model},
     {"force", 0, NULL, "masks and recipes of a rejected design too, each marked REJECTED",

@@ -44,6 +44,8 @@ typedef struct fw_flexure { /* <flexure id kind radius|length angle width gap fi
     double width_m;                  /* in the plane, t */
     double gap_m;                    /* of the conjugate surfaces; 0 = none */
     double fillet_m;                 /* NaN: chosen by the layout */
+    double flare_m; /* of a section as made: half of what one face of the layer is wider than the
+                       other, width_m being their mean; 0 as drawn */
     bool length_given, radius_given; /* in the file: what advice should name */
     fw_place place, length_place;
 } fw_flexure;

@@ -153,6 +153,10 @@ static void read_uncertainty(const fw_element *e, fw_diags *diags, double writte
     fw_unit scale = *unit;
     scale.offset = 0.0; /* a width has no zero point */
     q->uncertainty = fw_unit_to_si(&scale, wide);
+    if (has_lo) {
+        q->interval = true;
+        q->low = fw_unit_to_si(unit, lo), q->high = fw_unit_to_si(unit, hi);
+    }
     if (!isfinite(q->uncertainty)) {
         q->uncertainty = 0.0;
         fw_diag_error(diags, 71, e->place, "the uncertainty is too large for a number");

@@ -299,10 +299,10 @@ static fw_status choose(fw_run *r, const fw_terms *terms) {
     return say_choice(r, &s, stiff, stable, p.implicit / p.explicit_);
 }
 
-/* Many steps alone are no sign: a tight tolerance or a fast motion takes them too. Explicit steps of
-   order 8 are stable up to |eigenvalue| h of about 6, and their control keeps them between half and
-   all of it; steps well below are as short as the tolerance wants them. Source: Hairer and Wanner
-   II, IV.2 (detection of stiffness). Test: test_choose.c. */
+/* Many steps alone are no sign: a tight tolerance or a fast motion takes them too. Explicit steps
+   of order 8 are stable up to |eigenvalue| h of about 6, and their control keeps them between half
+   and all of it; steps well below are as short as the tolerance wants them. Source: Hairer and
+   Wanner II, IV.2 (detection of stiffness). Test: test_choose.c. */
 fw_status fw_integrator_stuck(fw_run *r, const fw_stepper *s, bool *stuck) {
     double rate;
     FW_TRY(fastest(r, s->t, s->y, 1e-6, &rate));

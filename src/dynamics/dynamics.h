@@ -36,6 +36,8 @@ typedef struct fw_motion_options {
                               more; 0: never */
     fw_observer observe;   /* NULL: nobody looks */
     void *context;
+    void *other; /* of the observer, too, for the looser run that errors are estimated from; NULL:
+                    it is not looked at. The motion says which of the two saw what */
 } fw_motion_options;
 
 typedef struct fw_peak { /* per pin: extreme of |phi_b - phi_a - free angle| over the scene */
@@ -69,6 +71,7 @@ typedef struct fw_motion_stats {
     double largest_energy_J; /* that energy */
     double assembly_moved_m; /* largest correction of the initial position */
     double velocity_moved;   /* largest change of an initial velocity, relative */
+    double estimate_margin;  /* times what two runs differ by: their error. 0: there was one run */
     double estimate_cpu_s;   /* of the second run that the peaks' error estimates come from */
 } fw_motion_stats;
 
@@ -94,7 +97,9 @@ typedef struct fw_motion {
     const char *integrator, *method; /* used, and why: `reason` */
     const char *reason;
     const char *stabilise, *method_report; /* what the method has to say, or NULL */
-    const fw_terms *terms;                 /* what acted, for those who look at it again */
+    void *observed, *compared; /* contexts that saw this motion, and the looser run (NULL: none did;
+                                  a row of equilibria has no such run) */
+    const fw_terms *terms;     /* what acted, for those who look at it again */
 } fw_motion;
 
 /* one scene from the assembled position, with inertia. FW_SOLVER when the steps become too small.

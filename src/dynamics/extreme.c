@@ -7,7 +7,7 @@
 #include <float.h>
 #include <math.h>
 
-enum { GRID = 8 };
+enum { GRID = FW_GRID };
 typedef enum measure { FORCE, TORQUE, TRAVEL } measure;
 
 int fw_run_channels(const fw_run *r) {
@@ -59,16 +59,10 @@ static void offer(fw_extreme *extreme, double value, double t) {
     if (fabs(value) > fabs(extreme->value)) extreme->value = value, extreme->t = t;
 }
 
-/* places in a step and the weights of the polynomial through them */
-typedef struct grid {
-    int last;
-    double at[GRID + 1], weight[GRID + 1];
-} grid;
-
 /* Chebyshev-Lobatto points of the way to theta_end: a polynomial through values there does not
    swing. Where a method's interpolated states would be multiplied with large stiffnesses, its own
    ones: the polynomial is then one of forces, which are smooth. */
-static void places(const fw_stepper *s, double theta_end, grid *g) {
+void fw_run_places(const fw_stepper *s, double theta_end, fw_grid *g) {
     static const double PI = 3.14159265358979323846;
     double own[FW_ODE_OWN];
     int count = s->row->own ? s->row->own(s, own) : 0;
@@ -92,7 +86,7 @@ static void places(const fw_stepper *s, double theta_end, grid *g) {
 /* the polynomial through one channel at the places (a column of values), by the barycentric
    formula; its error at nine places in a step of one radian is some 1e-10. Source: Berrut and
    Trefethen 2004. */
-static double between(const grid *g, const double *column, int stride, double x) {
+double fw_run_between(const fw_grid *g, const double *column, int stride, double x) {
     double above = 0, below = 0;
     for (int k = 0; k <= g->last; k++) {
         double distance = x - g->at[k];
@@ -104,18 +98,18 @@ static double between(const grid *g, const double *column, int stride, double x)
 }
 
 /* extreme of that polynomial between two places, by golden section; evaluates nothing else */
-static double highest(const grid *g, const double *column, int stride, double a, double b,
+static double highest(const fw_grid *g, const double *column, int stride, double a, double b,
                       double *at) {
     const double golden = 0.6180339887498949;
     double x = b - golden * (b - a), y = a + golden * (b - a);
-    double fx = between(g, column, stride, x), fy = between(g, column, stride, y);
+    double fx = fw_run_between(g, column, stride, x), fy = fw_run_between(g, column, stride, y);
     for (int i = 0; i < 40 && b - a > 1e-8; i++) {
         if (fabs(fx) > fabs(fy)) {
             b = y, y = x, fy = fx, x = b - golden * (b - a);
-            fx = between(g, column, stride, x);
+            fx = fw_run_between(g, column, stride, x);
         } else {
             a = x, x = y, fx = fy, y = a + golden * (b - a);
-            fy = between(g, column, stride, y);
+            fy = fw_run_between(g, column, stride, y);
         }
     }
     bool first = fabs(fx) > fabs(fy);
@@ -126,8 +120,8 @@ static double highest(const grid *g, const double *column, int stride, double a,
 /* cells [*low, *high] around the largest of the places, if they may hide a larger one: next to an
    end of the step the polynomial must rise inwards. A parabola rises above the middle of three
    places by less than its bend. */
-static bool worth_a_search(const grid *g, const double *column, int count, int best, double so_far,
-                           int *low, int *high) {
+static bool worth_a_search(const fw_grid *g, const double *column, int count, int best,
+                           double so_far, int *low, int *high) {
     int inwards = best == 0 ? 1 : best == g->last ? -1 : 0, middle = best + inwards;
     double f[3], top = fabs(column[best * count]);
     if (g->last < 2) return false;
@@ -136,7 +130,7 @@ static bool worth_a_search(const grid *g, const double *column, int count, int b
     double bend = fabs(f[0] - 2 * f[1] + f[2]), near = 0.75 * g->at[best] + 0.25 * g->at[middle];
     *low = best > 0 ? best - 1 : 0, *high = best < g->last ? best + 1 : g->last;
     if (!(bend > 0 && top + bend >= so_far)) return false;
-    return !inwards || fabs(between(g, column, count, near)) > top;
+    return !inwards || fabs(fw_run_between(g, column, count, near)) > top;
 }
 
 /* every channel at the places of the step; where the largest of them comes near the extreme so
@@ -146,8 +140,8 @@ void fw_run_extremes(fw_run *r, fw_stepper *s, double theta_end) {
     if (!r->extreme) return;
     int count = fw_run_channels(r), low, high;
     double *value = r->channel_grid, span = theta_end * s->h, at;
-    grid g;
-    places(s, theta_end, &g);
+    fw_grid g;
+    fw_run_places(s, theta_end, &g);
     for (int k = 0; k <= g.last; k++) {
         channels_at(r, s, theta_end * g.at[k]);
         for (int i = 0; i < count; i++)

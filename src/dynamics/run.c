@@ -258,7 +258,10 @@ static bool look(fw_run *r, fw_stepper *s, fw_peaks *peaks, double theta_end) {
     fw_peaks_step(peaks, r->model, s, theta_end);
     fw_peaks_mark(peaks, s, theta_end, r->end[r->npiece - 1], r->moved);
     fw_run_extremes(r, s, theta_end);
-    if (!r->full) return true;
+    if (!r->full) {
+        fw_run_show(r, s, theta_end);
+        return true;
+    }
     if (theta_end == 1) watch_energy(r, s->t, s->y);
     fw_run_show(r, s, theta_end);
     return fw_run_samples(r, s, theta_end);
@@ -266,7 +269,7 @@ static bool look(fw_run *r, fw_stepper *s, fw_peaks *peaks, double theta_end) {
 
 static fw_status begin(fw_run *r, fw_stepper *s) {
     fw_model *m = r->model;
-    if (r->full && r->options->observe) r->options->observe(r->options->context, NULL);
+    fw_run_show_start(r);
     m->projections = m->events = 0;
     r->idle = 0, r->nudge = 0;
     m->worst_position = m->worst_velocity = 0;

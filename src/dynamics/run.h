@@ -65,11 +65,12 @@ typedef struct fw_run {
     double amplitude; /* scaled size of the motion: the absolute tolerance is rtol times this */
     fw_energy first;
     double drift, largest;
-    double *seen_q, *seen_angle, *seen_force; /* what the observer is shown, SI */
-    double most_angle;                        /* rad; HUGE_VAL: no end before the end */
-    long steps;                               /* over all tries */
-    bool fresh;                               /* no step yet behind a break or an event */
-    double patience; /* steps of one pass after which a choice of explicit ones is doubted; 0: any */
+    double *seen_q, *seen_angle, *seen_force, *seen_grid; /* what the observer is shown, SI */
+    double most_angle;                                    /* rad; HUGE_VAL: no end before the end */
+    long steps;                                           /* over all tries */
+    bool fresh; /* no step yet behind a break or an event */
+    double
+        patience; /* steps of one pass after which a choice of explicit ones is doubted; 0: any */
     double given_up_s; /* and where that was; NaN: it was not */
     double *end;       /* (npiece) scaled times at which a smooth piece ends */
     int npiece;
@@ -113,6 +114,15 @@ fw_status fw_integrator_change(fw_run *r);
 void fw_run_first_sample(fw_run *r, const double *y);
 /* rows and observer along the last step up to theta_end; false: a state cannot be projected */
 bool fw_run_samples(fw_run *r, fw_stepper *s, double theta_end);
+enum { FW_GRID = 8 };
+typedef struct fw_grid { /* places in a step and the weights of the polynomial through them */
+    int last;
+    double at[FW_GRID + 1], weight[FW_GRID + 1]; /* at: of the way to theta_end */
+} fw_grid;
+void fw_run_places(const fw_stepper *s, double theta_end, fw_grid *grid);
+/* that polynomial of a column of values at the places, x of the way */
+double fw_run_between(const fw_grid *grid, const double *column, int stride, double x);
+void fw_run_show_start(fw_run *r); /* a run begins */
 void fw_run_show(fw_run *r, fw_stepper *s, double theta_end);
 
 /* extreme.c */

@@ -86,21 +86,58 @@ bool fw_run_samples(fw_run *r, fw_stepper *s, double theta_end) {
     return true;
 }
 
+/* who looks at this run, NULL: nobody */
+static fw_observer observer(const fw_run *r, void **context) {
+    *context = r->full ? r->motion->observed : r->motion->compared;
+    return r->full || *context ? r->options->observe : NULL;
+}
+
+void fw_run_show_start(fw_run *r) {
+    void *context;
+    fw_observer see = observer(r, &context);
+    if (see) see(context, NULL);
+}
+
+static void forces_at(fw_run *r, fw_stepper *s, double theta, double *force) {
+    fw_stepper_dense(s, theta, r->state);
+    fw_model_react(r->model, s->t_old + theta * s->h, r->state, r->rate);
+    fw_pin_forces(r->model, force);
+}
+
+/* Where states are interpolated between a method's own ones, stiff axes make large forces of the
+   error of that: forces are then interpolated instead, between those of the own states */
+static bool own_forces(fw_run *r, fw_stepper *s, double theta_end, fw_grid *g) {
+    if (!s->row->own) return false;
+    size_t count = 2 * (size_t)r->mechanism->npin;
+    fw_run_places(s, theta_end, g);
+    for (int k = 0; k <= g->last; k++)
+        forces_at(r, s, theta_end * g->at[k], r->seen_grid + (size_t)k * count);
+    return true;
+}
+
 void fw_run_show(fw_run *r, fw_stepper *s, double theta_end) {
-    if (!r->options->observe) return;
+    void *context;
+    fw_observer see = observer(r, &context);
+    if (!see) return;
     bool fresh = r->fresh || !(s->t_old > 0);
+    int count = 2 * r->mechanism->npin;
+    fw_grid g;
+    bool own = own_forces(r, s, theta_end, &g);
     r->fresh = false;
     for (int i = fresh ? 0 : 1; i <= FW_INSTANTS; i++) {
-        double theta = theta_end * i / FW_INSTANTS;
-        fw_stepper_dense(s, theta, r->state);
+        double part = (double)i / FW_INSTANTS, theta = theta_end * i / FW_INSTANTS;
+        if (own)
+            fw_stepper_dense(s, theta, r->state);
+        else
+            forces_at(r, s, theta, r->seen_force);
+        for (int k = 0; own && k < count; k++)
+            r->seen_force[k] = fw_run_between(&g, r->seen_grid + k, count, part);
         pose_in_SI(r, r->state, r->seen_q, r->seen_angle);
-        fw_model_react(r->model, s->t_old + theta * s->h, r->state, r->rate);
-        fw_pin_forces(r->model, r->seen_force);
         const fw_instant now = {.t_s = (s->t_old + theta * s->h) * r->model->scale.time_s,
                                 .q = r->seen_q,
                                 .angle_rad = r->seen_angle,
                                 .reaction_N = r->seen_force,
                                 .begins = fresh && i == 0};
-        r->options->observe(r->options->context, &now);
+        see(context, &now);
     }
 }

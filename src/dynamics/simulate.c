@@ -137,6 +137,7 @@ double fw_run_margin(const fw_run *r) {
    and Wanner I, II.4. Test: test_peak.c. */
 static void estimate_errors(fw_run *r, const pass *fine, const pass *coarse) {
     const fw_stepper *s = fine->stepper;
+    r->motion->stats.estimate_margin = fw_run_margin(r);
     double unit = r->model->scale.time_s, eighth = r->end[r->npiece - 1] / 8, worst[FW_MARKS + 1];
     differences(fine, coarse, worst);
     for (int i = 0; i < fine->peaks.npin; i++) {
@@ -238,11 +239,18 @@ static fw_status tighten(fw_run *r) {
     const fw_motion_options *o = r->options;
     double rtol = chosen_rtol(o, r), tightest = fmax(fw_tightest, noise_floor(r));
     int rows = r->motion->nsample;
+    r->motion->observed = o->context;
+    r->motion->compared = o->other;
     bool again = false; /* coarse: the answer at a hundred times the tolerance, not good enough */
     pass fine, coarse;
     for (;;) {
         r->motion->nsample = rows;
         double began = cpu_seconds();
+        if (again && o->other) { /* what the answer so far showed is now the looser run */
+            void *looser = r->motion->observed;
+            r->motion->observed = r->motion->compared;
+            r->motion->compared = looser;
+        }
         FW_TRY(run_once(r, rtol, again ? &coarse : NULL, true, &fine));
         double between = cpu_seconds();
         take_statistics(r, fine.stepper, rtol, between - began);

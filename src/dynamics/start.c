@@ -287,6 +287,7 @@ fw_status fw_run_arrays(fw_run *r) {
     FW_NEED(r->seen_q = fw_arena_array(r->arena, double, n));
     FW_NEED(r->seen_angle = fw_arena_array(r->arena, double, pins));
     FW_NEED(r->seen_force = fw_arena_array(r->arena, double, 2 * pins));
+    FW_NEED(r->seen_grid = fw_arena_array(r->arena, double, (FW_GRID + 1) * 2 * pins));
     if (r->options->reactions) FW_TRY(fw_run_extremes_new(r));
     size_t friction = (size_t)fw_friction_count(r->model);
     FW_NEED(r->friction_fit = fw_arena_array(r->arena, double, friction));

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flexure/flare.h"
 #include "mechanism/builder.h"
 #include <math.h>
 
@@ -120,13 +121,39 @@ static double inertia_about(const fw_mass *m, double x, double y) {
 }
 
 /* the direction of the hinge in the crystal: of its drawn axis, or of the stated one */
-static fw_crystal crystal_of(const fw_builder *b, int j, const fw_joint *joint) {
-    const fw_material *m = &b->variant->material;
+static fw_crystal crystal_of(const fw_device *device, const fw_layout *layout,
+                             const fw_variant *variant, int joint) {
+    const fw_material *m = &variant->material;
     if (!fw_material_is_crystal(m)) return (fw_crystal){.known = false};
-    bool drawn = b->layout && b->layout->drawn && b->layout->hinge[j].drawn;
-    double axis = drawn ? b->layout->hinge[j].axis_rad : joint->axis_rad;
+    bool drawn = layout && layout->drawn && layout->hinge[joint].drawn;
+    double axis = drawn ? layout->hinge[joint].axis_rad : device->joint[joint].axis_rad;
     return fw_crystal_cubic(m->c11.value, m->c12.value, m->c44.value,
-                            axis - b->variant->orientation_rad);
+                            axis - variant->orientation_rad);
+}
+
+fw_flexure_input fw_mechanism_flexure(const fw_device *device, const fw_layout *layout,
+                                      const fw_variant *variant, int joint) {
+    const fw_flexure *f = &device->flexure[device->joint[joint].flexure];
+    const fw_material *m = &variant->material;
+    double fillet = f->fillet_m;
+    if (layout && layout->drawn && layout->hinge[joint].drawn)
+        fillet = layout->hinge[joint].fillet_m;
+    else if (isnan(fillet))
+        fillet = fw_flexure_default_fillet(f);
+    return (fw_flexure_input){
+        .kind = f->kind,
+        .length_m = f->length_m,
+        .angle_rad = f->angle_rad,
+        .radius_m = f->radius_m,
+        .width_m = f->width_m,
+        .fillet_m = fillet,
+        .depth_m = variant->thickness_m,
+        .youngs_Pa = m->youngs.value,
+        .poisson = m->poisson.unknown ? 0 : m->poisson.value,
+        .strength_Pa = m->strength.value,
+        .safety_factor = device->safety_factor,
+        .crystal = crystal_of(device, layout, variant, joint),
+    };
 }
 
 static fw_status flexure_result(const fw_builder *b, int j, const fw_joint *joint,
@@ -136,26 +163,9 @@ static fw_status flexure_result(const fw_builder *b, int j, const fw_joint *join
     const fw_material *m = &b->variant->material;
     FW_TRY(need_property(b, &m->youngs, "Young's modulus", "a flexure", joint->place));
     FW_TRY(need_property(b, &m->strength, "strength", "a flexure", joint->place));
-    double fillet = f->fillet_m;
-    if (b->layout && b->layout->drawn && b->layout->hinge[j].drawn)
-        fillet = b->layout->hinge[j].fillet_m;
-    else if (isnan(fillet))
-        fillet = fw_flexure_default_fillet(f);
-    hinge->input = (fw_flexure_input){
-        .kind = f->kind,
-        .length_m = f->length_m,
-        .angle_rad = f->angle_rad,
-        .radius_m = f->radius_m,
-        .width_m = f->width_m,
-        .fillet_m = fillet,
-        .depth_m = b->variant->thickness_m,
-        .youngs_Pa = m->youngs.value,
-        .poisson = m->poisson.unknown ? 0 : m->poisson.value,
-        .strength_Pa = m->strength.value,
-        .safety_factor = b->device->safety_factor,
-        .crystal = crystal_of(b, j, joint),
-    };
+    hinge->input = fw_mechanism_flexure(b->device, b->layout, b->variant, j);
     fw_flexure_closed_form(&hinge->input, result);
+    fw_flexure_flare(&hinge->input, f->flare_m, result);
     if (!isfinite(result->stiffness_Nm_per_rad) || !(result->stiffness_Nm_per_rad > 0))
         return fw_diag_error(
             b->diags, 85, f->place,

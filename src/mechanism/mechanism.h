@@ -102,6 +102,11 @@ fw_vec2 fw_ground_centre(const fw_mechanism *mechanism);
 void fw_strain_point(const double *strain, int nbody, fw_vec2 centre, int body, double *x_m,
                      double *y_m);
 
+/* what the closed form of a joint's flexure takes in this variant: the file's sizes, with the fillet
+   that was drawn (layout may be NULL) */
+fw_flexure_input fw_mechanism_flexure(const fw_device *device, const fw_layout *layout,
+                                      const fw_variant *variant, int joint);
+
 fw_status fw_mechanism_build(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_variant *variant, fw_diags *diags,
                              const fw_mechanism **mechanism);

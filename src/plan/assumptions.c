@@ -119,6 +119,28 @@ static fw_status how_hinges_move(fw_plan *plan) {
                           100.0 * fw_verdict_model_error.motion);
 }
 
+/* what the corners of the flows are, and what they are not */
+static fw_status as_made(fw_plan *plan) {
+    bool any = false;
+    for (int i = 0; i < plan->verdict.nvariant; i++) {
+        const fw_variant_verdict *v = &plan->verdict.variant[i];
+        any = any || v->made;
+        for (int k = 0; v->made && k < v->ninput; k++)
+            if (v->input[k].unknown)
+                FW_TRY(fw_plan_assume(plan,
+                                      "Flow %s: %s is not known (%s). The corners take an assumed "
+                                      "range, and the verdict holds inside it only: measure it.",
+                                      v->variant->flow, v->input[k].name, v->input[k].unknown));
+    }
+    if (!any)
+        return fw_plan_assume(plan, "The check is of the drawn geometry; what etching or plating "
+                                    "makes of it is in each flow's judgement.");
+    return fw_plan_assume(
+        plan, "Corners of a flow move all edges of the device alike, and all its walls. "
+              "The strength is no input of them: the safety factor stands for it. What "
+              "differs from flexure to flexure of one device is not in them.");
+}
+
 fw_status fw_plan_assumptions(fw_plan *plan) {
     const fw_model_error *e = &fw_verdict_model_error;
     char sf[32];
@@ -146,7 +168,5 @@ fw_status fw_plan_assumptions(fw_plan *plan) {
                                   100.0 * e->workspace));
             break;
         }
-    return fw_plan_assume(plan,
-                          "The check is of the drawn geometry; what etching or plating makes of "
-                          "it is in each flow's judgement.");
+    return as_made(plan);
 }

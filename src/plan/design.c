@@ -73,6 +73,8 @@ static const char *wrong_option(const fw_design_options *o) {
     if (!known(o->method, fw_method_at)) return "method is not known in this version";
     if (!known(o->integrator, fw_integrator_at)) return "integrator is not known in this version";
     if (!known(o->stabilise, fw_stabilisation_at)) return "there is no such stabilisation";
+    if (o->corners && strcmp(o->corners, "auto") != 0 && strcmp(o->corners, "none") != 0)
+        return "corners must be auto or none";
     if (o->at && strcmp(o->at, "rest") != 0 && strcmp(o->at, "equilibrium") != 0)
         return "at must be \"rest\" or \"equilibrium\"";
     return NULL;
@@ -109,9 +111,9 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     if (d->wrong_option) return FW_OK;
     if (given) memcpy(&o, given, given->size < sizeof o ? given->size : sizeof o);
     fw_arena *arena = d->plan->arena;
-    const char **text[] = {&o.data_directory, &o.flow,       &o.scene,        &o.effects,
-                           &o.method,         &o.integrator, &o.stabilise,    &o.at,
-                           &o.independent,    &o.rates,      &o.accelerations};
+    const char **text[] = {&o.data_directory, &o.flow,       &o.scene,         &o.effects,
+                           &o.method,         &o.integrator, &o.stabilise,     &o.at,
+                           &o.independent,    &o.rates,      &o.accelerations, &o.corners};
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
         FW_TRY(keep(arena, text[i]));
     d->wrong_option = wrong_option(&o);
@@ -127,6 +129,7 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     p->independent = o.independent;
     p->rates = o.rates;
     p->accelerations = o.accelerations;
+    if (o.corners && strcmp(o.corners, "none") == 0) p->verdict.corners = FW_CORNERS_NONE;
     m->effects = effects_of(o.effects);
     m->method = o.method;
     m->integrator = o.integrator;

@@ -1,10 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assembly/assembly.h"
 #include "plan/stages.h"
+#include "process/made.h"
 #include "statics/poise.h"
 #include "statics/quasi.h"
 #include <math.h>
 #include <string.h>
+
+/* the variant, and what its flow may make of it */
+static fw_status made_of(fw_plan *plan, const fw_plan_flow *pf, fw_variant_verdict *v) {
+    v->variant = &pf->variant;
+    if (!pf->flow) return FW_OK;
+    return fw_flow_made(plan->arena, pf->flow, &pf->variant, &v->input, &v->ninput);
+}
 
 fw_status fw_plan_judge(fw_plan *plan) {
     fw_verdict *verdict = &plan->verdict;
@@ -13,7 +21,7 @@ fw_status fw_plan_judge(fw_plan *plan) {
     FW_NEED(verdict->variant =
                 fw_arena_array(plan->arena, fw_variant_verdict, (size_t)plan->nflow));
     for (int i = 0; i < plan->nflow; i++)
-        verdict->variant[i].variant = &plan->flow[i].variant;
+        FW_TRY(made_of(plan, &plan->flow[i], &verdict->variant[i]));
     FW_TRY(fw_verdict_run(plan->arena, plan->device, &plan->options.verdict, &plan->diags, verdict,
                           &plan->layout));
     return fw_plan_compute_flows(plan);

@@ -116,6 +116,22 @@ typedef struct fw_step {
     double attended_s; /* somebody must be there for this long; 0: unattended */
 } fw_step;
 
+typedef enum fw_corner_of { /* <corner of>: what a flow does not make exactly as drawn */
+                            FW_CORNER_EDGE,       /* m: edges stand out of the drawn ones */
+                            FW_CORNER_TAPER,      /* rad: of the walls, about mid-depth */
+                            FW_CORNER_ANISOTROPY, /* 1: of the etch that cuts the device layer */
+                            FW_CORNER_THICKNESS,  /* m: of the device layer */
+                            FW_CORNER_YOUNGS      /* of the material as it is */
+} fw_corner_of;
+
+typedef struct fw_corner { /* <corner of q assumed>: an input of what stands in the end */
+    fw_corner_of of;
+    const char *name;           /* "printed edge" */
+    const fw_quantity *q;       /* its range; NULL: the material's own (youngs) */
+    const fw_quantity *assumed; /* range taken where q is unknown; may be NULL */
+    fw_place place;
+} fw_corner;
+
 typedef struct fw_flow {
     const char *id, *version, *title, *file, *sha256;
     const char *material;         /* id of the structural material */
@@ -136,8 +152,9 @@ typedef struct fw_flow {
     const char **reason;   /* (nreason) */
     int nreason;
     fw_process_material *process_material; /* (nprocess_material) */
+    fw_corner *corner;                     /* (ncorner) */
     const char **open_point; /* (nopen_point) what the source leaves open and cannot be computed */
-    int nprocess_material, nopen_point;
+    int nprocess_material, nopen_point, ncorner;
     int count[FW_ASSUMED + 1]; /* quantities that the steps use, by status */
     int unknown;               /* ... and that are unknown */
     fw_place place;

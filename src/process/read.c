@@ -195,6 +195,7 @@ static fw_status make_room(fw_pack *pack) {
     FW_NEED(f->equipment = fw_arena_array(pack->arena, fw_equipment, n));
     FW_NEED(f->process_material = fw_arena_array(pack->arena, fw_process_material, n));
     FW_NEED(f->quantity = fw_arena_array(pack->arena, fw_quantity *, n));
+    FW_NEED(f->corner = fw_arena_array(pack->arena, fw_corner, n));
     FW_NEED(f->open_point = fw_arena_array(pack->arena, const char *, n));
     FW_NEED(f->step =
                 fw_arena_array(pack->arena, fw_step, (size_t)fw_pack_count(pack->root, "step")));
@@ -298,6 +299,7 @@ fw_status fw_flow_read(fw_arena *arena, const char *base_file, const char *base_
     FW_TRY(make_room(&pack));
     FW_TRY(read_everything(&pack));
     read_head(&pack);
+    fw_pack_corners(&pack);
     FW_TRY(fw_pack_steps(&pack));
     if (diags->errors == errors) FW_TRY(fw_pack_lint(&pack));
     if (diags->failed) return FW_NOMEM;

@@ -12,7 +12,7 @@ typedef struct rule {
 
 static const rule rules[] = {
     {"process", "id! version! title! material thickness carrier",
-     "source! material equipment hazard q open-point step"},
+     "source! material equipment hazard q corner open-point step"},
     {"source", "id! kind! date", ""},
     {"material", "id! name! criterion", "q"},
     {"equipment", "id! class! capacity!", ""},
@@ -21,6 +21,7 @@ static const rule rules[] = {
     {"firstaid", "", ""},
     {"waste", "stream!", ""},
     {"incompatible", "with!", ""},
+    {"corner", "of! name! q assumed", ""},
     {"open-point", "", ""},
     {"step", "id! op! title! equipment! in-source! mask batch second-signature attended",
      "purpose! change set time! derive endpoint! accept! hazard-ref on-fail! lag"},
@@ -46,6 +47,7 @@ typedef struct words {
 
 static const words lists[] = {
     {"process", "carrier", "none insulating"},
+    {"corner", "of", "edge taper anisotropy thickness youngs"},
     {"step", "op",
      "clean anodise displace coat bake expose develop plate deposit wet-etch dry-etch strip "
      "release "

@@ -55,6 +55,8 @@ typedef struct fw_quantity {
     bool unknown;       /* no value: whatever needs it is NOT COMPUTABLE */
     double value;       /* SI */
     double uncertainty; /* standard, absolute, SI; >= 0 */
+    bool interval;      /* the uncertainty was given as a range: low to high, SI */
+    double low, high;
     fw_dimension dimension;
     const char *unit; /* as written, for printing */
     fw_value_status status;

@@ -110,6 +110,9 @@ void fw_report_banner(fw_page *page) {
                      fw_report_decision_colour(v->decision), page->in->device->name,
                      fw_report_decision_word(v->decision));
     why(out, v);
+    if (v->drawn != v->decision)
+        fw_report_markup(out, "<p class=\"why\">The drawn geometry alone: {r}.</p>\n",
+                         fw_report_decision_word(v->drawn));
     facts(out, v);
     fw_text_add(out, "</div></header>\n");
 }

@@ -9,6 +9,7 @@ static const struct {
 } sections[] = {
     {"device", "Device", fw_report_section_device},
     {"hinges", "Hinges", fw_report_section_hinges},
+    {"made", "As fabricated", fw_report_section_made},
     {"motion", "Motion", fw_report_section_motion},
     {"workspace", "Workspace", fw_report_section_workspace},
     {"flows", "Flows", fw_report_section_flows},

@@ -2,6 +2,7 @@
 #include "report/json_rest.h"
 #include "report/json.h"
 #include "report/json_effects.h"
+#include "report/json_made.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -29,10 +30,16 @@ static json_t *hinge(const fw_hinge_verdict *h, bool *failed) {
     return o;
 }
 
-static json_t *hinges(const fw_hinge_verdict *item, int count, bool *failed) {
+/* with what these flows make of them */
+static json_t *hinges(const fw_hinge_verdict *item, int count, const fw_variant_verdict *variant,
+                      int nvariant, bool *failed) {
     json_t *list = json_array();
-    for (int i = 0; i < count; i++)
-        fw_json_push(list, hinge(&item[i], failed), failed);
+    for (int i = 0; i < count; i++) {
+        json_t *o = hinge(&item[i], failed);
+        fw_json_put(o, "as_fabricated",
+                    fw_json_made_hinge(variant, nvariant, item[i].joint, failed), failed);
+        fw_json_push(list, o, failed);
+    }
     return list;
 }
 
@@ -97,7 +104,9 @@ static json_t *flow(const fw_report_flow *f, bool *failed) {
     if (v) {
         fw_json_put(o, "verdict", fw_json_text(word(v->decision)), failed);
         fw_json_put(o, "governing", governing(v->hinge, v->nhinge, v->governing, failed), failed);
-        fw_json_put(o, "hinges", hinges(v->hinge, v->nhinge, failed), failed);
+        fw_json_put(o, "hinges", hinges(v->hinge, v->nhinge, v, 1, failed), failed);
+        fw_json_put(o, "drawn", fw_json_text(word(v->drawn)), failed);
+        fw_json_put(o, "as_fabricated", fw_json_made(v, failed), failed);
     }
     return o;
 }
@@ -169,9 +178,11 @@ fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out) {
     fw_json_put(root, "device", fw_json_text(input->device->name), &failed);
     fw_json_put(root, "version", fw_json_text(input->version), &failed);
     fw_json_put(root, "verdict", fw_json_text(word(v->decision)), &failed);
+    fw_json_put(root, "drawn", fw_json_text(word(v->drawn)), &failed);
     if (v->decision == FW_REJECT) fw_json_put(root, "banner", fw_json_text("REJECTED"), &failed);
     fw_json_put(root, "governing", governing(v->hinge, v->nhinge, v->governing, &failed), &failed);
-    fw_json_put(root, "hinges", hinges(v->hinge, v->nhinge, &failed), &failed);
+    fw_json_put(root, "hinges", hinges(v->hinge, v->nhinge, v->variant, v->nvariant, &failed),
+                &failed);
     fw_json_put(root, "workspace", workspace(input, &failed), &failed);
     json_t *flows = json_array();
     for (int i = 0; i < input->nflow; i++)

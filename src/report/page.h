@@ -179,6 +179,7 @@ void fw_report_advice(fw_page *page);
 void fw_report_mechanics(fw_page *page); /* masses, stiffnesses, dampings as used, per flow */
 fw_status fw_report_section_device(fw_page *page);
 fw_status fw_report_section_hinges(fw_page *page);
+fw_status fw_report_section_made(fw_page *page);
 fw_status fw_report_section_motion(fw_page *page);
 fw_status fw_report_section_workspace(fw_page *page);
 fw_status fw_report_section_flows(fw_page *page);

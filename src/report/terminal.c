@@ -111,12 +111,15 @@ fw_status fw_report_verdict_text(const fw_report_input *input, fw_terminal_style
     const fw_verdict *v = input->verdict;
     static const char *const word[] = {"ACCEPT", "INCONCLUSIVE", "REJECT"};
     static const char *const paint[] = {"\033[1;32m", "\033[1;33m", "\033[1;31m"};
-    fw_text_printf(out, "%s: %s%s%s\n", input->device->name, style.colour ? paint[v->decision] : "",
+    fw_text_printf(out, "%s: %s%s%s", input->device->name, style.colour ? paint[v->decision] : "",
                    word[v->decision], style.colour ? "\033[0m" : "");
+    if (v->drawn != v->decision) fw_text_printf(out, " (as drawn: %s)", word[v->drawn]);
+    fw_text_add(out, "\n");
     if (v->governing != FW_NONE) governing(out, &v->hinge[v->governing]);
     reasons(out, v);
     if (style.detail >= 0 && v->nhinge > 0) hinges(out, v);
     if (style.detail >= 0) pull_ins(out, input);
+    if (style.detail >= 0) fw_report_made_text(out, v);
     advice(out, v);
     for (int i = 0; style.detail >= 0 && v->decision != FW_REJECT && i < input->nflow; i++)
         if (input->flow[i].flow) flow(out, &input->flow[i], style.detail);

@@ -12,6 +12,8 @@ typedef struct fw_terminal_style {
 /* decision, governing hinge, hinges, advice, flows */
 fw_status fw_report_verdict_text(const fw_report_input *input, fw_terminal_style style,
                                  fw_text *out);
+/* what each flow makes of the device, at its corners */
+void fw_report_made_text(fw_text *out, const fw_verdict *verdict);
 /* peaks, statistics, effects of one scene; holds a measured CPU time */
 fw_status fw_report_simulate_text(const fw_scene *scene, const fw_mechanism *mechanism,
                                   const fw_motion *motion, fw_text *out);

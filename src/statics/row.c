@@ -243,6 +243,7 @@ static fw_status walk(fw_row *r, double end, double *h) {
 
 static fw_status follow(fw_row *r) {
     double second = r->w.model->scale.time_s;
+    r->motion->observed = r->options->context;
     if (r->options->observe) r->options->observe(r->options->context, NULL);
     for (int piece = 0; piece < r->npiece && !r->motion->ended; piece++) {
         double begin = piece ? r->end[piece - 1] : 0, h = (r->end[piece] - begin) / 16;

@@ -113,11 +113,32 @@ static fw_status draw(fw_arena *arena, const fw_device *device, fw_diags *diags,
     return fatal ? status : FW_OK;
 }
 
-/* not so where a tighter run would change nothing: what is inconclusive is no band of a hinge */
-static bool straddles(const fw_verdict *verdict) {
-    for (int k = 0; k < verdict->nhinge; k++)
-        if (verdict->hinge[k].decision == FW_INCONCLUSIVE) return true;
+/* not so where a tighter run would change nothing: what is inconclusive is no band of a hinge, or
+   its band is the model's */
+bool fw_verdict_undecided(const fw_hinge_verdict *hinge, int nhinge) {
+    for (int k = 0; k < nhinge; k++)
+        if (hinge[k].scene && hinge[k].decision == FW_INCONCLUSIVE && hinge[k].numeric > 1e-5)
+            return true;
     return false;
+}
+
+fw_verdict_options fw_verdict_tighter(const fw_verdict_options *options) {
+    fw_verdict_options tight = *options;
+    tight.motion.accuracy = 1e-6;
+    tight.motion.rtol = 0.0;
+    return tight;
+}
+
+/* what the flows make of it; the drawn verdict stays in each variant */
+static fw_status as_made(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                         const fw_verdict_options *options, fw_verdict *verdict) {
+    verdict->drawn = verdict->decision;
+    for (int i = 0; i < verdict->nvariant; i++) {
+        fw_variant_verdict *v = &verdict->variant[i];
+        FW_TRY(fw_verdict_made(arena, device, layout, options, v));
+        if (v->decision > verdict->decision) verdict->decision = v->decision;
+    }
+    return FW_OK;
 }
 
 fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
@@ -129,17 +150,16 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
     FW_TRY(attempt(arena, device, *layout, options, diags, verdict));
 
     /* a band that straddles 1 because of the integrator: try tighter by itself, once */
-    if (verdict->decision == FW_INCONCLUSIVE && straddles(verdict) &&
-        verdict->accuracy_estimated > 1e-5) {
-        fw_verdict_options tight = *options;
-        tight.motion.accuracy = 1e-6;
-        tight.motion.rtol = 0.0;
+    if (verdict->decision == FW_INCONCLUSIVE &&
+        fw_verdict_undecided(verdict->hinge, verdict->nhinge)) {
+        fw_verdict_options tight = fw_verdict_tighter(options);
         fw_diags again = fw_diags_new(arena); /* the same warnings a second time */
         *verdict = (fw_verdict){.variant = variant, .nvariant = nvariant};
         FW_TRY(attempt(arena, device, *layout, &tight, &again, verdict));
         verdict->accuracy_wanted = options->motion.accuracy;
     }
     verdict->layout = *layout;
+    FW_TRY(as_made(arena, device, *layout, options, verdict));
     if (options->with_advice && verdict->decision != FW_ACCEPT)
         FW_TRY(fw_verdict_advise(arena, device, options, verdict));
     return FW_OK;

@@ -30,9 +30,40 @@ static fw_status copy_device(fw_arena *arena, const fw_device *device, fw_device
     return copy_scenes(arena, d);
 }
 
+/* the tightest device that the flow may make, where that is worse than the drawn one */
+static void remember_made(const fw_variant_verdict *v, fw_trial_hinge *to,
+                          const fw_layout *layout) {
+    const fw_made_verdict *made = v->made;
+    for (int k = 0; k < v->nhinge; k++) {
+        const fw_hinge_verdict *h = &made->corner[made->hinge[k].corner].hinge[k];
+        if (h->joint != to->joint || !h->scene) continue;
+        double meet = h->touches && layout ? layout->hinge[h->joint].free_rad : 0.0;
+        if (h->decision > to->decision) to->decision = h->decision;
+        if (h->utilisation_high > to->utilisation_high) {
+            to->utilisation_high = h->utilisation_high;
+            to->scene = h->scene;
+            to->flow = v->variant->flow;
+        }
+        if (meet > 0.0) to->reach = fmax(to->reach, fabs(h->peak_angle_rad) / meet);
+    }
+}
+
+static void remember_suspect(fw_trial *trial, const fw_verdict *verdict) {
+    for (int i = 0; i < verdict->nvariant; i++) {
+        const fw_variant_verdict *v = &verdict->variant[i];
+        if (!v->made || v->made->decision == FW_ACCEPT) continue;
+        trial->suspected[i] = true;
+        for (int k = 0; k < v->ninput; k++)
+            trial->suspect[i * FW_MADE_INPUTS + k] = v->made->corner[v->made->at].x[k];
+    }
+}
+
 static void remember(fw_trial *trial, const fw_verdict *verdict, const fw_layout *layout) {
     trial->nhinge = verdict->nhinge;
     trial->decision = verdict->decision;
+    trial->made = false;
+    for (int i = 0; i < verdict->nvariant; i++)
+        trial->made = trial->made || verdict->variant[i].made;
     for (int k = 0; k < verdict->nhinge; k++) {
         const fw_hinge_verdict *h = &verdict->hinge[k];
         double meet = h->touches && layout ? layout->hinge[h->joint].free_rad : 0.0;
@@ -42,16 +73,32 @@ static void remember(fw_trial *trial, const fw_verdict *verdict, const fw_layout
                                            meet > 0.0 ? fabs(h->peak_angle_rad) / meet : 0.0,
                                            h->scene,
                                            h->flow};
+        for (int i = 0; i < verdict->nvariant; i++)
+            if (verdict->variant[i].made)
+                remember_made(&verdict->variant[i], &trial->hinge[k], layout);
     }
     for (int i = 0; i < verdict->nvariant; i++)
         for (int k = 0; k < verdict->variant[i].nreason; k++) {
             const fw_reason *r = &verdict->variant[i].reason[k];
+            if (r->number == 237 || r->number == 238) continue; /* as made: here and above */
             trial->hinge[trial->nhinge++] = (fw_trial_hinge){.joint = FW_NONE,
                                                              .decision = r->decision,
                                                              .utilisation_high = 1 / r->keep,
                                                              .scene = r->scene,
                                                              .flow = r->flow};
         }
+    for (int i = 0; i < verdict->nvariant; i++) { /* beside hinges; gone: has no utilisation */
+        const fw_made_verdict *made = verdict->variant[i].made;
+        if (!made || made->decision == FW_ACCEPT) continue;
+        const fw_made_corner *c = &made->corner[made->at];
+        if (!c->why) continue;
+        trial->hinge[trial->nhinge++] =
+            (fw_trial_hinge){.joint = FW_NONE,
+                             .decision = made->decision,
+                             .utilisation_high = c->scene ? 1 / c->keep : 1.3,
+                             .scene = c->scene ? c->scene : "as made",
+                             .flow = verdict->variant[i].variant->flow};
+    }
 }
 
 fw_status fw_trial_start(fw_arena *arena, const fw_device *device,
@@ -59,14 +106,17 @@ fw_status fw_trial_start(fw_arena *arena, const fw_device *device,
                          fw_trial *trial) {
     *trial = (fw_trial){
         .arena = arena, .device = device, .options = options, .verdict = verdict, .drawn = true};
-    size_t most =
-        (size_t)device->njoint + FW_REASONS * (size_t)verdict->nvariant * (size_t)device->nscene;
+    size_t n = (size_t)verdict->nvariant;
+    size_t most = (size_t)device->njoint + n * (FW_REASONS * (size_t)device->nscene + 1);
+    FW_NEED(trial->suspect = fw_arena_array(arena, double, n *FW_MADE_INPUTS));
+    FW_NEED(trial->suspected = fw_arena_array(arena, bool, n));
     FW_NEED(trial->hinge = fw_arena_array(arena, fw_trial_hinge, most));
     FW_NEED(trial->share = fw_arena_array(arena, double, (size_t)device->nscene));
     for (int i = 0; i < device->nscene; i++)
         trial->share[i] = 1;
     FW_TRY(copy_device(arena, device, &trial->changed));
     remember(trial, verdict, verdict->layout);
+    remember_suspect(trial, verdict);
     return FW_OK;
 }
 
@@ -79,19 +129,26 @@ fw_status fw_trial_run(fw_trial *trial) {
     const fw_layout *layout = NULL;
     fw_verdict_options quiet = *trial->options;
     quiet.with_advice = false;
+    if (quiet.corners == FW_CORNERS_AUTO) quiet.corners = FW_CORNERS_FIRST;
     quiet.motion.samples = 65; /* stability is looked at between them */
     fw_verdict again = {.nvariant = n,
                         .variant = fw_arena_array(scratch, fw_variant_verdict, (size_t)n)};
     fw_status status = again.variant ? FW_OK : FW_NOMEM;
     for (int i = 0; status == FW_OK && i < n; i++)
-        again.variant[i].variant = trial->verdict->variant[i].variant;
+        again.variant[i] = (fw_variant_verdict){
+            .variant = trial->verdict->variant[i].variant,
+            .input = trial->verdict->variant[i].input,
+            .ninput = trial->verdict->variant[i].ninput,
+            .suspect = trial->suspected[i] ? trial->suspect + i * FW_MADE_INPUTS : NULL};
     if (status == FW_OK)
         status = fw_verdict_run(scratch, trial->changed, &quiet, &diags, &again, &layout);
     trial->drawn = status == FW_OK && layout && layout->drawn;
-    if (status == FW_OK)
+    if (status == FW_OK) {
         remember(trial, &again, layout);
-    else
+        remember_suspect(trial, &again);
+    } else {
         trial->decision = FW_REJECT;
+    }
     fw_arena_free(scratch);
     return status == FW_NOMEM || status == FW_CANCELLED ? status : FW_OK;
 }

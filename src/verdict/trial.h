@@ -22,9 +22,12 @@ typedef struct fw_trial {
     const fw_verdict *verdict; /* of the device as described */
     fw_trial_hinge *hinge;     /* (nhinge) of the last run */
     int nhinge;
-    double *share; /* (device->nscene) of each scene's loads that is left */
+    double *suspect; /* (nvariant x FW_MADE_INPUTS) corner of each flow that governed last */
+    bool *suspected; /* (nvariant) there is one */
+    double *share;   /* (device->nscene) of each scene's loads that is left */
     fw_decision decision;
     bool drawn;
+    bool made; /* the last run looked at what the flows make of it, too */
 } fw_trial;
 
 /* copies the device and takes over the verdict that it has */

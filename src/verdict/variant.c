@@ -55,12 +55,25 @@ static void collide(const fw_hinge_layout *drawn, fw_hinge_verdict *out) {
     if (out->touches && out->decision == FW_ACCEPT) out->decision = FW_INCONCLUSIVE;
 }
 
+/* What stiff axes carry is known less well than the rotation: strains have an error of their own,
+   from the same two runs as that of the angle (statistics.estimate_margin). The largest difference
+   of all hinges counts for each, since one alone may agree by chance. */
+static double strain_error(const fw_motion *motion) {
+    const fw_watch *saw = motion->observed, *looser = motion->compared;
+    double most = 0.0;
+    if (!saw || !looser || motion->ended) return 0.0;
+    for (int k = 0; k < saw->mechanism->nhinge; k++)
+        if (saw->hinge[k].seen > 0 && looser->hinge[k].seen > 0)
+            most = fmax(most, fabs(saw->hinge[k].strain - looser->hinge[k].strain));
+    return motion->stats.estimate_margin * most;
+}
+
 /* utilisation = peak strain (rotation and joint force, fillets included) over the limit strain, and
    never less than peak angle / limit angle; band = model errors of it, and the numerical errors of
    the angle over the limit angle and of the search for the strain */
 static void judge_scene(const fw_mechanism *m, const fw_hinge *hinge, const fw_hinge_layout *drawn,
-                        const fw_motion *motion, const fw_strain_peak *strain, const char *scene,
-                        fw_hinge_verdict *out) {
+                        const fw_motion *motion, const fw_strain_peak *strain, double apart,
+                        const char *scene, fw_hinge_verdict *out) {
     const fw_peak *peak = &motion->peak[hinge->pin];
     const fw_flexure_result *c = &hinge->closed_form;
     double by_angle = fabs(peak->angle_rad) / c->limit_angle_rad;
@@ -80,8 +93,9 @@ static void judge_scene(const fw_mechanism *m, const fw_hinge *hinge, const fw_h
     /* a run that was ended went a whole turn: no error of its own changes that */
     double numeric = motion->ended ? 0.0
                                    : out->angle_error_rad / c->limit_angle_rad +
-                                         strain->between / out->strain_limit;
+                                         (strain->between + apart) / out->strain_limit;
     double model = fw_verdict_model_error.motion + fw_verdict_model_error.strain + beyond_fit(c);
+    out->numeric = numeric;
     out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - model) - numeric);
     out->utilisation_high = out->utilisation * (1.0 + model) + numeric;
     out->decision = decide(out->utilisation_low, out->utilisation_high);
@@ -106,6 +120,7 @@ static void judge_workspace(const fw_mechanism *m, const fw_hinge *hinge,
     out->peak_strain = out->utilisation * out->strain_limit;
     double numeric = peak->error_rad / c->limit_angle_rad;
     double model = fw_verdict_model_error.strain + beyond_fit(c);
+    out->numeric = numeric;
     out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - model) - numeric);
     out->utilisation_high =
         out->utilisation * (1.0 + model + fw_verdict_model_error.workspace) + numeric;
@@ -124,22 +139,25 @@ static void warn_ended(const fw_scene *scene, const fw_motion *motion, fw_diags 
                     scene->name, fw_number_text(t, sizeof t, motion->end_s * 1e3, 4));
 }
 
-/* runs every scene of this variant; watch[i] has its strain peaks */
+/* runs every scene of this variant; watch[i] and other[i] follow the strains of its two runs */
 static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                             const fw_mechanism *m, const fw_verdict_options *options,
-                            fw_diags *diags, fw_variant_verdict *v, fw_watch *watch) {
+                            fw_diags *diags, fw_variant_verdict *v, fw_watch *watch,
+                            fw_watch *other) {
     size_t n = (size_t)device->nscene;
     fw_motion_options motion = options->motion;
     if (motion.most_angle_rad <= 0) motion.most_angle_rad = whole_turn;
     FW_NEED(v->motion = fw_arena_alloc(arena, n, sizeof *v->motion));
     FW_NEED(v->pull_in = fw_arena_alloc(arena, n, sizeof *v->pull_in));
-    FW_NEED(v->reason = fw_arena_array(arena, fw_reason, FW_REASONS * n));
+    FW_NEED(v->reason = fw_arena_array(arena, fw_reason, FW_REASONS * n + 1)); /* as made */
     for (size_t i = 0; i < n; i++) {
         const fw_scene *scene = &device->scene[i];
         if (!fw_device_in_flow(scene->flow, m->variant->flow)) continue;
         FW_TRY(fw_watch_new(arena, m, layout, &watch[i]));
         motion.observe = fw_watch_see;
         motion.context = &watch[i];
+        FW_TRY(fw_watch_new(arena, m, layout, &other[i]));
+        motion.other = &other[i];
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));
         if (v->motion[i] && v->motion[i]->ended) warn_ended(scene, v->motion[i], diags);
     }
@@ -163,11 +181,15 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
                              fw_diags *diags, fw_variant_verdict *v) {
     v->mechanism = m;
     v->governing = FW_NONE;
+    v->nreason = 0;
     v->nhinge = m->nhinge;
     FW_NEED(v->hinge = fw_arena_array(arena, fw_hinge_verdict, (size_t)m->nhinge));
+    size_t rows = (size_t)m->nhinge * ((size_t)device->nscene + 1);
+    FW_NEED(v->used = fw_arena_array(arena, double, rows));
     fw_watch *watch = fw_arena_array(arena, fw_watch, (size_t)device->nscene);
-    FW_NEED(watch);
-    FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, watch));
+    fw_watch *other = fw_arena_array(arena, fw_watch, (size_t)device->nscene);
+    FW_NEED(watch && other ? watch : NULL);
+    FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, watch, other));
     FW_TRY(fw_workspace_required(arena, m, diags, &v->workspace));
 
     const fw_material *material = &m->variant->material;
@@ -179,18 +201,24 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
                                   .strain_limit = material->strength.value / device->safety_factor /
                                                   material->youngs.value};
         v->hinge[k] = blank;
+        double *used = v->used + (size_t)k * ((size_t)device->nscene + 1);
+        for (int i = 0; i <= device->nscene; i++)
+            used[i] = (double)NAN;
         for (int i = 0; i < device->nscene; i++) {
             if (!v->motion[i]) continue;
             fw_hinge_verdict now = blank;
-            judge_scene(m, hinge, drawn, v->motion[i], &watch[i].hinge[k], device->scene[i].name,
-                        &now);
+            const fw_watch *saw = v->motion[i]->observed ? v->motion[i]->observed : &watch[i];
+            judge_scene(m, hinge, drawn, v->motion[i], &saw->hinge[k], strain_error(v->motion[i]),
+                        device->scene[i].name, &now);
             if (now.touches) warn_touching(device, drawn, &now, diags);
+            used[i] = now.utilisation;
             fw_verdict_keep_worst(&v->hinge[k], &now);
         }
         if (v->workspace.required) { /* the poses that can be reached */
             fw_hinge_verdict now = blank;
             judge_workspace(m, hinge, drawn, &v->workspace, &now);
             if (now.touches) warn_touching(device, drawn, &now, diags);
+            used[device->nscene] = now.utilisation;
             fw_verdict_keep_worst(&v->hinge[k], &now);
         }
     }
@@ -205,5 +233,6 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     if (v->workspace.required && !v->workspace.reachable) v->decision = FW_REJECT;
     for (int i = 0; i < v->nreason; i++)
         if (v->reason[i].decision > v->decision) v->decision = v->reason[i].decision;
+    v->drawn = v->decision;
     return FW_OK;
 }

@@ -6,6 +6,7 @@
 #define FW_VERDICT_VERDICT_H
 #include "dynamics/dynamics.h"
 #include "statics/pull_in.h"
+#include "verdict/made.h"
 #include "workspace/workspace.h"
 
 typedef enum fw_decision { FW_ACCEPT, FW_INCONCLUSIVE, FW_REJECT } fw_decision; /* worst last */
@@ -18,7 +19,8 @@ typedef struct fw_hinge_verdict {
     double peak_angle_rad, angle_error_rad, limit_angle_rad;
     double peak_strain, strain_limit;
     double utilisation, utilisation_low, utilisation_high;
-    double t_s; /* NaN for the workspace */
+    double numeric; /* part of the band on either side that a tighter run would take away */
+    double t_s;     /* NaN for the workspace */
     fw_decision decision;
     int joint;
     double force_share; /* part of the peak strain that the joint force adds to the rotation's */
@@ -33,8 +35,48 @@ typedef struct fw_reason { /* why a scene is not accepted, beside the bands of i
     const char *text; /* a sentence */
 } fw_reason;
 
+typedef struct fw_made_corner { /* one device that the flow may make, judged like the drawn one */
+    const double *x;            /* (ninput) */
+    const char *what;           /* "nominal", "printed edge -0.15 um, thickness 49 um" */
+    fw_hinge_verdict *hinge; /* (nhinge) worst over the scenes; utilisation 0 where `why` says that
+                                nothing was run */
+    const char *why;         /* what speaks against it beside its hinges, or NULL */
+    const char *scene;       /* of `why`; NULL: of none (a flexure is gone) */
+    double keep;             /* share of its loads that it may bear */
+    fw_decision decision;
+} fw_made_corner;
+
+typedef struct fw_made_hinge {
+    int corner;    /* of those that were run, the tightest */
+    double most;   /* bound on the utilisation at any corner, run or not */
+    double sigma;  /* of the nominal utilisation, first order, inputs independent */
+    double *share; /* (ninput) dU/dx sigma_x */
+} fw_made_hinge;
+
+typedef struct fw_made_verdict {
+    fw_made_corner *corner; /* (ncorner) the first is the nominal device */
+    int ncorner;
+    fw_made_hinge *hinge; /* (nhinge) */
+    fw_decision decision; /* accept: all of them; reject: the nominal one is rejected */
+    int governing, at;    /* hinge and corner; FW_NONE: a corner without hinges to judge */
+    double error;         /* largest |ln U - ln of the first-order estimate| where both are known */
+    bool all;             /* every corner was run */
+    int held;             /* input that must be held closer so that it accepts, or FW_NONE */
+    double held_low, held_high;
+    double held_share;   /* share of every range about the nominal that would do; NaN: not asked */
+    const char *control; /* a sentence: what must be known or held; NULL: it accepts */
+    const char *reason;  /* a sentence: why it does not accept */
+} fw_made_verdict;
+
 typedef struct fw_variant_verdict { /* one flow: a material and a thickness */
     const fw_variant *variant;
+    const fw_made_input *input; /* (ninput) what the flow may make of it; none: as drawn only */
+    int ninput;
+    const double *suspect; /* (ninput) a corner to look at first, or NULL */
+    fw_made_verdict *made; /* NULL: not asked for, or the drawn device is not accepted */
+    fw_decision drawn;     /* decision of the drawn geometry alone */
+    double *used;          /* (nhinge x (nscene + 1)) utilisation of each hinge in each scene and,
+                              last, in the workspace; NaN: none */
     const fw_mechanism *mechanism;
     const fw_motion **motion;   /* (device->nscene) NULL where the scene is not for this flow,
                                    or has no motion: a reason says why */
@@ -57,7 +99,8 @@ typedef struct fw_advice {  /* one change that accepts, verified by running it *
 } fw_advice;
 
 typedef struct fw_verdict {
-    fw_decision decision;
+    fw_decision decision;        /* as drawn and as made */
+    fw_decision drawn;           /* of the drawn geometry alone */
     fw_variant_verdict *variant; /* (nvariant) */
     int nvariant;
     fw_hinge_verdict *hinge; /* (nhinge) worst over the variants, by joint */
@@ -73,9 +116,16 @@ typedef struct fw_verdict {
     const fw_layout *layout; /* what was judged; NULL: it cannot be drawn */
 } fw_verdict;
 
+typedef enum fw_corners {
+    FW_CORNERS_AUTO, /* as drawn, then as made */
+    FW_CORNERS_NONE, /* as drawn only */
+    FW_CORNERS_FIRST /* stop at the first corner that is not accepted: for trials */
+} fw_corners;
+
 typedef struct fw_verdict_options {
     fw_motion_options motion;
     bool with_advice;
+    fw_corners corners;
 } fw_verdict_options;
 
 /* what the model itself may be wrong by, relative, beside the numerical error
@@ -92,6 +142,10 @@ extern const fw_model_error fw_verdict_model_error;
 fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_mechanism *mechanism, const fw_verdict_options *options,
                              fw_diags *diags, fw_variant_verdict *verdict);
+/* after fw_verdict_variant, where that accepts: judges what the flow may make of the
+   device; raises verdict->decision and adds a reason where it is not accepted */
+fw_status fw_verdict_made(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                          const fw_verdict_options *options, fw_variant_verdict *verdict);
 /* lays out, builds and judges the device in every variant; verdict->variant must be an array of
    nvariant with `variant` set. Layout trouble is no error here: `layout` is NULL then. */
 fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,

@@ -12,7 +12,7 @@ typedef struct fw_strain_peak {
     int seen;
 } fw_strain_peak;
 
-typedef struct fw_watch {
+typedef struct fw_watch { /* of one run */
     const fw_mechanism *mechanism;
     const fw_layout *layout; /* NULL: bounds instead of the drawn axis */
     fw_strain_peak *hinge;   /* (nhinge) */

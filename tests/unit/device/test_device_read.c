@@ -36,9 +36,9 @@ static void the_gallery_device(void **state) {
     assert_relative(d->scene[0].duration_s, 0.01, 1e-15);
     assert_int_equal(d->scene[0].nforce, 1);
     assert_int_equal(d->scene[0].force[0].body, 2);
-    assert_relative(d->scene[0].force[0].fy_N, -0.2e-3, 1e-15);
+    assert_relative(d->scene[0].force[0].fy_N, -0.14e-3, 1e-15);
     assert_int_equal(d->scene[0].torque[0].body, 0);
-    assert_relative(d->scene[0].torque[0].value_Nm, -0.15e-6, 1e-15);
+    assert_relative(d->scene[0].torque[0].value_Nm, -0.11e-6, 1e-15);
     assert_int_equal(d->nworkspace, 2);
     assert_relative(d->workspace[1].phi_max_rad, 0.3 * pi / 180, 1e-15);
     assert_relative(d->die.width_m, 5.6e-3, 1e-15);

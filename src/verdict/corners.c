@@ -1,0 +1,485 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A verdict for everything that a flow may make. Which corner of the ranges is worst differs by
+   hinge and scene: a given rotation strains a wide flexure more, a given load a thin one. Theory:
+   docs/theory/as-fabricated.md. */
+#include "verdict/corners.h"
+#include "verdict/compare.h"
+#include "base/cancel.h"
+#include <math.h>
+#include <string.h>
+
+/* a first-order estimate that was off by more than this proves nothing: every corner is run */
+static const double fw_trusted = 0.3;
+/* below this an input does not decide which corner is the worst one */
+static const double fw_of_no_account = 2e-3;
+
+/* ---- one device ---- */
+
+const char *fw_made_value(fw_arena *arena, const fw_made_input *input, double x) {
+    fw_quantity q = input->q;
+    char text[32];
+    q.value = x;
+    fw_number_text(text, sizeof text, fw_quantity_in_unit(&q), 4);
+    bool unit = q.unit && strcmp(q.unit, "1") != 0;
+    return fw_arena_printf(arena, "%s%s%s", text, unit ? " " : "", unit ? q.unit : "");
+}
+
+static fw_status describe(fw_search *s, const double *x, const char **what) {
+    fw_text text = fw_text_new(s->arena);
+    for (int i = 0; i < s->v->ninput; i++) {
+        const fw_made_input *in = &s->v->input[i];
+        if (x[i] == in->nominal) continue;
+        const char *value = fw_made_value(s->arena, in, x[i]);
+        FW_NEED(value);
+        fw_text_printf(&text, "%s%s %s", text.length ? ", " : "", in->name, value);
+    }
+    if (text.length == 0) fw_text_add(&text, "nominal");
+    FW_TRY(fw_text_end(&text));
+    *what = text.data;
+    return FW_OK;
+}
+
+/* rows of one run: utilisation of each hinge in each scene, and how near pull-in is */
+static void take_rows(const fw_search *s, const fw_variant_verdict *now, double *ln) {
+    int scenes = s->device->nscene, hinges = s->v->nhinge * (scenes + 1);
+    for (int r = 0; r < hinges; r++)
+        ln[r] = now->used[r] > 1e-9 ? log(now->used[r]) : (double)NAN;
+    for (int i = 0; i < scenes; i++) {
+        const fw_pull_in *p = now->pull_in[i];
+        bool near = p && p->kind != FW_PULL_IN_NONE && p->margin > 0.0;
+        ln[hinges + i] = near ? log(fw_pull_in_margin(p) / p->margin) : (double)NAN;
+    }
+}
+
+/* the first reason beside the hinges */
+static fw_status take_reason(fw_search *s, const fw_variant_verdict *now, fw_made_corner *corner) {
+    const char *why = NULL;
+    for (int i = 0; i < now->nreason && !why; i++) {
+        if (now->reason[i].decision == FW_ACCEPT) continue;
+        why = now->reason[i].text;
+        corner->scene = now->reason[i].scene;
+        corner->keep = now->reason[i].keep;
+    }
+    if (now->workspace.required && !now->workspace.reachable)
+        why = "part of the required workspace is out of reach";
+    if (why) FW_NEED(corner->why = fw_arena_strdup(s->arena, why));
+    return FW_OK;
+}
+
+static const char *last_error(const fw_diags *diags) {
+    for (size_t i = diags->count; i-- > 0;)
+        if (diags->item[i].severity == FW_ERROR) return diags->item[i].message;
+    return "it could not be run";
+}
+
+/* copies what stays: the run's own arena is given back */
+static fw_status take(fw_search *s, const fw_variant_verdict *now, fw_made_corner *corner,
+                      double *ln) {
+    for (int k = 0; k < s->v->nhinge; k++) {
+        corner->hinge[k] = now->hinge[k];
+        corner->hinge[k].flow = s->v->variant->flow;
+    }
+    corner->decision = now->decision;
+    FW_TRY(take_reason(s, now, corner));
+    take_rows(s, now, ln);
+    return FW_OK;
+}
+
+static fw_status judge_point(fw_search *s, fw_arena *scratch, const double *x,
+                             fw_made_corner *corner, double *ln) {
+    fw_made made = fw_made_at(s->v->input, s->v->ninput, x);
+    fw_made_device *device = fw_arena_one(scratch, fw_made_device);
+    fw_diags diags = fw_diags_new(scratch);
+    fw_variant_verdict now = {0};
+    const fw_mechanism *m = NULL;
+    FW_NEED(device);
+    FW_TRY(fw_made_build(scratch, s->device, s->layout, s->v->variant, &made, device));
+    corner->decision = FW_REJECT;
+    if (device->gone) {
+        FW_NEED(corner->why = fw_arena_strdup(s->arena, device->gone));
+        return FW_OK;
+    }
+    now.variant = &device->variant;
+    fw_status status =
+        fw_mechanism_build(scratch, &device->device, device->drawn, &device->variant, &diags, &m);
+    if (status == FW_OK)
+        status = fw_verdict_variant(scratch, &device->device, device->drawn, m, &s->options, &diags,
+                                    &now);
+    if (status == FW_OK && fw_verdict_undecided(now.hinge, now.nhinge)) {
+        fw_verdict_options tight = fw_verdict_tighter(&s->options);
+        now = (fw_variant_verdict){.variant = &device->variant};
+        status =
+            fw_verdict_variant(scratch, &device->device, device->drawn, m, &tight, &diags, &now);
+    }
+    if (status == FW_OK) return take(s, &now, corner, ln);
+    if (status == FW_NOMEM || status == FW_CANCELLED) return status;
+    corner->decision = FW_INCONCLUSIVE;
+    FW_NEED(corner->why = fw_arena_strdup(s->arena, last_error(&diags)));
+    return FW_OK;
+}
+
+static fw_status run_point(fw_search *s, const double *x, fw_made_corner *corner, double *ln) {
+    size_t n = (size_t)s->v->ninput, h = (size_t)s->v->nhinge;
+    double *kept;
+    *corner = (fw_made_corner){0};
+    for (int r = 0; r < s->nrow; r++)
+        ln[r] = (double)NAN;
+    FW_NEED(kept = fw_arena_array(s->arena, double, n));
+    memcpy(kept, x, n * sizeof *kept);
+    corner->x = kept;
+    FW_NEED(corner->hinge = fw_arena_array(s->arena, fw_hinge_verdict, h));
+    FW_TRY(describe(s, x, &corner->what));
+    for (size_t k = 0; k < h; k++)
+        corner->hinge[k] = (fw_hinge_verdict){
+            .id = s->v->hinge[k].id, .joint = s->v->hinge[k].joint, .decision = FW_INCONCLUSIVE};
+    fw_arena *scratch = fw_arena_new(0); /* given back at once: there may be many */
+    FW_NEED(scratch);
+    fw_status status = judge_point(s, scratch, x, corner, ln);
+    fw_arena_free(scratch);
+    return status;
+}
+
+fw_status fw_search_run(fw_search *s, const double *x, unsigned bits) {
+    fw_made_verdict *made = s->made;
+    int point = made->ncorner;
+    if (point >= FW_MOST_POINTS) return FW_OK;
+    FW_TRY(run_point(s, x, &made->corner[point], s->ln + (size_t)point * (size_t)s->nrow));
+    s->bits[point] = bits;
+    made->ncorner++;
+    return FW_OK;
+}
+
+fw_status fw_search_accepts(const fw_search *s, const double *x, bool *accepted) {
+    fw_search quiet = *s;
+    fw_made_corner corner;
+    double *ln;
+    FW_NEED(ln = fw_arena_array(s->arena, double, (size_t)s->nrow));
+    FW_TRY(run_point(&quiet, x, &corner, ln));
+    *accepted = corner.decision == FW_ACCEPT;
+    return FW_OK;
+}
+
+/* ---- first order ---- */
+
+static void nominal_point(const fw_variant_verdict *v, double *x) {
+    for (int i = 0; i < v->ninput; i++)
+        x[i] = v->input[i].nominal;
+}
+
+static void corner_point(const fw_variant_verdict *v, unsigned bits, double *x) {
+    for (int i = 0; i < v->ninput; i++)
+        x[i] = bits >> i & 1u ? v->input[i].high : v->input[i].low;
+}
+
+/* inputs that change nothing but edges have the same slopes, scaled */
+static bool edges_only(const fw_made_input *in) {
+    return in->edge_m != 0.0 && in->flare_m == 0.0 && in->thickness == 0.0 && in->youngs == 0.0;
+}
+
+static int first_edge(const fw_variant_verdict *v) {
+    int i = 0;
+    while (!edges_only(&v->input[i]))
+        i++;
+    return i;
+}
+
+/* d ln U/dx by one run per input, at the low end of its range: thin flexures, where things change
+   fastest. A row that is not there at that end (a flexure gone) has no slope: NaN */
+static fw_status slopes(fw_search *s) {
+    const fw_variant_verdict *v = s->v;
+    double x[FW_MADE_INPUTS];
+    for (int i = 0; i < v->ninput; i++) {
+        const fw_made_input *in = &v->input[i];
+        int like = edges_only(in) ? first_edge(v) : i, n = v->ninput;
+        for (int r = 0; like < i && r < s->nrow; r++)
+            s->slope[r * n + i] = s->slope[r * n + like] * in->edge_m / v->input[like].edge_m;
+        if (like < i) continue;
+        nominal_point(v, x);
+        x[i] = in->nominal > in->low ? in->low : in->high;
+        const double *at = s->ln + (size_t)s->made->ncorner * (size_t)s->nrow;
+        FW_TRY(fw_search_run(s, x, FW_NO_CORNER));
+        for (int r = 0; r < s->nrow; r++)
+            s->slope[r * n + i] = (at[r] - s->ln[r]) / (x[i] - in->nominal);
+    }
+    s->first = s->made->ncorner;
+    return FW_OK;
+}
+
+static double estimate(const fw_search *s, int row, unsigned bits) {
+    const fw_variant_verdict *v = s->v;
+    double x[FW_MADE_INPUTS], ln = s->ln[row];
+    corner_point(v, bits, x);
+    for (int i = 0; i < v->ninput; i++)
+        ln += s->slope[row * v->ninput + i] * (x[i] - v->input[i].nominal);
+    return ln;
+}
+
+/* the corner where the estimate is largest; inputs of no account are as in `like` */
+static unsigned worst_corner(const fw_search *s, int row, unsigned like) {
+    unsigned bits = 0;
+    for (int i = 0; i < s->v->ninput; i++) {
+        double slope = s->slope[row * s->v->ninput + i];
+        double size = fabs(slope) * (s->v->input[i].high - s->v->input[i].low);
+        bool high = size < fw_of_no_account ? like >> i & 1u : slope > 0.0;
+        bits |= high ? 1u << i : 0u;
+    }
+    return bits;
+}
+
+static int find_corner(const fw_search *s, unsigned bits) {
+    for (int p = 0; p < s->made->ncorner; p++)
+        if (s->bits[p] == bits) return p;
+    return FW_NONE;
+}
+
+/* the worst corner of a row, as one that was run where the difference is of no account */
+static unsigned choose(const fw_search *s, int row) {
+    for (int p = 0; p < s->made->ncorner; p++)
+        if (s->bits[p] != FW_NO_CORNER) {
+            unsigned bits = worst_corner(s, row, s->bits[p]);
+            if (bits == s->bits[p]) return bits;
+        }
+    return worst_corner(s, row, 0);
+}
+
+/* how far off the estimates of rows that may matter were at a corner that was run */
+static double estimate_error(const fw_search *s, int point) {
+    double error = 0.0;
+    for (int r = 0; r < s->nrow; r++) {
+        double got = s->ln[(size_t)point * (size_t)s->nrow + (size_t)r];
+        double want = estimate(s, r, s->bits[point]);
+        if (isnan(want) && isnan(got)) continue;        /* neither here nor there */
+        if (isnan(want) || isnan(got)) return HUGE_VAL; /* gone, or new */
+        if (fmax(got, want) < log(0.1)) continue;       /* far below every limit */
+        error = fmax(error, fabs(got - want));
+    }
+    return error;
+}
+
+static double largest_run(const fw_search *s) {
+    double most = -HUGE_VAL;
+    for (int p = 0; p < s->made->ncorner; p++)
+        for (int r = 0; r < s->nrow; r++)
+            most = fmax(most, s->ln[(size_t)p * (size_t)s->nrow + (size_t)r]); /* NaN is passed */
+    return most;
+}
+
+/* a utilisation above this may be beyond its limit with the band of the model: wider for a required
+   pose, and outside the fitted range of fillets and arcs (10 % counted for every flexure) */
+static double near_limit(const fw_search *s, int row) {
+    int scenes = s->device->nscene + 1;
+    bool pose = row < s->v->nhinge * scenes && row % scenes == scenes - 1;
+    const fw_model_error *e = &fw_verdict_model_error;
+    return 0.95 / (1.1 + e->strain + (pose ? e->workspace : e->motion));
+}
+
+/* runs the corner of the row whose estimate, with the error seen so far, is highest and either
+   above everything that was run or near a limit; false: there is none left */
+static fw_status run_next(fw_search *s, bool *ran) {
+    double largest = largest_run(s), highest = -HUGE_VAL;
+    unsigned next = FW_NO_CORNER;
+    for (int r = 0; r < s->nrow; r++) {
+        if (isnan(s->ln[r])) continue;
+        unsigned bits = choose(s, r);
+        double upper = estimate(s, r, bits) + s->made->error;
+        double bar = fmin(largest, log(near_limit(s, r)));
+        bool first = s->made->ncorner == s->first; /* one is run in any case */
+        if (!first && (find_corner(s, bits) != FW_NONE || !(upper > bar))) continue;
+        if (upper > highest) highest = upper, next = bits;
+    }
+    *ran = next != FW_NO_CORNER;
+    if (!*ran) return FW_OK;
+    double x[FW_MADE_INPUTS];
+    corner_point(s->v, next, x);
+    FW_TRY(fw_search_run(s, x, next));
+    s->made->error = fmax(s->made->error, estimate_error(s, s->made->ncorner - 1));
+    return FW_OK;
+}
+
+static bool no_slope(const fw_search *s) {
+    for (int r = 0; r < s->nrow; r++)
+        for (int i = 0; !isnan(s->ln[r]) && i < s->v->ninput; i++)
+            if (isnan(s->slope[r * s->v->ninput + i])) return true;
+    return false;
+}
+
+static fw_status run_all(fw_search *s) {
+    double x[FW_MADE_INPUTS];
+    s->made->all = true;
+    for (unsigned bits = 0; bits < 1u << s->v->ninput; bits++) {
+        if (find_corner(s, bits) != FW_NONE) continue;
+        corner_point(s->v, bits, x);
+        FW_TRY(fw_search_run(s, x, bits));
+    }
+    return FW_OK;
+}
+
+/* the nominal device, its slopes, the corners that may govern; where first order is not to be
+   trusted, all of them */
+static fw_status search(fw_search *s) {
+    double x[FW_MADE_INPUTS];
+    nominal_point(s->v, x);
+    FW_TRY(fw_search_run(s, x, FW_NO_CORNER));
+    if (s->made->corner[0].decision == FW_REJECT) return FW_OK;
+    FW_TRY(slopes(s));
+    if (no_slope(s)) return run_all(s);
+    for (bool ran = true; ran && s->made->error <= fw_trusted;)
+        FW_TRY(run_next(s, &ran));
+    return s->made->error > fw_trusted ? run_all(s) : FW_OK;
+}
+
+/* ---- what it says ---- */
+
+static void tightest(fw_search *s, int k) {
+    fw_made_verdict *made = s->made;
+    fw_made_hinge *h = &made->hinge[k];
+    for (int c = 1; c < made->ncorner; c++) {
+        const fw_hinge_verdict *now = &made->corner[c].hinge[k],
+                               *worst = &made->corner[h->corner].hinge[k];
+        if (now->scene && (!worst->scene || now->utilisation > worst->utilisation)) h->corner = c;
+    }
+    h->most = made->corner[h->corner].hinge[k].utilisation;
+}
+
+/* sigma and what it is made of, from the row that governs the nominal device; the bound over all
+   corners from every row */
+static void first_order(fw_search *s, int k) {
+    fw_made_hinge *h = &s->made->hinge[k];
+    int rows = s->device->nscene + 1, row = FW_NONE, n = s->v->ninput;
+    double sum = 0.0;
+    for (int r = k * rows; r < (k + 1) * rows; r++) {
+        if (isnan(s->ln[r])) continue;
+        if (row == FW_NONE || s->ln[r] > s->ln[row]) row = r;
+        if (!s->made->all)
+            h->most = fmax(h->most, exp(estimate(s, r, worst_corner(s, r, 0)) + s->made->error));
+    }
+    for (int i = 0; row != FW_NONE && i < n; i++) {
+        double slope = s->slope[row * n + i];
+        h->share[i] = isnan(slope) ? 0.0 : exp(s->ln[row]) * slope * s->v->input[i].sigma;
+        sum += h->share[i] * h->share[i];
+    }
+    h->sigma = sqrt(sum);
+}
+
+/* the worst of everything that was run, and the hinge that makes it so */
+static void govern(fw_search *s) {
+    fw_made_verdict *made = s->made;
+    double most = -1.0;
+    made->governing = FW_NONE;
+    made->at = 0;
+    fw_decision worst = FW_ACCEPT;
+    for (int c = 0; c < made->ncorner; c++) {
+        const fw_made_corner *corner = &made->corner[c];
+        if (corner->decision < worst) continue;
+        if (corner->decision > worst) most = -1.0, worst = corner->decision;
+        if (corner->why && most < 0.0) made->at = c, made->governing = FW_NONE, most = 0.0;
+        for (int k = 0; k < s->v->nhinge; k++)
+            if (corner->hinge[k].scene && corner->hinge[k].decision >= worst &&
+                corner->hinge[k].utilisation > most) {
+                most = corner->hinge[k].utilisation;
+                made->at = c, made->governing = k;
+            }
+    }
+    made->decision = worst == FW_ACCEPT                      ? FW_ACCEPT
+                     : made->corner[0].decision == FW_REJECT ? FW_REJECT
+                                                             : FW_INCONCLUSIVE;
+}
+
+static fw_status explain(fw_search *s) {
+    fw_made_verdict *made = s->made;
+    const fw_made_corner *c = &made->corner[made->at];
+    const fw_hinge_verdict *h = made->governing == FW_NONE ? NULL : &c->hinge[made->governing];
+    const char *flow = s->v->variant->flow ? s->v->variant->flow : "this flow";
+    bool nominal = made->at == 0;
+    if (!h || c->why) {
+        FW_NEED(made->reason = fw_arena_printf(s->arena, "as %s makes it (%s): %s", flow, c->what,
+                                               c->why ? c->why : "it is not accepted"));
+        return FW_OK;
+    }
+    char used[32], drawn[32];
+    fw_percent_text(used, sizeof used, h->utilisation);
+    fw_percent_text(drawn, sizeof drawn, s->v->hinge[made->governing].utilisation);
+    FW_NEED(made->reason = fw_arena_printf(
+                s->arena,
+                "as %s makes it%s (%s) hinge %s uses %s %% of its limit in %s, as drawn %s %%",
+                flow, nominal ? "" : " at worst", c->what, h->id, used, h->scene, drawn));
+    return FW_OK;
+}
+
+static fw_status add_reason(fw_search *s, fw_variant_verdict *v) {
+    const fw_made_verdict *made = s->made;
+    const fw_made_corner *c = &made->corner[made->at];
+    const fw_hinge_verdict *h = made->governing == FW_NONE ? NULL : &c->hinge[made->governing];
+    double keep = h ? fmin(fmax(0.98 / h->utilisation_high, 1e-3), 0.99) : 0.5;
+    const char *text = made->reason;
+    if (made->control)
+        FW_NEED(text = fw_arena_printf(s->arena, "%s; %s", made->reason, made->control));
+    v->reason[v->nreason++] = (fw_reason){.scene = h ? h->scene : "as made",
+                                          .flow = v->variant->flow,
+                                          .number = h ? 237 : 238,
+                                          .decision = made->decision,
+                                          .keep = keep,
+                                          .text = text};
+    return FW_OK;
+}
+
+static fw_status new_search(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                            const fw_verdict_options *options, fw_variant_verdict *v,
+                            fw_search *s) {
+    size_t n = (size_t)v->ninput, h = (size_t)v->nhinge;
+    *s = (fw_search){.arena = arena,
+                     .device = device,
+                     .layout = layout,
+                     .options = *options,
+                     .v = v,
+                     .nrow = v->nhinge * (device->nscene + 1) + device->nscene};
+    s->options.with_advice = false;
+    s->options.motion.samples = 65; /* stability is looked at between them */
+    FW_NEED(s->made = fw_arena_one(arena, fw_made_verdict));
+    FW_NEED(s->made->corner = fw_arena_array(arena, fw_made_corner, FW_MOST_POINTS));
+    FW_NEED(s->made->hinge = fw_arena_array(arena, fw_made_hinge, h));
+    FW_NEED(s->ln = fw_arena_array(arena, double, (size_t)FW_MOST_POINTS *(size_t)s->nrow));
+    FW_NEED(s->bits = fw_arena_array(arena, unsigned, FW_MOST_POINTS));
+    FW_NEED(s->slope = fw_arena_array(arena, double, (size_t)s->nrow *n));
+    for (size_t k = 0; k < h; k++)
+        FW_NEED(s->made->hinge[k].share = fw_arena_array(arena, double, n));
+    s->made->held = FW_NONE;
+    s->made->held_share = (double)NAN;
+    return FW_OK;
+}
+
+/* a trial's suspect decides alone where it is not accepted */
+static fw_status look_at_suspect(fw_search *s, bool *decided) {
+    *decided = false;
+    if (!s->v->suspect || s->options.corners != FW_CORNERS_FIRST) return FW_OK;
+    FW_TRY(fw_search_run(s, s->v->suspect, FW_NO_CORNER));
+    *decided = s->made->corner[0].decision != FW_ACCEPT;
+    if (!*decided) s->made->ncorner = 0;
+    return FW_OK;
+}
+
+fw_status fw_verdict_made(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                          const fw_verdict_options *options, fw_variant_verdict *v) {
+    fw_search s;
+    bool decided, quick = options->corners == FW_CORNERS_FIRST;
+    if (v->ninput == 0 || options->corners == FW_CORNERS_NONE || v->drawn != FW_ACCEPT)
+        return FW_OK;
+    FW_TRY(new_search(arena, device, layout, options, v, &s));
+    FW_TRY(look_at_suspect(&s, &decided));
+    if (!decided) FW_TRY(search(&s));
+    for (int k = 0; k < v->nhinge; k++) {
+        tightest(&s, k);
+        if (!decided && s.first > 0) first_order(&s, k);
+    }
+    govern(&s);
+    v->made = s.made;
+    if (s.made->decision == FW_ACCEPT) return FW_OK;
+    if (quick) {
+        v->decision = FW_INCONCLUSIVE;
+        return FW_OK;
+    }
+    FW_TRY(explain(&s));
+    if (s.made->decision == FW_INCONCLUSIVE) FW_TRY(fw_made_control(&s));
+    if (s.made->decision > v->decision) v->decision = s.made->decision;
+    return add_reason(&s, v);
+}

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a flow makes of a device: independent inputs (an edge, an etch, a thickness, a modulus),
+   each with its range, and what they do to widths, gaps, sections and masses. Theory:
+   docs/theory/as-fabricated.md. */
+#ifndef FW_VERDICT_MADE_H
+#define FW_VERDICT_MADE_H
+#include "mechanism/mechanism.h"
+
+enum { FW_MADE_INPUTS = 6 }; /* at most, of one flow: 64 corners */
+
+/* one input x, in the SI unit of its quantity. The state that it makes is linear in it:
+     edge += edge_m (x - even), flare += flare_m (x - drawn), relative thickness and modulus
+   likewise
+ */
+typedef struct fw_made_input {
+    const char *name; /* "printed edge" */
+    fw_quantity q;    /* unit, status, source and note of the range */
+    double drawn;     /* at which what stands is as drawn */
+    double even;      /* at which edges are where they are drawn: what the mask compensates */
+    double nominal, low, high, sigma; /* low <= nominal <= high; sigma: standard uncertainty */
+    double edge_m, flare_m, thickness, youngs; /* per unit of x */
+    const char *unknown; /* id of the quantity that is not known, for which this range is assumed;
+                            NULL: it is known */
+} fw_made_input;
+
+typedef struct fw_made {
+    double edge_m;                        /* edges of the material stand out by this, mid-depth */
+    double flare_m;                       /* see fw_flexure */
+    double thickness_ratio, youngs_ratio; /* of the variant's own */
+} fw_made;
+
+typedef struct fw_made_device { /* copies; what they do not change is shared */
+    fw_device device;
+    fw_layout layout;
+    const fw_layout *drawn; /* &layout, or NULL without a drawing */
+    fw_variant variant;
+    const char *gone; /* a sentence: a flexure is cut through, a gap closed; NULL */
+} fw_made_device;
+
+fw_made fw_made_at(const fw_made_input *input, int ninput, const double *x);
+/* In: the device as drawn (layout may be NULL) in a variant. Flexures: width + 2 edge, gap - 2
+   edge, concave fillets - edge, trapezoid section; stated stiffness by the ratio of the closed
+   forms, stated damping by its root; hinge points move with the centres of elastic weights; bodies:
+   mass and inertia with the area, A + P edge; gaps of combs and squeezed films - 2 edge. Thickness
+   and modulus scale what is stated as another flow would. */
+fw_status fw_made_build(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                        const fw_variant *variant, const fw_made *made, fw_made_device *out);
+
+#endif

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Corners of the packs as inputs of the verdict. */
+#include "packs.h"
+#include "process/made.h"
+#include "process/undercut.h"
+
+static fw_arena *arena;
+static fw_diags diags;
+
+static int setup(void **state) {
+    (void)state;
+    arena = fw_arena_new(0);
+    diags = fw_diags_new(arena);
+    return arena ? 0 : -1;
+}
+static int teardown(void **state) {
+    (void)state;
+    fw_arena_free(arena);
+    return 0;
+}
+
+static fw_variant variant_of(double thickness_m, double youngs_u) {
+    return (fw_variant){.material.youngs = {.value = 150e9, .uncertainty = youngs_u, .unit = "GPa"},
+                        .thickness_m = thickness_m};
+}
+
+static const fw_made_input *inputs(const char *pack, const char *from, const char *to,
+                                   const fw_variant *v, int *n) {
+    const fw_made_input *list;
+    fw_flow *flow = read_pack(arena, pack, from, to, &diags);
+    assert_non_null(flow);
+    assert_int_equal(fw_flow_made(arena, flow, v, &list, n), FW_OK);
+    return list;
+}
+
+static int named(const fw_made_input *list, int n, const char *name) {
+    for (int i = 0; i < n; i++)
+        if (strcmp(list[i].name, name) == 0) return i;
+    fail_msg("no input %s", name);
+    return 0;
+}
+
+/* widths at both faces against the formula of the etch, for a device of another thickness too */
+static void the_silicon_flow_leaves_the_trapezoid_of_its_etch(void **state) {
+    (void)state;
+    for (int thick = 0; thick < 2; thick++) {
+        double h = thick ? 30e-6 : 50e-6, width = 10e-6;
+        fw_variant v = variant_of(h, 1.5e9);
+        int n;
+        const fw_made_input *list = inputs(SILICON, NULL, NULL, &v, &n);
+        assert_int_equal(n, 5);
+        int a = named(list, n, "anisotropy");
+        assert_string_equal(list[a].unknown, "rie.A"); /* said to be assumed */
+        assert_int_equal(list[a].q.status, FW_ASSUMED);
+        double x[FW_MADE_INPUTS], top, bottom;
+        for (int i = 0; i < n; i++)
+            x[i] = list[i].nominal;
+        x[a] = list[a].low;
+        fw_made made = fw_made_at(list, n, x);
+        fw_undercut_widths(width, x[a], h, 1.1 * h, &top, &bottom);
+        assert_near(width + 2 * made.edge_m, 0.5 * (top + bottom), 1e-12);
+        assert_near(2 * made.flare_m, bottom - top, 1e-12);
+        x[a] = 1; /* a straight wall is as drawn */
+        made = fw_made_at(list, n, x);
+        assert_near(made.edge_m, 0, 1e-15);
+        assert_near(made.flare_m, 0, 1e-15);
+        assert_near(made.thickness_ratio, 1, 1e-12);
+        assert_near(made.youngs_ratio, 1, 1e-12);
+        int t = named(list, n, "thickness"), e = named(list, n, "Young's modulus");
+        assert_near(list[t].high, 1.02 * h, 1e-12); /* two standard uncertainties of 1 % */
+        assert_near(list[e].low, 147e9, 1);
+        int p = named(list, n, "printed edge"), m = named(list, n, "edge of the aluminium");
+        assert_near(list[p].high, 0.15e-6, 1e-15); /* lo to hi as it stands */
+        assert_near(list[m].low, -0.22e-6, 1e-15);
+    }
+}
+
+/* a measured A is compensated by the mask: mid-depth edges are even at its value, walls are not */
+static void a_known_anisotropy_is_compensated(void **state) {
+    (void)state;
+    fw_variant v = variant_of(50e-6, 0);
+    int n;
+    const fw_made_input *list = inputs(SILICON, "id=\"rie.A\" unknown=\"true\"",
+                                       "id=\"rie.A\" value=\"0.97\" u=\"0.004\"", &v, &n);
+    assert_int_equal(n, 4); /* the modulus has no uncertainty */
+    int a = named(list, n, "anisotropy");
+    assert_null(list[a].unknown);
+    assert_near(list[a].low, 0.962, 1e-12);
+    double x[FW_MADE_INPUTS];
+    for (int i = 0; i < n; i++)
+        x[i] = list[i].nominal;
+    fw_made made = fw_made_at(list, n, x);
+    assert_near(made.edge_m, 0, 1e-15);
+    assert_near(made.flare_m, 0.03 * 50e-6, 1e-12);
+    x[a] = 0.962;
+    made = fw_made_at(list, n, x);
+    assert_near(made.edge_m, -0.008 * 30e-6, 1e-12); /* (E - D/2) = 55 - 25 um */
+}
+
+static void the_copper_flow(void **state) {
+    (void)state;
+    fw_variant v = variant_of(9e-6, 15e9);
+    int n;
+    const fw_made_input *list = inputs(COPPER, NULL, NULL, &v, &n);
+    assert_int_equal(n, 4);
+    int t = named(list, n, "thickness"), w = named(list, n, "slope of the walls");
+    assert_near(list[t].low, 8.1e-6, 1e-15);
+    double x[FW_MADE_INPUTS];
+    for (int i = 0; i < n; i++)
+        x[i] = list[i].nominal;
+    x[w] = list[w].high, x[t] = list[t].low;
+    fw_made made = fw_made_at(list, n, x);
+    assert_near(made.flare_m, 9e-6 * acos(-1.0) / 180, 1e-12);
+    assert_near(made.thickness_ratio, 0.9, 1e-12);
+}
+
+static void mistakes_have_a_place(void **state) {
+    (void)state;
+    static const char *const wrong[][2] = {
+        {"<corner of=\"thickness\" name=\"thickness\" q=\"si.d\"/>",
+         "<corner of=\"thickness\" name=\"thickness\" q=\"rie.R\"/>"},
+        {"<corner of=\"thickness\" name=\"thickness\" q=\"si.d\"/>",
+         "<corner of=\"thickness\" name=\"thickness\"/>"},
+        {"<corner of=\"youngs\" name=\"Young's modulus\"/>",
+         "<corner of=\"youngs\" name=\"Young's modulus\" q=\"made.A\"/>"},
+        {"<corner of=\"youngs\" name=\"Young's modulus\"/>",
+         "<corner of=\"edge\" name=\"a\" q=\"litho.edge\"/><corner of=\"edge\" name=\"b\" "
+         "q=\"litho.edge\"/><corner of=\"edge\" name=\"c\" q=\"litho.edge\"/>"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        diags = fw_diags_new(arena);
+        assert_null(read_pack(arena, SILICON, wrong[i][0], wrong[i][1], &diags));
+        assert_int_equal(diags.errors, 1);
+        const fw_diag *d = &diags.item[0];
+        while (d->severity != FW_ERROR)
+            d++;
+        assert_int_equal(d->number, 260);
+        assert_true(d->place.line > 100);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_silicon_flow_leaves_the_trapezoid_of_its_etch),
+        cmocka_unit_test(a_known_anisotropy_is_compensated),
+        cmocka_unit_test(the_copper_flow),
+        cmocka_unit_test(mistakes_have_a_place),
+    };
+    return cmocka_run_group_tests(tests, setup, teardown);
+}

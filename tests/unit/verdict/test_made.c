@@ -1,0 +1,275 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "verdict/verdict.h"
+#include "test.h"
+
+/* one arm on a leaf and one on an arc, a load and a turn; not drawn */
+static const char text[] =
+    "<device xmlns=\"urn:flexwright:device:1\" name=\"two-arms\">\n"
+    "<material ref=\"silicon-100\" thickness=\"50 um\"/><limits safety-factor=\"1.5\"/>\n"
+    "<flexure id=\"leaf\" kind=\"leaf\" width=\"8 um\" length=\"300 um\" fillet=\"8 um\" gap=\"6 "
+    "um\"/>\n"
+    "<flexure id=\"arc\" kind=\"csfh\" width=\"9 um\" length=\"300 um\" angle=\"200 deg\" "
+    "fillet=\"9 um\"/>\n"
+    "<mechanism>\n"
+    "<body id=\"a\" mass=\"0.02 mg\" inertia=\"0.002 mg mm^2\" x=\"0.5 mm\" y=\"0 mm\"/>\n"
+    "<body id=\"b\" mass=\"0.02 mg\" inertia=\"0.002 mg mm^2\" x=\"1.5 mm\" y=\"0 mm\"/>\n"
+    "<revolute id=\"A\" a=\"ground\" a-x=\"0 mm\" a-y=\"0 mm\" b=\"a\" b-x=\"-0.5 mm\" b-y=\"0 "
+    "mm\" "
+    "hinge=\"leaf\" damping=\"1e-11 N m s/rad\"/>\n"
+    "<revolute id=\"B\" a=\"a\" a-x=\"0.5 mm\" a-y=\"0 mm\" b=\"b\" b-x=\"-0.5 mm\" b-y=\"0 mm\" "
+    "hinge=\"arc\" stiffness=\"1.4e-6 N m/rad\" damping=\"1e-11 N m s/rad\"/>\n"
+    "</mechanism>\n"
+    "<scene name=\"push\" duration=\"3 ms\"><force on=\"b\" fx=\"0.01 mN\" fy=\"LOAD\"/></scene>\n"
+    "</device>\n";
+
+typedef struct set_up {
+    fw_arena *arena;
+    fw_diags diags;
+    const fw_device *device;
+    fw_variant variant;
+    fw_made_input input[3];
+} set_up;
+
+static fw_quantity known(double value, const char *unit) {
+    return (fw_quantity){.value = value, .unit = unit, .status = FW_TYPICAL, .source = "test"};
+}
+
+/* edges +- 0.3 um, an etch that leaves a trapezoid, thickness +- 4 % */
+static void begin(set_up *s, const char *load) {
+    s->arena = fw_arena_new(0);
+    s->diags = fw_diags_new(s->arena);
+    const char *at = strstr(text, "LOAD");
+    const char *xml = fw_arena_printf(s->arena, "%.*s%s%s", (int)(at - text), text, load, at + 4);
+    if (fw_device_read(s->arena, "t.xml", xml, strlen(xml), NULL, 0, &s->diags, &s->device) !=
+        FW_OK)
+        fail_msg("%d: %s", s->diags.item[0].place.line, s->diags.item[0].message);
+    s->variant = (fw_variant){.flow = "test",
+                              .material = {.id = "silicon-100",
+                                           .name = "silicon",
+                                           .youngs = known(169e9, "Pa"),
+                                           .poisson = known(0.28, "1"),
+                                           .density = known(2329, "kg/m3"),
+                                           .strength = known(2e9, "Pa"),
+                                           .criterion = "fracture",
+                                           .loss = known(1e-3, "1"),
+                                           .expansion = {.unknown = true},
+                                           .modulus_change = {.unknown = true}},
+                              .substrate_expansion = {.unknown = true},
+                              .thickness_m = 50e-6,
+                              .explicit_mass_scale = 1,
+                              .explicit_stiffness_scale = 1,
+                              .explicit_damping_scale = 1};
+    s->input[0] = (fw_made_input){.name = "edge",
+                                  .q = known(0, "m"),
+                                  .low = -0.3e-6,
+                                  .high = 0.3e-6,
+                                  .sigma = 0.15e-6,
+                                  .edge_m = 1};
+    s->input[1] = (fw_made_input){.name = "anisotropy",
+                                  .q = known(0.995, "1"),
+                                  .drawn = 1,
+                                  .even = 1,
+                                  .nominal = 0.995,
+                                  .low = 0.99,
+                                  .high = 1,
+                                  .sigma = 0.003,
+                                  .edge_m = 30e-6,
+                                  .flare_m = -50e-6};
+    s->input[2] = (fw_made_input){.name = "thickness",
+                                  .q = known(50e-6, "m"),
+                                  .drawn = 50e-6,
+                                  .nominal = 50e-6,
+                                  .low = 48e-6,
+                                  .high = 52e-6,
+                                  .sigma = 1e-6,
+                                  .thickness = 1 / 50e-6};
+}
+
+static fw_verdict judge(set_up *s, fw_corners corners) {
+    fw_verdict v = {.nvariant = 1, .variant = fw_arena_array(s->arena, fw_variant_verdict, 1)};
+    const fw_verdict_options options = {.motion = {.accuracy = 1e-3, .samples = 65},
+                                        .corners = corners};
+    const fw_layout *layout;
+    v.variant[0].variant = &s->variant;
+    v.variant[0].input = s->input, v.variant[0].ninput = 3;
+    assert_int_equal(fw_verdict_run(s->arena, s->device, &options, &s->diags, &v, &layout), FW_OK);
+    return v;
+}
+
+static fw_variant_verdict at(set_up *s, const double *x) {
+    fw_made made = fw_made_at(s->input, 3, x);
+    fw_made_device *d = fw_arena_one(s->arena, fw_made_device);
+    fw_variant_verdict v = {0};
+    const fw_mechanism *m;
+    const fw_verdict_options options = {.motion = {.accuracy = 1e-3, .samples = 65}};
+    assert_int_equal(fw_made_build(s->arena, s->device, NULL, &s->variant, &made, d), FW_OK);
+    assert_null(d->gone);
+    v.variant = &d->variant;
+    assert_int_equal(fw_mechanism_build(s->arena, &d->device, NULL, &d->variant, &s->diags, &m),
+                     FW_OK);
+    assert_int_equal(fw_verdict_variant(s->arena, &d->device, NULL, m, &options, &s->diags, &v),
+                     FW_OK);
+    return v;
+}
+
+static void corner(const set_up *s, unsigned bits, double *x) {
+    for (int i = 0; i < 3; i++)
+        x[i] = bits >> i & 1u ? s->input[i].high : s->input[i].low;
+}
+
+/* widths, gaps, sections, stated values of a device as made, against formulas of their own */
+static void what_is_made_follows_the_edges(void **state) {
+    (void)state;
+    set_up s;
+    begin(&s, "0.02 mN");
+    const fw_made made = {-0.5e-6, 0.25e-6, 0.98, 1.1};
+    fw_made_device d;
+    assert_int_equal(fw_made_build(s.arena, s.device, NULL, &s.variant, &made, &d), FW_OK);
+    assert_null(d.gone);
+    const fw_flexure *f = &d.device.flexure[0];
+    assert_near(f->width_m, 7e-6, 1e-15);
+    assert_near(f->gap_m, 7e-6, 1e-15);
+    assert_near(f->flare_m, 0.25e-6, 0);
+    assert_near(f->fillet_m, 7e-6, 1e-15); /* 8.5, not wider than the flexure */
+    assert_near(d.variant.thickness_m, 49e-6, 1e-15);
+    const fw_mechanism *drawn, *now;
+    assert_int_equal(fw_mechanism_build(s.arena, s.device, NULL, &s.variant, &s.diags, &drawn),
+                     FW_OK);
+    assert_int_equal(fw_mechanism_build(s.arena, &d.device, NULL, &d.variant, &s.diags, &now),
+                     FW_OK);
+    /* leaf: K goes with E h (t^3 + t d^2)/(L + 2 dL); dL goes with t at this fillet */
+    double dL = 8e-6 * (0.4192 - 0.5972 - 0.1167), dL7 = dL * 7 / 8;
+    double section = (343 + 7 * 0.0625) / 512.0;
+    double want = 1.1 * 0.98 * section * (300e-6 + 2 * dL) / (300e-6 + 2 * dL7);
+    assert_relative(now->pin[0].stiffness_Nm_per_rad / drawn->pin[0].stiffness_Nm_per_rad, want,
+                    1e-9);
+    /* arc, stated: the same ratio as its closed form's, in the new thickness and modulus */
+    double own = now->hinge[1].closed_form.stiffness_Nm_per_rad;
+    double was = drawn->hinge[1].closed_form.stiffness_Nm_per_rad;
+    assert_relative(now->pin[1].stiffness_Nm_per_rad / drawn->pin[1].stiffness_Nm_per_rad,
+                    own / was, 2e-3); /* the depth factor sees the thickness, too */
+    assert_relative(now->body[0].mass_kg, 0.98 * drawn->body[0].mass_kg, 1e-12);
+    const fw_made cut = {-3.9e-6, 0.3e-6, 1, 1};
+    assert_int_equal(fw_made_build(s.arena, s.device, NULL, &s.variant, &cut, &d), FW_OK);
+    assert_non_null(d.gone);
+    const fw_made shut = {3.1e-6, 0, 1, 1};
+    assert_int_equal(fw_made_build(s.arena, s.device, NULL, &s.variant, &shut, &d), FW_OK);
+    assert_non_null(strstr(d.gone, "gap"));
+    fw_arena_free(s.arena);
+}
+
+/* no corner, run or not, is above the stated bound; the tightest that was run is the worst of all;
+   accepted only where all are */
+static void no_corner_is_worse(void **state) {
+    (void)state;
+    const char *const load[] = {"0.3 uN", "100 uN", "145 uN", "190 uN", "-150 uN"};
+    int decisions[3] = {0};
+    for (size_t n = 0; n < sizeof load / sizeof load[0]; n++) {
+        set_up s;
+        begin(&s, load[n]);
+        fw_verdict v = judge(&s, FW_CORNERS_AUTO);
+        const fw_made_verdict *made = v.variant[0].made;
+        decisions[v.decision]++;
+        if (!made) {
+            assert_true(v.drawn != FW_ACCEPT);
+            fw_arena_free(s.arena);
+            continue;
+        }
+        double worst[2] = {0};
+        fw_decision all = FW_ACCEPT;
+        for (unsigned bits = 0; bits < 8; bits++) {
+            double x[3];
+            corner(&s, bits, x);
+            fw_variant_verdict now = at(&s, x);
+            if (now.decision > all) all = now.decision;
+            for (int k = 0; k < 2; k++)
+                worst[k] = fmax(worst[k], now.hinge[k].utilisation);
+        }
+        if (v.decision == FW_ACCEPT) assert_int_equal(all, FW_ACCEPT);
+        if (all == FW_ACCEPT && v.drawn == FW_ACCEPT) assert_int_equal(v.decision, FW_ACCEPT);
+        for (int k = 0; k < 2 && made->ncorner > 1; k++) {
+            const fw_made_hinge *h = &made->hinge[k];
+            assert_true(worst[k] <= h->most * (1 + 1e-6));
+            assert_relative(made->corner[h->corner].hinge[k].utilisation, worst[k], 1e-6);
+        }
+        fw_arena_free(s.arena);
+    }
+    assert_true(decisions[FW_ACCEPT] > 0 && decisions[FW_INCONCLUSIVE] > 0);
+}
+
+/* sigma against central differences of full runs */
+static void sigma_is_first_order(void **state) {
+    (void)state;
+    set_up s;
+    begin(&s, "20 uN");
+    fw_verdict v = judge(&s, FW_CORNERS_AUTO);
+    const fw_made_hinge *h = &v.variant[0].made->hinge[0];
+    double sum = 0;
+    for (int i = 0; i < 3; i++) {
+        double x[3] = {s.input[0].nominal, s.input[1].nominal, s.input[2].nominal}, u[2];
+        for (int side = 0; side < 2; side++) {
+            x[i] = s.input[i].nominal + (side ? 0.1 : -0.1) * s.input[i].sigma;
+            u[side] = at(&s, x).hinge[0].utilisation;
+        }
+        double share = (u[1] - u[0]) / 0.2;
+        assert_near(h->share[i], share, 0.12 * h->sigma); /* secants over the range */
+        sum += share * share;
+    }
+    assert_relative(h->sigma, sqrt(sum), 0.15);
+    fw_arena_free(s.arena);
+}
+
+/* what it says would do does, and a little less does not */
+static void what_must_be_held_is_enough(void **state) {
+    (void)state;
+    set_up s;
+    begin(&s, "150 uN");
+    fw_verdict v = judge(&s, FW_CORNERS_AUTO);
+    const fw_made_verdict *made = v.variant[0].made;
+    assert_int_equal(v.drawn, FW_ACCEPT);
+    assert_int_equal(v.decision, FW_INCONCLUSIVE);
+    assert_non_null(made->control);
+    assert_int_equal(v.variant[0].reason[0].number, 237);
+    assert_true(made->held != FW_NONE || made->held_share > 0);
+    fw_made_input was[3];
+    memcpy(was, s.input, sizeof was);
+    for (int less = 0; less < 2; less++) {
+        memcpy(s.input, was, sizeof was);
+        for (int i = 0; i < 3; i++) {
+            fw_made_input *in = &s.input[i];
+            double share = made->held == FW_NONE ? fmin(1, made->held_share + 0.08 * less) : 1;
+            in->low = in->nominal + share * (in->low - in->nominal);
+            in->high = in->nominal + share * (in->high - in->nominal);
+            if (i != made->held) continue;
+            double slack = 0.05 * less * (in->high - in->low);
+            in->low = fmax(in->low, made->held_low - slack);
+            in->high = fmin(in->high, made->held_high + slack);
+            in->nominal = fmin(fmax(in->nominal, in->low), in->high);
+        }
+        fw_verdict again = judge(&s, FW_CORNERS_AUTO);
+        assert_int_equal(again.decision, less ? FW_INCONCLUSIVE : FW_ACCEPT);
+    }
+    fw_arena_free(s.arena);
+}
+
+static void drawn_only_when_asked(void **state) {
+    (void)state;
+    set_up s;
+    begin(&s, "150 uN");
+    fw_verdict v = judge(&s, FW_CORNERS_NONE);
+    assert_null(v.variant[0].made);
+    assert_int_equal(v.decision, FW_ACCEPT);
+    assert_int_equal(v.drawn, FW_ACCEPT);
+    fw_arena_free(s.arena);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_made_follows_the_edges),
+        cmocka_unit_test(no_corner_is_worse),
+        cmocka_unit_test(sigma_is_first_order),
+        cmocka_unit_test(what_must_be_held_is_enough),
+        cmocka_unit_test(drawn_only_when_asked),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
