@@ -278,6 +278,13 @@ typedef struct fw_die { /* <die>; NaN: from the drawn mechanism */
     bool tethers;
 } fw_die;
 
+typedef struct fw_limits_asked { /* <limits>, beside the safety factor */
+    double cycles;               /* repetitions of every scene; NaN: static */
+    double failure_probability;  /* of the whole device, of what fractures; likewise: not asked */
+    bool survival;               /* the 0.2 % offset, not the proportional limit */
+    fw_place cycles_place, probability_place;
+} fw_limits_asked;
+
 typedef struct fw_device {
     const char *file, *name;
     const char *source; /* the file's text, for carets */
@@ -299,6 +306,7 @@ typedef struct fw_device {
     fw_material_override material;
     double thickness_m;   /* device layer, NaN: the flow's */
     double safety_factor; /* <limits safety-factor>, default 1.5 */
+    fw_limits_asked limits;
     fw_place limits_place;
     bool six_bar; /* joints 0..5 are A..F, bodies 0..4 AB BC CD DE EF */
     fw_die die;

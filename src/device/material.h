@@ -2,7 +2,7 @@
 /* Materials: data of processes/base.xml, with the device file's own overrides. */
 #ifndef FW_DEVICE_MATERIAL_H
 #define FW_DEVICE_MATERIAL_H
-#include "quantity/quantity.h"
+#include "device/limit_data.h"
 
 typedef struct fw_material {
     const char *id, *name;
@@ -14,10 +14,13 @@ typedef struct fw_material {
     fw_quantity loss;      /* 1: loss factor eta of the material damping, for c = eta k/omega */
     fw_quantity expansion; /* 1/K, thermal, of length */
     fw_quantity modulus_change; /* 1/K: (dE/dT)/E */
+    fw_limit_data limit;        /* what else is known of what it bears */
+    bool strength_stated;       /* by the device file: it rules alone */
 } fw_material;
 
 typedef struct fw_material_override { /* attributes of <material>; unknown where absent */
     fw_quantity youngs, poisson, density, strength;
+    fw_limit_data limit;
 } fw_material_override;
 
 typedef struct fw_materials {

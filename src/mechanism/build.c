@@ -119,8 +119,30 @@ static double inertia_about(const fw_mass *m, double x, double y) {
     return m ? m->inertia_kg_m2 + m->mass_kg * (x * x + y * y) : (double)INFINITY;
 }
 
+static int flexures_in_use(const fw_device *device) {
+    int n = 0;
+    for (int j = 0; j < device->njoint; j++)
+        n += device->joint[j].flexure != FW_NONE;
+    return n;
+}
+
+/* what it bears; in->strength_Pa becomes the governing static limit */
+static fw_status limits_of(const fw_builder *b, fw_flexure_input *in, fw_limits *limits) {
+    const fw_material *m = &b->variant->material;
+    const fw_limit_input asked = {m, in, &b->device->limits, flexures_in_use(b->device)};
+    fw_limits_of(&asked, limits);
+    if (limits->missing && !fw_said_already(b->diags, 235, limits->missing_place))
+        return fw_diag_error(b->diags, 235, limits->missing_place,
+                             "material '%s' has no data for this: give %s on <material>, or on the "
+                             "material of the flow, or remove the attribute",
+                             fw_name_or_none(m->id), limits->missing);
+    const fw_limit *governing = fw_limits_governing(limits);
+    if (governing) in->strength_Pa = governing->allowable_Pa;
+    return limits->missing ? FW_INPUT : FW_OK;
+}
+
 static fw_status flexure_result(const fw_builder *b, int j, const fw_joint *joint,
-                                fw_flexure_result *result, fw_hinge_law *law) {
+                                fw_flexure_result *result, fw_hinge_law *law, fw_limits *limits) {
     const fw_flexure *f = &b->device->flexure[joint->flexure];
     const fw_material *m = &b->variant->material;
     FW_TRY(need_property(b, &m->youngs, "Young's modulus", "a flexure", joint->place));
@@ -130,7 +152,7 @@ static fw_status flexure_result(const fw_builder *b, int j, const fw_joint *join
         fillet = b->layout->hinge[j].fillet_m;
     else if (isnan(fillet))
         fillet = fw_flexure_default_fillet(f);
-    const fw_flexure_input in = {
+    fw_flexure_input in = {
         .kind = f->kind,
         .length_m = f->length_m,
         .angle_rad = f->angle_rad,
@@ -143,6 +165,7 @@ static fw_status flexure_result(const fw_builder *b, int j, const fw_joint *join
         .strength_Pa = m->strength.value,
         .safety_factor = b->device->safety_factor,
     };
+    FW_TRY(limits_of(b, &in, limits));
     fw_flexure_closed_form(&in, result);
     if (!isfinite(result->stiffness_Nm_per_rad) || !(result->stiffness_Nm_per_rad > 0))
         return fw_diag_error(
@@ -230,7 +253,7 @@ static fw_status build_pin(const fw_builder *b, int j) {
     if (from->flexure != FW_NONE) {
         fw_hinge *hinge = &b->mechanism->hinge[b->mechanism->nhinge];
         *hinge = (fw_hinge){.pin = j, .flexure = from->flexure};
-        FW_TRY(flexure_result(b, j, from, &hinge->closed_form, &hinge->law));
+        FW_TRY(flexure_result(b, j, from, &hinge->closed_form, &hinge->law, &hinge->limits));
         set_hinge_shape(b, j, from, hinge);
         to->hinge = b->mechanism->nhinge++;
         double own = hinge->closed_form.stiffness_Nm_per_rad;
