@@ -26,16 +26,16 @@ static bool from_device(const fw_quantity *q) {
 
 /* What yields, for position accuracy: the proportional limit. It is, in this order, factor x the
    0.2 % offset value that the device file states, or that the thickness law gives; the material's
-   own strength; factor x the material's 0.2 % offset. For survival: the 0.2 % offset itself, and
-   where only a strength is known that. */
+   own strength, unless that is of fracture; factor x the material's 0.2 % offset. For survival: the
+   0.2 % offset itself, and where only a strength is known that. */
 bool fw_limit_yield(const fw_limit_input *in, fw_limits *all, fw_limit *limit) {
     (void)all;
     const fw_material *m = in->material;
     const fw_limit_data *d = &m->limit;
-    if (fw_limit_brittle(m)) return false;
     fw_quantity offset = d->offset_yield;
     bool own = from_device(&d->offset_yield), law = !own && film(in, &offset);
-    bool have = fw_limit_known(&offset), strength = fw_limit_known(&m->strength);
+    bool have = fw_limit_known(&offset);
+    bool strength = !fw_limit_brittle(m) && fw_limit_known(&m->strength);
     if (in->asked->survival && have) {
         fw_limit_plain(&offset,
                        law ? "0.2 % offset yield of a film this thick (survival only)"

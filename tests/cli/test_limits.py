@@ -6,7 +6,7 @@ import json
 import math
 import unittest
 
-from common import ROOT, run
+from common import GALLERY, ROOT, run
 
 NODDER = ROOT / "docs/gallery/copper-nodder/device.xml"
 LEAF = ROOT / "docs/gallery/leaf-four-bar/device.xml"
@@ -70,6 +70,19 @@ class Limits(unittest.TestCase):
         self.assertIn("of the fatigue limit", text)
         self.assertIn("damage", text)
         self.assertIn("proportional limit", run("check", NODDER, "--set", "limits/@cycles=1").stdout)
+
+    def test_required_poses_go_to_and_fro(self):
+        """silicon, 169 GPa stated: peak stress of a pose, fully reversed, over 500 MPa (n/1e10)^-0.06"""
+        document = check(GALLERY, "limits/@cycles=1e6", status=1)
+        seen = 0
+        for flow in document["flows"]:
+            for hinge in flow["hinges"]:
+                if hinge["scene"] == "workspace" and flow["id"] == "al-masked-rie":
+                    seen += 1
+                    needed = 1.5 * hinge["peak_strain"] * 169e9 / (0.5e9 * 1e-4**-0.06)
+                    self.assertAlmostEqual(hinge["fatigue_utilisation"] / needed, 1, 9)
+                    self.assertEqual(hinge["cycles"], 1)
+        self.assertGreater(seen, 2)
 
     def test_survival_takes_the_offset_value(self):
         survive = check(NODDER, "limits/@survival=yes", "limits/@cycles=1", status=0)["governing"]

@@ -224,6 +224,21 @@ static void the_lowest_governs(void **state) {
                     1e-12);
 }
 
+/* what breaks at 1 GPa and yields before or behind it: the lower of both */
+static void fracture_and_yield(void **state) {
+    (void)state;
+    const fw_flexure_input f = arc(270, 8, 50, 147.08e9, 0.31);
+    fw_material m = silicon();
+    m.limit.proportional_factor = q("proportional-factor", 0.5, FW_TYPICAL);
+    for (int soft = 0; soft < 2; soft++) {
+        m.limit.offset_yield = q("offset-yield", soft ? 1.9e9 : 2.1e9, FW_TYPICAL);
+        const fw_limits all = limits(&m, &f, &statically, 6);
+        assert_int_equal(all.count, 2);
+        assert_string_equal(fw_limits_governing(&all)->criterion, soft ? "yield" : "fracture");
+        assert_relative(fw_limits_governing(&all)->allowable_Pa, soft ? 0.95e9 : 1e9, 1e-14);
+    }
+}
+
 static void what_is_asked_and_not_known_is_said(void **state) {
     (void)state;
     const fw_flexure_input f = arc(270, 8, 50, 147.08e9, 0.31);
@@ -252,6 +267,7 @@ int main(void) {
         cmocka_unit_test(yield_by_definition),
         cmocka_unit_test(film_law),
         cmocka_unit_test(the_lowest_governs),
+        cmocka_unit_test(fracture_and_yield),
         cmocka_unit_test(what_is_asked_and_not_known_is_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -122,6 +122,20 @@ static void pure_rotation_and_bound(void **state) {
     }
 }
 
+static fw_flexure_input input_of(const fw_flexure *f) {
+    return (fw_flexure_input){.kind = f->kind,
+                              .length_m = f->length_m,
+                              .angle_rad = f->angle_rad,
+                              .radius_m = f->radius_m,
+                              .width_m = f->width_m,
+                              .fillet_m = 4e-6,
+                              .depth_m = 50e-6,
+                              .youngs_Pa = 147.08e9,
+                              .poisson = 0.22,
+                              .strength_Pa = 500e6,
+                              .safety_factor = 1.0};
+}
+
 /* under rotation alone both roots have the rotation's sign; with a force the larger of both is what
    the peak strain has of bending at the roots, and turning everything round turns their signs */
 static void root_strains_have_signs(void **state) {
@@ -132,8 +146,7 @@ static void root_strains_have_signs(void **state) {
     variant.material.youngs.value = 147.08e9;
     fw_pin pin = {.id = "A", .body_a = FW_GROUND, .body_b = 0, .hinge = 0};
     fw_hinge hinge = {0};
-    fw_flexure_input in = {FW_FLEXURE_CSFH, f.length_m, f.angle_rad, f.radius_m, f.width_m, 4e-6,
-                           50e-6,           147.08e9,   0.22,        500e6,      1.0};
+    const fw_flexure_input in = input_of(&f);
     fw_flexure_closed_form(&in, &hinge.closed_form);
     const fw_flexure_result *c = &hinge.closed_form;
     fw_mechanism m = {.device = &device,
@@ -167,6 +180,13 @@ static void root_strains_have_signs(void **state) {
             governed++;
             assert_relative(fw_hinge_strain(&m, &hinge, &drawn, &load), most + axial, 1e-12);
         }
+        /* which of the two bodies is called b does not matter */
+        fw_pin swapped = {.id = "A", .body_a = 0, .body_b = FW_GROUND, .hinge = 0};
+        fw_mechanism n = m;
+        n.pin = &swapped;
+        fw_hinge_root_strains(&n, &hinge, &drawn, &other, back);
+        assert_relative(s[0], back[0], 1e-12);
+        assert_relative(s[1], back[1], 1e-12);
         /* without a drawing: with the rotation's sign, as much as the peak has */
         fw_hinge_root_strains(&m, &hinge, NULL, &other, s);
         assert_relative(s[0] - axial, -fw_hinge_strain(&m, &hinge, NULL, &load), 1e-12);
@@ -185,8 +205,7 @@ static void root_strains_of_a_leaf(void **state) {
     variant.material.youngs.value = 147.08e9;
     fw_pin pin = {.id = "A", .body_a = FW_GROUND, .body_b = 0, .hinge = 0};
     fw_hinge hinge = {0};
-    fw_flexure_input in = {FW_FLEXURE_LEAF, f.length_m, 0,    0,     f.width_m, 4e-6,
-                           50e-6,           147.08e9,   0.22, 500e6, 1.0};
+    const fw_flexure_input in = input_of(&f);
     fw_flexure_closed_form(&in, &hinge.closed_form);
     const fw_flexure_result *c = &hinge.closed_form;
     fw_mechanism m = {.device = &device,
