@@ -30,16 +30,38 @@ static fw_status build_material(fw_reader *r, const fw_record *record) {
     fw_record absent = {.row = &no_row, .element = &nothing};
     fw_device *d = r->device;
     const fw_record *from = record ? record : &absent;
+    bool broken = false;
     FW_TRY(read_override(r, from, "youngs-modulus", "youngs", pressure, &d->material.youngs));
     FW_TRY(read_override(r, from, "poisson", "poisson", (fw_dimension){0}, &d->material.poisson));
     FW_TRY(read_override(r, from, "density", "density", density, &d->material.density));
     FW_TRY(read_override(r, from, "strength", "strength", pressure, &d->material.strength));
+    for (int k = 0; k < FW_LIMIT_DATA; k++) {
+        const char *id = fw_limit_data_id(k);
+        fw_quantity *q = fw_limit_data_at(&d->material.limit, k);
+        FW_TRY(read_override(r, from, id, id, fw_limit_data_dimension(k), q));
+        if (record && fw_failed(record, id)) broken = true;
+    }
     if (!record) return FW_OK;
+    if (!broken)
+        fw_limit_data_complete(&d->material.limit, "<material>", record->element->place, r->diags);
     d->material_ref = fw_text_of(record, "ref");
     d->material_place = fw_place_of(record, "ref");
     d->thickness_m = fw_number_of(record, "thickness");
     d->orientation_rad = fw_number_of(record, "orientation");
     return FW_OK;
+}
+
+static void build_limits(fw_reader *r, const fw_record *record) {
+    fw_device *d = r->device;
+    const char *survival = fw_text_of(record, "survival");
+    d->safety_factor = fw_number_or(record, "safety-factor", 1.5);
+    d->limits_place = record->element->place;
+    d->limits =
+        (fw_limits_asked){.cycles = fw_number_of(record, "cycles"),
+                          .failure_probability = fw_number_of(record, "failure-probability"),
+                          .survival = survival && strcmp(survival, "yes") == 0,
+                          .cycles_place = fw_place_of(record, "cycles"),
+                          .probability_place = fw_place_of(record, "failure-probability")};
 }
 
 static fw_flow_use flow_of(const fw_record *record) {
@@ -105,6 +127,7 @@ fw_status fw_build_parts(fw_reader *r) {
     fw_device *d = r->device;
     double nan_ = (double)NAN;
     d->safety_factor = 1.5;
+    d->limits = (fw_limits_asked){.cycles = nan_, .failure_probability = nan_};
     d->thickness_m = nan_;
     d->orientation_rad = nan_;
     d->die = (fw_die){nan_, nan_, nan_, nan_, nan_, NULL, true};
@@ -118,14 +141,19 @@ fw_status fw_build_parts(fw_reader *r) {
             d->name = fw_text_of(record, "name");
         else if (fw_is(record, "material"))
             FW_TRY(build_material(r, record));
-        else if (fw_is(record, "limits")) {
-            d->safety_factor = fw_number_or(record, "safety-factor", 1.5);
-            d->limits_place = record->element->place;
-        } else if (fw_is(record, "workspace"))
+        else if (fw_is(record, "limits"))
+            build_limits(r, record);
+        else if (fw_is(record, "workspace"))
             d->workspace[d->nworkspace++] = workspace_of(r, record);
         else if (fw_is(record, "die"))
             build_die(d, record);
     }
+    const fw_quantity *stated = &d->material.strength;
+    if (!stated->unknown && !isnan(d->limits.failure_probability))
+        fw_diag_warning(r->diags, 236, d->limits.probability_place,
+                        "failure-probability has no meaning for the device's own material, whose "
+                        "strength is stated (line %d) and rules alone; remove one of the two",
+                        stated->place.line);
     return r->diags->failed ? FW_NOMEM : FW_OK;
 }
 

@@ -281,6 +281,13 @@ typedef struct fw_die { /* <die>; NaN: from the drawn mechanism */
     bool tethers;
 } fw_die;
 
+typedef struct fw_limits_asked { /* <limits>, beside the safety factor */
+    double cycles;               /* repetitions of every scene; NaN: static */
+    double failure_probability;  /* of the whole device, of what fractures; likewise: not asked */
+    bool survival;               /* the 0.2 % offset, not the proportional limit */
+    fw_place cycles_place, probability_place;
+} fw_limits_asked;
+
 typedef struct fw_device {
     const char *file, *name;
     const char *source; /* the file's text, for carets */
@@ -303,6 +310,7 @@ typedef struct fw_device {
     double thickness_m;     /* device layer, NaN: the flow's */
     double orientation_rad; /* of [100] of a crystal from +x; NaN: not stated, 45 deg */
     double safety_factor;   /* <limits safety-factor>, default 1.5 */
+    fw_limits_asked limits;
     fw_place limits_place;
     bool six_bar; /* joints 0..5 are A..F, bodies 0..4 AB BC CD DE EF */
     fw_die die;

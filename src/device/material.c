@@ -67,12 +67,36 @@ static void check_value(fw_arena *arena, const fw_element *e, int k, const fw_qu
         fw_diag_error(diags, 47, place_of(e, "value"), "%s must be %s", ids[k], range);
 }
 
+/* one of limit_data.h */
+static fw_status read_limit(fw_arena *arena, const fw_element *e, const fw_source_text *source,
+                            int nsource, fw_diags *diags, int k, fw_material *m) {
+    fw_quantity q, *slot_ = fw_limit_data_at(&m->limit, k);
+    fw_status status = fw_quantity_read(arena, e, source, nsource, diags, &q);
+    if (status != FW_OK) return status == FW_NOMEM ? status : FW_OK;
+    const fw_dimension wanted = fw_limit_data_dimension(k);
+    if (slot_->id)
+        fw_diag_error(diags, 45, place_of(e, "id"), "material '%s' has '%s' twice; remove one",
+                      m->id, q.id);
+    else if (!fw_dimension_equal(q.dimension, wanted))
+        fw_diag_error(diags, 25, place_of(e, "unit"),
+                      "%s: the dimension must be '%s', and \"%s\" is '%s'; correct the unit", q.id,
+                      fw_dimension_text(arena, wanted), q.unit,
+                      fw_dimension_text(arena, q.dimension));
+    else
+        fw_limit_data_check(k, &q, place_of(e, "value"), diags);
+    *slot_ = q;
+    return FW_OK;
+}
+
 static fw_status read_child(fw_arena *arena, const fw_element *e, const fw_source_text *source,
                             int nsource, fw_diags *diags, fw_material *m) {
     const fw_attribute *id = fw_xml_attribute(e, "id");
     int k = id ? index_of(id->value) : -1;
+    int limit = id && k < 0 ? fw_limit_data_index(id->value) : -1;
+    if (limit >= 0) return read_limit(arena, e, source, nsource, diags, limit, m);
     if (id && k < 0) {
         const char *better = fw_did_you_mean(id->value, ids, IDS);
+        if (!better) better = fw_did_you_mean(id->value, fw_limit_data_ids(), FW_LIMIT_DATA);
         if (better)
             fw_diag_error(diags, 72, id->place,
                           "material '%s' has no quantity '%s'; did you mean "
@@ -133,6 +157,13 @@ static fw_status read_material(fw_arena *arena, const fw_element *e, const fw_so
                                         .source = "",
                                         .place = e->place};
     check_crystal(e, m, diags);
+    fw_limit_data none = fw_limit_data_none(e->place);
+    for (int k = 0; k < FW_LIMIT_DATA; k++)
+        if (!fw_limit_data_at(&m->limit, k)->id)
+            *fw_limit_data_at(&m->limit, k) = *fw_limit_data_at(&none, k);
+    const char *whose = fw_arena_printf(arena, "material '%s'", m->id);
+    FW_NEED(whose);
+    fw_limit_data_complete(&m->limit, whose, e->place, diags);
     return FW_OK;
 }
 
@@ -183,6 +214,14 @@ fw_material fw_material_with(const fw_material *material, const fw_material_over
     }
     if (!override->youngs.unknown && override->youngs.unit)
         m.c11.unknown = m.c12.unknown = m.c44.unknown = true;
+    m.strength_stated = override->strength.unit && !override->strength.unknown;
+    fw_limit_data stated = override->limit;
+    for (int k = 0; k < FW_LIMIT_DATA; k++) {
+        const fw_quantity *q = fw_limit_data_at(&stated, k);
+        if (!q->unit || q->unknown) continue;
+        *fw_limit_data_at(&m.limit, k) = *q;
+        fw_limit_data_at(&m.limit, k)->source = "device file";
+    }
     return m;
 }
 

@@ -2,7 +2,7 @@
 /* Materials: data of processes/base.xml, with the device file's own overrides. */
 #ifndef FW_DEVICE_MATERIAL_H
 #define FW_DEVICE_MATERIAL_H
-#include "quantity/quantity.h"
+#include "device/limit_data.h"
 
 typedef struct fw_material {
     const char *id, *name;
@@ -15,10 +15,13 @@ typedef struct fw_material {
     fw_quantity expansion; /* 1/K, thermal, of length */
     fw_quantity modulus_change; /* 1/K: (dE/dT)/E */
     fw_quantity c11, c12, c44;  /* Pa: of a cubic crystal in a (100) wafer; unknown: isotropic */
+    fw_limit_data limit;        /* what else is known of what it bears */
+    bool strength_stated;       /* by the device file: it rules alone */
 } fw_material;
 
 typedef struct fw_material_override { /* attributes of <material>; unknown where absent */
     fw_quantity youngs, poisson, density, strength;
+    fw_limit_data limit;
 } fw_material_override;
 
 typedef struct fw_materials {

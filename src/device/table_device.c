@@ -41,10 +41,53 @@ static const fw_attribute_row material_rows[] = {
      .sentence =
          "Of a crystal: angle of its [100] from the device's +x. Its modulus then goes with "
          "the direction of every hinge, unless youngs-modulus is stated."},
+    {"weibull-strength", SOME_STRESS,
+     .sentence = "Of fracture: stress sigma0 at which 63 % of surfaces of weibull-area break; only "
+                 "together with weibull-modulus and weibull-area."},
+    {"weibull-modulus", D_PURE,
+     ABOVE(0, 200, "0 or below is no distribution; 3 to 30 are reported"),
+     .fallback = "the material's", .sentence = "Of fracture: m, the higher the less scatter."},
+    {"weibull-area", .kind = FW_KIND_NUMBER, .dimension = {.m = 2}, .unit = "mm^2",
+     ABOVE(0, 1, "a surface on which strength was measured has an area, far below 1 m2"),
+     .fallback = "the material's",
+     .sentence = "Of fracture: surface A0 that was stressed when sigma0 was found."},
+    {"offset-yield", SOME_STRESS, .sentence = "Of yield: the 0.2 % offset value."},
+    {"proportional-factor", D_PURE,
+     ABOVE(0, 1, "the proportional limit lies below the 0.2 % offset value"),
+     .fallback = "the material's",
+     .sentence = "Of yield: proportional limit over the 0.2 % offset value."},
+    {"film-yield", SOME_STRESS,
+     .sentence = "Of yield of films: A of the 0.2 % offset A + B (t/1 um)^-n at thickness t."},
+    {"film-yield-rise", SOME_STRESS, .sentence = "Of yield of films: B."},
+    {"film-exponent", D_PURE, ABOVE(0, 2, "thin films are stronger; 0.5 to 1 is reported"),
+     .fallback = "the material's", .sentence = "Of yield of films: n."},
+    {"film-thickest", THICKNESS, .fallback = "the material's",
+     .sentence = "Of yield of films: thickness up to which the law was found."},
+    {"fatigue-strength", SOME_STRESS,
+     .sentence = "Of fatigue: amplitude, fully reversed, that lasts fatigue-cycles; only together "
+                 "with it."},
+    {"fatigue-cycles", D_PURE, ABOVE(0, 1e15, "no device lives for more than 1e15 cycles"),
+     .fallback = "the material's", .sentence = "Of fatigue: cycles that fatigue-strength lasts."},
+    {"fatigue-exponent", D_PURE, RANGE(-0.999, -1e-6, "more cycles bear less"),
+     .fallback = "the material's", .sentence = "Of fatigue: b of Basquin's law."},
+    {"ductility", D_PURE, ABOVE(0, 10, "a plastic strain amplitude above 10 is not known"),
+     .fallback = "the material's",
+     .sentence = "Of fatigue: plastic strain amplitude at one reversal (Manson and Coffin)."},
+    {"ductility-exponent", D_PURE, RANGE(-0.999, -1e-6, "more cycles bear less"),
+     .fallback = "the material's", .sentence = "Of fatigue: c of Manson and Coffin's law."},
 };
 static const fw_attribute_row limits_rows[] = {
     {"safety-factor", D_PURE, RANGE(1, 100, "below 1 the limit itself would be exceeded"),
      .fallback = "1.5", .sentence = "Strength divided by the stress that is allowed."},
+    {"cycles", D_PURE, RANGE(1, 1e15, "a scene is run at least once"), .fallback = "none: static",
+     .sentence = "How often every scene is repeated: fatigue is judged as well."},
+    {"failure-probability", D_PURE,
+     ABOVE(0, 0.5, "never is not to be had, and a device that more often breaks than not is none"),
+     .fallback = "none: the material's plain strength",
+     .sentence = "Of the whole device, of a material that fractures: its Weibull data then rule."},
+    {"survival", .kind = FW_KIND_WORD, .words = yes_no, .fallback = "no",
+     .sentence = "yes: metals may pass their proportional limit up to the 0.2 % offset, as in a "
+                 "shock behind which accuracy does not matter."},
 };
 static const fw_attribute_row flow_rows[] = {
     {"ref", ID, REQUIRED, .sentence = "Name of a process pack, e.g. al-masked-rie."},

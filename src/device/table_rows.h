@@ -7,14 +7,17 @@
 
 #define PI 3.14159265358979323846
 /* dimensions */
-#define D_LENGTH    .kind = FW_KIND_NUMBER, .dimension = {.m = 1}
-#define D_ANGLE     .kind = FW_KIND_NUMBER, .dimension = {.rad = 1}
-#define D_MASS      .kind = FW_KIND_NUMBER, .dimension = {.kg = 1}, .unit = "mg"
-#define D_INERTIA   .kind = FW_KIND_NUMBER, .dimension = {.m = 2, .kg = 1}, .unit = "mg mm^2"
-#define D_TIME      .kind = FW_KIND_NUMBER, .dimension = {.s = 1}, .unit = "ms"
-#define D_RATE      .kind = FW_KIND_NUMBER, .dimension = {.s = -1}, .unit = "Hz"
-#define D_PURE      .kind = FW_KIND_NUMBER, .unit = "1"
-#define D_PRESSURE  .kind = FW_KIND_NUMBER, .dimension = {-1, 1, -2, 0, 0, 0, 0}, .unit = "GPa"
+#define D_LENGTH   .kind = FW_KIND_NUMBER, .dimension = {.m = 1}
+#define D_ANGLE    .kind = FW_KIND_NUMBER, .dimension = {.rad = 1}
+#define D_MASS     .kind = FW_KIND_NUMBER, .dimension = {.kg = 1}, .unit = "mg"
+#define D_INERTIA  .kind = FW_KIND_NUMBER, .dimension = {.m = 2, .kg = 1}, .unit = "mg mm^2"
+#define D_TIME     .kind = FW_KIND_NUMBER, .dimension = {.s = 1}, .unit = "ms"
+#define D_RATE     .kind = FW_KIND_NUMBER, .dimension = {.s = -1}, .unit = "Hz"
+#define D_PURE     .kind = FW_KIND_NUMBER, .unit = "1"
+#define D_PRESSURE .kind = FW_KIND_NUMBER, .dimension = {-1, 1, -2, 0, 0, 0, 0}, .unit = "GPa"
+#define SOME_STRESS                                                                                \
+    D_PRESSURE, ABOVE(0, 2e11, "a limit lies above 0; no material is stronger than 200 GPa"),      \
+        .fallback = "the material's"
 #define D_DENSITY   .kind = FW_KIND_NUMBER, .dimension = {.m = -3, .kg = 1}, .unit = "kg/m3"
 #define D_FORCE     .kind = FW_KIND_NUMBER, .dimension = {1, 1, -2, 0, 0, 0, 0}, .unit = "uN"
 #define D_TORQUE    .kind = FW_KIND_NUMBER, .dimension = {2, 1, -2, 0, 0, 0, 0}, .unit = "uN mm"

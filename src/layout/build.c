@@ -54,12 +54,13 @@ static fw_status add_bodies(fw_drawing *d) {
         if (a->tether.count == 0) continue;
         const char *label = fw_body_label(d, a->body);
         FW_NEED(label);
-        label = fw_arena_printf(d->arena, "tether of %s", label);
+        FW_NEED(label = fw_arena_printf(d->arena, "tether of %s", label));
         FW_TRY(fw_drawing_add(d, FW_ROLE_TETHER, FW_GROUND, FW_NONE, label, &a->tether));
     }
     for (int j = 0; j < d->device->njoint; j++) {
         const char *label =
             fw_arena_printf(d->arena, "flexure of hinge %s", d->device->joint[j].id);
+        FW_NEED(label);
         FW_TRY(fw_drawing_add(d, FW_ROLE_FLEXURE, d->layout->hinge[j].lower, j, label,
                               &d->hinge[j].flexure));
     }

@@ -3,17 +3,20 @@
 #include "layout/text.h"
 #include <math.h>
 
-static bool clear_of_all(const fw_drawing *d, const fw_contour *strip) {
+static fw_status clear_of_all(const fw_drawing *d, const fw_contour *strip, bool *clear) {
+    *clear = false;
     for (int b = 0; b < d->device->nbody; b++)
-        if (fw_contour_distance(strip, &d->plain[b], NULL, NULL) < 20e-6) return false;
+        if (fw_contour_distance(strip, &d->plain[b], NULL, NULL) < 20e-6) return FW_OK;
     for (int j = 0; j < d->device->njoint; j++) {
         const fw_hinge_layout *h = &d->layout->hinge[j];
         fw_contour disc;
-        if (fw_contour_contains(strip, h->centre)) return false;
-        if (fw_contour_disc(d->arena, h->centre, h->keep_out_m, &disc) != FW_OK) return false;
-        if (fw_contour_distance(strip, &disc, NULL, NULL) < 10e-6) return false;
+        if (fw_contour_contains(strip, h->centre)) return FW_OK;
+        fw_status status = fw_contour_disc(d->arena, h->centre, h->keep_out_m, &disc);
+        if (status == FW_NOMEM) return status; /* not a reason to go to another side */
+        if (status != FW_OK || fw_contour_distance(strip, &disc, NULL, NULL) < 10e-6) return FW_OK;
     }
-    return true;
+    *clear = true;
+    return FW_OK;
 }
 
 double fw_base_reach(const fw_drawing *d, int joint) {
@@ -92,7 +95,9 @@ static fw_status draw_base(fw_drawing *d, const int *joint, int n, int only) {
         double low = across + slope * (at - half - along),
                high = across + slope * (at + half - along);
         FW_TRY(fw_strip_draw(d, side, low, high, at, half, FW_STUB_M, &a));
-        if (!clear_of_all(d, &a.finger)) continue;
+        bool clear;
+        FW_TRY(clear_of_all(d, &a.finger, &clear));
+        if (!clear) continue;
         fw_contour pedestal = a.finger;
         a.finger = (fw_contour){NULL, 0};
         FW_TRY(fw_attachment_add(d, &a));

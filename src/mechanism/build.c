@@ -120,6 +120,28 @@ static double inertia_about(const fw_mass *m, double x, double y) {
     return m ? m->inertia_kg_m2 + m->mass_kg * (x * x + y * y) : (double)INFINITY;
 }
 
+static int flexures_in_use(const fw_device *device) {
+    int n = 0;
+    for (int j = 0; j < device->njoint; j++)
+        n += device->joint[j].flexure != FW_NONE;
+    return n;
+}
+
+/* what it bears; in->strength_Pa becomes the governing static limit */
+static fw_status limits_of(const fw_builder *b, fw_flexure_input *in, fw_limits *limits) {
+    const fw_material *m = &b->variant->material;
+    const fw_limit_input asked = {m, in, &b->device->limits, flexures_in_use(b->device)};
+    fw_limits_of(&asked, limits);
+    if (limits->missing && !fw_said_already(b->diags, 235, limits->missing_place))
+        return fw_diag_error(b->diags, 235, limits->missing_place,
+                             "material '%s' has no data for this: give %s on <material>, or on the "
+                             "material of the flow, or remove the attribute",
+                             fw_name_or_none(m->id), limits->missing);
+    const fw_limit *governing = fw_limits_governing(limits);
+    if (governing) in->strength_Pa = governing->allowable_Pa;
+    return limits->missing ? FW_INPUT : FW_OK;
+}
+
 /* the direction of the hinge in the crystal: of its drawn axis, or of the stated one */
 static fw_crystal crystal_of(const fw_device *device, const fw_layout *layout,
                              const fw_variant *variant, int joint) {
@@ -164,6 +186,7 @@ static fw_status flexure_result(const fw_builder *b, int j, const fw_joint *join
     FW_TRY(need_property(b, &m->youngs, "Young's modulus", "a flexure", joint->place));
     FW_TRY(need_property(b, &m->strength, "strength", "a flexure", joint->place));
     hinge->input = fw_mechanism_flexure(b->device, b->layout, b->variant, j);
+    FW_TRY(limits_of(b, &hinge->input, &hinge->limits));
     fw_flexure_closed_form(&hinge->input, result);
     fw_flexure_flare(&hinge->input, f->flare_m, result);
     if (!isfinite(result->stiffness_Nm_per_rad) || !(result->stiffness_Nm_per_rad > 0))

@@ -90,6 +90,31 @@ static fw_status strength_override(fw_plan *plan) {
         mine, pack->id, theirs, own->value / pack->strength.value);
 }
 
+/* what asking for cycles, a probability or survival rests on */
+static fw_status repetitions(fw_plan *plan) {
+    const fw_limits_asked *asked = &plan->device->limits;
+    char n[32];
+    if (asked->cycles > 0)
+        FW_TRY(fw_plan_assume(
+            plan,
+            "Every scene is repeated %s times, each on its own. Strains at both roots are counted "
+            "by "
+            "rainflow and summed after Miner, mean stress after Smith, Watson and Topper. Lives "
+            "scatter by a factor of two and more, which the band of the stress does not hold.",
+            fw_number_text(n, sizeof n, asked->cycles, 4)));
+    if (asked->failure_probability > 0)
+        FW_TRY(fw_plan_assume(
+            plan,
+            "What fractures is allowed a failure probability of %s of the whole device, shared "
+            "equally by its flexures, from the Weibull strength of their stressed surfaces; the "
+            "safety factor comes on top.",
+            fw_number_text(n, sizeof n, asked->failure_probability, 3)));
+    if (asked->survival)
+        FW_TRY(fw_plan_assume(plan, "Metals may pass their proportional limit up to the 0.2 %% "
+                                    "offset: a hinge may not come back to where it was."));
+    return FW_OK;
+}
+
 /* flexures as they are, or pins: the ledger of each motion decides */
 static fw_status how_hinges_move(fw_plan *plan) {
     int give = 0, motions = 0;
@@ -152,6 +177,7 @@ fw_status fw_plan_assumptions(fw_plan *plan) {
                           fw_number_text(sf, sizeof sf, plan->device->safety_factor, 4),
                           fw_place_file(plan->device->limits_place),
                           plan->device->limits_place.line, plan->device->limits_place.column));
+    FW_TRY(repetitions(plan));
     FW_TRY(how_hinges_move(plan));
     FW_TRY(fw_plan_assume(plan,
                           "Peak strain is the closed form with root fillets, depth and curved-beam "

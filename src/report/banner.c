@@ -53,6 +53,21 @@ static void why(fw_text *out, const fw_verdict *v) {
     reasons(out, v);
 }
 
+static void limit(fw_text *out, const fw_hinge_verdict *h) {
+    if (!h->limit) return;
+    fw_report_markup(out, "<div><dt>Limit ({s}, {s})</dt><dd>{s}: {u}; {s}</dd></div>",
+                     h->limit->criterion, fw_value_status_text(h->limit->status),
+                     h->limit->definition, h->limit_Pa, "Pa", h->limit->source);
+    if (isfinite(h->fatigue_utilisation) && isfinite(h->damage) && h->cycles > 0)
+        fw_report_markup(out,
+                         "<div><dt>Fatigue (Miner's sum)</dt><dd>{p} of the amplitude that lasts "
+                         "({n})</dd></div>",
+                         h->fatigue_utilisation, h->damage);
+    if (isfinite(h->failure_probability) && h->failure_probability > 0)
+        fw_report_markup(out, "<div><dt>Probability of fracture at the peak</dt><dd>{n}</dd></div>",
+                         h->failure_probability);
+}
+
 static void facts(fw_text *out, const fw_verdict *v) {
     if (v->governing < 0 || v->governing >= v->nhinge) return;
     const fw_hinge_verdict *h = &v->hinge[v->governing];
@@ -69,9 +84,10 @@ static void facts(fw_text *out, const fw_verdict *v) {
         fw_report_markup(out, "{u}", h->t_s, "s");
     else
         fw_text_add(out, "any pose");
-    fw_report_markup(out,
-                     "</dd></div><div><dt>Peak strain (limit)</dt><dd>{p} ({p})</dd></div></dl>\n",
+    fw_report_markup(out, "</dd></div><div><dt>Peak strain (limit)</dt><dd>{p} ({p})</dd></div>",
                      h->peak_strain, h->strain_limit);
+    limit(out, h);
+    fw_text_add(out, "</dl>\n");
 }
 
 void fw_report_advice(fw_page *page) {

@@ -58,7 +58,8 @@ static void row(fw_text *out, const fw_hinge_verdict *h, bool with_flow, double 
         fw_report_markup(out, "{p} to {p}", h->utilisation_low, h->utilisation_high);
     else
         fw_text_add(out, "\u2013");
-    fw_report_markup(out, "</td><td>{s}</td><td class=\"n\">", h->scene ? h->scene : "\u2013");
+    fw_report_markup(out, "</td><td>{s}</td><td>{s}</td><td class=\"n\">",
+                     h->limit ? h->limit->criterion : "\u2013", h->scene ? h->scene : "\u2013");
     if (isfinite(h->t_s))
         fw_report_markup(out, "{u}", h->t_s, "s");
     else
@@ -76,7 +77,8 @@ void fw_report_hinge_table(fw_text *out, const fw_hinge_verdict *hinge, int nhin
         "<th scope=\"col\" class=\"n\">Limit (\u00b0)</th><th scope=\"col\" class=\"n\">Peak "
         "strain</th><th scope=\"col\" class=\"n\">Strain limit</th><th scope=\"col\" "
         "colspan=\"2\">Utilisation</th><th scope=\"col\" class=\"n\">Error band</th><th "
-        "scope=\"col\">Scene</th><th scope=\"col\" class=\"n\">Instant</th></tr></thead>"
+        "scope=\"col\">Criterion</th><th scope=\"col\">Scene</th><th scope=\"col\" "
+        "class=\"n\">Instant</th></tr></thead>"
         "<tbody>\n",
         caption, with_flow ? "<th scope=\"col\">Flow</th>" : "");
     for (int i = 0; i < nhinge; i++)

@@ -11,6 +11,21 @@ static const char *word(fw_decision decision) {
     return decision == FW_ACCEPT ? "accept" : decision == FW_REJECT ? "reject" : "inconclusive";
 }
 
+/* which criterion governs, and what it rests on */
+static void limit(json_t *o, const fw_hinge_verdict *h, bool *failed) {
+    const fw_limit *l = h->limit;
+    fw_json_put(o, "criterion", fw_json_text(l ? l->criterion : NULL), failed);
+    fw_json_put(o, "limit_definition", fw_json_text(l ? l->definition : NULL), failed);
+    fw_json_put(o, "limit_Pa", fw_json_real(h->limit_Pa), failed);
+    fw_json_put(o, "limit_source", fw_json_text(l ? l->source : NULL), failed);
+    fw_json_put(o, "limit_status", fw_json_text(l ? fw_value_status_text(l->status) : NULL),
+                failed);
+    fw_json_put(o, "failure_probability", fw_json_real(h->failure_probability), failed);
+    fw_json_put(o, "fatigue_utilisation", fw_json_real(h->fatigue_utilisation), failed);
+    fw_json_put(o, "damage", fw_json_real(h->damage), failed);
+    fw_json_put(o, "cycles", fw_json_real(h->cycles), failed);
+}
+
 static json_t *hinge(const fw_hinge_verdict *h, bool *failed) {
     json_t *o = json_object();
     fw_json_put(o, "id", fw_json_text(h->id), failed);
@@ -27,6 +42,7 @@ static json_t *hinge(const fw_hinge_verdict *h, bool *failed) {
     fw_json_put(o, "utilisation_band",
                 fw_json_pair(h->utilisation_low, h->utilisation_high, failed), failed);
     fw_json_put(o, "verdict", fw_json_text(word(h->decision)), failed);
+    limit(o, h, failed);
     return o;
 }
 
@@ -183,6 +199,8 @@ fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out) {
     fw_json_put(root, "governing", governing(v->hinge, v->nhinge, v->governing, &failed), &failed);
     fw_json_put(root, "hinges", hinges(v->hinge, v->nhinge, v->variant, v->nvariant, &failed),
                 &failed);
+    fw_json_put(root, "failure_probability", fw_json_real(v->failure_probability), &failed);
+    fw_json_put(root, "repetitions", fw_json_real(input->device->limits.cycles), &failed);
     fw_json_put(root, "workspace", workspace(input, &failed), &failed);
     json_t *flows = json_array();
     for (int i = 0; i < input->nflow; i++)

@@ -30,9 +30,39 @@ static void hinges(fw_text *out, const fw_verdict *v) {
         hinge_row(out, &v->hinge[k]);
 }
 
-static void governing(fw_text *out, const fw_hinge_verdict *h) {
+static void number(fw_text *out, const char *before, double value, const char *after) {
+    fw_text_add(out, before);
+    fw_text_number(out, value, 4);
+    fw_text_add(out, after);
+}
+
+/* which criterion governs, its number, status and source, and what was asked for beside */
+static void limit(fw_text *out, const fw_hinge_verdict *h, const fw_report_input *in) {
+    const fw_limits_asked *asked = &in->device->limits;
+    if (h->limit) {
+        fw_text_printf(out, "(limit by %s: %s, ", h->limit->criterion, h->limit->definition);
+        number(out, "", h->limit_Pa * 1e-6, " MPa at the peak / safety factor ");
+        number(out, "", in->device->safety_factor, "; ");
+        fw_text_printf(out, "%s: %s)\n", fw_value_status_text(h->limit->status), h->limit->source);
+    }
+    if (asked->failure_probability > 0 && !isnan(h->failure_probability)) {
+        number(out, "(it breaks with probability ", h->failure_probability, " at this peak, ");
+        number(out, "one of all hinges with ", in->verdict->failure_probability, "; ");
+        number(out, "asked: ", asked->failure_probability, ")\n");
+    }
+    if (!isnan(h->fatigue_utilisation) && asked->cycles > 0) {
+        number(out, "(fatigue: ", 100 * h->fatigue_utilisation, " % of what lasts ");
+        number(out, "", asked->cycles, " repetitions of ");
+        number(out, "", h->cycles, " counted cycles, safety factor included; ");
+        number(out, "damage ", h->damage, " without it)\n");
+    }
+}
+
+static void governing(fw_text *out, const fw_hinge_verdict *h, const fw_report_input *in) {
+    bool tires = h->limit && strcmp(h->limit->criterion, "fatigue") == 0;
     fw_text_printf(out, "governing hinge %s: ", h->id);
-    fw_text_real(out, "%.1f %% of the elastic limit in ", 100.0 * h->utilisation);
+    fw_text_real(out, "%.1f %% of the ", 100.0 * h->utilisation);
+    fw_text_printf(out, "%s limit in ", tires ? "fatigue" : "elastic");
     fw_text_add(out, h->scene);
     if (!isnan(h->t_s)) {
         fw_text_add(out, " at ");
@@ -45,6 +75,7 @@ static void governing(fw_text *out, const fw_hinge_verdict *h) {
         fw_text_real(out, "(its rotation alone would use %.1f %%, the force it carries the rest)\n",
                      100.0 * h->utilisation * (1.0 - h->force_share));
     }
+    limit(out, h, in);
     if (h->touches)
         fw_text_printf(out,
                        "(its drawn solids meet before that angle: the motion is not possible)\n");
@@ -115,7 +146,7 @@ fw_status fw_report_verdict_text(const fw_report_input *input, fw_terminal_style
                    word[v->decision], style.colour ? "\033[0m" : "");
     if (v->drawn != v->decision) fw_text_printf(out, " (as drawn: %s)", word[v->drawn]);
     fw_text_add(out, "\n");
-    if (v->governing != FW_NONE) governing(out, &v->hinge[v->governing]);
+    if (v->governing != FW_NONE) governing(out, &v->hinge[v->governing], input);
     reasons(out, v);
     if (style.detail >= 0 && v->nhinge > 0) hinges(out, v);
     if (style.detail >= 0) pull_ins(out, input);

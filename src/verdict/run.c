@@ -52,9 +52,12 @@ static fw_status combine(fw_arena *arena, const fw_device *device, double accura
             if (verdict->variant[i].motion[k])
                 verdict->accuracy_left_out = fmax(verdict->accuracy_left_out,
                                                   verdict->variant[i].motion[k]->ledger.left_out);
-    for (int i = 0; i < verdict->nvariant; i++)
-        if (verdict->variant[i].decision > verdict->decision)
-            verdict->decision = verdict->variant[i].decision;
+    verdict->failure_probability = (double)NAN;
+    for (int i = 0; i < verdict->nvariant; i++) {
+        const fw_variant_verdict *v = &verdict->variant[i];
+        if (v->decision > verdict->decision) verdict->decision = v->decision;
+        verdict->failure_probability = fmax(verdict->failure_probability, v->failure_probability);
+    }
     return FW_OK;
 }
 
@@ -98,6 +101,7 @@ static fw_status draw(fw_arena *arena, const fw_device *device, fw_diags *diags,
     *layout = NULL;
     fw_status status = fw_layout_build(arena, device, &drawing, layout);
     bool impossible = status == FW_GEOMETRY || status == FW_INPUT;
+    if (drawing.failed) return FW_NOMEM;
     if (status != FW_OK && !impossible) return status;
     if (impossible) *layout = NULL;
     bool fatal = impossible && fw_device_needs_shapes(device);

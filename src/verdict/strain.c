@@ -27,13 +27,15 @@ void fw_arc_moments(const fw_flexure *f, double centre_m, double M, double Fx, d
     }
 }
 
+static double largest_lever(const fw_flexure *f, double centre_m) {
+    double a = 0.5 * f->angle_rad;
+    return f->kind == FW_FLEXURE_CSFH ? hypot(f->radius_m * cos(a) - centre_m, f->radius_m * sin(a))
+                                      : 0.5 * f->length_m;
+}
+
 /* no drawn axis, or a leaf: the force acts on its largest lever wherever it points */
 static double bounded_moment(const fw_flexure *f, double centre_m, double M, double force_N) {
-    double a = 0.5 * f->angle_rad;
-    double lever = f->kind == FW_FLEXURE_CSFH
-                       ? hypot(f->radius_m * cos(a) - centre_m, f->radius_m * sin(a))
-                       : 0.5 * f->length_m;
-    return fabs(M) + lever * force_N;
+    return fabs(M) + largest_lever(f, centre_m) * force_N;
 }
 
 double fw_hinge_strain(const fw_mechanism *m, const fw_hinge *hinge, const fw_hinge_layout *drawn,
@@ -60,4 +62,36 @@ double fw_hinge_strain(const fw_mechanism *m, const fw_hinge *hinge, const fw_hi
     fw_arc_moments(f, centre, sign * moment - c->offset_m[1] * along, along, -sn * fx + cs * fy,
                    &root, &inside);
     return per_moment * fmax(root, inside / c->concentration) + axial;
+}
+
+/* M(-a), M(+a) of eq. 2 times eps/(theta K); of a leaf M -+ Fx L/2, x across it. Where the axis is
+   not drawn, with the sign of the rotation what both add at most. Test: test_strain.c
+   root_strains_have_signs, root_strains_of_a_leaf */
+void fw_hinge_root_strains(const fw_mechanism *m, const fw_hinge *hinge,
+                           const fw_hinge_layout *drawn, const fw_hinge_load *load,
+                           double strain[2]) {
+    const fw_pin *pin = &m->pin[hinge->pin];
+    const fw_flexure *f = &m->device->flexure[hinge->flexure];
+    const fw_flexure_result *c = &hinge->closed_form;
+    double per_moment = c->strain_per_rad / c->stiffness_Nm_per_rad;
+    double moment = c->stiffness_Nm_per_rad * load->angle_rad, r = f->radius_m;
+    if (!drawn || !drawn->drawn) {
+        double force = hypot(load->fx_N, load->fy_N);
+        strain[0] = strain[1] =
+            per_moment * copysign(bounded_moment(f, c->centre_m, moment, force) +
+                                      hypot(c->offset_m[0], c->offset_m[1]) * force,
+                                  load->angle_rad);
+        return;
+    }
+    double sign = drawn->upper == pin->body_b ? 1.0 : -1.0;
+    double turn = drawn->axis_rad + load->frame_rad, cs = cos(turn), sn = sin(turn);
+    double fx = -sign * (cs * load->fx_N + sn * load->fy_N);
+    double fy = -sign * (-sn * load->fx_N + cs * load->fy_N);
+    for (int side = -1; side <= 1; side += 2) {
+        double b = side * 0.5 * f->angle_rad, force = side * 0.5 * f->length_m * fx;
+        if (f->kind == FW_FLEXURE_CSFH)
+            force = (c->centre_m + c->offset_m[0]) * fy - c->offset_m[1] * fx +
+                    r * (fx * sin(b) - fy * cos(b));
+        strain[side > 0] = per_moment * (sign * moment + force);
+    }
 }

@@ -15,6 +15,12 @@ typedef struct fw_hinge_load {
 double fw_hinge_strain(const fw_mechanism *mechanism, const fw_hinge *hinge,
                        const fw_hinge_layout *drawn, const fw_hinge_load *load);
 
+/* strain at the fillets of the roots at polar angle -a and +a, signed, without what the force pulls
+   along: bending alone, since its sign is what makes cycles */
+void fw_hinge_root_strains(const fw_mechanism *mechanism, const fw_hinge *hinge,
+                           const fw_hinge_layout *drawn, const fw_hinge_load *load,
+                           double strain[2]);
+
 /* largest |section moment| at the roots and inside the arc; see strain.c */
 void fw_arc_moments(const fw_flexure *flexure, double centre_m, double moment_Nm, double fx_N,
                     double fy_N, double *root_Nm, double *inside_Nm);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "verdict/compare.h"
+#include "verdict/fatigue.h"
 #include "verdict/scene.h"
 #include "verdict/watch.h"
 #include <math.h>
@@ -32,7 +33,9 @@ static fw_decision decide(double low, double high) {
 void fw_verdict_keep_worst(fw_hinge_verdict *worst, const fw_hinge_verdict *other) {
     double low = fmax(worst->utilisation_low, other->utilisation_low);
     double high = fmax(worst->utilisation_high, other->utilisation_high);
+    double breaks = worst->scene ? worst->failure_probability : (double)NAN;
     if (!worst->scene || fw_verdict_governs(other, worst)) *worst = *other;
+    worst->failure_probability = fmax(breaks, other->failure_probability); /* passes by NaN */
     worst->utilisation_low = low;
     worst->utilisation_high = high;
 }
@@ -68,54 +71,105 @@ static double strain_error(const fw_motion *motion) {
     return motion->stats.estimate_margin * most;
 }
 
+/* what a hinge is judged by, the same for all that is run */
+typedef struct judged {
+    const fw_mechanism *m;
+    const fw_hinge *hinge;
+    const fw_hinge_layout *drawn;
+    double youngs_Pa, safety_factor;
+    double repetitions; /* of every scene; NaN: static */
+} judged;
+
+/* peak stress at the root as it is, against the plain distribution of strengths */
+static void chance(const judged *by, fw_hinge_verdict *out) {
+    const fw_weibull *w = &by->hinge->limits.weibull;
+    if (w->known)
+        out->failure_probability = fw_weibull_probability(w, out->peak_strain * by->youngs_Pa);
+}
+
+/* a repeated motion that uses more of its fatigue limit than its peak does of the static one: the
+   limits become those of this motion, its bands the same share of the larger utilisation */
+static void fatigue(const judged *by, const fw_fatigue *f, fw_hinge_verdict *out) {
+    out->fatigue_utilisation = by->safety_factor * f->utilisation;
+    out->damage = f->damage;
+    out->cycles = f->cycles;
+    if (!(out->fatigue_utilisation > out->utilisation) || !(out->utilisation > 0)) return;
+    double more = out->fatigue_utilisation / out->utilisation;
+    out->limit = &by->hinge->limits.item[by->hinge->limits.fatigue];
+    out->limit_Pa /= more;
+    out->limit_angle_rad /= more;
+    out->strain_limit /= more;
+    out->utilisation *= more;
+    out->utilisation_low *= more;
+    out->utilisation_high *= more;
+}
+
+static bool repeats(const judged *by) {
+    return by->repetitions > 0 && by->hinge->limits.life.known;
+}
+
+/* strain that the peak has beyond that of either root by bending alone (inside the arc, along the
+   force) is taken to belong to all of the history */
+static fw_status tire(fw_arena *arena, const judged *by, fw_turning *root, fw_hinge_verdict *out) {
+    if (!repeats(by) || !root) return FW_OK;
+    double most = 0;
+    for (int side = 0; side < 2; side++) {
+        most = fmax(most, fabs(root[side].latest));
+        for (size_t i = 0; i < root[side].count; i++)
+            most = fmax(most, fabs(root[side].value[i]));
+    }
+    double scale = most > 0 ? fmax(1.0, out->peak_strain / most) : 1.0;
+    fw_fatigue f;
+    FW_TRY(fw_fatigue_of(arena, &by->hinge->limits.life, root, scale * by->youngs_Pa,
+                         by->repetitions, &f));
+    fatigue(by, &f, out);
+    return FW_OK;
+}
+
 /* utilisation = peak strain (rotation and joint force, fillets included) over the limit strain, and
    never less than peak angle / limit angle; band = model errors of it, and the numerical errors of
    the angle over the limit angle and of the search for the strain */
-static void judge_scene(const fw_mechanism *m, const fw_hinge *hinge, const fw_hinge_layout *drawn,
-                        const fw_motion *motion, const fw_strain_peak *strain, double apart,
-                        const char *scene, fw_hinge_verdict *out) {
-    const fw_peak *peak = &motion->peak[hinge->pin];
-    const fw_flexure_result *c = &hinge->closed_form;
+static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_motion *motion,
+                             const fw_watch *watch, int k, const char *scene,
+                             fw_hinge_verdict *out) {
+    const fw_peak *peak = &motion->peak[by->hinge->pin];
+    const fw_strain_peak *strain = &watch->hinge[k];
+    const fw_flexure_result *c = &by->hinge->closed_form;
     double by_angle = fabs(peak->angle_rad) / c->limit_angle_rad;
     double by_strain = strain->strain / out->strain_limit;
-    *out = (fw_hinge_verdict){.id = out->id,
-                              .joint = out->joint,
-                              .strain_limit = out->strain_limit,
-                              .limit_angle_rad = c->limit_angle_rad,
-                              .flow = m->variant->flow,
-                              .scene = scene,
-                              .peak_angle_rad = peak->angle_rad,
-                              .angle_error_rad = peak->error_rad};
+    out->scene = scene;
+    out->peak_angle_rad = peak->angle_rad;
+    out->angle_error_rad = peak->error_rad;
     out->utilisation = fmax(by_angle, by_strain);
     out->peak_strain = out->utilisation * out->strain_limit;
     out->force_share = by_strain > by_angle ? 1.0 - by_angle / by_strain : 0.0;
     out->t_s = by_strain > by_angle ? strain->t_s : peak->t_s;
     /* a run that was ended went a whole turn: no error of its own changes that */
-    double numeric = motion->ended ? 0.0
-                                   : out->angle_error_rad / c->limit_angle_rad +
-                                         (strain->between + apart) / out->strain_limit;
+    double numeric = motion->ended
+                         ? 0.0
+                         : out->angle_error_rad / c->limit_angle_rad +
+                               (strain->between + strain_error(motion)) / out->strain_limit;
     double model = fw_verdict_model_error.motion + fw_verdict_model_error.strain + beyond_fit(c);
     out->numeric = numeric;
     out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - model) - numeric);
     out->utilisation_high = out->utilisation * (1.0 + model) + numeric;
+    chance(by, out);
+    FW_TRY(tire(arena, by, watch->root ? watch->root[k] : NULL, out));
     out->decision = decide(out->utilisation_low, out->utilisation_high);
-    collide(drawn, out);
+    collide(by->drawn, out);
+    return FW_OK;
 }
 
-static void judge_workspace(const fw_mechanism *m, const fw_hinge *hinge,
-                            const fw_hinge_layout *drawn, const fw_workspace_result *workspace,
+/* of required poses only the rotations are known, so that every repetition is taken to go to the
+   worst one and as far to the other side */
+static void judge_workspace(const judged *by, const fw_workspace_result *workspace,
                             fw_hinge_verdict *out) {
-    const fw_workspace_peak *peak = &workspace->peak[hinge->pin];
-    const fw_flexure_result *c = &hinge->closed_form;
-    *out = (fw_hinge_verdict){.id = out->id,
-                              .joint = out->joint,
-                              .strain_limit = out->strain_limit,
-                              .limit_angle_rad = c->limit_angle_rad,
-                              .flow = m->variant->flow,
-                              .scene = "workspace",
-                              .peak_angle_rad = peak->angle_rad,
-                              .angle_error_rad = peak->error_rad,
-                              .t_s = (double)NAN};
+    const fw_workspace_peak *peak = &workspace->peak[by->hinge->pin];
+    const fw_flexure_result *c = &by->hinge->closed_form;
+    out->scene = "workspace";
+    out->peak_angle_rad = peak->angle_rad;
+    out->angle_error_rad = peak->error_rad;
+    out->t_s = (double)NAN;
     out->utilisation = fabs(peak->angle_rad) / c->limit_angle_rad;
     out->peak_strain = out->utilisation * out->strain_limit;
     double numeric = peak->error_rad / c->limit_angle_rad;
@@ -124,8 +178,16 @@ static void judge_workspace(const fw_mechanism *m, const fw_hinge *hinge,
     out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - model) - numeric);
     out->utilisation_high =
         out->utilisation * (1.0 + model + fw_verdict_model_error.workspace) + numeric;
+    chance(by, out);
+    if (repeats(by)) {
+        const fw_cycle one = {2 * out->peak_strain * by->youngs_Pa, 0, 1};
+        const fw_strain_life *law = &by->hinge->limits.life;
+        const fw_fatigue f = {fw_fatigue_utilisation(law, &one, 1, by->repetitions),
+                              fw_miner(law, &one, 1, by->repetitions, 1), 1};
+        fatigue(by, &f, out);
+    }
     out->decision = decide(out->utilisation_low, out->utilisation_high);
-    collide(drawn, out);
+    collide(by->drawn, out);
 }
 
 /* a hinge that has turned once is past every limit: the rest of the scene is not needed */
@@ -153,10 +215,10 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     for (size_t i = 0; i < n; i++) {
         const fw_scene *scene = &device->scene[i];
         if (!fw_device_in_flow(scene->flow, m->variant->flow)) continue;
-        FW_TRY(fw_watch_new(arena, m, layout, &watch[i]));
+        FW_TRY(fw_watch_new(arena, m, layout, device->limits.cycles > 0, &watch[i]));
         motion.observe = fw_watch_see;
         motion.context = &watch[i];
-        FW_TRY(fw_watch_new(arena, m, layout, &other[i]));
+        FW_TRY(fw_watch_new(arena, m, layout, device->limits.cycles > 0, &other[i]));
         motion.other = &other[i];
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));
         if (v->motion[i] && v->motion[i]->ended) warn_ended(scene, v->motion[i], diags);
@@ -176,6 +238,60 @@ static void warn_touching(const fw_device *device, const fw_hinge_layout *drawn,
                     fw_number_text(free_turn, sizeof free_turn, drawn->free_rad * degrees, 3));
 }
 
+/* before anything was run */
+static fw_hinge_verdict blank_verdict(const judged *by) {
+    const fw_limit *limit = fw_limits_governing(&by->hinge->limits);
+    double allowed = limit ? limit->allowable_Pa : by->m->variant->material.strength.value;
+    return (fw_hinge_verdict){.id = by->m->pin[by->hinge->pin].id,
+                              .joint = by->hinge->pin,
+                              .flow = by->m->variant->flow,
+                              .limit = limit,
+                              .limit_Pa = allowed,
+                              .strain_limit = allowed / by->safety_factor / by->youngs_Pa,
+                              .limit_angle_rad = by->hinge->closed_form.limit_angle_rad,
+                              .failure_probability = (double)NAN,
+                              .fatigue_utilisation = (double)NAN,
+                              .damage = (double)NAN,
+                              .cycles = (double)NAN};
+}
+
+static fw_status judge_hinge(fw_arena *arena, const fw_device *device, const judged *by, int k,
+                             const fw_watch *watch, fw_diags *diags, fw_variant_verdict *v) {
+    const fw_hinge_verdict blank = blank_verdict(by);
+    double *used = v->used + (size_t)k * ((size_t)device->nscene + 1);
+    v->hinge[k] = blank;
+    for (int i = 0; i <= device->nscene; i++)
+        used[i] = (double)NAN;
+    for (int i = 0; i < device->nscene; i++) {
+        if (!v->motion[i]) continue;
+        fw_hinge_verdict now = blank;
+        const fw_watch *saw = v->motion[i]->observed ? v->motion[i]->observed : &watch[i];
+        FW_TRY(judge_scene(arena, by, v->motion[i], saw, k, device->scene[i].name, &now));
+        if (now.touches) warn_touching(device, by->drawn, &now, diags);
+        used[i] = now.utilisation;
+        fw_verdict_keep_worst(&v->hinge[k], &now);
+    }
+    if (v->workspace.required) { /* the poses that can be reached */
+        fw_hinge_verdict now = blank;
+        judge_workspace(by, &v->workspace, &now);
+        if (now.touches) warn_touching(device, by->drawn, &now, diags);
+        used[device->nscene] = now.utilisation;
+        fw_verdict_keep_worst(&v->hinge[k], &now);
+    }
+    return FW_OK;
+}
+
+/* each hinge may break the device: its survival is the product of theirs */
+static fw_status in_series(fw_arena *arena, fw_variant_verdict *v) {
+    double *each;
+    int n = 0;
+    FW_NEED(each = fw_arena_array(arena, double, (size_t)v->nhinge));
+    for (int k = 0; k < v->nhinge; k++)
+        if (!isnan(v->hinge[k].failure_probability)) each[n++] = v->hinge[k].failure_probability;
+    v->failure_probability = n > 0 && n == v->nhinge ? fw_series_probability(each, n) : (double)NAN;
+    return FW_OK;
+}
+
 fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_mechanism *m, const fw_verdict_options *options,
                              fw_diags *diags, fw_variant_verdict *v) {
@@ -192,36 +308,17 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, watch, other));
     FW_TRY(fw_workspace_required(arena, m, diags, &v->workspace));
 
-    const fw_material *material = &m->variant->material;
     for (int k = 0; k < m->nhinge; k++) {
         const fw_hinge *hinge = &m->hinge[k];
-        const fw_hinge_layout *drawn = layout && layout->drawn ? &layout->hinge[hinge->pin] : NULL;
-        fw_hinge_verdict blank = {.id = m->pin[hinge->pin].id,
-                                  .joint = hinge->pin,
-                                  .strain_limit = material->strength.value / device->safety_factor /
-                                                  material->youngs.value};
-        v->hinge[k] = blank;
-        double *used = v->used + (size_t)k * ((size_t)device->nscene + 1);
-        for (int i = 0; i <= device->nscene; i++)
-            used[i] = (double)NAN;
-        for (int i = 0; i < device->nscene; i++) {
-            if (!v->motion[i]) continue;
-            fw_hinge_verdict now = blank;
-            const fw_watch *saw = v->motion[i]->observed ? v->motion[i]->observed : &watch[i];
-            judge_scene(m, hinge, drawn, v->motion[i], &saw->hinge[k], strain_error(v->motion[i]),
-                        device->scene[i].name, &now);
-            if (now.touches) warn_touching(device, drawn, &now, diags);
-            used[i] = now.utilisation;
-            fw_verdict_keep_worst(&v->hinge[k], &now);
-        }
-        if (v->workspace.required) { /* the poses that can be reached */
-            fw_hinge_verdict now = blank;
-            judge_workspace(m, hinge, drawn, &v->workspace, &now);
-            if (now.touches) warn_touching(device, drawn, &now, diags);
-            used[device->nscene] = now.utilisation;
-            fw_verdict_keep_worst(&v->hinge[k], &now);
-        }
+        const judged by = {.m = m,
+                           .hinge = hinge,
+                           .drawn = layout && layout->drawn ? &layout->hinge[hinge->pin] : NULL,
+                           .youngs_Pa = m->variant->material.youngs.value,
+                           .safety_factor = device->safety_factor,
+                           .repetitions = device->limits.cycles};
+        FW_TRY(judge_hinge(arena, device, &by, k, watch, diags, v));
     }
+    FW_TRY(in_series(arena, v));
     v->decision = FW_ACCEPT;
     for (int k = 0; k < v->nhinge; k++) {
         if (!v->hinge[k].scene) v->hinge[k].decision = FW_INCONCLUSIVE; /* nothing was run */

@@ -23,8 +23,13 @@ typedef struct fw_hinge_verdict {
     double t_s;     /* NaN for the workspace */
     fw_decision decision;
     int joint;
-    double force_share; /* part of the peak strain that the joint force adds to the rotation's */
-    bool touches;       /* the drawn solids meet before the peak angle */
+    double force_share;    /* part of the peak strain that the joint force adds to the rotation's */
+    bool touches;          /* the drawn solids meet before the peak angle */
+    const fw_limit *limit; /* which criterion governs; NULL: a plain number without a source */
+    double limit_Pa;       /* peak stress that it allows in this motion, before the safety factor */
+    double failure_probability; /* at the peak, no safety factor; NaN: nothing known or asked */
+    double fatigue_utilisation, damage, cycles; /* NaN: no cycles asked; cycles: of one repetition;
+                                                   damage: Miner's sum, no safety factor */
 } fw_hinge_verdict;
 
 typedef struct fw_reason { /* why a scene is not accepted, beside the bands of its hinges */
@@ -88,7 +93,8 @@ typedef struct fw_variant_verdict { /* one flow: a material and a thickness */
     fw_hinge_verdict *hinge; /* (mechanism->nhinge) */
     int nhinge;
     fw_decision decision;
-    int governing; /* index into hinge, or FW_NONE */
+    int governing;              /* index into hinge, or FW_NONE */
+    double failure_probability; /* of all its hinges in series; NaN: not known */
 } fw_variant_verdict;
 
 typedef struct fw_advice {  /* one change that accepts, verified by running it */
@@ -105,7 +111,8 @@ typedef struct fw_verdict {
     int nvariant;
     fw_hinge_verdict *hinge; /* (nhinge) worst over the variants, by joint */
     int nhinge;
-    int governing; /* index into hinge, or FW_NONE */
+    int governing;              /* index into hinge, or FW_NONE */
+    double failure_probability; /* of the worst variant; NaN: not known */
     double accuracy_wanted, accuracy_estimated;
     double accuracy_left_out; /* largest sum of bounds that a scene leaves out by itself (auto); it
                                  is part of the estimate */

@@ -3,10 +3,33 @@
 #include <math.h>
 
 fw_status fw_watch_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_layout *layout,
-                       fw_watch *watch) {
-    *watch = (fw_watch){.mechanism = mechanism, .layout = layout};
-    FW_NEED(watch->hinge = fw_arena_array(arena, fw_strain_peak, (size_t)mechanism->nhinge));
+                       bool cycles, fw_watch *watch) {
+    size_t n = (size_t)mechanism->nhinge;
+    *watch = (fw_watch){.mechanism = mechanism, .layout = layout, .arena = arena};
+    FW_NEED(watch->hinge = fw_arena_array(arena, fw_strain_peak, n));
+    if (cycles) FW_NEED(watch->root = fw_arena_alloc(arena, n, sizeof *watch->root));
     return FW_OK;
+}
+
+/* a turn by less than this share of the limit strain is none: with an exponent of fatigue of 10, a
+   million of them do not add up to one at the limit */
+static const double gate_share = 1e-3;
+
+static void start_counting(fw_watch *w, int k) {
+    const fw_flexure_result *c = &w->mechanism->hinge[k].closed_form;
+    for (int side = 0; w->root && side < 2; side++)
+        w->root[k][side] =
+            (fw_turning){.gate = gate_share * c->limit_angle_rad * c->strain_per_rad};
+}
+
+static void count(fw_watch *w, int k, const fw_hinge_layout *drawn, const fw_hinge_load *load,
+                  const fw_instant *now) {
+    double strain[2];
+    fw_hinge_root_strains(w->mechanism, &w->mechanism->hinge[k], drawn, load, strain);
+    for (int side = 0; side < 2; side++) {
+        if (now->begins) fw_turning_jump(&w->root[k][side]);
+        fw_turning_add(&w->root[k][side], w->arena, now->t_s, strain[side]);
+    }
 }
 
 static void keep(fw_strain_peak *p, double t_s, double strain, double between) {
@@ -52,6 +75,7 @@ void fw_watch_see(void *context, const fw_instant *now) {
         const fw_pin *pin = &m->pin[hinge->pin];
         if (!now) {
             w->hinge[k] = (fw_strain_peak){0};
+            start_counting(w, k);
             continue;
         }
         if (now->begins) w->hinge[k].seen = 0; /* no parabola across a jump */
@@ -61,5 +85,6 @@ void fw_watch_see(void *context, const fw_instant *now) {
         const fw_hinge_layout *drawn =
             w->layout && w->layout->drawn ? &w->layout->hinge[hinge->pin] : NULL;
         fw_strain_peak_add(&w->hinge[k], now->t_s, fw_hinge_strain(m, hinge, drawn, &load));
+        if (w->root) count(w, k, drawn, &load, now);
     }
 }

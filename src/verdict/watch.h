@@ -3,6 +3,7 @@
 #ifndef FW_VERDICT_WATCH_H
 #define FW_VERDICT_WATCH_H
 #include "dynamics/dynamics.h"
+#include "maths/rainflow.h"
 #include "verdict/strain.h"
 
 typedef struct fw_strain_peak {
@@ -16,10 +17,13 @@ typedef struct fw_watch { /* of one run */
     const fw_mechanism *mechanism;
     const fw_layout *layout; /* NULL: bounds instead of the drawn axis */
     fw_strain_peak *hinge;   /* (nhinge) */
+    fw_turning (*root)[2];   /* (nhinge) of the strain at either root; NULL: nobody counts cycles */
+    fw_arena *arena;
 } fw_watch;
 
+/* cycles: also keep the turning points that fatigue needs */
 fw_status fw_watch_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_layout *layout,
-                       fw_watch *watch);
+                       bool cycles, fw_watch *watch);
 /* an fw_observer; context is the watch */
 void fw_watch_see(void *context, const fw_instant *instant);
 /* one more instant of one hinge */

@@ -228,7 +228,7 @@ static fw_status search(end *e, long most) {
     return FW_OK;
 }
 
-fw_status fw_reach_extents(fw_arena *arena, const fw_loop *loop, const fw_limits *limits,
+fw_status fw_reach_extents(fw_arena *arena, const fw_loop *loop, const fw_reach_limits *limits,
                            double relative, long most, fw_survey *survey) {
     fw_allowed allowed = fw_limits_allow(loop, limits);
     fw_box3 whole = fw_reach_whole(loop, &allowed);

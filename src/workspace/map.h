@@ -15,7 +15,7 @@ typedef struct fw_workspace_map {
     const char *none; /* why there is nothing below; NULL: there is */
     fw_loop loop;
     double limit_rad[FW_SIX];
-    fw_limits limits;
+    fw_reach_limits limits;
     fw_measure volume; /* m2 rad */
     fw_survey survey;
     fw_workspace_slice

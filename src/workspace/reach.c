@@ -7,8 +7,8 @@ enum { MOST_LEVEL = 14, FIRST_CELLS = 64 };
 
 static const double turn = 6.283185307179586; /* below 2 pi */
 
-fw_limits fw_limits_symmetric(const double limit_rad[FW_SIX]) {
-    fw_limits l;
+fw_reach_limits fw_limits_symmetric(const double limit_rad[FW_SIX]) {
+    fw_reach_limits l;
     for (int i = 0; i < FW_SIX; i++)
         l.high_rad[i] = limit_rad[i], l.low_rad[i] = -limit_rad[i];
     return l;
@@ -40,7 +40,7 @@ static fw_interval reach2(const fw_leg *leg, fw_interval psi) {
                            fw_interval_add(both, both));
 }
 
-fw_allowed fw_limits_allow(const fw_loop *k, const fw_limits *l) {
+fw_allowed fw_limits_allow(const fw_loop *k, const fw_reach_limits *l) {
     fw_allowed out;
     for (int i = 0; i < FW_SIX; i++) {
         fw_interval low = fw_loop_psi_range(k, i, fw_interval_point(l->low_rad[i]));
@@ -321,7 +321,7 @@ static fw_status scratch(search *s, fw_effort effort, fw_measure *out) {
     return status;
 }
 
-fw_status fw_reach_volume(fw_arena *arena, const fw_loop *loop, const fw_limits *limits,
+fw_status fw_reach_volume(fw_arena *arena, const fw_loop *loop, const fw_reach_limits *limits,
                           fw_effort effort, fw_measure *volume) {
     search s = {.arena = arena, .loop = loop, .dimensions = 3};
     s.allowed = fw_limits_allow(loop, limits);
@@ -329,7 +329,7 @@ fw_status fw_reach_volume(fw_arena *arena, const fw_loop *loop, const fw_limits 
     return scratch(&s, effort, volume);
 }
 
-fw_status fw_reach_area(fw_arena *arena, const fw_loop *loop, const fw_limits *limits,
+fw_status fw_reach_area(fw_arena *arena, const fw_loop *loop, const fw_reach_limits *limits,
                         double phi_rad, fw_effort effort, fw_measure *area) {
     search s = {.arena = arena, .loop = loop, .dimensions = 2, .phi_rad = phi_rad};
     s.allowed = fw_limits_allow(loop, limits);

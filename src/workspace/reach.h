@@ -5,9 +5,9 @@
 #define FW_WORKSPACE_REACH_H
 #include "workspace/loop.h"
 
-typedef struct fw_limits { /* of the joint angle A..F, the free angle taken off; rad */
+typedef struct fw_reach_limits { /* of the joint angle A..F, the free angle taken off; rad */
     double low_rad[FW_SIX], high_rad[FW_SIX];
-} fw_limits;
+} fw_reach_limits;
 
 typedef struct fw_bound { /* a range whose ends are known within rounding */
     fw_interval low, high;
@@ -17,9 +17,9 @@ typedef struct fw_allowed { /* what the limits say of the rotations psi, and of 
     fw_bound psi[FW_SIX];   /* rad */
     fw_bound d2;            /* squared reach of the right leg, m2: the same as that of its elbow */
 } fw_allowed;
-fw_allowed fw_limits_allow(const fw_loop *loop, const fw_limits *limits);
+fw_allowed fw_limits_allow(const fw_loop *loop, const fw_reach_limits *limits);
 
-fw_limits fw_limits_symmetric(const double limit_rad[FW_SIX]);
+fw_reach_limits fw_limits_symmetric(const double limit_rad[FW_SIX]);
 
 typedef struct fw_measure {
     fw_interval value; /* m2 rad of a volume, m2 of an area */
@@ -34,9 +34,9 @@ typedef struct fw_effort {
     long most;
 } fw_effort;
 
-fw_status fw_reach_volume(fw_arena *arena, const fw_loop *loop, const fw_limits *limits,
+fw_status fw_reach_volume(fw_arena *arena, const fw_loop *loop, const fw_reach_limits *limits,
                           fw_effort effort, fw_measure *volume);
-fw_status fw_reach_area(fw_arena *arena, const fw_loop *loop, const fw_limits *limits,
+fw_status fw_reach_area(fw_arena *arena, const fw_loop *loop, const fw_reach_limits *limits,
                         double phi_rad, fw_effort effort, fw_measure *area);
 
 typedef enum fw_inside { FW_OUTSIDE, FW_INSIDE, FW_CUT } fw_inside;

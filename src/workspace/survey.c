@@ -114,7 +114,7 @@ static fw_status descend(walk *w, const fw_box3 *box, int levels) {
    over V is the exponent d ln V/d ln theta. in: limits rad; error of shares and exponent, against
    differences of certified volumes: 3e-3 where the limits keep the legs bent, 3e-2 where they do
    not (test_survey.c). Cost about 1.7 us per box, 20 ms at level 5, 150 ms at level 6. */
-fw_status fw_reach_survey(const fw_loop *loop, const fw_limits *limits, int level,
+fw_status fw_reach_survey(const fw_loop *loop, const fw_reach_limits *limits, int level,
                           fw_survey *survey) {
     *survey = (fw_survey){0};
     walk w = {.loop = loop, .out = survey};

@@ -8,6 +8,11 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 for device in docs/gallery/*/device.xml; do
     name=$(basename "$(dirname "$device")")
-    "$program" mask "$device" -o "$work/$name" -q
+    status=0
+    "$program" mask "$device" -o "$work/$name" -q || status=$?
+    if [ "$status" -eq 1 ] && [ "$name" = copper-nodder ] && [ ! -e "$work/$name/masks" ]; then
+        continue # rejected, on purpose: it has no masks
+    fi
+    [ "$status" -eq 0 ] || exit "$status"
     tests/accept/run.sh "$work/$name/masks"
 done

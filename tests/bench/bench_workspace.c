@@ -8,7 +8,7 @@
 typedef struct job {
     fw_arena *arena;
     const fw_loop *loop;
-    fw_limits limits;
+    fw_reach_limits limits;
     fw_effort effort;
     fw_measure out;
 } job;

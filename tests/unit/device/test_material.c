@@ -37,6 +37,26 @@ static void the_pack_is_sound(void **state) {
         assert_int_equal(w->modulus_change.unknown, warm[i].change == 0);
         if (warm[i].change != 0) assert_relative(w->modulus_change.value, warm[i].change, 1e-14);
     }
+    /* what limits are made of: fracture and fatigue of silicon, yield and fatigue of metals */
+    const fw_limit_data *l = &si->limit;
+    assert_false(l->weibull_strength.unknown || l->weibull_modulus.unknown ||
+                 l->weibull_area.unknown);
+    assert_relative(l->weibull_area.value, 1e-8, 1e-14);
+    assert_true(l->offset_yield.unknown && l->film_yield.unknown);
+    assert_relative(cu->limit.fatigue_strength.value, 110e6, 1e-14);
+    assert_relative(cu->limit.ductility_exponent.value, -0.51, 1e-14);
+    assert_true(cu->limit.weibull_area.unknown);
+    const char *const tires[] = {"silicon-100", "copper-plated", "aluminium"};
+    for (int i = 0; i < 3; i++) {
+        l = &fw_material_find(&m, tires[i])->limit;
+        assert_false(l->fatigue_strength.unknown || l->fatigue_cycles.unknown ||
+                     l->fatigue_exponent.unknown);
+        assert_true(l->fatigue_strength.source[0] && l->fatigue_strength.status >= FW_TYPICAL);
+    }
+    l = &fw_material_find(&m, "copper-film")->limit;
+    assert_relative(l->film_yield.value, 116e6, 1e-14);
+    assert_relative(l->film_yield_rise.value, 355e6, 1e-14);
+    assert_relative(l->film_thickest.value, 3e-6, 1e-14);
     assert_null(fw_material_find(&m, NULL));
     fw_arena_free(arena);
 }
@@ -146,6 +166,47 @@ static void overrides_replace(void **state) {
     fw_arena_free(arena);
 }
 
+static void limits_asked_and_overridden(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    const char *xml = PACK("<material id='w'><q id='fatigue-exponent' value='-0.1' u='0.05' "
+                           "unit='1' status='measured' src='s'/></material>");
+    fw_materials m;
+    assert_int_equal(fw_materials_read(arena, "t", xml, strlen(xml), &diags, &m), FW_OK);
+    const char *device =
+        DEVICE("<material ref=\"w\" weibull-strength=\"1.4 GPa\" weibull-modulus=\"12\" "
+               "weibull-area=\"0.02 mm^2\" fatigue-strength=\"80 MPa\" "
+               "fatigue-cycles=\"1e6\" film-thickest=\"2 um\"/><limits cycles=\"3e5\" "
+               "failure-probability=\"1e-4\" survival=\"yes\"/>" ARM);
+    const fw_device *d = sound(arena, device, NULL, 0);
+    assert_relative(d->limits.cycles, 3e5, 1e-15);
+    assert_relative(d->limits.failure_probability, 1e-4, 1e-15);
+    assert_true(d->limits.survival);
+    assert_relative(d->safety_factor, 1.5, 0);
+    fw_material with = fw_material_with(&m.item[0], &d->material);
+    const fw_limit_data *l = &with.limit;
+    assert_relative(l->weibull_strength.value, 1.4e9, 1e-14);
+    assert_relative(l->weibull_modulus.value, 12, 0);
+    assert_relative(l->weibull_area.value, 2e-8, 1e-14);
+    assert_relative(l->fatigue_strength.value, 80e6, 1e-14);
+    assert_relative(l->film_thickest.value, 2e-6, 1e-14);
+    assert_string_equal(l->weibull_area.source, "device file");
+    assert_int_equal(l->weibull_area.status, FW_STATED);
+    assert_relative(l->fatigue_exponent.value, -0.1, 0); /* the material's own stays */
+    assert_int_equal(l->fatigue_exponent.status, FW_MEASURED);
+    assert_true(l->ductility.unknown);
+    assert_false(with.strength_stated);
+    const fw_device *plain =
+        sound(arena, DEVICE("<material ref=\"w\" strength=\"1 GPa\"/>" ARM), NULL, 0);
+    assert_true(fw_material_with(&m.item[0], &plain->material).strength_stated);
+    assert_true(isnan(plain->limits.cycles) && isnan(plain->limits.failure_probability));
+    assert_false(plain->limits.survival);
+    fw_material_override none = {0};
+    assert_false(fw_material_with(&m.item[0], &none).strength_stated);
+    fw_arena_free(arena);
+}
+
 static void memory_runs_out(void **state) {
     (void)state;
     const char *xml = PACK("<material id='w'><q id='youngs' value='100' u='5' unit='GPa' "
@@ -168,7 +229,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_pack_is_sound), cmocka_unit_test(what_is_absent_is_unknown),
         cmocka_unit_test(crystals),          cmocka_unit_test(changes_with_temperature),
-        cmocka_unit_test(overrides_replace), cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(overrides_replace), cmocka_unit_test(limits_asked_and_overridden),
+        cmocka_unit_test(memory_runs_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

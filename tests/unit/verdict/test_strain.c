@@ -131,11 +131,124 @@ static void pure_rotation_and_bound(void **state) {
     }
 }
 
+static fw_flexure_input input_of(const fw_flexure *f) {
+    return (fw_flexure_input){.kind = f->kind,
+                              .length_m = f->length_m,
+                              .angle_rad = f->angle_rad,
+                              .radius_m = f->radius_m,
+                              .width_m = f->width_m,
+                              .fillet_m = 4e-6,
+                              .depth_m = 50e-6,
+                              .youngs_Pa = 147.08e9,
+                              .poisson = 0.22,
+                              .strength_Pa = 500e6,
+                              .safety_factor = 1.0};
+}
+
+/* under rotation alone both roots have the rotation's sign; with a force the larger of both is what
+   the peak strain has of bending at the roots, and turning everything round turns their signs */
+static void root_strains_have_signs(void **state) {
+    (void)state;
+    fw_flexure f = arc();
+    fw_device device = {.flexure = &f, .nflexure = 1};
+    fw_variant variant = {.thickness_m = 50e-6};
+    variant.material.youngs.value = 147.08e9;
+    fw_pin pin = {.id = "A", .body_a = FW_GROUND, .body_b = 0, .hinge = 0};
+    fw_hinge hinge = {0};
+    const fw_flexure_input in = input_of(&f);
+    fw_flexure_closed_form(&in, &hinge.closed_form);
+    const fw_flexure_result *c = &hinge.closed_form;
+    fw_mechanism m = {.device = &device,
+                      .variant = &variant,
+                      .pin = &pin,
+                      .npin = 1,
+                      .hinge = &hinge,
+                      .nhinge = 1};
+    fw_hinge_layout drawn = {.drawn = true, .axis_rad = 1.0, .lower = FW_GROUND, .upper = 0};
+    fw_hinge_load load = {-0.1, 0, 0, 0};
+    double s[2], back[2];
+    fw_hinge_root_strains(&m, &hinge, &drawn, &load, s);
+    assert_relative(s[0], -0.1 * c->strain_per_rad, 1e-12);
+    assert_relative(s[1], -0.1 * c->strain_per_rad, 1e-12);
+    int governed = 0;
+    for (int i = 0; i < 360; i++) {
+        load = (fw_hinge_load){0.1, 2e-4 * cos(i / 57.3), 2e-4 * sin(i / 57.3), 0.3};
+        const fw_hinge_load other = {-0.1, -load.fx_N, -load.fy_N, 0.3};
+        double axial = 2e-4 / (147.08e9 * 8e-6 * 50e-6), root, inside;
+        fw_hinge_root_strains(&m, &hinge, &drawn, &load, s);
+        fw_hinge_root_strains(&m, &hinge, &drawn, &other, back);
+        assert_relative(s[0], -back[0], 1e-12);
+        assert_relative(s[1], -back[1], 1e-12);
+        double along = -(cos(1.3) * load.fx_N + sin(1.3) * load.fy_N);
+        double across = -(-sin(1.3) * load.fx_N + cos(1.3) * load.fy_N);
+        fw_arc_moments(&f, c->centre_m, 0.1 * c->stiffness_Nm_per_rad, along, across, &root,
+                       &inside);
+        double most = fmax(fabs(s[0]), fabs(s[1]));
+        assert_relative(most, root * c->strain_per_rad / c->stiffness_Nm_per_rad, 1e-12);
+        if (root > inside / c->concentration) {
+            governed++;
+            assert_relative(fw_hinge_strain(&m, &hinge, &drawn, &load), most + axial, 1e-12);
+        }
+        /* which of the two bodies is called b does not matter */
+        fw_pin swapped = {.id = "A", .body_a = 0, .body_b = FW_GROUND, .hinge = 0};
+        fw_mechanism n = m;
+        n.pin = &swapped;
+        fw_hinge_root_strains(&n, &hinge, &drawn, &other, back);
+        assert_relative(s[0], back[0], 1e-12);
+        assert_relative(s[1], back[1], 1e-12);
+        /* without a drawing: with the rotation's sign, as much as the peak has */
+        fw_hinge_root_strains(&m, &hinge, NULL, &other, s);
+        assert_relative(s[0] - axial, -fw_hinge_strain(&m, &hinge, NULL, &load), 1e-12);
+        assert_near(s[1], s[0], 0);
+    }
+    assert_true(governed > 100);
+}
+
+/* a leaf along y: a force along it bends nothing, one across bends its ends to opposite sides, and
+   a rotation with a force that reverse together reverse both roots */
+static void root_strains_of_a_leaf(void **state) {
+    (void)state;
+    fw_flexure f = {.id = "L", .kind = FW_FLEXURE_LEAF, .length_m = 400e-6, .width_m = 8e-6};
+    fw_device device = {.flexure = &f, .nflexure = 1};
+    fw_variant variant = {.thickness_m = 50e-6};
+    variant.material.youngs.value = 147.08e9;
+    fw_pin pin = {.id = "A", .body_a = FW_GROUND, .body_b = 0, .hinge = 0};
+    fw_hinge hinge = {0};
+    const fw_flexure_input in = input_of(&f);
+    fw_flexure_closed_form(&in, &hinge.closed_form);
+    const fw_flexure_result *c = &hinge.closed_form;
+    fw_mechanism m = {.device = &device,
+                      .variant = &variant,
+                      .pin = &pin,
+                      .npin = 1,
+                      .hinge = &hinge,
+                      .nhinge = 1};
+    fw_hinge_layout drawn = {.drawn = true, .axis_rad = 0, .lower = FW_GROUND, .upper = 0};
+    double turned = 0.05 * c->strain_per_rad, s[2], back[2];
+    double bent = 1e-4 * 200e-6 * c->strain_per_rad / c->stiffness_Nm_per_rad;
+    fw_hinge_load load = {0.05, 0, 1e-4, 0};
+    fw_hinge_root_strains(&m, &hinge, &drawn, &load, s);
+    assert_relative(s[0], turned, 1e-12);
+    assert_relative(s[1], turned, 1e-12);
+    load = (fw_hinge_load){0.05, 1e-4, 0, 0};
+    fw_hinge_root_strains(&m, &hinge, &drawn, &load, s);
+    assert_relative(fmax(s[0], s[1]), turned + bent, 1e-12);
+    assert_relative(fmin(s[0], s[1]), turned - bent, 1e-10);
+    load = (fw_hinge_load){-0.05, -1e-4, 0, 0};
+    fw_hinge_root_strains(&m, &hinge, &drawn, &load, back);
+    for (int side = 0; side < 2; side++)
+        assert_relative(back[side], -s[side], 1e-12);
+    double axial = 1e-4 / (147.08e9 * 8e-6 * 50e-6);
+    assert_relative(fw_hinge_strain(&m, &hinge, &drawn, &load), turned + bent + axial, 1e-12);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(section_moments_of_a_whole_six_bar),
         cmocka_unit_test(no_section_carries_more),
         cmocka_unit_test(pure_rotation_and_bound),
+        cmocka_unit_test(root_strains_have_signs),
+        cmocka_unit_test(root_strains_of_a_leaf),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,7 +12,7 @@ static void set_up(six_bar_fixture *f, fw_loop *loop) {
     assert_true(fw_loop_set_up(&f->mechanism, loop));
 }
 
-static fw_limits all_equal(double deg) {
+static fw_reach_limits all_equal(double deg) {
     double limit[FW_SIX];
     for (int i = 0; i < FW_SIX; i++)
         limit[i] = deg * degree;
@@ -36,7 +36,7 @@ static void volumes_of_the_reference(void **state) {
     set_up(&f, &loop);
     fw_arena *arena = fw_arena_new(0);
     for (size_t i = 0; i < 3; i++) {
-        fw_limits limits = all_equal(volume[i].deg);
+        fw_reach_limits limits = all_equal(volume[i].deg);
         fw_measure v;
         assert_int_equal(fw_reach_volume(arena, &loop, &limits, (fw_effort){1e-3, 1000000}, &v),
                          FW_OK);
@@ -59,7 +59,7 @@ static void brackets_nest(void **state) {
     fw_loop loop;
     set_up(&f, &loop);
     fw_arena *arena = fw_arena_new(0);
-    fw_limits limits = all_equal(7);
+    fw_reach_limits limits = all_equal(7);
     limits.high_rad[0] = 0.05, limits.low_rad[3] = -0.2, limits.high_rad[4] = 0.09;
     fw_interval before = {0, (double)INFINITY};
     for (int i = 0; i < 7; i++) {
@@ -95,7 +95,7 @@ static void areas_of_the_reference(void **state) {
     set_up(&f, &loop);
     fw_arena *arena = fw_arena_new(0);
     for (size_t i = 0; i < sizeof area / sizeof area[0]; i++) {
-        fw_limits limits = all_equal(area[i].deg);
+        fw_reach_limits limits = all_equal(area[i].deg);
         fw_measure a;
         assert_int_equal(
             fw_reach_area(arena, &loop, &limits, area[i].phi, (fw_effort){1e-5, 1000000}, &a),
@@ -115,7 +115,7 @@ static void areas_add_up_to_the_volume(void **state) {
     fw_loop loop;
     set_up(&f, &loop);
     fw_arena *arena = fw_arena_new(0);
-    fw_limits limits = all_equal(10);
+    fw_reach_limits limits = all_equal(10);
     enum { SLICES = 400 };
     double sum = 0, reach = 0.19;
     for (int i = 0; i < SLICES; i++) {
@@ -138,11 +138,11 @@ static void scaling_and_nothing(void **state) {
     set_up(&f, &loop);
     fw_arena *arena = fw_arena_new(0);
     fw_measure a, b;
-    fw_limits one = all_equal(0.01), two = all_equal(0.02);
+    fw_reach_limits one = all_equal(0.01), two = all_equal(0.02);
     assert_int_equal(fw_reach_volume(arena, &loop, &one, (fw_effort){1e-3, 1000000}, &a), FW_OK);
     assert_int_equal(fw_reach_volume(arena, &loop, &two, (fw_effort){1e-3, 1000000}, &b), FW_OK);
     assert_relative(b.value.lo / a.value.lo, 8.0, 2e-3);
-    fw_limits none = all_equal(1);
+    fw_reach_limits none = all_equal(1);
     none.low_rad[4] = 0.5, none.high_rad[4] = 0.6; /* E would have to be turned by 30 deg */
     assert_int_equal(fw_reach_volume(arena, &loop, &none, (fw_effort){1e-3, 1000000}, &a), FW_OK);
     assert_true(a.reached && a.value.hi == 0.0);

@@ -19,7 +19,7 @@ static double either(double size) {
 typedef struct subject {
     six_bar_fixture f;
     fw_loop loop;
-    fw_limits limits;
+    fw_reach_limits limits;
 } subject;
 
 static bool strewn(subject *s, double by, double limit) {

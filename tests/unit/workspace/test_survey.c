@@ -5,7 +5,7 @@
 
 static const double degree = 0.017453292519943295;
 
-static fw_limits all_equal(double deg) {
+static fw_reach_limits all_equal(double deg) {
     double limit[FW_SIX];
     for (int i = 0; i < FW_SIX; i++)
         limit[i] = deg * degree;
@@ -35,7 +35,7 @@ static void singularities_of_the_reference(void **state) {
     six_bar_make(&f, six_bar_reference);
     fw_loop loop;
     assert_true(fw_loop_set_up(&f.mechanism, &loop));
-    fw_limits limits = all_equal(10);
+    fw_reach_limits limits = all_equal(10);
     fw_survey s;
     assert_int_equal(fw_reach_survey(&loop, &limits, 5, &s), FW_OK);
     assert_true(s.singular.regular[0] && s.singular.regular[1]);
@@ -68,7 +68,7 @@ static void shares_of_the_reference(void **state) {
     six_bar_make(&f, six_bar_reference);
     fw_loop loop;
     assert_true(fw_loop_set_up(&f.mechanism, &loop));
-    fw_limits limits = all_equal(10);
+    fw_reach_limits limits = all_equal(10);
     fw_survey s;
     assert_int_equal(fw_reach_survey(&loop, &limits, 6, &s), FW_OK);
     const double want[FW_SIX] = {.143, .155, .201, .201, .156, .144}; /* independent */
@@ -87,7 +87,7 @@ static void shares_of_the_reference(void **state) {
     for (int i = 0; i < FW_SIX; i++) {
         double v[2];
         for (int k = 0; k < 2; k++) {
-            fw_limits other = limits;
+            fw_reach_limits other = limits;
             other.low_rad[i] *= k ? 1.05 : 0.95;
             other.high_rad[i] *= k ? 1.05 : 0.95;
             fw_measure m;
@@ -110,7 +110,7 @@ static void extents_of_the_reference(void **state) {
     six_bar_make(&f, six_bar_reference);
     fw_loop loop;
     assert_true(fw_loop_set_up(&f.mechanism, &loop));
-    fw_limits limits = all_equal(10);
+    fw_reach_limits limits = all_equal(10);
     fw_survey s;
     fw_arena *arena = fw_arena_new(0);
     assert_int_equal(fw_reach_extents(arena, &loop, &limits, 1e-3, 20000, &s), FW_OK);

@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which limit governs, end to end: fatigue of a motion whose cycles are known, more cycles and smaller failure
+probabilities allow less, a stated strength rules alone, what is asked for without data is an error."""
+import json
+import math
+import unittest
+
+from common import GALLERY, ROOT, run
+
+NODDER = ROOT / "docs/gallery/copper-nodder/device.xml"
+LEAF = ROOT / "docs/gallery/leaf-four-bar/device.xml"
+
+# copper-plated of processes/base.xml
+STRENGTH, YOUNGS = 250e6, 115e9
+AMPLITUDE, LIFE, B, DUCTILITY, C = 110e6, 1e7, -0.1, 0.3, -0.51
+
+
+def check(device, *sets, status=None):
+    arguments = [part for s in sets for part in ("--set", s)]
+    done = run("check", device, "--json", *arguments)
+    if status is not None and done.returncode != status:
+        raise AssertionError(f"{sets}: status {done.returncode}, not {status}\n{done.stderr}")
+    return json.loads(done.stdout) if done.stdout.startswith("{") else done.stderr
+
+
+def allowable(n):
+    plastic = YOUNGS * DUCTILITY
+    elastic = AMPLITUDE - plastic * (2 * LIFE) ** C
+    return elastic * (n / LIFE) ** B + plastic * (2 * n) ** C
+
+
+class Limits(unittest.TestCase):
+    def test_a_sine_is_one_cycle(self):
+        """to and fro once a scene: amplitude over the one that lasts that many cycles"""
+        static = check(NODDER, "limits/@cycles=1", status=0)["governing"]
+        self.assertEqual(static["criterion"], "yield")
+        self.assertAlmostEqual(static["limit_Pa"] / STRENGTH, 1, 12)
+        stress = static["peak_strain"] * YOUNGS
+        self.assertAlmostEqual(static["utilisation"] / (1.3 * stress / STRENGTH), 1, 9)
+        for n in (1e6, 1e7, 3e9):
+            tired = check(NODDER, f"limits/@cycles={n:g}")["governing"]
+            self.assertEqual(tired["criterion"], "fatigue")
+            self.assertEqual(tired["limit_status"], "assumed")  # the weakest of its data
+            self.assertAlmostEqual(tired["fatigue_utilisation"] / (1.3 * stress / allowable(n)), 1, 2)
+            self.assertAlmostEqual(tired["utilisation"], tired["fatigue_utilisation"], 12)
+            self.assertAlmostEqual(tired["peak_strain"] / tired["strain_limit"] / tired["utilisation"], 1, 9)
+            life = LIFE  # of that amplitude, by bisection of the law as it is written
+            low, high = -5.0, 30.0
+            for _ in range(100):
+                middle = 0.5 * (low + high)
+                low, high = (middle, high) if allowable(math.exp(middle * 2.303)) > stress else (low, middle)
+            life = math.exp(low * 2.303)
+            self.assertLess(abs(math.log(tired["damage"] / (n / life))), 0.1)
+
+    def test_more_cycles_allow_less(self):
+        before = 0.0
+        for n in ("1e4", "1e6", "1e8", "1e10"):
+            for hinge in check(NODDER, f"limits/@cycles={n}")["hinges"]:
+                self.assertGreaterEqual(hinge["utilisation"], before if hinge["id"] == "A" else 0)
+            now = check(NODDER, f"limits/@cycles={n}")["governing"]["fatigue_utilisation"]
+            self.assertGreater(now, before)
+            before = now
+
+    def test_the_gallery_device_tires(self):
+        document = check(NODDER, status=1)
+        self.assertEqual(document["governing"]["criterion"], "fatigue")
+        self.assertEqual(document["repetitions"], 1e7)
+        text = run("check", NODDER).stdout
+        self.assertIn("of the fatigue limit", text)
+        self.assertIn("damage", text)
+        self.assertIn("proportional limit", run("check", NODDER, "--set", "limits/@cycles=1").stdout)
+
+    def test_required_poses_go_to_and_fro(self):
+        """silicon, 169 GPa stated: peak stress of a pose, fully reversed, over 500 MPa (n/1e10)^-0.06"""
+        document = check(GALLERY, "limits/@cycles=1e6", status=1)
+        seen = 0
+        for flow in document["flows"]:
+            for hinge in flow["hinges"]:
+                if hinge["scene"] == "workspace" and flow["id"] == "al-masked-rie":
+                    seen += 1
+                    needed = 1.5 * hinge["peak_strain"] * 169e9 / (0.5e9 * 1e-4**-0.06)
+                    self.assertAlmostEqual(hinge["fatigue_utilisation"] / needed, 1, 9)
+                    self.assertEqual(hinge["cycles"], 1)
+        self.assertGreater(seen, 2)
+
+    def test_survival_takes_the_offset_value(self):
+        survive = check(NODDER, "limits/@survival=yes", "limits/@cycles=1", status=0)["governing"]
+        self.assertAlmostEqual(survive["limit_Pa"], 350e6, -1)
+        stated = check(NODDER, "material/@offset-yield=300 MPa", "limits/@cycles=1", status=0)["governing"]
+        self.assertAlmostEqual(stated["limit_Pa"], 0.65 * 300e6, -1)
+
+    def test_failure_probability_of_the_device(self):
+        before = math.inf
+        for p in (1e-2, 1e-4, 1e-6):
+            document = check(LEAF, f"limits/@failure-probability={p:g}", "limits/@safety-factor=1", status=0)
+            governing = document["governing"]
+            self.assertEqual(governing["criterion"], "fracture")
+            self.assertLess(governing["limit_Pa"], before)
+            before = governing["limit_Pa"]
+            survives = 1.0
+            for hinge in document["hinges"]:
+                survives *= 1 - hinge["failure_probability"]
+                # P goes with the tenth power of the stress; at the limit it is a quarter of what is asked
+                at_limit = hinge["failure_probability"] / hinge["utilisation"] ** 10
+                self.assertAlmostEqual(at_limit / (p / 4), 1, 1)
+            self.assertLess(abs(document["failure_probability"] / (1 - survives) - 1), 1e-3)
+            self.assertLess(document["failure_probability"], p)
+
+    def test_a_stated_strength_rules_alone(self):
+        plain = check(LEAF, status=0)["governing"]
+        self.assertEqual((plain["criterion"], plain["limit_Pa"], plain["limit_status"]), ("fracture", 1e9, "typical"))
+        sets = ("material/@strength=1 GPa", "limits/@failure-probability=1e-9")
+        stated = check(LEAF, *sets, status=0)
+        self.assertEqual(stated["governing"]["criterion"], "strength")
+        self.assertEqual(stated["governing"]["limit_status"], "stated")
+        self.assertEqual(stated["governing"]["utilisation"], plain["utilisation"])
+        self.assertIsNone(stated["failure_probability"])
+        arguments = [part for s in sets for part in ("--set", s)]
+        self.assertIn("FW-D236", run("check", LEAF, *arguments).stderr)
+
+    def test_what_has_no_data_is_an_error(self):
+        text = NODDER.read_text().replace("copper-plated", "porous-silicon")
+        self.assertIn("FW-D225", run("check", "-", input=text).stderr)
+        film = NODDER.read_text().replace('ref="copper-plated"', 'ref="copper-film" thickness="2 um"')
+        film = film.replace('<flow ref="copper-on-porous-silicon"/>', "")
+        done = run("check", "-", input=film)
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("FW-D235", done.stderr)
+        thin = json.loads(run("check", "-", "--json", input=film.replace(' cycles="1e7"', "")).stdout)["governing"]
+        self.assertAlmostEqual(thin["limit_Pa"] / (0.65e6 * (116 + 355 * 2**-0.473)), 1, 12)
+
+
+if __name__ == "__main__":
+    unittest.main()
