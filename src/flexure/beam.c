@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flexure/beam.h"
+#include "flexure/gauss.h"
+#include <math.h>
+
+static double sinc(double x) {
+    return fabs(x) < 1e-4 ? 1 - x * x / 6 : sin(x) / x;
+}
+
+/* s along a piece: the chord of an arc of angle k s is s sinc(k s/2), in the direction half way */
+static fw_beam_pose along(const fw_beam_pose *from, double curvature_per_m, double s_m) {
+    double half = 0.5 * curvature_per_m * s_m, chord = s_m * sinc(half);
+    return (fw_beam_pose){from->x_m + chord * cos(from->psi_rad + half),
+                          from->y_m + chord * sin(from->psi_rad + half), from->psi_rad + 2 * half};
+}
+
+static fw_beam_pose first(const fw_beam *b) {
+    return (fw_beam_pose){b->x_m, b->y_m, b->psi_rad};
+}
+
+void fw_beam_poses(const fw_beam *b, fw_beam_pose *out) {
+    fw_beam_pose at = first(b);
+    for (int i = 0; i < b->npiece; i++) {
+        at.psi_rad += b->piece[i].kink_rad;
+        out[i] = at;
+        at = along(&at, b->piece[i].curvature_per_m, b->piece[i].length_m);
+    }
+    out[b->npiece] = at;
+}
+
+static double width_at(const fw_beam *b, int piece, double s_m) {
+    if (b->width) return b->width(b->context, piece, s_m);
+    const double *w = b->piece[piece].width_m, z = s_m / b->piece[piece].length_m;
+    double rise = w[2] - w[0], bow = 2 * (w[0] - 2 * w[1] + w[2]);
+    return w[0] + z * rise - z * (1 - z) * bow;
+}
+
+void fw_beam_at(const fw_beam *b, int piece, const fw_beam_pose *start, double s_m,
+                fw_beam_section *out) {
+    out->pose = along(start, b->piece[piece].curvature_per_m, s_m);
+    double t = out->width_m = width_at(b, piece, s_m);
+    double per_E =
+        b->cubic ? b->a0_per_Pa + b->a1_per_Pa * cos(4 * (out->pose.psi_rad + b->orientation_rad))
+                 : 1 / b->youngs_Pa;
+    double per_A = 1 / (b->depth_m * t), depth = b->depth_factor > 0 ? b->depth_factor : 1;
+    out->bend_per_Nm2 = 12 * per_E * per_A / (t * t * depth);
+    out->axial_per_N = b->inextensible ? 0 : per_E * per_A;
+    out->shear_per_N = b->inextensible ? 0 : 1.2 * per_A / b->shear_Pa;
+}
+
+/* sums over the beam, about a point: of 1/EI times 1, x, y, x^2, x y, y^2, and of what axial and
+   shear strain add to xx, xy, yy */
+enum { W1, WX, WY, WXX, WXY, WYY, AXX, AXY, AYY, SUMS };
+
+static void add(const fw_beam_section *at, double weight, const double about[2], double *sum) {
+    double x = at->pose.x_m - about[0], y = at->pose.y_m - about[1], w = weight * at->bend_per_Nm2;
+    double c = cos(at->pose.psi_rad), s = sin(at->pose.psi_rad);
+    double n = weight * at->axial_per_N, v = weight * at->shear_per_N;
+    sum[W1] += w, sum[WX] += w * x, sum[WY] += w * y;
+    sum[WXX] += w * x * x, sum[WXY] += w * x * y, sum[WYY] += w * y * y;
+    sum[AXX] += n * c * c + v * s * s;
+    sum[AXY] += (n - v) * c * s;
+    sum[AYY] += n * s * s + v * c * c;
+}
+
+typedef struct rule {
+    double node[FW_GAUSS_MOST], weight[FW_GAUSS_MOST];
+} rule;
+
+/* each piece cut into `panels` panels of 16 nodes; the roots weigh dL/EI and bend only */
+static void integrate(const fw_beam *b, const rule *r, int panels, const double about[2],
+                      double *sum) {
+    fw_beam_section at;
+    fw_beam_pose start = first(b);
+    for (int k = 0; k < SUMS; k++)
+        sum[k] = 0;
+    for (int i = 0; i < b->npiece; i++) {
+        double length = b->piece[i].length_m, h = length / panels;
+        start.psi_rad += b->piece[i].kink_rad;
+        for (int j = 0; j < panels; j++)
+            for (int k = 0; k < FW_GAUSS_MOST; k++) {
+                fw_beam_at(b, i, &start, (j + r->node[k]) * h, &at);
+                add(&at, r->weight[k] * h, about, sum);
+            }
+        for (int end = 0; end < 2; end++)
+            if (end ? i == b->npiece - 1 : i == 0) {
+                fw_beam_at(b, i, &start, end ? length : 0, &at);
+                at.axial_per_N = at.shear_per_N = 0;
+                add(&at, b->root_m[end], about, sum);
+            }
+        start = along(&start, b->piece[i].curvature_per_m, length);
+    }
+}
+
+/* centre of the weights about a first guess, and the sums about it: twice, so that what is left of
+   the first moments is small and nothing cancels in the second ones */
+static void centred(const fw_beam *b, const rule *r, int panels, double centre[2], double *sum) {
+    centre[0] = b->x_m, centre[1] = b->y_m;
+    for (int turn = 0; turn < 2; turn++) {
+        integrate(b, r, panels, centre, sum);
+        centre[0] += sum[WX] / sum[W1], centre[1] += sum[WY] / sum[W1];
+    }
+    double x = sum[WX] / sum[W1], y = sum[WY] / sum[W1];
+    sum[WXX] -= x * sum[WX], sum[WXY] -= x * sum[WY], sum[WYY] -= y * sum[WY];
+}
+
+static double apart(const double *a, const double *b, const double p[2], const double q[2],
+                    double length) {
+    double bend = fabs(a[WXX]) + fabs(a[WYY]), e = fabs(a[W1] - b[W1]) / fabs(a[W1]);
+    for (int i = 0; i < 2; i++)
+        e = fmax(e, fabs(p[i] - q[i]) / length);
+    for (int k = WXX; k <= WYY; k++)
+        e = fmax(e, fabs(a[k] - b[k]) / bend);
+    double stretch = fabs(a[AXX]) + fabs(a[AYY]);
+    for (int k = AXX; k <= AYY; k++)
+        if (stretch > 0) e = fmax(e, fabs(a[k] - b[k]) / stretch);
+    return e;
+}
+
+static void describe(const fw_beam *b, fw_beam_linear *out) {
+    fw_beam_pose at = first(b);
+    out->length_m = 0;
+    for (int i = 0; i < b->npiece; i++) {
+        at.psi_rad += b->piece[i].kink_rad;
+        at = along(&at, b->piece[i].curvature_per_m, b->piece[i].length_m);
+        out->length_m += b->piece[i].length_m;
+    }
+    out->end = at;
+    out->turn_rad = at.psi_rad - b->psi_rad;
+    out->chord_m = hypot(at.x_m - b->x_m, at.y_m - b->y_m);
+    out->chord_rad = atan2(at.y_m - b->y_m, at.x_m - b->x_m);
+}
+
+/* With w = 1/EI, P = (x, y) the centre line, t and n its tangent and normal, root weights dL/EI:
+     W  = int w P ds/int w ds
+     C  = int w b b' ds + int (t t'/EA + n n'/(kGA)) ds,  b = (1, y - yW, -(x - xW))
+   in the order (theta, ux, uy). A section's axial force and moment are not coupled (Reissner), so
+   that W is the centre of compliance too; the coupling of a thick arc moves it by r u^2/3 sin(a)/a
+   (u = t/2r), which closed forms of arcs have and this has not.
+   in: beam; SI. out: W, C and the shape of the centre line; error: difference of two divisions of
+   the pieces, the finer one of which is returned (16 nodes a panel: a uniform arc below half a turn
+   a panel is exact to rounding, hence no closed form for it).
+   Valid for any shape; cost 12 us for a uniform arc. Source: Castigliano; docs/theory/flexure.md.
+   Test: test_beam.c */
+void fw_beam_compliance(const fw_beam *b, fw_beam_linear *out) {
+    enum { FINEST = 1024 };
+    double sum[2][SUMS], centre[2][2];
+    *out = (fw_beam_linear){0};
+    describe(b, out);
+    rule r;
+    fw_gauss_rule(FW_GAUSS_MOST, r.node, r.weight);
+    int now = 0;
+    centred(b, &r, 1, centre[0], sum[0]);
+    for (int panels = 2; panels <= FINEST; panels *= 2) {
+        now = !now;
+        centred(b, &r, panels, centre[now], sum[now]);
+        out->error = apart(sum[now], sum[!now], centre[now], centre[!now], out->length_m);
+        if (out->error < 4e-15) break;
+    }
+    const double *s = sum[now];
+    for (int i = 0; i < 2; i++)
+        out->centre_m[i] = centre[now][i];
+    out->c[0][0] = s[W1];
+    out->c[1][1] = s[WYY] + s[AXX];
+    out->c[2][2] = s[WXX] + s[AYY];
+    out->c[1][2] = out->c[2][1] = s[AXY] - s[WXY];
+    /* c[0][1] = int w (y - yW) and c[0][2] are zero by the choice of W */
+    out->compliance_centre_m[0] = out->centre_m[0] + out->c[2][0] / out->c[0][0];
+    out->compliance_centre_m[1] = out->centre_m[1] - out->c[1][0] / out->c[0][0];
+    out->error = fmax(out->error, 4e-15);
+}
+
+/* EI is what makes K = EI/(L + 2 dL) the stiffness of the closed form, as in fw_hinge_law_of */
+void fw_beam_of_flexure(const fw_flexure_input *in, const fw_flexure_result *closed_form,
+                        fw_beam_piece *piece, fw_beam *out) {
+    bool arc = in->kind == FW_FLEXURE_CSFH;
+    double t = in->width_m, L = in->length_m, dL = closed_form->root_length_m;
+    double a = arc ? 0.5 * in->angle_rad : 0, r = arc ? in->radius_m : 0;
+    double thin = in->youngs_Pa * in->depth_m * t * t * t / 12;
+    *piece =
+        (fw_beam_piece){.length_m = L, .curvature_per_m = arc ? 1 / r : 0, .width_m = {t, t, t}};
+    *out = (fw_beam){.piece = piece,
+                     .npiece = 1,
+                     .x_m = r * cos(a),
+                     .y_m = arc ? -r * sin(a) : -0.5 * L,
+                     .psi_rad = 0.5 * M_PI - a,
+                     .depth_m = in->depth_m,
+                     .youngs_Pa = in->youngs_Pa,
+                     .shear_Pa = in->youngs_Pa / (2 * (1 + in->poisson)),
+                     .depth_factor = closed_form->stiffness_Nm_per_rad * (L + 2 * dL) / thin,
+                     .root_m = {dL, dL}};
+}

@@ -1,0 +1,278 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The solver of the elastica: a solution on one mesh, a finer one for the error, the result. */
+#include "flexure/elastica.h"
+#include "flexure/elastica_core.h"
+#include <float.h>
+#include <math.h>
+
+/* ---- the result ---- */
+
+/* what rounding leaves: positions are of the size of the beam, wrenches what these ask for */
+static void rounding(const double k[3][3], double twist[3], double wrench[3]) {
+    for (int i = 0; i < 3; i++) {
+        double sum = 0;
+        for (int j = 0; j < 3; j++)
+            if (isfinite(k[i][j])) sum += fabs(k[i][j]);
+        twist[i] = 8 * DBL_EPSILON;
+        wrench[i] = 8 * DBL_EPSILON * sum;
+    }
+}
+
+/* K = T S^-1 from the derivatives of the twist (S) and of the wrench (T) by the unknowns */
+static void tangent_of(const fw_end_state *end, double k[3][3]) {
+    double a[3][3], x[3][3], det, size = 1;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            a[i][j] = end->by[j][i];
+            x[i][j] = end->by[3 + j][i];
+        }
+    for (int j = 0; j < 3; j++)
+        size *= hypot(hypot(a[0][j], a[1][j]), a[2][j]);
+    bool regular = fw_solve3(a, 3, x, &det) && fabs(det) > 1e-13 * size;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            k[i][j] = regular ? x[j][i] : (double)NAN;
+}
+
+typedef struct errors {
+    double twist[3], wrench[3], mesh, whole; /* mesh: without rounding */
+} errors;
+
+static double relative(const double twist[3], const double wrench[3], const double *value) {
+    double turn = fabs(value[0]) + hypot(value[1], value[2]);
+    double load = fabs(value[3]) + hypot(value[4], value[5]), worst = 0;
+    for (int i = 0; i < 3; i++) {
+        if (turn > 0) worst = fmax(worst, twist[i] / turn);
+        if (load > 0) worst = fmax(worst, wrench[i] / load);
+    }
+    return worst;
+}
+
+static void judge(const fw_newton *fine, const double *coarse, const fw_goal *g,
+                  const double k[3][3], errors *out) {
+    double round[2][3], rest = 10 * fine->change * fine->change; /* what the next pass would do */
+    for (int i = 0; i < 3; i++) {
+        out->twist[i] = fabs(fine->end.value[i] - coarse[i]) + rest;
+        out->wrench[i] = fabs(fine->end.value[3 + i] - coarse[3 + i]) + rest;
+    }
+    rounding(k, round[0], round[1]);
+    out->mesh = relative(out->twist, out->wrench, fine->end.value);
+    for (int i = 0; i < 3; i++)
+        out->twist[i] += round[0][i], out->wrench[i] += round[1][i];
+    for (int i = 0; i < 3; i++)
+        *(g->given[i] < 3 ? &out->twist[g->given[i]] : &out->wrench[g->given[i] - 3]) = 0;
+    out->whole = relative(out->twist, out->wrench, fine->end.value);
+}
+
+/* units of (theta, ux, uy, M, Fx, Fy) */
+static double unit(const fw_elastica *e, int which) {
+    double l = e->length_m, C = e->soft;
+    return which == 0 ? 1 : which < 3 ? l : which == 3 ? 1 / C : 1 / (C * l);
+}
+
+static void report(fw_elastica *e, const fw_newton *n, const fw_goal *g, const double k[3][3],
+                   const errors *err, fw_elastica_result *out) {
+    double value[6];
+    for (int i = 0; i < 6; i++)
+        value[i] = n->end.value[i];
+    for (int i = 0; i < 3; i++)
+        value[g->given[i]] = g->value[i];
+    for (int i = 0; i < 6; i++)
+        e->last[i] = value[i];
+    for (int i = 0; i < 3; i++) {
+        out->twist[i] = value[i] * unit(e, i);
+        out->wrench[i] = value[3 + i] * unit(e, 3 + i);
+        out->twist_error[i] = err->twist[i] * unit(e, i);
+        out->wrench_error[i] = err->wrench[i] * unit(e, 3 + i);
+        for (int j = 0; j < 3; j++)
+            out->stiffness[i][j] = k[i][j] * unit(e, 3 + i) / unit(e, j);
+    }
+    out->start_Nm = e->hinged ? 0 : e->p[0] * unit(e, 3);
+    out->start_rad = e->hinged ? e->p[0] : 0;
+    out->error = err->whole;
+    out->stability = n->stability;
+}
+
+/* ---- solve ---- */
+
+/* the solution on one mesh is the start on the next finer one and their difference the error of the
+   coarser; what is handed out is the finer. The tangent is that of the finer mesh's last pass. */
+static void refine(fw_elastica *e, int level, const fw_goal *g, fw_way *w, fw_newton *n,
+                   fw_elastica_result *out) {
+    bool have = true;
+    out->code = FW_ELASTICA_FAILED;
+    for (; level + 1 < FW_LEVELS; level++) {
+        double coarse[6], k[3][3];
+        errors err;
+        fw_goal whole = *g;
+        if (!have && (!fw_elastica_reach(e, level, &whole, w, n) || w->reached < 1)) continue;
+        for (int i = 0; i < 6; i++)
+            coarse[i] = n->end.value[i];
+        fw_mesh_refine(e, level);
+        *n = (fw_newton){.tolerance = 0.1 * w->tolerance,
+                         .last = fmin(1e-7, w->tolerance),
+                         .contract = 0.5,
+                         .sign = w->sign,
+                         .square = n->square};
+        have = fw_newton_run(e, level + 1, g, n);
+        if (!have) {
+            w->warm = false;
+            continue;
+        }
+        tangent_of(&n->end, k);
+        judge(n, coarse, g, k, &err);
+        report(e, n, g, k, &err, out);
+        e->solved = level + 1;
+        e->sign = n->stability < 0 ? -1 : 1;
+        out->mesh = e->mesh[level + 1].count;
+        out->code = err.whole <= w->tolerance ? FW_ELASTICA_OK : FW_ELASTICA_ROUGH;
+        if (err.mesh <= w->tolerance) return;
+    }
+}
+
+/* at a limit the tangent is singular and a finer mesh has it a little elsewhere: the result is the
+   nearest state before it that both meshes have */
+static double stop_before(fw_elastica *e, int level, const fw_goal *g, double reached, fw_way *w,
+                          fw_newton *n, fw_elastica_result *out) {
+    for (int i = 0; i < 8; i++) {
+        fw_goal part = *g;
+        double to = reached * (1 - 1e-4 * (ldexp(1, i) - 1));
+        for (int k = 0; k < 3; k++)
+            part.value[k] *= to;
+        if (!fw_elastica_reach(e, level, &part, w, n) || w->reached < 1) continue;
+        refine(e, level, &part, w, n, out);
+        if (out->code == FW_ELASTICA_FAILED) continue;
+        out->code = FW_ELASTICA_LIMIT;
+        return to;
+    }
+    out->code = FW_ELASTICA_FAILED;
+    return 0;
+}
+
+static bool sensible(const fw_elastica_task *task, fw_goal *g, const fw_elastica *e) {
+    for (int i = 0; i < 3; i++) {
+        g->given[i] = task->given[i];
+        g->value[i] = task->value[i] / unit(e, (int)task->given[i]);
+        if (!isfinite(g->value[i])) return false;
+        for (int j = 0; j < i; j++)
+            if (g->given[i] == g->given[j]) return false;
+    }
+    return true;
+}
+
+/* Equations: elastica_pass.c. Unknown are the rotations at the nodes and p: the moment at the first
+   root and the force. In: three of (theta, ux, uy, M, Fx, Fy); SI. Out: the other three, the
+   tangent stiffness, errors.
+   From the unloaded beam: Newton's method from the beam wound by a moment alone, and where that
+   does not contract at once load steps from nothing, so that what is found is the primary branch. A
+   step is refused when two changes in a row do not fall to a quarter or the determinant changes
+   sign; a branch that cannot be followed further is tried again on the next meshes before it is
+   called a limit. Valid for any rotation and load that the finest mesh resolves (16 elements a
+   piece). Error: that of the coarser of two meshes, given with the result of the finer, plus
+   rounding; the true one is smaller by orders. Cost: tests/bench/bench_hinge.c. Source: Reissner,
+   ZAMP 23 (1972) 795; Hairer, Lubich and Wanner, Geometric Numerical Integration, II.1 and VI.4;
+   docs/theory/flexure.md. Test: test_elastica.c, test_elastica_bench.c */
+void fw_elastica_solve(fw_elastica *e, const fw_elastica_task *task, double tolerance, bool warm,
+                       fw_elastica_result *out) {
+    fw_goal g = {0}, part = {0};
+    fw_newton n = {0};
+    *out = (fw_elastica_result){.code = FW_ELASTICA_LOOSE};
+    e->passes = 0;
+    if (!sensible(task, &g, e)) return;
+    warm = warm && e->solved > 0;
+    fw_elastica_look_unloaded(e, &g);
+    if (e->unloaded == 0 && !warm) return;
+    fw_way w = {.warm = warm,
+                .tolerance = fmax(tolerance, 1e-13),
+                .sign = e->unloaded == 0 ? 0
+                        : warm           ? e->sign
+                                         : 1};
+    double reached = -1;
+    bool found = false;
+    for (int level = warm ? e->solved - 1 : 0; level < FW_LEVELS - 1; level++) {
+        fw_mesh_fill(e, level);
+        part = g;
+        found = fw_elastica_reach(e, level, &part, &w, &n);
+        if (found && w.reached == 1) {
+            refine(e, level, &part, &w, &n, out);
+            break;
+        }
+        bool agrees = found && fabs(w.reached - reached) < 1e-3 * reached;
+        reached = found ? w.reached : -1;
+        if (agrees || (found && level == FW_LEVELS - 2)) {
+            reached = stop_before(e, level, &g, reached, &w, &n, out);
+            break;
+        }
+        out->code = FW_ELASTICA_FAILED;
+        if (w.warm) break;
+    }
+    if (out->code == FW_ELASTICA_FAILED) e->solved = -1;
+    out->reached = out->code == FW_ELASTICA_LIMIT ? reached : found ? 1 : 0;
+    out->passes = e->passes;
+    out->steps = w.steps;
+}
+
+void fw_elastica_of_twist(fw_elastica *e, const double twist[3], double tolerance, bool warm,
+                          fw_elastica_result *out) {
+    const fw_elastica_task task = {{FW_END_THETA, FW_END_UX, FW_END_UY},
+                                   {twist[0], twist[1], twist[2]}};
+    fw_elastica_solve(e, &task, tolerance, warm, out);
+}
+
+void fw_elastica_of_wrench(fw_elastica *e, const double wrench[3], double tolerance, bool warm,
+                           fw_elastica_result *out) {
+    const fw_elastica_task task = {{FW_END_M, FW_END_FX, FW_END_FY},
+                                   {wrench[0], wrench[1], wrench[2]}};
+    fw_elastica_solve(e, &task, tolerance, warm, out);
+}
+
+/* ---- tables ---- */
+
+/* an element of eight nodes takes up to 3/4 of a turn of an arc to 1e-8, halved to 1e-12 */
+static int elements_of(const fw_beam_piece *piece) {
+    return 1 + (int)(fabs(piece->curvature_per_m) * piece->length_m / 4.8);
+}
+
+static fw_status meshes(fw_arena *arena, fw_elastica *e) {
+    int count = 0;
+    FW_NEED(e->per_piece = fw_arena_array(arena, int, (size_t)e->beam->npiece));
+    for (int i = 0; i < e->beam->npiece; i++)
+        count += e->per_piece[i] = elements_of(&e->beam->piece[i]);
+    for (int level = 0; level < FW_LEVELS; level++) {
+        e->mesh[level].count = count << level;
+        FW_NEED(e->mesh[level].element = fw_arena_array(arena, fw_element, (size_t)count << level));
+    }
+    return FW_OK;
+}
+
+fw_status fw_elastica_new(fw_arena *arena, const fw_beam *beam, const double *point_m, bool hinged,
+                          fw_elastica **out) {
+    fw_elastica *e = fw_arena_one(arena, fw_elastica);
+    FW_NEED(e);
+    e->beam = beam;
+    e->hinged = hinged;
+    e->solved = -1;
+    e->kind[0] = e->kind[1] = e->kind[2] = FW_END_THETA; /* none */
+    fw_rule_fill(&e->rule);
+    fw_beam_compliance(beam, &e->linear);
+    e->length_m = e->linear.length_m;
+    e->soft = e->linear.c[0][0];
+    FW_NEED(e->pose = fw_arena_array(arena, fw_beam_pose, (size_t)beam->npiece + 1));
+    fw_beam_poses(beam, e->pose);
+    const double *point = point_m ? point_m : e->linear.centre_m;
+    e->arm[0] = (point[0] - e->linear.end.x_m) / e->length_m;
+    e->arm[1] = (point[1] - e->linear.end.y_m) / e->length_m;
+    for (int end = 0; end < 2; end++) {
+        fw_beam_section at;
+        int piece = end ? beam->npiece - 1 : 0;
+        fw_beam_at(beam, piece, &e->pose[piece], end ? beam->piece[piece].length_m : 0, &at);
+        e->root[end] = beam->root_m[end] * at.bend_per_Nm2 / e->soft;
+    }
+    FW_TRY(meshes(arena, e));
+    *out = e;
+    return FW_OK;
+}
+
+const fw_beam_linear *fw_elastica_linear(const fw_elastica *e) {
+    return &e->linear;
+}

@@ -1,0 +1,244 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One Newton pass of the elastica. With Psi = psi + phi the direction of a section, t and n its
+   tangent and normal, N = F.t, V = F.n, and d = 1/EA - 1/(kGA):
+
+     phi' = M/EI
+     M'   = m = -(1 + d N) V
+     x'   = (1 + N/EA) cos Psi - V/(kGA) sin Psi
+     y'   = (1 + N/EA) sin Psi + V/(kGA) cos Psi
+
+   on every element by Gauss collocation with 8 nodes (order 16; symplectic, so that the tangent of
+   what is computed is symmetric to rounding). phi at the nodes is the only unknown inside:
+
+     phi = phi0 + turned M0 + twice m(phi, F)
+
+   linearised about the present phi, solved for the change of phi and its derivatives by the
+   unknowns p, and carried to the end of the beam. x and y are summed as differences from the beam
+   as made, so that small displacements keep their digits and no force gives none. */
+#include "flexure/elastica_core.h"
+#include <math.h>
+
+static inline double total(const fw_nodes *v) {
+    fw_nodes a = *v;
+    return ((a[0] + a[4]) + (a[1] + a[5])) + ((a[2] + a[6]) + (a[3] + a[7]));
+}
+
+typedef struct slopes { /* at the nodes: values, and by Psi, Fx, Fy */
+    fw_nodes m, x, y;   /* x, y: less those of the beam as made */
+    fw_nodes m_psi, x_psi, y_psi;
+    fw_nodes m_f[2], x_f[2], y_f[2];
+} slopes;
+
+static inline void slopes_at(const fw_element *el, const double force[2], slopes *out) {
+    fw_nodes c, s;
+    for (int i = 0; i < FW_NODES; i++) {
+        double psi = el->psi[i] + el->phi[i];
+        c[i] = cos(psi);
+        s[i] = sin(psi);
+    }
+    fw_nodes a = el->axial, g = el->shear, d = a - g;
+    fw_nodes N = force[0] * c + force[1] * s, V = force[1] * c - force[0] * s;
+    fw_nodes q = 1 + d * N, p = d * V, aN = 1 + a * N, gV = g * V;
+    out->m = -q * V;
+    out->m_psi = q * N - p * V;
+    out->m_f[0] = q * s - p * c;
+    out->m_f[1] = -q * c - p * s;
+    out->x = aN * c - gV * s - el->cos_made;
+    out->y = aN * s + gV * c - el->sin_made;
+    out->x_psi = p * c - q * s;
+    out->y_psi = q * c + p * s;
+    out->x_f[0] = a * c * c + g * s * s;
+    out->y_f[0] = out->x_f[1] = d * c * s;
+    out->y_f[1] = a * s * s + g * c * c;
+}
+
+static inline void twice(const fw_element *el, const fw_nodes *m, fw_nodes *sum) {
+    for (int j = 0; j < FW_NODES; j++)
+        *sum += (*m)[j] * el->twice[j];
+}
+
+/* (1 - twice diag(m_psi)) x = x for four right sides, by Gauss and Jordan without exchange: the
+   eigenvalues of `twice` are below 0.02 h^2/EI, the matrix is near 1 on any mesh that resolves */
+static inline void solve(const fw_element *el, const fw_nodes *m_psi, fw_nodes *x) {
+    fw_nodes a[FW_NODES];
+    for (int j = 0; j < FW_NODES; j++) {
+        a[j] = -(*m_psi)[j] * el->twice[j];
+        a[j][j] += 1;
+    }
+    for (int k = 0; k < FW_NODES; k++) {
+        double over = 1 / a[k][k];
+        fw_nodes l = a[k];
+        l[k] -= 1;
+        for (int j = k + 1; j < FW_NODES; j++)
+            a[j] -= a[j][k] * over * l;
+        for (int j = 0; j <= FW_UNKNOWN; j++)
+            x[j] -= x[j][k] * over * l;
+    }
+}
+
+/* the ends' values from those at the nodes: c in by the start, out by the end */
+static inline void carry(fw_element *el, const slopes *at, fw_carried *c) {
+    const fw_nodes *change = el->change;
+    fw_nodes w = el->once_end, b = el->twice_end, sum;
+    fw_nodes wm = w * at->m_psi, wx = w * at->x_psi, wy = w * at->y_psi, bm = b * at->m_psi;
+    sum = b * at->m + bm * change[0];
+    c->value[PHI] += el->turn * c->value[MOMENT] + total(&sum);
+    sum = w * at->m + wm * change[0];
+    c->value[MOMENT] += total(&sum);
+    sum = w * at->x + wx * change[0];
+    c->value[X] += total(&sum);
+    sum = w * at->y + wy * change[0];
+    c->value[Y] += total(&sum);
+    for (int k = 0; k < FW_UNKNOWN; k++) {
+        fw_nodes by = change[1 + k], sums[CARRIED] = {bm * by, wm * by, wx * by, wy * by};
+        if (k > 0) {
+            sums[PHI] += b * at->m_f[k - 1];
+            sums[MOMENT] += w * at->m_f[k - 1];
+            sums[X] += w * at->x_f[k - 1];
+            sums[Y] += w * at->y_f[k - 1];
+        }
+        c->by[PHI][k] += el->turn * c->by[MOMENT][k];
+        for (int i = 0; i < CARRIED; i++)
+            c->by[i][k] += total(&sums[i]);
+    }
+}
+
+/* in: rotations at the nodes, force, phi, M, x, y and their derivatives by p at the start; without
+   units. out: the same at the end, the change of the rotations. Error of a smooth element
+   (8!)^4/(17 (16!)^3) h^17 times the 16th derivative, 1.7e-23 h^17 for sine and cosine of h; cost
+   0.5 us, half of it the 8 x 8 system. Source: docs/theory/flexure.md (14), (15).
+   Test: test_elastica.c another_method_agrees, tangents_are_derivatives */
+void fw_element_pass(fw_element *el, const double force[2], fw_carried *c) {
+    slopes at;
+    slopes_at(el, force, &at);
+    fw_nodes *change = el->change;
+    el->start_by[0] = c->value[PHI];
+    change[0] = c->value[PHI] + c->value[MOMENT] * el->turned - el->phi;
+    twice(el, &at.m, &change[0]);
+    for (int k = 0; k < FW_UNKNOWN; k++) {
+        el->start_by[1 + k] = c->by[PHI][k];
+        change[1 + k] = c->by[PHI][k] + c->by[MOMENT][k] * el->turned;
+        if (k > 0) twice(el, &at.m_f[k - 1], &change[1 + k]);
+    }
+    solve(el, &at.m_psi, change);
+    carry(el, &at, c);
+}
+
+/* a clamped root gives phi = root M; a hinge has phi for its unknown and no moment */
+void fw_elastica_begin(const fw_elastica *e, fw_carried *c) {
+    *c = (fw_carried){0};
+    if (e->hinged) {
+        c->value[PHI] = e->p[0];
+        c->by[PHI][0] = 1;
+    } else {
+        c->value[MOMENT] = e->p[0];
+        c->by[MOMENT][0] = 1;
+        c->value[PHI] = e->root[0] * e->p[0];
+        c->by[PHI][0] = e->root[0];
+    }
+}
+
+/* from the end of the beam to the point that is watched: the second root turns by root M, the arm
+   a with it; moment about the point: M - a x F */
+static void watch(const fw_elastica *e, const fw_carried *c, fw_end_state *end) {
+    double th = c->value[PHI] + e->root[1] * c->value[MOMENT];
+    double sine = sin(th), half = sin(0.5 * th), less = 2 * half * half;
+    double ux = -less * e->arm[0] - sine * e->arm[1], uy = sine * e->arm[0] - less * e->arm[1];
+    double ax = e->arm[0] + ux, ay = e->arm[1] + uy, fx = e->p[1], fy = e->p[2];
+    end->value[FW_END_THETA] = th;
+    end->value[FW_END_UX] = c->value[X] + ux;
+    end->value[FW_END_UY] = c->value[Y] + uy;
+    end->value[FW_END_M] = c->value[MOMENT] - ax * fy + ay * fx;
+    end->value[FW_END_FX] = fx;
+    end->value[FW_END_FY] = fy;
+    for (int k = 0; k < FW_UNKNOWN; k++) {
+        double turn = c->by[PHI][k] + e->root[1] * c->by[MOMENT][k];
+        end->by[FW_END_THETA][k] = turn;
+        end->by[FW_END_UX][k] = c->by[X][k] - ay * turn;
+        end->by[FW_END_UY][k] = c->by[Y][k] + ax * turn;
+        end->by[FW_END_M][k] =
+            c->by[MOMENT][k] + turn * (ay * fy + ax * fx) + (k == 1 ? ay : 0) - (k == 2 ? ax : 0);
+        end->by[FW_END_FX][k] = k == 1;
+        end->by[FW_END_FY][k] = k == 2;
+    }
+}
+
+void fw_mesh_pass(fw_elastica *e, int level, fw_end_state *end) {
+    fw_mesh *mesh = &e->mesh[level];
+    fw_carried c;
+    fw_elastica_begin(e, &c);
+    for (int n = 0; n < mesh->count; n++)
+        fw_element_pass(&mesh->element[n], &e->p[1], &c);
+    mesh->end_by[0] = c.value[PHI];
+    for (int k = 0; k < FW_UNKNOWN; k++)
+        mesh->end_by[1 + k] = c.by[PHI][k];
+    watch(e, &c, end);
+    e->passes += mesh->count;
+}
+
+static double applied(const double *by, const double *dp) {
+    return by[0] + by[1] * dp[0] + by[2] * dp[1] + by[3] * dp[2];
+}
+
+double fw_mesh_update(fw_elastica *e, int level, const double *dp, double *span) {
+    fw_mesh *mesh = &e->mesh[level];
+    double most = 0, size = 1;
+    *span = 0;
+    for (int n = 0; n < mesh->count; n++) {
+        fw_element *el = &mesh->element[n];
+        fw_nodes change =
+            el->change[0] + dp[0] * el->change[1] + dp[1] * el->change[2] + dp[2] * el->change[3];
+        el->phi += change;
+        el->start = applied(el->start_by, dp);
+        for (int i = 0; i < FW_NODES; i++) {
+            most = fabs(change[i]) > most ? fabs(change[i]) : most;
+            *span = fabs(el->phi[i]) > *span ? fabs(el->phi[i]) : *span;
+        }
+    }
+    mesh->end = applied(mesh->end_by, dp); /* a number that is none anywhere comes to here */
+    if (!isfinite(mesh->end)) most = (double)INFINITY;
+    for (int k = 0; k < FW_UNKNOWN; k++) {
+        e->p[k] += dp[k];
+        size = fmax(size, fabs(e->p[k]));
+    }
+    for (int k = 0; k < FW_UNKNOWN; k++)
+        most = fmax(most, fabs(dp[k]) / size);
+    return most;
+}
+
+/* Gauss with exchange of rows. Source: Golub and Van Loan, Matrix Computations, 3.4.
+   Test: all of test_elastica.c */
+bool fw_solve3(const double a[3][3], int columns, double x[3][3], double *det) {
+    double m[3][3];
+    *det = 1;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            m[i][j] = a[i][j];
+    for (int k = 0; k < 3; k++) {
+        int best = k;
+        for (int i = k + 1; i < 3; i++)
+            if (fabs(m[i][k]) > fabs(m[best][k])) best = i;
+        *det *= best == k ? m[k][k] : -m[best][k];
+        if (!(fabs(m[best][k]) > 0)) return false;
+        for (int j = 0; j < 3; j++) {
+            double t = m[k][j];
+            m[k][j] = m[best][j], m[best][j] = t;
+            t = x[k][j];
+            x[k][j] = x[best][j], x[best][j] = t;
+        }
+        for (int i = k + 1; i < 3; i++) {
+            double f = m[i][k] / m[k][k];
+            for (int j = k + 1; j < 3; j++)
+                m[i][j] -= f * m[k][j];
+            for (int j = 0; j < columns; j++)
+                x[i][j] -= f * x[k][j];
+        }
+    }
+    for (int k = 2; k >= 0; k--)
+        for (int j = 0; j < columns; j++) {
+            for (int i = k + 1; i < 3; i++)
+                x[k][j] -= m[k][i] * x[i][j];
+            x[k][j] /= m[k][k];
+        }
+    return true;
+}
