@@ -69,10 +69,15 @@ static const fw_command table[] = {
      "flow the recipe is printed; with several, a document that holds them all.",
      FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_FABRICATE, fw_command_recipe},
     {"hinge", "DEVICE.xml", "every flexure: elastic centre, stiffness, strain, limit angle",
-     "flexwright hinge device.xml",
-     "Closed form with depth, root and fillet corrections, for every flow's material and "
-     "thickness.",
-     FW_OPT_COMMON | FW_OPT_PLAN, fw_command_hinge},
+     "flexwright hinge device.xml --svg hinges.svg",
+     "Every flexure on a ladder of models, for every flow's material and thickness: elastic "
+     "centre,\n"
+     "stiffnesses, peak strain per radian (crystal: peak stress over the mean modulus), limit "
+     "angle,\n"
+     "each level's own estimate of its error, and what it costs. Then how the axis drifts, and "
+     "where\n"
+     "the conjugate surfaces meet. --svg, or -o DIR with hinge.json and hinge.svg, draws it.",
+     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_HINGE, fw_command_hinge},
     {"init", "[NAME]", "a starter device on standard output",
      "flexwright init my-device > device.xml",
      "Prints a small six-bar with comments; every command accepts it as it is.", FW_OPT_COMMON,

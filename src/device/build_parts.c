@@ -38,6 +38,7 @@ static fw_status build_material(fw_reader *r, const fw_record *record) {
     d->material_ref = fw_text_of(record, "ref");
     d->material_place = fw_place_of(record, "ref");
     d->thickness_m = fw_number_of(record, "thickness");
+    d->orientation_rad = fw_number_of(record, "orientation");
     return FW_OK;
 }
 
@@ -47,6 +48,7 @@ static fw_flow_use flow_of(const fw_record *record) {
                          .insulating_carrier = carrier && strcmp(carrier, "insulating") == 0,
                          .material = fw_text_of(record, "material"),
                          .thickness_m = fw_number_of(record, "thickness"),
+                         .orientation_rad = fw_number_of(record, "orientation"),
                          .place = fw_place_of(record, "ref"),
                          .material_place = fw_place_of(record, "material")};
 }
@@ -104,6 +106,7 @@ fw_status fw_build_parts(fw_reader *r) {
     double nan_ = (double)NAN;
     d->safety_factor = 1.5;
     d->thickness_m = nan_;
+    d->orientation_rad = nan_;
     d->die = (fw_die){nan_, nan_, nan_, nan_, nan_, NULL, true};
     FW_TRY(build_material(r, NULL));
     FW_TRY(build_flows(r));

@@ -29,6 +29,7 @@ typedef struct fw_flow_use { /* <flow ref material thickness carrier/> */
                                 default "none": the layer is one conducting sheet */
     const char *material;    /* id of the material in this flow; NULL: the device's own */
     double thickness_m;      /* NaN: the device's own */
+    double orientation_rad;  /* NaN: the device's own */
     fw_place place, material_place;
 } fw_flow_use;
 
@@ -297,8 +298,9 @@ typedef struct fw_device {
     fw_place material_place;
     /* overrides of <material>; unknown = take the pack's value */
     fw_material_override material;
-    double thickness_m;   /* device layer, NaN: the flow's */
-    double safety_factor; /* <limits safety-factor>, default 1.5 */
+    double thickness_m;     /* device layer, NaN: the flow's */
+    double orientation_rad; /* of [100] of a crystal from +x; NaN: not stated, 45 deg */
+    double safety_factor;   /* <limits safety-factor>, default 1.5 */
     fw_place limits_place;
     bool six_bar; /* joints 0..5 are A..F, bodies 0..4 AB BC CD DE EF */
     fw_die die;

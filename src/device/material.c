@@ -5,19 +5,20 @@
 #include <math.h>
 #include <string.h>
 
-enum { YOUNGS, POISSON, DENSITY, STRENGTH, LOSS, EXPANSION, MODULUS_CHANGE, IDS };
-static const char *const ids[IDS] = {"youngs", "poisson",   "density",       "strength",
-                                     "loss",   "expansion", "modulus-change"};
+enum { YOUNGS, POISSON, DENSITY, STRENGTH, LOSS, EXPANSION, MODULUS_CHANGE, C11, C12, C44, IDS };
+static const char *const ids[IDS] = {"youngs",    "poisson",        "density", "strength", "loss",
+                                     "expansion", "modulus-change", "c11",     "c12",      "c44"};
 
-static const fw_dimension dimension_of[IDS] = {[YOUNGS] = {-1, 1, -2, 0, 0, 0, 0},
-                                               [DENSITY] = {.m = -3, .kg = 1},
-                                               [STRENGTH] = {-1, 1, -2, 0, 0, 0, 0},
-                                               [EXPANSION] = {.K = -1},
-                                               [MODULUS_CHANGE] = {.K = -1}};
+static const fw_dimension dimension_of[IDS] = {
+    [YOUNGS] = {-1, 1, -2, 0, 0, 0, 0},   [DENSITY] = {.m = -3, .kg = 1},
+    [STRENGTH] = {-1, 1, -2, 0, 0, 0, 0}, [EXPANSION] = {.K = -1},
+    [MODULUS_CHANGE] = {.K = -1},         [C11] = {-1, 1, -2, 0, 0, 0, 0},
+    [C12] = {-1, 1, -2, 0, 0, 0, 0},      [C44] = {-1, 1, -2, 0, 0, 0, 0}};
 
 static fw_quantity *slot(fw_material *m, int k) {
-    fw_quantity *const all[IDS] = {&m->youngs, &m->poisson,   &m->density,       &m->strength,
-                                   &m->loss,   &m->expansion, &m->modulus_change};
+    fw_quantity *const all[IDS] = {&m->youngs, &m->poisson,   &m->density,        &m->strength,
+                                   &m->loss,   &m->expansion, &m->modulus_change, &m->c11,
+                                   &m->c12,    &m->c44};
     return all[k];
 }
 
@@ -92,6 +93,23 @@ static fw_status read_child(fw_arena *arena, const fw_element *e, const fw_sourc
     return FW_OK;
 }
 
+/* all three or none, and stable against every strain: C44 > 0, C11 > |C12|, C11 + 2 C12 > 0 (Born)
+ */
+static void check_crystal(const fw_element *e, const fw_material *m, fw_diags *diags) {
+    int given = !m->c11.unknown + !m->c12.unknown + !m->c44.unknown;
+    double a = m->c11.value, b = m->c12.value;
+    if (given > 0 && given < 3)
+        fw_diag_error(
+            diags, 209, e->place,
+            "material '%s' has %d of c11, c12 and c44; a cubic crystal has all three, any "
+            "other material none",
+            m->id, given);
+    else if (given == 3 && !(a > fabs(b) && a + 2 * b > 0))
+        fw_diag_error(
+            diags, 209, e->place,
+            "material '%s' is not stable: c11 must be above |c12|, and c11 + 2 c12 above 0", m->id);
+}
+
 static fw_status read_material(fw_arena *arena, const fw_element *e, const fw_source_text *source,
                                int nsource, fw_diags *diags, fw_material *m) {
     const fw_attribute *name = fw_xml_attribute(e, "name");
@@ -114,6 +132,7 @@ static fw_status read_material(fw_arena *arena, const fw_element *e, const fw_so
                                         .status = FW_ASSUMED,
                                         .source = "",
                                         .place = e->place};
+    check_crystal(e, m, diags);
     return FW_OK;
 }
 
@@ -162,5 +181,14 @@ fw_material fw_material_with(const fw_material *material, const fw_material_over
         slot(&m, k)->id = id;
         slot(&m, k)->source = "device file";
     }
+    if (!override->youngs.unknown && override->youngs.unit)
+        m.c11.unknown = m.c12.unknown = m.c44.unknown = true;
     return m;
+}
+
+bool fw_material_is_crystal(const fw_material *m) {
+    const fw_quantity *const all[] = {&m->c11, &m->c12, &m->c44};
+    for (int i = 0; i < 3; i++)
+        if (all[i]->unknown || !(all[i]->value > 0)) return false;
+    return true;
 }

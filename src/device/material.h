@@ -14,6 +14,7 @@ typedef struct fw_material {
     fw_quantity loss;      /* 1: loss factor eta of the material damping, for c = eta k/omega */
     fw_quantity expansion; /* 1/K, thermal, of length */
     fw_quantity modulus_change; /* 1/K: (dE/dT)/E */
+    fw_quantity c11, c12, c44;  /* Pa: of a cubic crystal in a (100) wafer; unknown: isotropic */
 } fw_material;
 
 typedef struct fw_material_override { /* attributes of <material>; unknown where absent */
@@ -29,7 +30,10 @@ typedef struct fw_materials {
 fw_status fw_materials_read(fw_arena *arena, const char *file, const char *xml, size_t n,
                             fw_diags *diags, fw_materials *materials);
 const fw_material *fw_material_find(const fw_materials *materials, const char *id);
-/* the material with overrides applied; an override's source is "device file" */
+/* the material with overrides applied; an override's source is "device file". A stated modulus
+   makes a crystal isotropic: its constants are unknown then. */
 fw_material fw_material_with(const fw_material *material, const fw_material_override *override);
+/* all three constants are known: its modulus goes with the direction */
+bool fw_material_is_crystal(const fw_material *material);
 
 #endif

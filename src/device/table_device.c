@@ -24,7 +24,8 @@ static const fw_attribute_row material_rows[] = {
     {"ref", ID, REQUIRED, .sentence = "Id of a material in processes/base.xml."},
     {"youngs-modulus", D_PRESSURE,
      RANGE(1e6, 2e12, "below 1 MPa are gels and foams; no material is stiffer than 2 TPa"),
-     .fallback = "the material's", .sentence = "Young's modulus for bending in the wafer plane."},
+     .fallback = "the material's",
+     .sentence = "Young's modulus for bending in the wafer plane, in every direction."},
     {"poisson", D_PURE, ABOVE(-1, 0.5, "elastic stability of an isotropic body"),
      .fallback = "the material's", .sentence = "Poisson's ratio."},
     {"density", D_DENSITY,
@@ -36,6 +37,10 @@ static const fw_attribute_row material_rows[] = {
      .fallback = "the material's", .sentence = "Stress that the safety factor divides."},
     {"thickness", THICKNESS, .fallback = "the flow's",
      .sentence = "Thickness of the device layer."},
+    {"orientation", TURN, .fallback = "45 deg: the wafer's flat, along <110>, is parallel to x",
+     .sentence =
+         "Of a crystal: angle of its [100] from the device's +x. Its modulus then goes with "
+         "the direction of every hinge, unless youngs-modulus is stated."},
 };
 static const fw_attribute_row limits_rows[] = {
     {"safety-factor", D_PURE, RANGE(1, 100, "below 1 the limit itself would be exceeded"),
@@ -46,6 +51,8 @@ static const fw_attribute_row flow_rows[] = {
     {"material", ID, .fallback = "the device's", .sentence = "Id of the material in this flow."},
     {"thickness", THICKNESS, .fallback = "the device's",
      .sentence = "Thickness of the device layer in this flow."},
+    {"orientation", TURN, .fallback = "the device's",
+     .sentence = "Angle of the crystal's [100] from the device's +x in this flow."},
     {"carrier", .kind = FW_KIND_WORD, .words = carriers, .fallback = "none",
      .sentence = "What the layer stands on: none, so that all that is anchored is one conductor; "
                  "insulating (borosilicate glass), so that only what is joined in the layer is."},

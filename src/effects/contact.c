@@ -251,7 +251,9 @@ static fw_status add_conjugate(const fw_effect_case *c, fw_terms *terms,
         t.to_rad = h->cover_to_rad + a - drawn_turn(m, body[t.to_port]);
     }
     FW_TRY(fw_hinge_release(c, terms, p->hinge));
-    const fw_port port[2] = {{p->body_a, p->ax_m, p->ay_m}, {p->body_b, p->bx_m, p->by_m}};
+    /* where the surfaces are drawn, which of a crystal is not where its pin is */
+    const fw_port port[2] = {{p->body_a, p->ax_m - h->off_a_m.x, p->ay_m - h->off_a_m.y},
+                             {p->body_b, p->bx_m - h->off_b_m.x, p->by_m - h->off_b_m.y}};
     return put(c, terms, use, port, &t);
 }
 

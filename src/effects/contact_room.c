@@ -4,6 +4,7 @@
    test_hinge_give.c, test_contact.c. */
 #include "effects/effect.h"
 #include "effects/envelope.h"
+#include "effects/modal.h"
 #include <math.h>
 
 const fw_hinge *fw_contact_hinge(const fw_mechanism *m, const fw_contact_use *use) {
@@ -30,7 +31,11 @@ static double room(const fw_effect_case *c, const fw_contact_use *use) {
     const fw_mechanism *m = c->mechanism;
     if (use->joint != FW_NONE) {
         const fw_hinge *h = fw_contact_hinge(m, use);
-        return h ? fw_contact_gap(c, use, h) - fw_hinge_give_most(c, use->joint) : -1;
+        if (!h) return -1;
+        /* the surfaces' centres move against each other as the hinge turns about W beside them */
+        double turn = c->envelope->angle[use->joint] + fabs(fw_pin_deflection(m, use->joint));
+        return fw_contact_gap(c, use, h) - fw_hinge_give_most(c, use->joint) -
+               turn * hypot(h->off_a_m.x, h->off_a_m.y);
     }
     fw_vec2 a = fw_local_place(m, use->body_a, use->ax_m, use->ay_m);
     fw_vec2 b = fw_local_place(m, use->body_b, use->bx_m, use->by_m);

@@ -17,7 +17,7 @@
    not close), |u| << r. Error against the geometrically exact beam: 0.5 % of u at 200 uN on 2a =
    270 deg, r = 100 um, a quarter of that at half the force; against 3-D finite elements with real
    roots kx is 0.4 to 0.9 %, ky 0.8 to 1.3 % too low, the drift right within 0.006 um. Cost of
-   values and slopes some 500 instructions, two or three pairs of sine and cosine included. Source:
+   values and slopes 35 ns (tests/bench/bench_hinge_closed.c). Source:
    derived in docs/theory/effects/nonlinear-hinge.md. Test: test_finite.c. */
 #include "flexure/finite.h"
 #include <math.h>
@@ -118,8 +118,8 @@ static inline fw_series over_square(double n, double slope, double curve, double
     return (fw_series){{q, d, (curve - 2 * q) * square - 4 * d * over, 0}};
 }
 
-static inline void shape_far(double x, shape *at) {
-    double over = 1 / x, sine = sin(x), cosine = cos(x);
+static inline void shape_far(double x, double sine, double cosine, shape *at) {
+    double over = 1 / x;
     const fw_series s = at->s = sinc_far(over, sine, cosine);
     const fw_series z = at->z = (fw_series){{s.d[0] * cosine, s.d[1] * cosine - s.d[0] * sine,
                                              (s.d[2] - s.d[0]) * cosine - 2 * s.d[1] * sine, 0}};
@@ -134,43 +134,106 @@ static inline fw_hinge_jet inverse(const double c[3], double q) {
     return (fw_hinge_jet){k, -slope * k, (2 * slope * slope - q * q * c[2] * k) * k};
 }
 
+typedef double pair __attribute__((vector_size(16)));
+
+/* sine and cosine of two angles below 0.8 side by side, by their power series to t^7, t = angle^2:
+   what is left out is below 1e-16 of the sine, 1e-15 t^8 of one in the cosine. Cost 8 ns */
+INLINE void turn_both(pair angle, pair *sine, pair *cosine) {
+    const pair t = angle * angle, t2 = t * t, t4 = t2 * t2;
+    const pair s = (1 - t * (1 / 6.0)) + t2 * (1 / 120.0 - t * (1 / 5040.0)) +
+                   t4 * ((1 / 362880.0 - t * (1 / 39916800.0)) +
+                         t2 * (1 / 6227020800.0 - t * (1 / 1307674368000.0)));
+    const pair c = (1 - t * 0.5) + t2 * (1 / 24.0 - t * (1 / 720.0)) +
+                   t4 * ((1 / 40320.0 - t * (1 / 3628800.0)) +
+                         t2 * (1 / 479001600.0 - t * (1 / 87178291200.0))) +
+                   t4 * t4 * (1 / 20922789888000.0);
+    *sine = angle * s, *cosine = c;
+}
+
+typedef struct turned { /* sine and cosine of x and of th/2 */
+    double sine, cosine, s2, c2;
+} turned;
+
+/* x = a + q th: the free arc's own sine and cosine are at hand */
+INLINE turned turn(const fw_hinge_rest *rest, double x, double part, double half) {
+    if (!(fabs(half) < 0.8 && fabs(part) < 0.8))
+        return (turned){sin(x), cos(x), sin(half), cos(half)};
+    pair s, c;
+    turn_both((pair){part, half}, &s, &c);
+    return (turned){rest->sine * c[0] + rest->cosine * s[0],
+                    rest->cosine * c[0] - rest->sine * s[0], s[1], c[1]};
+}
+
 /* `second` is a constant where this is expanded: without it no second derivative is worked out */
-INLINE void law_at(const fw_hinge_law *law, const fw_hinge_rest *rest, double th, bool second,
-                   fw_hinge_at *at) {
+INLINE turned law_at(const fw_hinge_law *law, const fw_hinge_rest *rest, double th, bool second,
+                     fw_hinge_at *at) {
     double q = 0.5 * law->share, x = law->half_angle_rad + q * th;
     double p = law->axial_m_per_N, v = law->shear_m_per_N;
-    double bend = law->bend_m_per_N, root = law->root_m_per_N, share = root * law->share;
+    double root = law->root_m_per_N, share = root * law->share;
+    double along = law->bend_m_per_N * (1 + law->uneven_x);
+    double across = law->bend_m_per_N * (1 + law->uneven_y);
+    const turned tip = turn(rest, x, q * th, 0.5 * th);
     shape f;
     if (fabs(x) < small)
         shape_near(x, second, &f);
     else
-        shape_far(x, &f);
+        shape_far(x, tip.sine, tip.cosine, &f);
     const double *s = f.s.d, *g = f.g.d, *h = f.h.d, *z = f.z.d;
-    double cx[3] = {bend * g[0] + root * s[0] * s[0] + (p + v) + (v - p) * z[0],
-                    bend * g[1] + 2 * root * s[0] * s[1] + (v - p) * z[1], 0};
-    double cy[3] = {bend * h[0] + share * s[1] * s[1] + (p + v) - (v - p) * z[0],
-                    bend * h[1] + 2 * share * s[1] * s[2] - (v - p) * z[1], 0};
+    double cx[3] = {along * g[0] + root * s[0] * s[0] + (p + v) + (v - p) * z[0],
+                    along * g[1] + 2 * root * s[0] * s[1] + (v - p) * z[1], 0};
+    double cy[3] = {across * h[0] + share * s[1] * s[1] + (p + v) - (v - p) * z[0],
+                    across * h[1] + 2 * share * s[1] * s[2] - (v - p) * z[1], 0};
     if (second) {
-        cx[2] = bend * g[2] + 2 * root * (s[1] * s[1] + s[0] * s[2]) + (v - p) * z[2];
-        cy[2] = bend * h[2] + 2 * share * (s[2] * s[2] + s[1] * s[3]) - (v - p) * z[2];
+        cx[2] = along * g[2] + 2 * root * (s[1] * s[1] + s[0] * s[2]) + (v - p) * z[2];
+        cy[2] = across * h[2] + 2 * share * (s[2] * s[2] + s[1] * s[3]) - (v - p) * z[2];
     }
     at->kx_N_per_m = inverse(cx, q);
     at->ky_N_per_m = inverse(cy, q);
-    double L = law->length_m, c2 = cos(0.5 * th), s2 = sin(0.5 * th);
+    double L = law->length_m, c2 = tip.c2, s2 = tip.s2;
     at->drift_m.value = L * (s[0] - c2 * rest->sinc - s2 * rest->turn);
     at->drift_m.slope = L * (q * s[1] + 0.5 * s2 * rest->sinc - 0.5 * c2 * rest->turn);
     at->drift_m.curve =
         second ? L * (q * q * s[2] + 0.25 * c2 * rest->sinc + 0.25 * s2 * rest->turn) : 0;
+    return tip;
 }
 
 fw_hinge_rest fw_hinge_rest_of(const fw_hinge_law *law) {
     const fw_series a = sinc(law->half_angle_rad);
-    return (fw_hinge_rest){a.d[0], law->share * a.d[1]};
+    return (fw_hinge_rest){a.d[0], law->share * a.d[1], sin(law->half_angle_rad),
+                           cos(law->half_angle_rad)};
 }
 
 void fw_hinge_law_at(const fw_hinge_law *law, double th, fw_hinge_at *at) {
     const fw_hinge_rest rest = fw_hinge_rest_of(law);
     law_at(law, &rest, th, true, at);
+}
+
+/* U = K th^2/2 + kx w^2/2 + ky v^2/2 with w = c ux + s uy, y = c uy - s ux, v = y - drift,
+   c, s = cos, sin(th/2):  dw/dth = y/2,  dy/dth = -w/2
+   in: rad, m; out: N m, N and their derivatives, symmetric. Valid and exact as the law is. Cost 60
+   ns. Source: docs/theory/effects/nonlinear-hinge.md. Test: test_finite.c wrench_and_tangent */
+void fw_hinge_law_wrench(const fw_hinge_law *law, const fw_hinge_rest *rest, const double twist[3],
+                         double wrench[3], double tangent[3][3]) {
+    fw_hinge_at at;
+    double th = twist[0];
+    const turned half = law_at(law, rest, th, true, &at);
+    double c = half.c2, s = half.s2;
+    const fw_hinge_jet *X = &at.kx_N_per_m, *Y = &at.ky_N_per_m, *d = &at.drift_m;
+    double w = c * twist[1] + s * twist[2], y = c * twist[2] - s * twist[1], v = y - d->value;
+    double w1 = 0.5 * y, v1 = -0.5 * w - d->slope, w2 = -0.25 * w, v2 = -0.25 * y - d->curve;
+    double fw = X->value * w, fv = Y->value * v;
+    double fw1 = X->slope * w + X->value * w1, fv1 = Y->slope * v + Y->value * v1;
+    wrench[0] = law->stiffness_Nm_per_rad * th + 0.5 * (X->slope * w * w + Y->slope * v * v) +
+                fw * w1 + fv * v1;
+    wrench[1] = c * fw - s * fv;
+    wrench[2] = s * fw + c * fv;
+    tangent[0][0] = law->stiffness_Nm_per_rad + 0.5 * (X->curve * w * w + Y->curve * v * v) +
+                    X->slope * w * w1 + Y->slope * v * v1 + fw1 * w1 + fv1 * v1 + fw * w2 + fv * v2;
+    tangent[0][1] = tangent[1][0] = c * fw1 - s * fv1 - 0.5 * (s * fw + c * fv);
+    tangent[0][2] = tangent[2][0] = s * fw1 + c * fv1 + 0.5 * (c * fw - s * fv);
+    tangent[1][1] = c * c * X->value + s * s * Y->value;
+    tangent[2][2] = s * s * X->value + c * c * Y->value;
+    tangent[1][2] = tangent[2][1] = c * s * (X->value - Y->value);
 }
 
 void fw_hinge_law_slopes(const fw_hinge_law *law, const fw_hinge_rest *rest, double th,
@@ -179,13 +242,15 @@ void fw_hinge_law_slopes(const fw_hinge_law *law, const fw_hinge_rest *rest, dou
 }
 
 /* EI is what makes K = EI/(L + 2 dL) the stiffness of the closed form, so that depth and curvature
-   corrections hold for forces too */
+   corrections hold for forces too. A crystal's arc is one of its mean modulus that bends more along
+   or across by what makes kx and ky at rest differ from those of that modulus; its C_xy is not in
+   the law; the pins are at its own W. */
 void fw_hinge_law_of(const fw_flexure_input *in, const fw_flexure_result *closed_form,
                      fw_hinge_law *law) {
     double L = in->length_m, dL = closed_form->root_length_m;
     double EI = closed_form->stiffness_Nm_per_rad * (L + 2 * dL);
-    double EA = in->youngs_Pa * in->depth_m * in->width_m;
-    double kGA = 5.0 / 6.0 * EA / (2 * (1 + in->poisson));
+    double EA = closed_form->youngs_Pa * in->depth_m * in->width_m;
+    double kGA = 5.0 / 6.0 * EA / (2 * (1 + closed_form->poisson));
     *law = (fw_hinge_law){.stiffness_Nm_per_rad = closed_form->stiffness_Nm_per_rad,
                           .half_angle_rad = in->kind == FW_FLEXURE_CSFH ? 0.5 * in->angle_rad : 0,
                           .length_m = L,
@@ -194,6 +259,14 @@ void fw_hinge_law_of(const fw_flexure_input *in, const fw_flexure_result *closed
                           .root_m_per_N = dL * L * L / (2 * EI),
                           .axial_m_per_N = L / (2 * EA),
                           .shear_m_per_N = L / (2 * kGA)};
+    if (!in->crystal.known || in->kind != FW_FLEXURE_CSFH) return;
+    fw_hinge_at even, more;
+    fw_hinge_law_at(law, 0, &even);
+    law->uneven_x = law->uneven_y = 1; /* what bending alone contributes */
+    fw_hinge_law_at(law, 0, &more);
+    double x = 1 / even.kx_N_per_m.value, y = 1 / even.ky_N_per_m.value;
+    law->uneven_x = closed_form->uneven_x * x / (1 / more.kx_N_per_m.value - x);
+    law->uneven_y = closed_form->uneven_y * y / (1 / more.ky_N_per_m.value - y);
 }
 
 static double drift_at(const fw_hinge_law *law, double th) {

@@ -14,11 +14,13 @@ typedef struct fw_hinge_law {
     double bend_m_per_N;                 /* L^3/(8 EI): of the strip */
     double root_m_per_N;                 /* dL L^2/(2 EI): of the two roots */
     double axial_m_per_N, shear_m_per_N; /* L/(2 EA), L/(2 kGA) */
+    double uneven_x,
+        uneven_y; /* of a crystal: share that bend_m_per_N is larger along and across */
 } fw_hinge_law;
 
-/* what the free arc gives to the drift at every rotation: sinc(a) and share sinc'(a) */
+/* what the free arc gives at every rotation: sinc(a), share sinc'(a), sin(a), cos(a) */
 typedef struct fw_hinge_rest {
-    double sinc, turn;
+    double sinc, turn, sine, cosine;
 } fw_hinge_rest;
 
 /* value, first and second derivative by the rotation */
@@ -38,6 +40,11 @@ void fw_hinge_law_at(const fw_hinge_law *law, double rotation_rad, fw_hinge_at *
 fw_hinge_rest fw_hinge_rest_of(const fw_hinge_law *law);
 void fw_hinge_law_slopes(const fw_hinge_law *law, const fw_hinge_rest *rest, double rotation_rad,
                          fw_hinge_at *at);
+/* What the hinge does to a twist (theta, ux, uy) of the second body's W against the first one's, u
+   in the first body's frame with x along the free arc's axis: wrench (M, Fx, Fy) that it takes, the
+   gradient of the energy by the twist, and its symmetric tangent; SI */
+void fw_hinge_law_wrench(const fw_hinge_law *law, const fw_hinge_rest *rest, const double twist[3],
+                         double wrench[3], double tangent[3][3]);
 /* least rotation, of either sign, at which a pure moment makes W drift by `gap_m`; NaN: at none
    below half a turn */
 double fw_hinge_drift_reaches(const fw_hinge_law *law, double gap_m);

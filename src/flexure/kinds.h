@@ -1,10 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One function per hinge kind; table.c has their rows. Private to the room. */
+/* Two functions per hinge kind; table.c has their rows. Private to the room. */
 #ifndef FW_FLEXURE_KINDS_H
 #define FW_FLEXURE_KINDS_H
 #include "flexure/flexure.h"
 
-void fw_flexure_csfh(const fw_flexure_input *in, fw_flexure_result *out);
-void fw_flexure_leaf(const fw_flexure_input *in, fw_flexure_result *out);
+void fw_csfh_shape(const fw_flexure_input *in, fw_flexure_shape *shape);
+void fw_flexure_csfh(const fw_flexure_shape *shape, const fw_flexure_input *in,
+                     fw_flexure_result *out);
+void fw_leaf_shape(const fw_flexure_input *in, fw_flexure_shape *shape);
+void fw_flexure_leaf(const fw_flexure_shape *shape, const fw_flexure_input *in,
+                     fw_flexure_result *out);
+
+/* dL/E of a root whose tangent has cos 4 psi, psi from [100]; section.c */
+double fw_root_m_per_Pa(const fw_flexure_shape *shape, const fw_crystal *crystal, double cos4);
 
 #endif

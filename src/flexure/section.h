@@ -2,10 +2,13 @@
 /* What arcs and leaves share: root compliance, fillet concentration, depth. Private to the room. */
 #ifndef FW_FLEXURE_SECTION_H
 #define FW_FLEXURE_SECTION_H
+#include "flexure/crystal.h"
 
 /* root length dL and fillet concentration for fillet rho and width t; rho/t is clamped to the
-   fitted range [0.05, 1] */
+   fitted range [0.05, 1]; rho < 0: an ideal end, 0 and 1 */
 double fw_root_length_m(double width_m, double fillet_m);
+double fw_root_block_m(double width_m,
+                       double fillet_m); /* what of it a fillet of no radius would leave */
 double fw_fillet_concentration(double width_m, double fillet_m);
 
 typedef struct fw_depth {
@@ -14,5 +17,11 @@ typedef struct fw_depth {
         outer; /* hoop strain over the beam's: inner fibre at mid-depth, outer at the edge */
 } fw_depth;
 fw_depth fw_depth_factors(double radius_m, double width_m, double depth_m, double poisson);
+
+fw_depth fw_depth_at(double depth_over_root_of_radius_and_width, double poisson);
+
+/* peak stress at a root of a crystal over that of an isotropic material under the same moment;
+   cos4, sin4 of four times the half-angle of the arc */
+double fw_crystal_stress(const fw_crystal *crystal, double cos4, double sin4);
 
 #endif

@@ -3,21 +3,17 @@
 #include <math.h>
 
 double fw_hinge_centre(const fw_flexure *flexure, double fillet_m) {
-    /* material, depth and strength do not enter the centre; they only have to be numbers */
-    fw_flexure_input in = {flexure->kind,
-                           flexure->length_m,
-                           flexure->angle_rad,
-                           flexure->radius_m,
-                           flexure->width_m,
-                           fillet_m,
-                           50e-6,
-                           1e11,
-                           0.3,
-                           1e9,
-                           1.0};
-    fw_flexure_result out;
-    fw_flexure_closed_form(&in, &out);
-    return out.centre_m;
+    /* of a uniform modulus: one drawing serves every flow; what a crystal moves is the mechanism's
+       business (fw_flexure_result.offset_m) */
+    fw_flexure_input in = {.kind = flexure->kind,
+                           .length_m = flexure->length_m,
+                           .angle_rad = flexure->angle_rad,
+                           .radius_m = flexure->radius_m,
+                           .width_m = flexure->width_m,
+                           .fillet_m = fillet_m};
+    fw_flexure_shape shape;
+    fw_flexure_shape_of(&in, &shape);
+    return shape.centre_m;
 }
 
 /* circular arc, half-angle a, centre-line radius r, width t, from O; W at (centre_m, 0):

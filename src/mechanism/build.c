@@ -119,8 +119,19 @@ static double inertia_about(const fw_mass *m, double x, double y) {
     return m ? m->inertia_kg_m2 + m->mass_kg * (x * x + y * y) : (double)INFINITY;
 }
 
+/* the direction of the hinge in the crystal: of its drawn axis, or of the stated one */
+static fw_crystal crystal_of(const fw_builder *b, int j, const fw_joint *joint) {
+    const fw_material *m = &b->variant->material;
+    if (!fw_material_is_crystal(m)) return (fw_crystal){.known = false};
+    bool drawn = b->layout && b->layout->drawn && b->layout->hinge[j].drawn;
+    double axis = drawn ? b->layout->hinge[j].axis_rad : joint->axis_rad;
+    return fw_crystal_cubic(m->c11.value, m->c12.value, m->c44.value,
+                            axis - b->variant->orientation_rad);
+}
+
 static fw_status flexure_result(const fw_builder *b, int j, const fw_joint *joint,
-                                fw_flexure_result *result, fw_hinge_law *law) {
+                                fw_hinge *hinge) {
+    fw_flexure_result *result = &hinge->closed_form;
     const fw_flexure *f = &b->device->flexure[joint->flexure];
     const fw_material *m = &b->variant->material;
     FW_TRY(need_property(b, &m->youngs, "Young's modulus", "a flexure", joint->place));
@@ -130,7 +141,7 @@ static fw_status flexure_result(const fw_builder *b, int j, const fw_joint *join
         fillet = b->layout->hinge[j].fillet_m;
     else if (isnan(fillet))
         fillet = fw_flexure_default_fillet(f);
-    const fw_flexure_input in = {
+    hinge->input = (fw_flexure_input){
         .kind = f->kind,
         .length_m = f->length_m,
         .angle_rad = f->angle_rad,
@@ -142,14 +153,15 @@ static fw_status flexure_result(const fw_builder *b, int j, const fw_joint *join
         .poisson = m->poisson.unknown ? 0 : m->poisson.value,
         .strength_Pa = m->strength.value,
         .safety_factor = b->device->safety_factor,
+        .crystal = crystal_of(b, j, joint),
     };
-    fw_flexure_closed_form(&in, result);
+    fw_flexure_closed_form(&hinge->input, result);
     if (!isfinite(result->stiffness_Nm_per_rad) || !(result->stiffness_Nm_per_rad > 0))
         return fw_diag_error(
             b->diags, 85, f->place,
             "flexure %s has no finite stiffness; check its length, angle and width",
             fw_name_or_none(f->id));
-    fw_hinge_law_of(&in, result, law);
+    fw_hinge_law_of(&hinge->input, result, &hinge->law);
     return FW_OK;
 }
 
@@ -215,6 +227,25 @@ static void set_hinge_shape(const fw_builder *b, int j, const fw_joint *from, fw
     to->cover_to_rad = to->cover_from_rad + h->facing_rad;
 }
 
+static fw_vec2 turned_back(const fw_mass *m, fw_vec2 world) {
+    if (!m) return world;
+    double c = cos(m->phi_rad), s = sin(m->phi_rad);
+    return (fw_vec2){c * world.x + s * world.y, -s * world.x + c * world.y};
+}
+
+/* the pin of a crystal goes from where the hinge is drawn to its own centre of compliance; what is
+   drawn, the conjugate surfaces too, stays, since one drawing serves all materials */
+static void move_pin(const fw_builder *b, fw_hinge *hinge, fw_pin *pin) {
+    const double *off = hinge->closed_form.offset_m;
+    double c = cos(hinge->axis_rad), s = sin(hinge->axis_rad);
+    if (!isfinite(hinge->axis_rad)) return;
+    const fw_vec2 world = {c * off[0] - s * off[1], s * off[0] + c * off[1]};
+    hinge->off_a_m = turned_back(body_of(b, pin->body_a), world);
+    hinge->off_b_m = turned_back(body_of(b, pin->body_b), world);
+    pin->ax_m += hinge->off_a_m.x, pin->ay_m += hinge->off_a_m.y;
+    pin->bx_m += hinge->off_b_m.x, pin->by_m += hinge->off_b_m.y;
+}
+
 static fw_status build_pin(const fw_builder *b, int j) {
     const fw_joint *from = &b->device->joint[j];
     const fw_variant *v = b->variant;
@@ -230,8 +261,9 @@ static fw_status build_pin(const fw_builder *b, int j) {
     if (from->flexure != FW_NONE) {
         fw_hinge *hinge = &b->mechanism->hinge[b->mechanism->nhinge];
         *hinge = (fw_hinge){.pin = j, .flexure = from->flexure};
-        FW_TRY(flexure_result(b, j, from, &hinge->closed_form, &hinge->law));
+        FW_TRY(flexure_result(b, j, from, hinge));
         set_hinge_shape(b, j, from, hinge);
+        move_pin(b, hinge, to);
         to->hinge = b->mechanism->nhinge++;
         double own = hinge->closed_form.stiffness_Nm_per_rad;
         if (isnan(to->stiffness_Nm_per_rad))

@@ -19,6 +19,7 @@ typedef struct fw_variant { /* what the device is made of, in one flow */
     const char *substrate;           /* name of what the layer is anchored to; NULL: not known */
     fw_quantity substrate_expansion; /* of it, 1/K */
     double thickness_m;
+    double orientation_rad; /* of [100] of a crystal from +x */
     double explicit_mass_scale, explicit_stiffness_scale, explicit_damping_scale;
 } fw_variant;
 
@@ -45,6 +46,7 @@ typedef struct fw_pin { /* per revolute joint; local points in the body frames (
 
 typedef struct fw_hinge { /* a pin that is a flexure */
     int pin, flexure;
+    fw_flexure_input input; /* what the closed form was asked, for other levels */
     fw_flexure_result closed_form;
     fw_hinge_law law; /* at finite rotation; its stiffness is the flexure's own, not a stated one */
     /* the arc as drawn: direction, in the world, from the arc's centre to the middle of the arc
@@ -52,6 +54,11 @@ typedef struct fw_hinge { /* a pin that is a flexure */
        flexure.h) */
     double axis_rad;
     bool first_is_a;
+    /* The pin is at the true centre of compliance. Of a crystal that is not where the hinge is
+       drawn: pin less drawn point (centre of both conjugate surfaces), in the frames of body a and
+       b; else
+       0 */
+    fw_vec2 off_a_m, off_b_m;
     double surface_radius_m; /* of the convex conjugate surface; 0: none */
     /* directions, in body a's frame and the drawn pose, in which they can touch, counter-clockwise;
        NaN: not drawn. Where they begin the surface of the body at polar angle +a ends, where they

@@ -92,6 +92,28 @@ static double thickness_of(const fw_device *d, const fw_flow_use *use, const fw_
     return (double)NAN;
 }
 
+/* of a wafer as it is usually cut: the flat, along <110>, parallel to x */
+static double orientation_of(const fw_device *d, const fw_flow_use *use) {
+    if (use && !isnan(use->orientation_rad)) return use->orientation_rad;
+    return isnan(d->orientation_rad) ? 0.25 * M_PI : d->orientation_rad;
+}
+
+/* an orientation that nothing goes by is worth a word */
+static void check_orientation(fw_plan *plan, const fw_flow_use *use, const fw_material *m) {
+    bool asked = use && !isnan(use->orientation_rad);
+    if (fw_material_is_crystal(m) || (!asked && isnan(plan->device->orientation_rad))) return;
+    if (!asked && plan->device->nflow > 1) return; /* another flow may be of a crystal */
+    const fw_material *pack = fw_material_find(&plan->materials, m->id);
+    fw_diag_warning(
+        &plan->diags, 210, asked ? use->place : plan->device->material_place,
+        pack && fw_material_is_crystal(pack)
+            ? "orientation has no effect on '%s', because youngs-modulus is stated and "
+              "holds in every direction; leave one of them out"
+            : "orientation has no effect on '%s', which has no crystal constants in the "
+              "pack; leave it out",
+        m->id);
+}
+
 /* what the anchors are held by: silicon, unless the flow says that the carrier stays and insulates:
    that is glass */
 static void stand_on_substrate(fw_plan *plan, const fw_flow_use *use, fw_variant *v) {
@@ -111,7 +133,8 @@ static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_material
     *v = (fw_variant){.flow = use ? use->ref : NULL,
                       .material = *own,
                       .substrate_expansion = {.unknown = true},
-                      .thickness_m = thickness_of(d, use, pf->flow)};
+                      .thickness_m = thickness_of(d, use, pf->flow),
+                      .orientation_rad = orientation_of(d, use)};
     if (use && use->material && !same(use->material, d->material_ref))
         v->material = *fw_material_find(&plan->materials, use->material);
     stand_on_substrate(plan, use, v);
@@ -126,6 +149,7 @@ static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_material
             "material '%s' has no modulus, Poisson number, density or strength: it "
             "cannot be the device layer; %s",
             m->id, fw_plan_material_names(plan));
+    check_orientation(plan, use, m);
     if (pf->flow && pf->flow->material && !same(pf->flow->material, m->id))
         fw_diag_warning(&plan->diags, 227, place,
                         "flow '%s' makes devices of %s, but %s is asked for: give "
@@ -153,7 +177,10 @@ static fw_variant mechanism_alone(void) {
                               .criterion = "",
                               .loss = unknown,
                               .expansion = unknown,
-                              .modulus_change = unknown};
+                              .modulus_change = unknown,
+                              .c11 = unknown,
+                              .c12 = unknown,
+                              .c44 = unknown};
     return (fw_variant){.material = none,
                         .substrate_expansion = unknown,
                         .thickness_m = 1, /* nothing is made of it */

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "device/device.h"
 #include "dynamics/dynamics.h"
+#include "flexure/drift.h"
 #include "layout/layout.h"
 #include "mask/mask.h"
 #include "mechanism/mechanism.h"
@@ -60,4 +61,18 @@ fw_status fw_report_device_svg(fw_arena *arena, const fw_device *device, const f
    `out` holds bytes, not text. */
 fw_status fw_report_device_png(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                                const fw_verdict *verdict, int width_px, fw_text *out);
+
+typedef struct fw_report_hinge { /* one panel */
+    const char *id, *flow;       /* flow NULL: none */
+    const fw_hinge *hinge;
+    const fw_drift_point *point; /* (npoint) over the range of its limit angle */
+    int npoint;
+    double gap_m;          /* 0: no conjugate surfaces */
+    double contact_rad[2]; /* by a pure moment, on either side; NaN: none */
+    double
+        cover_rad[2]; /* world directions from W between which the surfaces are; NaN: not drawn */
+} fw_report_hinge;
+/* every hinge as it is, and drift of its axis and gap of its surfaces against the angle */
+fw_status fw_report_hinges_svg(const fw_device *device, const fw_report_hinge *hinge, int count,
+                               fw_text *out);
 #endif

@@ -47,13 +47,17 @@ double fw_hinge_strain(const fw_mechanism *m, const fw_hinge *hinge, const fw_hi
     double axial = force / (m->variant->material.youngs.value * area);
     double moment = c->stiffness_Nm_per_rad * load->angle_rad;
     if (!drawn || !drawn->drawn || f->kind != FW_FLEXURE_CSFH)
-        return per_moment * bounded_moment(f, c->centre_m, moment, force) + axial;
+        return per_moment * (bounded_moment(f, c->centre_m, moment, force) +
+                             hypot(c->offset_m[0], c->offset_m[1]) * force) +
+               axial;
 
     /* what the flexure carries on the upper body is minus what the pin does to it */
     double sign = drawn->upper == pin->body_b ? 1.0 : -1.0;
     double turn = drawn->axis_rad + load->frame_rad, cs = cos(turn), sn = sin(turn);
     double fx = -sign * load->fx_N, fy = -sign * load->fy_N, root, inside;
-    fw_arc_moments(f, c->centre_m, sign * moment, cs * fx + sn * fy, -sn * fx + cs * fy, &root,
-                   &inside);
+    /* the pin is at the true centre; of a crystal it is off the axis: M - yW Fx */
+    double along = cs * fx + sn * fy, centre = c->centre_m + c->offset_m[0];
+    fw_arc_moments(f, centre, sign * moment - c->offset_m[1] * along, along, -sn * fx + cs * fy,
+                   &root, &inside);
     return per_moment * fmax(root, inside / c->concentration) + axial;
 }

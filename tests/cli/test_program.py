@@ -9,6 +9,7 @@ import pathlib
 import re
 import tempfile
 import unittest
+import xml.dom.minidom
 
 from common import FLOWS, GALLERY, ROOT, run
 
@@ -579,12 +580,55 @@ class Usage(InTemporary):
             self.assertEqual(result.stderr, "")
             self.assertTrue(result.stdout)
 
-    def test_hinge(self):
-        data = json.loads(self.expect(run("hinge", GALLERY, "--json"), 0).stdout)
+    def ladder(self, *arguments):
+        data = json.loads(self.expect(run("hinge", *arguments, "--json"), 0).stdout)
         self.assertEqual(data["schema"], "flexwright.hinge/1")
-        first = data["hinges"][0]["levels"][0]
-        self.assertEqual(first["level"], "closed-form")
+        return data["hinges"]
+
+    def test_hinge(self):
+        for hinge in self.ladder(GALLERY):
+            levels = {level["level"]: level for level in hinge["levels"]}
+            self.assertEqual(list(levels)[:2], ["closed-form", "compliance"])
+            for level in levels.values():
+                self.assertGreater(level["cpu_s"], 0)
+                self.assertLess(level["cpu_s"], 1e-3)
+                self.assertGreater(level["error"]["stiffness"], 0)
+                self.assertEqual(level["limit_angle_rad"], levels["closed-form"]["limit_angle_rad"])
+            drift = hinge["drift"]
+            self.assertEqual(len(drift["curve"]), 41)
+            self.assertEqual(drift["curve"][20][:2], [0, 0])
+            for side, end in ((0, drift["curve"][0]), (1, drift["curve"][-1])):
+                contact = drift["contact_rad"][side]
+                if contact is not None and abs(contact) < abs(end[0]):
+                    self.assertLess(end[3], 0)
+        first = self.ladder(GALLERY)[0]["levels"][0]
         self.assertTrue(math.isclose(first["stiffness_Nm_per_rad"], 1.711e-6, rel_tol=0.05))
+
+    def test_hinge_in_a_crystal(self):
+        turned = lambda degrees: [h for h in self.ladder(
+            GALLERY.parent.parent / "leaf-four-bar/device.xml", "--set",
+            f"material[silicon-100]/@orientation={degrees} deg")]
+        straight, slanted = turned(0), turned(45)
+        for a, b in zip(straight, slanted):
+            moduli = sorted((a["youngs_Pa"], b["youngs_Pa"]))
+            self.assertLess(130e9, moduli[0])
+            self.assertLess(moduli[1], 169.2e9)
+        whole = [1 / a["youngs_Pa"] + 1 / b["youngs_Pa"] for a, b in zip(straight, slanted)]
+        for value in whole: # 1/E is a0 -+ a1 cos 4 psi
+            self.assertTrue(math.isclose(value, 2 / 147.08e9, rel_tol=1e-4))
+        result = self.expect(run("hinge", GALLERY, "--set",
+                                 "material[silicon-100]/@orientation=3 deg", "--flow",
+                                 "al-masked-rie"), 0)
+        self.assertNotIn("crystal moves", result.stdout) # the file states a modulus
+
+    def test_hinge_picture(self):
+        result = self.expect(run("hinge", GALLERY, "--svg", "-"), 0)
+        self.assertTrue(result.stdout.startswith("<?xml"))
+        self.assertNotIn("nan", result.stdout)
+        out = self.here / "out"
+        self.expect(run("hinge", GALLERY, "-o", out, "-q"), 0)
+        self.assertEqual(sorted(f.name for f in out.iterdir()), ["hinge.json", "hinge.svg"])
+        xml.dom.minidom.parse(str(out / "hinge.svg"))
 
 
 if __name__ == "__main__":

@@ -41,6 +41,47 @@ static void the_pack_is_sound(void **state) {
     fw_arena_free(arena);
 }
 
+/* three constants or none, stable; a stated modulus holds in every direction */
+static void crystals(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    size_t n;
+    char *xml = load(arena, "processes/base.xml", &n);
+    fw_materials m;
+    assert_int_equal(fw_materials_read(arena, "base.xml", xml, n, &diags, &m), FW_OK);
+    const fw_material *si = fw_material_find(&m, "silicon-100");
+    assert_true(fw_material_is_crystal(si));
+    assert_false(fw_material_is_crystal(fw_material_find(&m, "copper-plated")));
+    /* the pack's modulus is the harmonic mean of its own constants: 1/(S11 - S0/4) */
+    double a = si->c11.value, b = si->c12.value, d = (a - b) * (a + 2 * b);
+    double s0 = (a + 2 * b) / d - 0.5 / si->c44.value;
+    assert_relative(si->youngs.value, 1 / ((a + b) / d - 0.25 * s0), 1e-4);
+    fw_material_override none = {.density = {.value = 2300, .unit = "kg/m3"}}, stiff = none;
+    none.youngs.unknown = none.poisson.unknown = none.strength.unknown = true;
+    stiff.poisson.unknown = stiff.strength.unknown = true;
+    stiff.youngs = (fw_quantity){.value = 160e9, .unit = "GPa"};
+    const fw_material same = fw_material_with(si, &none), other = fw_material_with(si, &stiff);
+    assert_true(fw_material_is_crystal(&same));
+    assert_false(fw_material_is_crystal(&other));
+    const fw_material blank = {.id = "w"};
+    assert_false(fw_material_is_crystal(&blank));
+
+#define C(id, value) "<q id='" id "' value='" value "' u='1' unit='GPa' status='typical' src='s'/>"
+    const char *const bad[] = {
+        PACK("<material id='w'>" C("c11", "100") C("c12", "50") "</material>"),
+        PACK("<material id='w'>" C("c11", "50") C("c12", "60") C("c44", "30") "</material>"),
+        PACK("<material id='w'>" C("c11", "50") C("c12", "10") C("c44", "-3") "</material>")};
+    const int number[] = {209, 209, 47};
+    for (int i = 0; i < 3; i++) {
+        diags = fw_diags_new(arena);
+        assert_int_equal(fw_materials_read(arena, "t", bad[i], strlen(bad[i]), &diags, &m),
+                         FW_INPUT);
+        assert_int_equal(diags.item[0].number, number[i]);
+    }
+    fw_arena_free(arena);
+}
+
 static void what_is_absent_is_unknown(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
@@ -125,9 +166,9 @@ static void memory_runs_out(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_pack_is_sound),        cmocka_unit_test(what_is_absent_is_unknown),
-        cmocka_unit_test(changes_with_temperature), cmocka_unit_test(overrides_replace),
-        cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(the_pack_is_sound), cmocka_unit_test(what_is_absent_is_unknown),
+        cmocka_unit_test(crystals),          cmocka_unit_test(changes_with_temperature),
+        cmocka_unit_test(overrides_replace), cmocka_unit_test(memory_runs_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,6 +30,20 @@ static void loaded(const fw_hinge_law *law, double th, double fx, double fy, dou
          0.5 * at.ky_N_per_m.slope * v * v - fn * at.drift_m.slope + 0.5 * (fe * y - fn * w);
 }
 
+/* everything that a law can have */
+static fw_hinge_law example(double half_angle_rad) {
+    return (fw_hinge_law){.stiffness_Nm_per_rad = 1e-6,
+                          .half_angle_rad = half_angle_rad,
+                          .length_m = 300e-6,
+                          .share = 0.97,
+                          .bend_m_per_N = 0.05,
+                          .root_m_per_N = 1e-3,
+                          .axial_m_per_N = 2e-4,
+                          .shear_m_per_N = 5e-4,
+                          .uneven_x = 0.1,
+                          .uneven_y = -0.05};
+}
+
 static FILE *table(const char *name) {
     char line[600], path[600];
     snprintf(path, sizeof path, "%s/tests/data/hinge/%s", FW_TEST_SOURCE_DIR, name);
@@ -136,7 +150,7 @@ static void derivatives(void **state) {
     const double weight[7] = {-1, 9, -45, 0, 45, -9, 1};
     for (int i = 0; i < 8; i++)
         for (int j = 0; j < 6; j++) {
-            fw_hinge_law law = {1e-6, half[i], 300e-6, 0.97, 0.05, 1e-3, 2e-4, 5e-4};
+            fw_hinge_law law = example(half[i]);
             fw_hinge_at at, near;
             const double h = 1e-3;
             double slope[3] = {0}, curve[3] = {0};
@@ -159,6 +173,178 @@ static void derivatives(void **state) {
                 double size = m == 2 ? law.length_m : fabs(jet[m].value);
                 assert_near(jet[m].slope, slope[m], 1e-10 * size);
                 assert_near(jet[m].curve, curve[m], 2e-9 * (size + fabs(jet[m].curve)));
+            }
+        }
+}
+
+static double energy(const fw_hinge_law *law, const double p[3]) {
+    fw_hinge_at at;
+    fw_hinge_law_at(law, p[0], &at);
+    double c = cos(0.5 * p[0]), s = sin(0.5 * p[0]);
+    double w = c * p[1] + s * p[2], v = c * p[2] - s * p[1] - at.drift_m.value;
+    return 0.5 * (law->stiffness_Nm_per_rad * p[0] * p[0] + at.kx_N_per_m.value * w * w +
+                  at.ky_N_per_m.value * v * v);
+}
+
+/* the wrench is the energy's gradient, the tangent the wrench's: differences of order 6 */
+static void wrench_and_tangent(void **state) {
+    (void)state;
+    const double weight[7] = {-1, 9, -45, 0, 45, -9, 1}, size[3] = {1, 1e-5, 1e-5};
+    for (int i = 0; i < 40; i++) {
+        fw_hinge_law law = example(0.08 * i);
+        const fw_hinge_rest rest = fw_hinge_rest_of(&law);
+        double p[3] = {0.5 * sin(i), 8e-6 * cos(3 * i), 6e-6 * sin(2 * i)};
+        double F[3], T[3][3], near[3], unused[3][3];
+        fw_hinge_law_wrench(&law, &rest, p, F, T);
+        double scale = law.stiffness_Nm_per_rad;
+        for (int k = 0; k < 3; k++) {
+            double slope = 0, curve[3] = {0}, h = 1e-3 * size[k];
+            for (int n = -3; n <= 3; n++) {
+                double q[3] = {p[0], p[1], p[2]};
+                q[k] += n * h;
+                slope += weight[n + 3] * energy(&law, q) / (60 * h);
+                fw_hinge_law_wrench(&law, &rest, q, near, unused);
+                for (int j = 0; j < 3; j++)
+                    curve[j] += weight[n + 3] * near[j] / (60 * h);
+            }
+            assert_near(F[k] * size[k], slope * size[k], 1e-9 * scale);
+            for (int j = 0; j < 3; j++) {
+                assert_near(T[j][k] * size[j] * size[k], curve[j] * size[j] * size[k],
+                            1e-8 * scale);
+                assert_near(T[j][k], T[k][j], 0);
+            }
+        }
+    }
+}
+
+/* large turns leave the short series: same law, to rounding */
+static void far_turns(void **state) {
+    (void)state;
+    for (int i = 0; i < 20; i++) {
+        fw_hinge_law law = example(1.2 + 0.05 * i);
+        const fw_hinge_rest rest = fw_hinge_rest_of(&law);
+        for (int side = -1; side <= 1; side += 2) {
+            fw_hinge_at in, out;
+            double th = side * 1.6;
+            fw_hinge_law_slopes(&law, &rest, th - side * 1e-9, &in);
+            fw_hinge_law_slopes(&law, &rest, th + side * 1e-9, &out);
+            assert_relative(in.kx_N_per_m.value, out.kx_N_per_m.value, 1e-7);
+            assert_near(in.drift_m.value + side * 2e-9 * in.drift_m.slope, out.drift_m.value,
+                        1e-15 * law.length_m + 1e-17 * law.length_m);
+            assert_near(in.drift_m.slope, out.drift_m.slope, 1e-8 * law.length_m);
+        }
+    }
+}
+
+/* ---- the inextensible elastica by shooting, independent of the law ---- */
+
+typedef struct strip { /* clamped at the first root, frame of the free arc, W at rest at W[] */
+    double a, L, W[2], EI;
+} strip;
+
+/* end of the strip for a moment M at W, W displaced by u, a dead force F there: angle of the end
+   less that at rest, and its place; RK4 */
+static void shoot(const strip *b, const double z[3], const double F[2], double end[3]) {
+    enum { N = 240 };
+    double r = b->a > 0 ? b->L / (2 * b->a) : 0, h = b->L / N;
+    double p[3] = {r * cos(b->a), b->a > 0 ? -r * sin(b->a) : -0.5 * b->L, 0.5 * M_PI - b->a};
+    double phi0 = p[2] + 2 * b->a;
+    for (int i = 0; i < N; i++) {
+        double k[4][3], sum[3] = {0};
+        for (int j = 0; j < 4; j++) {
+            double step = j == 0 ? 0 : j == 3 ? h : 0.5 * h, q[3];
+            for (int n = 0; n < 3; n++)
+                q[n] = p[n] + (j > 0 ? step * k[j - 1][n] : 0);
+            double moment = z[0] + (b->W[0] + z[1] - q[0]) * F[1] - (b->W[1] + z[2] - q[1]) * F[0];
+            k[j][0] = cos(q[2]), k[j][1] = sin(q[2]);
+            k[j][2] = 2 * b->a / b->L + moment / b->EI;
+            for (int n = 0; n < 3; n++)
+                sum[n] += k[j][n] * (j == 0 || j == 3 ? h / 6 : h / 3);
+        }
+        for (int n = 0; n < 3; n++)
+            p[n] += sum[n];
+    }
+    end[0] = p[2] - phi0, end[1] = p[0], end[2] = p[1];
+}
+
+/* by how much the end misses where body 2, turned by th and displaced by u, holds it */
+static void miss(const strip *b, double th, const double z[3], const double F[2], double g[3]) {
+    double end[3], free[3];
+    const double none[3] = {0}, nothing[2] = {0};
+    shoot(b, z, F, end);
+    shoot(b, none, nothing, free);
+    double x = free[1] - b->W[0], y = free[2] - b->W[1];
+    g[0] = (end[0] - th) * b->L;
+    g[1] = end[1] - (b->W[0] + z[1] + cos(th) * x - sin(th) * y);
+    g[2] = end[2] - (b->W[1] + z[2] + sin(th) * x + cos(th) * y);
+}
+
+/* Newton, derivatives by differences; z from the law */
+static void exact(const strip *b, double th, const double F[2], double z[3]) {
+    const double size[3] = {b->EI / b->L, b->L, b->L};
+    for (int round = 0; round < 8; round++) {
+        double g[3], near[3], J[3][4];
+        miss(b, th, z, F, g);
+        for (int k = 0; k < 3; k++) {
+            double y[3] = {z[0], z[1], z[2]}, h = 1e-5 * size[k];
+            y[k] += h;
+            miss(b, th, y, F, near);
+            y[k] -= 2 * h;
+            double back[3];
+            miss(b, th, y, F, back);
+            for (int n = 0; n < 3; n++)
+                J[n][k] = (near[n] - back[n]) / 2e-5;
+        }
+        for (int n = 0; n < 3; n++)
+            J[n][3] = g[n];
+        for (int c = 0; c < 3; c++) { /* Gauss with pivoting */
+            int best = c;
+            for (int n = c + 1; n < 3; n++)
+                if (fabs(J[n][c]) > fabs(J[best][c])) best = n;
+            for (int k = 0; k < 4; k++) {
+                double t = J[c][k];
+                J[c][k] = J[best][k], J[best][k] = t;
+            }
+            for (int n = 0; n < 3; n++) {
+                double part = n == c ? 0 : J[n][c] / J[c][c];
+                for (int k = 0; k < 4; k++)
+                    J[n][k] -= part * J[c][k];
+            }
+        }
+        for (int k = 0; k < 3; k++)
+            z[k] -= size[k] * J[k][3] / J[k][k];
+    }
+}
+
+/* displacement by the law against the elastica: the error falls with the square of the force, at
+   every rotation, for arcs and the straight leaf */
+static void error_goes_with_the_square_of_the_force(void **state) {
+    (void)state;
+    const double angle[] = {0, 90, 180, 270};
+    for (int i = 0; i < 4; i++)
+        for (int deg = -30; deg <= 60; deg += 15) {
+            double a = 0.5 * angle[i] * degree, EI = 1e-10, L = 400e-6, last = 0;
+            strip b = {.a = a, .L = L, .EI = EI};
+            if (a > 0) b.W[0] = L / (2 * a) * sin(a) / a;
+            fw_hinge_law law = {.stiffness_Nm_per_rad = EI / L,
+                                .half_angle_rad = a,
+                                .length_m = L,
+                                .share = 1,
+                                .bend_m_per_N = L * L * L / (8 * EI),
+                                .axial_m_per_N = i == 0 ? 1e-9 : 0}; /* else 0/0 at no turn */
+            for (int half = 0; half < 3; half++) {
+                double f = EI / (L * L) * 0.2 / (1 << half), F[2] = {0.77 * f, 0.64 * f}, u[2], M;
+                if (i == 0) F[0] = 0.3 * f;
+                loaded(&law, deg * degree, F[0], F[1], u, &M);
+                double z[3] = {M, u[0], u[1]};
+                exact(&b, deg * degree, F, z);
+                double off = hypot(z[1] - u[0], z[2] - u[1]);
+                if (!(off < 2e-3 * L))
+                    fail_msg("%g deg %d deg %d: u %g %g exact %g %g M %g %g", angle[i], deg, half,
+                             u[0], u[1], z[1], z[2], M, z[0]);
+                if (half > 0) assert_relative(last / off, 4, 0.06 / half);
+                last = off;
+                assert_relative(z[0], M, deg == 0 ? 1 : 1e-2);
             }
         }
 }
@@ -186,7 +372,12 @@ static void at_rest(void **state) {
     assert_near(at.drift_m.value, 0, 1e-19);
     assert_near(at.drift_m.slope, 0, 1e-18); /* W is the elastic centre, the roots included */
 
-    fw_hinge_law leaf = {1e-6, 0, L, 1, L * L * L / (8 * EI), 0, L / (2 * 5.0), L / (2 * 2.0)};
+    fw_hinge_law leaf = {.stiffness_Nm_per_rad = 1e-6,
+                         .length_m = L,
+                         .share = 1,
+                         .bend_m_per_N = L * L * L / (8 * EI),
+                         .axial_m_per_N = L / (2 * 5.0),
+                         .shear_m_per_N = L / (2 * 2.0)};
     fw_hinge_law_at(&leaf, 0, &at);
     assert_relative(at.kx_N_per_m.value, 1 / (L * L * L / (12 * EI) + L / 2.0), 1e-13);
     assert_relative(at.ky_N_per_m.value, 5.0 / L, 1e-13);
@@ -197,6 +388,20 @@ static void at_rest(void **state) {
     }
 }
 
+static fw_flexure_input real_root(double angle_rad, double width_m) {
+    return (fw_flexure_input){.kind = FW_FLEXURE_CSFH,
+                              .length_m = 100e-6 * angle_rad,
+                              .angle_rad = angle_rad,
+                              .radius_m = 100e-6,
+                              .width_m = width_m,
+                              .fillet_m = 4e-6,
+                              .depth_m = 50e-6,
+                              .youngs_Pa = 169e9,
+                              .poisson = 0.22,
+                              .strength_Pa = 1e9,
+                              .safety_factor = 1};
+}
+
 /* with real roots: forces against 3-D finite elements of H1 and H2 (N/m), and the drift, less what
    the printed centre was off by (um) */
 static void against_finite_elements(void **state) {
@@ -205,21 +410,8 @@ static void against_finite_elements(void **state) {
         fw_flexure_input in;
         double kx, ky, deg, shift, centre, thin_centre;
     } row[] = {
-        {{FW_FLEXURE_CSFH, 150e-6 * M_PI, 1.5 * M_PI, 100e-6, 8e-6, 4e-6, 50e-6, 169e9, 0.22, 1e9,
-          1},
-         127.020,
-         251.951,
-         10,
-         0.66283,
-         29.8787,
-         30.0105},
-        {{FW_FLEXURE_CSFH, 100e-6 * M_PI, M_PI, 100e-6, 10e-6, 4e-6, 50e-6, 169e9, 0.22, 1e9, 1},
-         443.768,
-         2269.21,
-         10,
-         0.70753,
-         63.1165,
-         63.6620},
+        {real_root(1.5 * M_PI, 8e-6), 127.020, 251.951, 10, 0.66283, 29.8787, 30.0105},
+        {real_root(M_PI, 10e-6), 443.768, 2269.21, 10, 0.70753, 63.1165, 63.6620},
     };
     for (int i = 0; i < 2; i++) {
         fw_flexure_result out;
@@ -238,9 +430,15 @@ static void against_finite_elements(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(against_the_beam), cmocka_unit_test(against_the_reference),
-        cmocka_unit_test(gaps_close),       cmocka_unit_test(derivatives),
-        cmocka_unit_test(at_rest),          cmocka_unit_test(against_finite_elements),
+        cmocka_unit_test(against_the_beam),
+        cmocka_unit_test(against_the_reference),
+        cmocka_unit_test(gaps_close),
+        cmocka_unit_test(derivatives),
+        cmocka_unit_test(wrench_and_tangent),
+        cmocka_unit_test(far_turns),
+        cmocka_unit_test(error_goes_with_the_square_of_the_force),
+        cmocka_unit_test(at_rest),
+        cmocka_unit_test(against_finite_elements),
     };
     return cmocka_run_group_tests_name("finite", tests, NULL, NULL);
 }

@@ -154,9 +154,17 @@ static void hinge_is_exact(void **state) {
     for (int j = 0; j < 6; j++) {
         const fw_hinge_layout *h = &d.layout->hinge[j];
         const fw_flexure *x = &f.flexure[j];
-        fw_flexure_input in = {x->kind,    x->length_m, x->angle_rad, x->radius_m,
-                               x->width_m, h->fillet_m, 50e-6,        169e9,
-                               0.22,       1e9,         1.5};
+        fw_flexure_input in = {.kind = x->kind,
+                               .length_m = x->length_m,
+                               .angle_rad = x->angle_rad,
+                               .radius_m = x->radius_m,
+                               .width_m = x->width_m,
+                               .fillet_m = h->fillet_m,
+                               .depth_m = 50e-6,
+                               .youngs_Pa = 169e9,
+                               .poisson = 0.22,
+                               .strength_Pa = 1e9,
+                               .safety_factor = 1.5};
         fw_flexure_result out;
         fw_flexure_closed_form(&in, &out);
         fw_vec2 w = fw_add(h->arc_centre, out.centre_m, fw_polar(h->axis_rad));

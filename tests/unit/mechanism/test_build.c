@@ -96,6 +96,57 @@ static fw_status build(desk *d, const fw_mechanism **m) {
     return fw_mechanism_build(d->arena, &d->device, &d->layout, &d->variant, &d->diags, m);
 }
 
+/* the hinge's direction in the crystal, and its pin at the crystal's own centre; an isotropic one
+   stays where it is drawn */
+static void test_crystal(void **state) {
+    (void)state;
+    desk d;
+    const fw_mechanism *m;
+    desk_new(&d);
+    d.hinge[0].axis_rad = 0.7;
+    d.body[0].phi_rad = 0.4;
+    d.joint[0].x_m = 1e-4, d.joint[0].y_m = -2e-4;
+    d.variant.orientation_rad = 0.2;
+    assert_int_equal(build(&d, &m), FW_OK);
+    assert_false(m->hinge[0].input.crystal.known);
+    assert_near(m->hinge[0].off_a_m.x, 0, 0);
+    assert_near(fw_pin_place(m, &m->pin[0], 0).x, 1e-4, 0);
+    double E = m->hinge[0].closed_form.youngs_Pa;
+    assert_near(E, 169e9, 0);
+
+    d.variant.material.c11 = known(165.7e9);
+    d.variant.material.c12 = known(63.9e9);
+    d.variant.material.c44 = known(79.6e9);
+    assert_int_equal(build(&d, &m), FW_OK);
+    const fw_hinge *h = &m->hinge[0];
+    assert_true(h->input.crystal.known && h->input.crystal.aligned);
+    assert_near(h->input.crystal.cos4, cos(4 * 0.5), 1e-15);
+    assert_near(h->input.crystal.sin4, sin(4 * 0.5), 1e-15);
+    assert_relative(h->law.stiffness_Nm_per_rad, h->closed_form.stiffness_Nm_per_rad, 1e-15);
+    const double *off = h->closed_form.offset_m;
+    assert_true(fabs(off[0]) > 1e-8 && fabs(off[1]) > 1e-7);
+    double x = 1e-4 + cos(0.7) * off[0] - sin(0.7) * off[1];
+    double y = -2e-4 + sin(0.7) * off[0] + cos(0.7) * off[1];
+    for (int side = 0; side < 2; side++) {
+        fw_vec2 w = fw_pin_place(m, &m->pin[0], side);
+        assert_near(w.x, x, 1e-18);
+        assert_near(w.y, y, 1e-18);
+    }
+    /* drawn points, where the surfaces are: the pin less its offset, in each body's frame */
+    const fw_pin *p = &m->pin[0];
+    fw_vec2 a = fw_local_place(m, p->body_a, p->ax_m - h->off_a_m.x, p->ay_m - h->off_a_m.y);
+    fw_vec2 b = fw_local_place(m, p->body_b, p->bx_m - h->off_b_m.x, p->by_m - h->off_b_m.y);
+    assert_near(hypot(a.x - 1e-4, a.y + 2e-4) + hypot(b.x - 1e-4, b.y + 2e-4), 0, 1e-18);
+
+    d.layout.drawn = false; /* nothing says where the hinge points: the mean, and no offset */
+    d.joint[0].axis_rad = unset;
+    d.body[0].mass_kg = 1e-8, d.body[0].inertia_kg_m2 = 1e-15, d.body[0].x_m = d.body[0].y_m = 0;
+    assert_int_equal(build(&d, &m), FW_OK);
+    assert_false(m->hinge[0].input.crystal.aligned);
+    assert_near(fw_pin_place(m, &m->pin[0], 0).x, 1e-4, 0);
+    fw_arena_free(d.arena);
+}
+
 static void test_masses(void **state) {
     (void)state;
     desk d;
@@ -427,6 +478,7 @@ static void test_out_of_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_crystal),
         cmocka_unit_test(test_masses),
         cmocka_unit_test(test_points),
         cmocka_unit_test(test_stiffness_and_damping),

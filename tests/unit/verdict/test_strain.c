@@ -94,8 +94,17 @@ static void pure_rotation_and_bound(void **state) {
     variant.material.youngs.value = 147.08e9;
     fw_pin pin = {.id = "A", .body_a = FW_GROUND, .body_b = 0, .hinge = 0};
     fw_hinge hinge = {0};
-    fw_flexure_input in = {FW_FLEXURE_CSFH, f.length_m, f.angle_rad, f.radius_m, f.width_m, 4e-6,
-                           50e-6,           147.08e9,   0.22,        500e6,      1.0};
+    fw_flexure_input in = {.kind = FW_FLEXURE_CSFH,
+                           .length_m = f.length_m,
+                           .angle_rad = f.angle_rad,
+                           .radius_m = f.radius_m,
+                           .width_m = f.width_m,
+                           .fillet_m = 4e-6,
+                           .depth_m = 50e-6,
+                           .youngs_Pa = 147.08e9,
+                           .poisson = 0.22,
+                           .strength_Pa = 500e6,
+                           .safety_factor = 1.0};
     fw_flexure_closed_form(&in, &hinge.closed_form);
     fw_mechanism m = {.device = &device,
                       .variant = &variant,

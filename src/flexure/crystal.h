@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cubic crystal in a (100) wafer: Young's modulus by direction. Theory: docs/theory/flexure.md. */
+#ifndef FW_FLEXURE_CRYSTAL_H
+#define FW_FLEXURE_CRYSTAL_H
+#include <stdbool.h>
+
+/* with psi the direction from [100] in the wafer plane:
+     1/E(psi) = a0 + a1 cos 4 psi,  1/G(psi) = g0 + g1 cos 4 psi,  nu to [001] = -s12 E(psi) */
+typedef struct fw_crystal {
+    bool known;   /* false: isotropic */
+    bool aligned; /* false: the hinge's axis is not known; modulus and stress are then means and
+                     worst cases over all directions */
+    double a0_per_Pa, a1_per_Pa, g0_per_Pa, g1_per_Pa, s12_per_Pa;
+    double cos4, sin4; /* of four times the angle of the hinge's symmetry axis from [100] */
+} fw_crystal;
+
+/* axis_rad: the hinge's symmetry axis from [100]; NaN: not known */
+fw_crystal fw_crystal_cubic(double c11_Pa, double c12_Pa, double c44_Pa, double axis_rad);
+double fw_crystal_youngs_Pa(const fw_crystal *crystal, double from_100_rad);
+
+#endif

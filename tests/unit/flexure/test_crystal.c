@@ -1,0 +1,281 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Silicon (100) by direction: moduli, sums and elastic centre against integrals, tables of finite
+   elements (CalculiX, anisotropic; um, N/m, uN um/rad) and symmetry. */
+#include "flexure/finite.h"
+#include "flexure/kinds.h"
+#include "flexure/section.h"
+#include "test.h"
+
+static const double degree = M_PI / 180, c11 = 165.7e9, c12 = 63.9e9, c44 = 79.6e9;
+
+static fw_crystal silicon(double axis_deg) {
+    return fw_crystal_cubic(c11, c12, c44, axis_deg * degree);
+}
+
+/* of r = 100 um; depth 1 nm: plane stress; no roots */
+static fw_flexure_input arc(double angle_deg, double t_um, double axis_deg) {
+    return (fw_flexure_input){.kind = FW_FLEXURE_CSFH,
+                              .length_m = 100e-6 * angle_deg * degree,
+                              .angle_rad = angle_deg * degree,
+                              .radius_m = 100e-6,
+                              .width_m = t_um * 1e-6,
+                              .fillet_m = -1,
+                              .depth_m = 1e-9,
+                              .youngs_Pa = 147.08e9,
+                              .poisson = 0.3,
+                              .strength_Pa = 1e9,
+                              .safety_factor = 1,
+                              .crystal = silicon(axis_deg)};
+}
+
+static void moduli_by_direction(void **state) {
+    (void)state;
+    const fw_crystal k = silicon(0);
+    assert_near(k.a0_per_Pa * 1e12, 6.7991, 5e-5);
+    assert_near(k.a1_per_Pa * 1e12, 0.88544, 5e-6);
+    assert_near(k.s12_per_Pa * 1e12, -2.1387, 5e-5);
+    assert_near(fw_crystal_youngs_Pa(&k, 0) * 1e-9, 130.13, 5e-3);
+    assert_near(fw_crystal_youngs_Pa(&k, 45 * degree) * 1e-9, 169.10, 5e-3);
+    assert_near(1e-9 / k.a0_per_Pa, 147.08, 5e-3);
+    assert_near(-k.s12_per_Pa * fw_crystal_youngs_Pa(&k, 0), 0.278, 5e-4);
+    assert_near(-k.s12_per_Pa * fw_crystal_youngs_Pa(&k, 45 * degree), 0.362, 5e-4);
+    assert_near(-k.s12_per_Pa / k.a0_per_Pa, 0.3146, 5e-5);
+    /* the tensor turned by hand: 1/E = S1111 of the turned compliance, 1/G = 4 S1212 */
+    double d = (c11 - c12) * (c11 + 2 * c12), s11 = (c11 + c12) / d, s12 = -c12 / d, s44 = 1 / c44;
+    for (int i = 0; i < 30; i++) {
+        double psi = 0.1 * i, c = cos(psi), s = sin(psi), p = c * c, q = s * s;
+        double E = s11 * (p * p + q * q) + (2 * s12 + s44) * p * q;
+        double G = 4 * (2 * s11 - 2 * s12) * p * q + s44 * (p - q) * (p - q);
+        assert_relative(fw_crystal_youngs_Pa(&k, psi), 1 / E, 1e-14);
+        assert_relative(k.g0_per_Pa + k.g1_per_Pa * cos(4 * psi), G, 1e-13);
+    }
+    /* an isotropic body has no direction */
+    const fw_crystal even = fw_crystal_cubic(3, 1, 1, 0.3);
+    assert_near(even.a1_per_Pa, 0, 1e-16);
+    assert_relative(1 / even.a0_per_Pa, 2.5, 1e-15); /* E = G (3 lambda + 2 G)/(lambda + G) */
+}
+
+static void sums_are_the_integrals(void **state) {
+    (void)state;
+    for (int n = 0; n < 12; n++) {
+        double a = 0.2 + 0.25 * n;
+        const fw_flexure_input in = {.kind = FW_FLEXURE_CSFH,
+                                     .length_m = 2 * a,
+                                     .angle_rad = 2 * a,
+                                     .radius_m = 1,
+                                     .width_m = 0.01,
+                                     .fillet_m = 0.01};
+        fw_flexure_shape f;
+        fw_flexure_shape_of(&in, &f);
+        double sum[3][6] = {{0}};
+        enum { N = 4000 };
+        for (int i = 0; i <= N; i++) { /* Simpson */
+            double b = -a + 2 * a * i / N, h = 2 * a / N / 3 * (i % N ? 2 + 2 * (i & 1) : 1);
+            const double m[3] = {1, cos(4 * b), -sin(4 * b)}, c = cos(b), s = sin(b);
+            const double p[6] = {1, c, s, c * c, s * c, s * s};
+            for (int j = 0; j < 3; j++)
+                for (int k = 0; k < 6; k++)
+                    sum[j][k] += h * m[j] * p[k];
+        }
+        const fw_arc_sums *of[3] = {&f.even, &f.along, &f.across};
+        for (int j = 0; j < 3; j++) {
+            const double is[6] = {of[j]->w, of[j]->x, of[j]->y, of[j]->xx, of[j]->xy, of[j]->yy};
+            for (int k = 0; k < 6; k++)
+                assert_near(is[k], sum[j][k], 1e-10);
+        }
+    }
+}
+
+/* thin closed form and plane-stress finite elements (t = 8 and 10 um) of ../reference fe_aniso */
+static void arcs_match_finite_elements(void **state) {
+    (void)state;
+    const struct {
+        double angle, t, axis, K, wx, wy;      /* thin, closed */
+        double fe_K, fe_x, fe_y, fe_kx, fe_ky; /* plane stress; 50 um deep */
+    } row[] = {
+        {270, 8, 0, 665837.93, 30.271096, 0, 665771.17, 30.25588, 0, 108.99214, 223.156},
+        {270, 8, 45, 665837.93, 29.749992, 0, 665980.93, 29.76948, 0, 110.6901, 214.5232},
+        {270, 8, 22.5, 665837.93, 30.010544, -1.0422085, 665951.30, 30.02370, -1.0426658, 109.86553,
+         218.82677},
+        {180, 10, 0, 1950697.05, 63.109263, 0, 1951457.17, 63.09043, 0, 390.089, 1897.4506},
+        {180, 10, 45, 1950697.05, 64.214692, 0, 1950396.47, 64.15123, 0, 389.6698, 2189.652},
+        {180, 10, 22.5, 1950697.05, 63.661977, 2.2108580, 1951316.97, 63.63233, 2.2124453,
+         390.41673, 2033.8594},
+    };
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        fw_flexure_result o;
+        fw_flexure_input in = arc(row[i].angle, row[i].t, row[i].axis);
+        fw_flexure_closed_form(&in, &o);
+        const double up = 50e-6 / 1e-9, centre = (o.centre_m + o.offset_m[0]) * 1e6;
+        assert_relative(o.stiffness_Nm_per_rad * 1e12 * up, row[i].fe_K, 1.2e-3);
+        /* the axes turn over the width too, which no beam knows: some (t/r)(a1/a0) t/2 */
+        assert_near(centre, row[i].fe_x, 0.005 * row[i].t);
+        assert_near(o.offset_m[1] * 1e6, row[i].fe_y, 0.004);
+        assert_relative(o.kx_N_per_m * up, row[i].fe_kx, 2.5e-3);
+        assert_relative(o.ky_N_per_m * up, row[i].fe_ky, 8e-3);
+        assert_relative(o.youngs_Pa, 147.08e9, 1e-4); /* sin 4a = 0: the harmonic mean */
+
+        in = arc(row[i].angle, 1e-4, row[i].axis); /* so thin that nothing else is left */
+        fw_flexure_closed_form(&in, &o);
+        double thin = pow(row[i].t / 1e-4, 3) * up;
+        assert_relative(o.stiffness_Nm_per_rad * 1e12 * thin, row[i].K, 2e-8);
+        assert_near((o.centre_m + o.offset_m[0]) * 1e6, row[i].wx, 2e-6);
+        assert_near(o.offset_m[1] * 1e6, row[i].wy, 2e-6);
+    }
+}
+
+/* 3-D finite elements with real roots, rho = 4 um, t = 8 um, 50 um: K, centre, kx, ky, peak stress
+   (MPa/rad, one mesh each) */
+static fw_flexure_input real_root(double axis_deg) {
+    fw_flexure_input in = arc(270, 8, axis_deg);
+    in.fillet_m = 4e-6, in.depth_m = 50e-6;
+    return in;
+}
+
+/* by how much W moves when ends that are ideal become blocks with fillets, um: finite elements, and
+   closed form with what it is short of for an isotropic arc too (30.2353 - 29.8787, 29.9944 -
+   29.6829) */
+static void roots_of_silicon(void **state) {
+    (void)state;
+    const double row[][3] = {
+        {0, 30.70372, 30.19221}, {22.5, 30.49768, 30.1172}, {45, 30.26870, 30.02402}};
+    for (int i = 0; i < 3; i++) {
+        fw_flexure_result real, ideal;
+        fw_flexure_input in = real_root(row[i][0]);
+        fw_flexure_closed_form(&in, &real);
+        in.fillet_m = -1;
+        fw_flexure_closed_form(&in, &ideal);
+        double moved = real.centre_m + real.offset_m[0] - ideal.centre_m - ideal.offset_m[0];
+        assert_near(moved * 1e6 - 0.0451, row[i][2] - row[i][1], 0.04);
+    }
+}
+
+static void peak_stress_of_silicon(void **state) {
+    (void)state;
+    const struct {
+        double axis, K, wx, kx, ky, stress;
+    } row[] = {{0, 674491.7, 30.19221, 110.65774, 225.9734, 2006},
+               {45, 676953.96, 30.02402, 112.7408, 219.3572, 1747},
+               {22.5, 675783.4, 30.1172, 111.71887, 222.67825, 2089}};
+    for (size_t i = 0; i < 3; i++) {
+        fw_flexure_result o;
+        fw_flexure_input in = real_root(row[i].axis);
+        fw_flexure_closed_form(&in, &o);
+        assert_relative(o.stiffness_Nm_per_rad * 1e12, row[i].K, o.error.stiffness);
+        assert_relative(o.stiffness_Nm_per_rad * 1e12, row[i].K, 0.0075);
+        assert_near((o.centre_m + o.offset_m[0]) * 1e6, row[i].wx, o.error.centre_m * 1e6);
+        assert_relative(o.kx_N_per_m, row[i].kx, o.error.kx);
+        assert_relative(o.ky_N_per_m, row[i].ky, o.error.ky);
+        assert_relative(o.stress_per_rad_Pa * 1e-6, row[i].stress, 0.002);
+        assert_relative(o.stress_per_rad_Pa, in.youngs_Pa * o.strain_per_rad, 1e-14);
+        assert_relative(o.limit_angle_rad, 1e9 / o.stress_per_rad_Pa, 1e-14);
+    }
+}
+
+/* mirrored crystal: same numbers, the shift across changes its sign; a quarter turn: no change */
+static void symmetries(void **state) {
+    (void)state;
+    for (int i = 0; i < 20; i++) {
+        double axis = 4.7 * i;
+        fw_flexure_result o, p, q;
+        fw_flexure_input in = real_root(axis);
+        fw_flexure_closed_form(&in, &o);
+        in = real_root(-axis);
+        fw_flexure_closed_form(&in, &p);
+        in = real_root(axis + 90);
+        fw_flexure_closed_form(&in, &q);
+        assert_near(p.offset_m[0], o.offset_m[0], 1e-18);
+        assert_near(p.offset_m[1], -o.offset_m[1], 1e-18);
+        assert_near(p.compliance[1][2], -o.compliance[1][2], 1e-12 * o.compliance[1][1]);
+        assert_relative(p.stiffness_Nm_per_rad, o.stiffness_Nm_per_rad, 1e-13);
+        assert_relative(p.stress_per_rad_Pa, o.stress_per_rad_Pa, 1e-12);
+        assert_relative(q.stress_per_rad_Pa, o.stress_per_rad_Pa, 1e-12);
+        assert_relative(q.ky_N_per_m, o.ky_N_per_m, 1e-12);
+        /* the worst over all directions holds for each of them */
+        in = real_root((double)NAN);
+        fw_flexure_closed_form(&in, &p);
+        assert_true(p.stress_per_rad_Pa > o.stress_per_rad_Pa * 0.999);
+        assert_true(fabs(p.ky_N_per_m / o.ky_N_per_m - 1) < p.error.ky);
+        assert_true(hypot(o.offset_m[0], o.offset_m[1]) < p.error.centre_m);
+    }
+}
+
+/* a crystal that is isotropic is the isotropic closed form; a leaf has the modulus of its direction
+ */
+static void agrees_with_the_isotropic_form(void **state) {
+    (void)state;
+    fw_flexure_input in = real_root(17), same = in;
+    double E = 150e9, nu = 0.25, d = E / ((1 + nu) * (1 - 2 * nu));
+    in.crystal = fw_crystal_cubic(d * (1 - nu), d * nu, 0.5 * E / (1 + nu), 0.7);
+    same.crystal.known = false;
+    same.youngs_Pa = in.youngs_Pa = E, same.poisson = nu;
+    fw_flexure_result o, p;
+    fw_flexure_closed_form(&in, &o);
+    fw_flexure_closed_form(&same, &p);
+    assert_relative(o.stiffness_Nm_per_rad, p.stiffness_Nm_per_rad, 1e-12);
+    assert_relative(o.kx_N_per_m, p.kx_N_per_m, 1e-12);
+    assert_relative(o.ky_N_per_m, p.ky_N_per_m, 1e-12);
+    assert_relative(o.stress_per_rad_Pa, p.stress_per_rad_Pa, 1e-12);
+    assert_near(o.offset_m[0], 0, 1e-18);
+    for (int i = 0; i < 5; i++) {
+        double axis = 11.0 * i;
+        in = real_root(axis), same = in;
+        in.kind = same.kind = FW_FLEXURE_LEAF;
+        in.fillet_m = same.fillet_m = -1;
+        same.crystal.known = false;
+        same.youngs_Pa = fw_crystal_youngs_Pa(&in.crystal, (axis + 90) * degree);
+        fw_flexure_closed_form(&in, &o);
+        fw_flexure_closed_form(&same, &p);
+        assert_relative(o.stiffness_Nm_per_rad, p.stiffness_Nm_per_rad, 1e-13);
+        assert_relative(o.ky_N_per_m, p.ky_N_per_m, 1e-13);
+        assert_true(o.stress_per_rad_Pa > 0.9 * p.stress_per_rad_Pa);
+        assert_true(o.stress_per_rad_Pa < 1.25 * p.stress_per_rad_Pa);
+    }
+}
+
+static void at_rest(const fw_flexure_input *in, fw_flexure_result *o, double ratio[2]) {
+    fw_hinge_law law;
+    fw_hinge_at at;
+    fw_flexure_closed_form(in, o);
+    fw_hinge_law_of(in, o, &law);
+    fw_hinge_law_at(&law, 0, &at);
+    ratio[0] = at.kx_N_per_m.value / o->kx_N_per_m;
+    ratio[1] = at.ky_N_per_m.value / o->ky_N_per_m;
+}
+
+/* at rest the law at finite rotation has the closed form's kx and ky, as near as it has them of an
+   isotropic arc (Winkler's thick arc apart, 0.2 %) */
+static void law_knows_the_directions(void **state) {
+    (void)state;
+    for (int i = 0; i < 8; i++) {
+        fw_flexure_input in = arc(i < 4 ? 180 : 270, 8, 15.0 * (i % 4));
+        in.depth_m = 50e-6, in.fillet_m = 5e-6;
+        fw_flexure_result o;
+        double is[2], of[2];
+        at_rest(&in, &o, is);
+        in.crystal.known = false;
+        at_rest(&in, &o, of);
+        for (int k = 0; k < 2; k++) {
+            assert_near(is[k], of[k], 2e-4);
+            assert_near(is[k], 1, 3e-3);
+        }
+        in.crystal = silicon((double)NAN); /* its shear modulus is not that of 1/a0 and nu */
+        fw_flexure_closed_form(&in, &o);
+        assert_near(o.uneven_x, 0, 2e-3);
+        assert_near(o.uneven_y, 0, 4e-3);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(moduli_by_direction),
+        cmocka_unit_test(sums_are_the_integrals),
+        cmocka_unit_test(arcs_match_finite_elements),
+        cmocka_unit_test(roots_of_silicon),
+        cmocka_unit_test(peak_stress_of_silicon),
+        cmocka_unit_test(symmetries),
+        cmocka_unit_test(agrees_with_the_isotropic_form),
+        cmocka_unit_test(law_knows_the_directions),
+    };
+    return cmocka_run_group_tests_name("crystal", tests, NULL, NULL);
+}
