@@ -93,8 +93,9 @@ static const char *wrong_size(const fw_design_options *o) {
 static fw_effect_choice effects_of(const char *text) {
     static const char *const word[] = {"auto", "all", "none"};
     for (int i = 0; i < 3; i++)
-        if (!text || strcmp(text, word[i]) == 0) return (fw_effect_choice){(fw_effect_mode)i, NULL};
-    return (fw_effect_choice){FW_EFFECTS_LIST, text};
+        if (!text || strcmp(text, word[i]) == 0)
+            return (fw_effect_choice){.mode = (fw_effect_mode)i};
+    return (fw_effect_choice){.mode = FW_EFFECTS_LIST, .list = text};
 }
 
 static fw_status keep(fw_arena *arena, const char **text) {

@@ -434,7 +434,7 @@ static void test_mistakes(void **state) {
             r.m.pin[2].ax_m = (double)NAN;
             break;
         case 9:
-            o.effects = (fw_effect_choice){FW_EFFECTS_LIST, "magnetism"};
+            o.effects = (fw_effect_choice){.mode = FW_EFFECTS_LIST, .list = "magnetism"};
             break;
         default:
             r.scene.force[0].fx_N = 1e300;
