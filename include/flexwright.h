@@ -92,6 +92,8 @@ typedef struct fw_design_options {
     /* for fw_design_assemble: independent coordinates "AB.phi,BC.phi" (default: chosen by
        pivoting), their rates "10 rad/s,0 rad/s" and accelerations; default 0 */
     const char *independent, *rates, *accelerations;
+    const char *hinge_model; /* how flexures enter the mechanism: "auto" (default, by accuracy),
+                                "revolute", "compliance" or "elastica" */
 } fw_design_options;
 
 /* Fills `size` bytes (as the caller's header defines the struct) with the defaults. NULL options:

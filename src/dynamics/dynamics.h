@@ -95,6 +95,7 @@ typedef struct fw_motion {
     const char *reason;
     const char *stabilise, *method_report; /* what the method has to say, or NULL */
     const fw_terms *terms;                 /* what acted, for those who look at it again */
+    const struct fw_level_step *level;     /* statics/level.h; NULL: not looked for, or no hinges */
 } fw_motion;
 
 /* one scene from the assembled position, with inertia. FW_SOLVER when the steps become too small.

@@ -32,6 +32,7 @@ typedef struct fw_effect_choice {
     fw_effect_mode mode;
     const char *list;     /* comma separated ids, for FW_EFFECTS_LIST */
     fw_hinge_model hinge; /* other than AUTO: whatever the mode says of nonlinear-hinge */
+    double below; /* > 0: auto came to this level because the one below was off by so much */
 } fw_effect_choice;
 
 typedef struct fw_hinge_use { /* how the hinges were taken */

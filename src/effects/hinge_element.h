@@ -30,5 +30,6 @@ double fw_flexed_loss_W(const fw_flexed *h, const fw_seen *s);
 bool fw_exact_is_known(const fw_hinge *hinge);
 fw_status fw_exact_new(fw_arena *arena, const fw_hinge *hinge, fw_exact **out);
 extern const fw_element_class fw_exact_class;
+extern const double fw_exact_tolerance; /* relative, of its forces */
 
 #endif

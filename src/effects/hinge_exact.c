@@ -23,8 +23,13 @@
 #include <math.h>
 #include <string.h>
 
-static const double tolerance = 1e-9;
-static const double rough = 1e-6; /* relative error that a stiff leaf's rounding may leave */
+const double fw_exact_tolerance = 1e-9;
+/* where rounding leaves more than the tolerance, as in a beam that is hardly bent or a leaf that is
+   stiff along its chord: of the wrench that deflects it by a thousandth of itself */
+static const double rough = 1e-6, deflected = 1e-3;
+/* rad, lengths of the strip: below it the beam is linear to the rounding of its ends' positions
+   (its drift is 1e-20 m there), which is all that Newton's method would see */
+static const double linear = 3e-8;
 
 struct fw_exact {
     fw_beam_piece piece;
@@ -32,7 +37,14 @@ struct fw_exact {
     fw_elastica *solver;
     bool asked, held, weighed; /* the state below is that of `twist`; its energy is known */
     double twist[3], wrench[3], k[3][3], energy_J;
+    double rest[3][3]; /* stiffness of the unloaded beam */
 };
+
+static void take_stiffness(const fw_elastica_result *r, double k[3][3]) {
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            k[i][j] = 0.5 * (r->stiffness[i][j] + r->stiffness[j][i]);
+}
 
 bool fw_exact_is_known(const fw_hinge *h) {
     return !h->stated && h->input.length_m > 0 && h->input.width_m > 0 && h->input.depth_m > 0 &&
@@ -46,7 +58,11 @@ fw_status fw_exact_new(fw_arena *arena, const fw_hinge *h, fw_exact **out) {
     fw_beam_of_flexure(&h->input, c, &x->piece, &x->beam);
     /* where the pin is: the ends of the strip are that far from it in both bodies */
     const double pin[2] = {c->centre_m + c->offset_m[0], c->offset_m[1]};
+    static const double none[3] = {0};
+    fw_elastica_result r;
     FW_TRY(fw_elastica_new(arena, &x->beam, pin, false, &x->solver));
+    fw_elastica_of_twist(x->solver, none, fw_exact_tolerance, false, &r);
+    take_stiffness(&r, x->rest);
     *out = x;
     return FW_OK;
 }
@@ -69,20 +85,44 @@ static place place_of(const fw_flexed *f, const double *p) {
     return at;
 }
 
+static bool good(const fw_elastica_result *r, double length_m) {
+    if (r->code != FW_ELASTICA_ROUGH) return r->code == FW_ELASTICA_OK;
+    for (int i = 0; i < 3; i++) {
+        double size = 0;
+        for (int j = 0; j < 3; j++)
+            size += deflected * (j ? length_m : 1) * fabs(r->stiffness[i][j]);
+        if (!(r->wrench_error[i] <= rough * (size + fabs(r->wrench[i])))) return false;
+    }
+    return true;
+}
+
+static bool hardly_bent(fw_exact *x) {
+    memcpy(x->k, x->rest, sizeof x->k);
+    x->energy_J = 0;
+    for (int i = 0; i < 3; i++) {
+        x->wrench[i] = 0;
+        for (int j = 0; j < 3; j++)
+            x->wrench[i] += x->rest[i][j] * x->twist[j];
+        x->energy_J += 0.5 * x->wrench[i] * x->twist[i];
+    }
+    x->weighed = true;
+    return true;
+}
+
 /* the beam at this place; false: it has no equilibrium there */
 static bool solve(fw_exact *x, const double twist[3]) {
     fw_elastica_result r;
     if (x->asked && x->twist[0] == twist[0] && x->twist[1] == twist[1] && x->twist[2] == twist[2])
         return x->held;
-    fw_elastica_of_twist(x->solver, twist, tolerance, false, &r);
-    x->held = r.code == FW_ELASTICA_OK || (r.code == FW_ELASTICA_ROUGH && r.error < rough);
     x->asked = true;
     x->weighed = false;
     memcpy(x->twist, twist, sizeof x->twist);
+    if (fmax(fabs(twist[0]), hypot(twist[1], twist[2]) / x->piece.length_m) < linear)
+        return x->held = hardly_bent(x);
+    fw_elastica_of_twist(x->solver, twist, fw_exact_tolerance, false, &r);
+    x->held = good(&r, x->piece.length_m);
     memcpy(x->wrench, r.wrench, sizeof x->wrench);
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            x->k[i][j] = 0.5 * (r.stiffness[i][j] + r.stiffness[j][i]);
+    take_stiffness(&r, x->k);
     return x->held;
 }
 

@@ -2,6 +2,7 @@
 /* The levels at which hinges can be taken, and the way from one to the next. Theory:
    docs/theory/hinge-models.md. */
 #include "effects/hinge_level.h"
+#include "effects/hinge_element.h"
 #include <math.h>
 #include <string.h>
 
@@ -26,12 +27,29 @@ bool fw_hinge_forced(const char *effect, fw_hinge_model asked, bool *in) {
     return true;
 }
 
-const char *fw_hinge_forced_reason(fw_hinge_model asked) {
-    return asked == FW_HINGE_REVOLUTE
-               ? "ideal pins in place of the hinges were asked for (--hinge-model revolute)"
-           : asked == FW_HINGE_ELASTICA
+const char *fw_hinge_forced_reason(const fw_effect_choice *choice) {
+    if (choice->hinge == FW_HINGE_REVOLUTE)
+        return "ideal pins in place of the hinges were asked for (--hinge-model revolute)";
+    if (choice->below > 0)
+        return choice->hinge == FW_HINGE_ELASTICA
+                   ? "called for, as exact beams: the closed form was found to be off by more than "
+                     "the accuracy wanted"
+                   : "called for: pins were found to be off by more than the accuracy wanted";
+    return choice->hinge == FW_HINGE_ELASTICA
                ? "called for, and hinges as exact beams were asked for (--hinge-model elastica)"
                : "called for, and hinges that give were asked for (--hinge-model compliance)";
+}
+
+static fw_status why_climbed(const fw_effect_case *c, const fw_effect_choice *choice,
+                             const char **why) {
+    char by[32];
+    fw_percent_text(by, sizeof by, choice->below);
+    FW_NEED(*why = fw_arena_printf(
+                c->arena,
+                "%s was computed to be off by %s %% of the largest hinge angle, not "
+                "below the accuracy wanted",
+                fw_hinge_model_text((fw_hinge_model)(choice->hinge - 1)), by));
+    return FW_OK;
 }
 
 static const char *why_used(const fw_effect_entry *entry, fw_hinge_model asked, fw_hinge_model used,
@@ -64,8 +82,9 @@ static fw_status say_stated(const fw_effect_case *c, const char **why) {
     return FW_OK;
 }
 
-fw_status fw_hinge_settle(const fw_effect_case *c, fw_hinge_model asked, fw_effect_ledger *ledger,
-                          fw_terms *terms) {
+fw_status fw_hinge_settle(const fw_effect_case *c, const fw_effect_choice *choice,
+                          fw_effect_ledger *ledger, fw_terms *terms) {
+    const fw_hinge_model asked = choice->hinge;
     fw_effect_entry *entry = NULL;
     bool touching = false;
     for (int i = 0; i < ledger->count; i++) {
@@ -78,8 +97,11 @@ fw_status fw_hinge_settle(const fw_effect_case *c, fw_hinge_model asked, fw_effe
     if (gives)
         ledger->hinge.used = asked == FW_HINGE_ELASTICA ? FW_HINGE_ELASTICA : FW_HINGE_COMPLIANCE;
     ledger->hinge.why = why_used(entry, asked, ledger->hinge.used, touching);
+    if (choice->below > 0 && asked == ledger->hinge.used)
+        FW_TRY(why_climbed(c, choice, &ledger->hinge.why));
     FW_TRY(say_stated(c, &ledger->hinge.why));
     if (ledger->hinge.used != FW_HINGE_ELASTICA) return FW_OK;
+    ledger->hinge.error = fw_exact_tolerance;
     if (entry) entry->cost = exact_cost * could(c);
     return fw_hinges_exact(c->arena, c->mechanism, terms);
 }

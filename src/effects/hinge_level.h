@@ -6,9 +6,9 @@
 
 /* this effect is in or out because of the level asked for, whatever else is asked */
 bool fw_hinge_forced(const char *effect, fw_hinge_model asked, bool *in);
-const char *fw_hinge_forced_reason(fw_hinge_model asked);
+const char *fw_hinge_forced_reason(const fw_effect_choice *choice);
 /* after everything was added: fills ledger->hinge, makes beams of closed forms where asked for */
-fw_status fw_hinge_settle(const fw_effect_case *c, fw_hinge_model asked, fw_effect_ledger *ledger,
-                          fw_terms *terms);
+fw_status fw_hinge_settle(const fw_effect_case *c, const fw_effect_choice *choice,
+                          fw_effect_ledger *ledger, fw_terms *terms);
 
 #endif

@@ -137,16 +137,17 @@ static fw_status say(const fw_effect_case *c, fw_effect_entry *entry, double sum
 }
 
 /* smallest bounds first, while their sum stays below the accuracy; hinges as they were asked for */
-static fw_status leave_out_small(const fw_effect_case *c, double accuracy, fw_hinge_model hinge,
-                                 bool calm, fw_effect_entry *entry) {
+static fw_status leave_out_small(const fw_effect_case *c, double accuracy,
+                                 const fw_effect_choice *choice, bool calm,
+                                 fw_effect_entry *entry) {
     bool seen[ROWS], in;
     double sum = 0;
     for (int i = 0; i < ROWS; i++) {
         seen[i] = !entry[i].called_for || (calm && rows[i]->calms);
-        if (!seen[i] && fw_hinge_forced(rows[i]->id, hinge, &in)) {
+        if (!seen[i] && fw_hinge_forced(rows[i]->id, choice->hinge, &in)) {
             seen[i] = true;
             entry[i].active = in;
-            entry[i].reason = fw_hinge_forced_reason(hinge);
+            entry[i].reason = fw_hinge_forced_reason(choice);
         }
         if (calm && rows[i]->calms && entry[i].called_for) {
             entry[i].active = true;
@@ -171,17 +172,17 @@ static fw_status leave_out_small(const fw_effect_case *c, double accuracy, fw_hi
 }
 
 /* what calms hinges that give stays with them; with what is kept so the sum is another one */
-static fw_status decide_auto(const fw_effect_case *c, double accuracy, fw_hinge_model hinge,
-                             fw_effect_entry *entry) {
+static fw_status decide_auto(const fw_effect_case *c, double accuracy,
+                             const fw_effect_choice *choice, fw_effect_entry *entry) {
     fw_effect_entry first[ROWS];
     bool gives = false, loose = false;
     memcpy(first, entry, sizeof first);
-    FW_TRY(leave_out_small(c, accuracy, hinge, false, first));
+    FW_TRY(leave_out_small(c, accuracy, choice, false, first));
     for (int i = 0; i < ROWS; i++) {
         if (strcmp(rows[i]->id, "nonlinear-hinge") == 0) gives = first[i].active;
         loose = loose || (rows[i]->calms && first[i].called_for && !first[i].active);
     }
-    if (gives && loose) return leave_out_small(c, accuracy, hinge, true, entry);
+    if (gives && loose) return leave_out_small(c, accuracy, choice, true, entry);
     memcpy(entry, first, sizeof first);
     return FW_OK;
 }
@@ -212,7 +213,7 @@ static void decide_asked(const fw_effect_case *c, const fw_effect_choice *choice
         fw_effect_entry *e = &entry[i];
         if (!e->called_for) continue;
         if (fw_hinge_forced(e->id, choice->hinge, &e->active)) {
-            e->reason = fw_hinge_forced_reason(choice->hinge);
+            e->reason = fw_hinge_forced_reason(choice);
             continue;
         }
         bool in = all || (list && listed(choice->list, e->id)), stays = belongs(c, rows[i], e);
@@ -264,7 +265,7 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, con
     FW_TRY(look_around(&c, &envelope));
     FW_TRY(find_bounds(&c, ledger->item));
     if (choice->mode == FW_EFFECTS_AUTO)
-        FW_TRY(decide_auto(&c, accuracy, choice->hinge, ledger->item));
+        FW_TRY(decide_auto(&c, accuracy, choice, ledger->item));
     else
         decide_asked(&c, choice, ledger->item);
     for (int i = 0; i < ROWS; i++) {
@@ -280,5 +281,5 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, con
         } else if (e->called_for && rows[i]->leave_out)
             FW_TRY(rows[i]->leave_out(&c, terms));
     }
-    return fw_hinge_settle(&c, choice->hinge, ledger, terms);
+    return fw_hinge_settle(&c, choice, ledger, terms);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "statics/quasi.h"
+#include "statics/level.h"
 #include "statics/row.h"
 #include <math.h>
 #include <string.h>
@@ -59,14 +60,11 @@ static void say_cost(const fw_scene *scene, const fw_effect_ledger *ledger, doub
                     isinf(entry->bound) ? "; --effects all or auto knows better" : " %");
 }
 
-fw_status fw_move_scene(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                        const fw_motion_options *options, fw_diags *diags,
-                        const fw_motion **motion) {
+static fw_status move(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                      const fw_motion_options *options, fw_diags *diags, const fw_motion **motion) {
     fw_terms terms;
     fw_effect_ledger ledger;
     double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
-    *motion = NULL;
-    FW_TRY(fw_check_request(mechanism, scene, options, diags));
     FW_TRY(fw_effects_compile(arena, mechanism, scene, &options->effects, accuracy, diags, &ledger,
                               &terms));
     if (terms.quasi_static) {
@@ -90,4 +88,29 @@ fw_status fw_move_scene(fw_arena *arena, const fw_mechanism *mechanism, const fw
         keep_inertia(&ledger, &terms, why);
     }
     return fw_simulate_compiled(arena, mechanism, scene, options, &ledger, &terms, diags, motion);
+}
+
+/* with the hinges as they were asked for; auto climbs where the step to the next level is computed
+   to change more than the accuracy wanted */
+fw_status fw_move_scene(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                        const fw_motion_options *options, fw_diags *diags,
+                        const fw_motion **motion) {
+    fw_motion_options o = *options;
+    double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
+    *motion = NULL;
+    FW_TRY(fw_check_request(mechanism, scene, options, diags));
+    for (;;) {
+        const fw_motion *found;
+        const fw_level_step *step;
+        FW_TRY(move(arena, mechanism, scene, &o, diags, &found));
+        FW_TRY(fw_level_of_motion(arena, mechanism, scene, found, &step));
+        if (fw_level_climb(step, accuracy, &options->effects, &o.effects)) continue;
+        fw_motion *own = fw_arena_one(arena, fw_motion);
+        FW_NEED(own);
+        *own = *found;
+        own->level = step;
+        fw_level_note(step, &own->ledger.hinge);
+        *motion = own;
+        return FW_OK;
+    }
 }

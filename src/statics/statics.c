@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "statics/statics.h"
 #include "base/cancel.h"
+#include "statics/level.h"
 #include "statics/pull_in.h"
 #include "statics/rest.h"
 #include <float.h>
@@ -274,13 +275,33 @@ fw_status fw_rest_statics(fw_rest *w, const fw_static_options *options,
     return FW_OK;
 }
 
+static fw_status with_level(fw_arena *arena, const fw_statics *found, const fw_level_step *step,
+                            const fw_statics **statics) {
+    fw_statics *own = fw_arena_one(arena, fw_statics);
+    FW_NEED(own);
+    *own = *found;
+    own->level = step;
+    fw_level_note(step, &own->ledger.hinge);
+    *statics = own;
+    return FW_OK;
+}
+
 fw_status fw_static_equilibrium(fw_arena *arena, const fw_mechanism *mechanism,
                                 const fw_scene *scene, const fw_static_options *options,
                                 fw_diags *diags, const fw_statics **statics) {
-    fw_rest w;
+    fw_effect_choice choice = options->effects;
+    double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
     *statics = NULL;
-    FW_TRY(fw_rest_new(arena, mechanism, scene, &options->effects, diags, &w));
-    /* first: it says why there may be no equilibrium */
-    FW_TRY(fw_pull_in_find(arena, mechanism, scene, &options->effects, diags, &w.pull_in));
-    return fw_rest_statics(&w, options, statics);
+    for (;;) {
+        fw_rest w;
+        const fw_level_step *step;
+        const fw_statics *found;
+        FW_TRY(fw_rest_new(arena, mechanism, scene, &choice, diags, &w));
+        /* first: it says why there may be no equilibrium */
+        FW_TRY(fw_pull_in_find(arena, mechanism, scene, &choice, diags, &w.pull_in));
+        FW_TRY(fw_rest_statics(&w, options, &found));
+        FW_TRY(fw_level_of_rest(&w, &step));
+        if (!fw_level_climb(step, accuracy, &options->effects, &choice))
+            return with_level(arena, found, step, statics);
+    }
 }
