@@ -15,6 +15,7 @@ typedef struct fw_instant { /* the mechanism at one time, on the dense output */
     const double *reaction_N; /* (2 npin) on body b, world axes */
     bool begins; /* a smooth piece begins here: forces may have jumped since the last instant, whose
                     time may be the same */
+    fw_hinge_model hinge; /* how the hinges are taken in this run */
 } fw_instant;
 /* called FW_INSTANTS times in every step, in order of time, whatever the number of samples; with
    NULL when the run starts (over, with a tighter tolerance) */

@@ -47,6 +47,9 @@ static void place(const fw_rest *w, const double *q, double *y) {
 static fw_status read_state(const fw_rest *w, fw_level_state *out) {
     const fw_mechanism *m = w->mechanism;
     double *tie, *driver;
+    FW_NEED(out->strain = fw_arena_array(w->arena, double, (size_t)m->nhinge));
+    for (int i = 0; i < m->nhinge; i++)
+        out->strain[i] = (double)NAN;
     FW_NEED(out->q = fw_arena_array(w->arena, double, (size_t)w->model->nq));
     FW_NEED(out->angle_rad = fw_arena_array(w->arena, double, (size_t)m->npin));
     FW_NEED(out->reaction_N = fw_arena_array(w->arena, double, 2 * (size_t)m->npin));

@@ -11,7 +11,7 @@ typedef struct fw_level_state {
     double *q;          /* (3 nbody) m, rad */
     double *angle_rad;  /* (npin) */
     double *reaction_N; /* (2 npin) on body b, world axes */
-    double *strain;     /* (nhinge) peak of each hinge; NULL until fw_level_strains (verdict.h) */
+    double *strain;     /* (nhinge) peak of each hinge; NaN until fw_level_strains (verdict.h) */
 } fw_level_state;
 
 typedef struct fw_level_step {

@@ -81,7 +81,7 @@ static void judge_scene(const fw_mechanism *m, const fw_hinge *hinge, const fw_h
     double numeric = motion->ended ? 0.0
                                    : out->angle_error_rad / c->limit_angle_rad +
                                          strain->between / out->strain_limit;
-    double model = fw_verdict_model_error.motion + fw_verdict_model_error.strain + beyond_fit(c);
+    double model = fw_motion_model_error(m, motion) + fw_verdict_model_error.strain + beyond_fit(c);
     out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - model) - numeric);
     out->utilisation_high = out->utilisation * (1.0 + model) + numeric;
     out->decision = decide(out->utilisation_low, out->utilisation_high);
@@ -141,6 +141,8 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         motion.observe = fw_watch_see;
         motion.context = &watch[i];
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));
+        if (watch[i].no_memory) return FW_NOMEM;
+        if (v->motion[i]) FW_TRY(fw_level_strains(arena, m, layout, v->motion[i]->level));
         if (v->motion[i] && v->motion[i]->ended) warn_ended(scene, v->motion[i], diags);
     }
     return FW_OK;

@@ -15,7 +15,10 @@ typedef struct fw_strain_peak {
 typedef struct fw_watch {
     const fw_mechanism *mechanism;
     const fw_layout *layout; /* NULL: bounds instead of the drawn axis */
-    fw_strain_peak *hinge;   /* (nhinge) */
+    fw_arena *arena;
+    fw_elastica **beam; /* (nhinge) made when first needed; NULL: not yet */
+    bool no_memory;     /* for them: strains are those of the closed form, and the run has failed */
+    fw_strain_peak *hinge; /* (nhinge) */
 } fw_watch;
 
 fw_status fw_watch_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_layout *layout,

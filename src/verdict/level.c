@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Strains on two neighbouring levels of hinges, and what of it is in the band. */
+#include "verdict/strain.h"
+#include "verdict/verdict.h"
+#include <math.h>
+
+static double turned(const fw_mechanism *m, const double *q, int body) {
+    return body == FW_GROUND ? 0 : q[3 * body + 2] - m->body[body].phi_rad;
+}
+
+static void strains(const fw_mechanism *m, const fw_layout *layout, fw_elastica *const *beam,
+                    const fw_level_state *at) {
+    for (int k = 0; k < m->nhinge; k++) {
+        const fw_hinge *hinge = &m->hinge[k];
+        const fw_pin *pin = &m->pin[hinge->pin];
+        const fw_hinge_load load = {
+            at->angle_rad[hinge->pin], at->reaction_N[2 * hinge->pin],
+            at->reaction_N[2 * hinge->pin + 1],
+            0.5 * (turned(m, at->q, pin->body_a) + turned(m, at->q, pin->body_b))};
+        at->strain[k] = fw_hinge_strain_exact(
+            m, hinge, layout && layout->drawn ? &layout->hinge[hinge->pin] : NULL,
+            beam ? beam[k] : NULL, &load);
+    }
+}
+
+fw_status fw_level_strains(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
+                           const fw_level_step *step) {
+    if (!step || step->why_not) return FW_OK;
+    fw_mark mark = fw_arena_mark(arena);
+    fw_elastica **beam = NULL;
+    if (step->next == FW_HINGE_ELASTICA) {
+        FW_NEED(beam = fw_arena_alloc(arena, (size_t)m->nhinge, sizeof *beam));
+        for (int k = 0; k < m->nhinge; k++)
+            FW_TRY(fw_hinge_beam(arena, &m->hinge[k], &beam[k]));
+    }
+    strains(m, layout, NULL, &step->at);
+    strains(m, layout, beam, &step->up);
+    fw_arena_rewind(arena, mark);
+    return FW_OK;
+}
+
+/* stiffness of the closed form against 3-D finite elements: both levels have it, so that the step
+   does not see it, and the angles under given loads follow it */
+static double of_stiffness(const fw_mechanism *m) {
+    double most = 0;
+    for (int k = 0; k < m->nhinge; k++)
+        if (!m->hinge[k].stated) most = fmax(most, m->hinge[k].closed_form.error.stiffness);
+    return most;
+}
+
+/* Largest difference of strain and of angle between the level used and the next at the motion's
+   peak, over the largest of either, and what both have in common. In a motion with inertia pins
+   are judged by the reference cases where these are worse: frequencies that shift are not in the
+   step. Exact beams have no next level: what is left is what they have in common with solids. */
+double fw_motion_model_error(const fw_mechanism *m, const fw_motion *x) {
+    const fw_level_step *s = x->level;
+    double usual = fw_verdict_model_error.motion, common = of_stiffness(m), off = 0, largest = 0;
+    if (x->ledger.hinge.used == FW_HINGE_ELASTICA) return fmin(usual, common);
+    if (!s || s->why_not || m->nhinge == 0) return usual;
+    for (int k = 0; k < m->nhinge; k++) {
+        if (!isfinite(s->at.strain[k]) || !isfinite(s->up.strain[k])) return usual;
+        off = fmax(off, fabs(s->up.strain[k] - s->at.strain[k]));
+        largest = fmax(largest, s->at.strain[k]);
+    }
+    double computed = fmax(largest > 0 ? off / largest : 0, s->relative) + common;
+    bool swings = x->terms && !x->terms->quasi_static;
+    return s->used == FW_HINGE_REVOLUTE && swings ? fmax(usual, computed) : computed;
+}
