@@ -52,16 +52,19 @@ static fw_status why_climbed(const fw_effect_case *c, const fw_effect_choice *ch
     return FW_OK;
 }
 
-static const char *why_used(const fw_effect_entry *entry, fw_hinge_model asked, fw_hinge_model used,
-                            bool touching) {
+static const char *why_used(const fw_effect_entry *entry, const fw_effect_choice *choice,
+                            fw_hinge_model used, bool touching) {
+    fw_hinge_model asked = choice->hinge;
     if (asked == used) return "asked for";
     if (!entry || !entry->called_for) return "no flexure has a law of its own";
     if (asked != FW_HINGE_AUTO)
         return touching ? "pins were asked for, but surfaces that may touch need hinges that give"
                         : "another was asked for, which no hinge here can be";
+    if (choice->mode != FW_EFFECTS_AUTO)
+        return used == FW_HINGE_REVOLUTE ? "nonlinear-hinge is not among the effects asked for"
+                                         : "nothing is left out";
     return used == FW_HINGE_REVOLUTE
-               ? "what hinges do besides turning is bounded below the accuracy wanted, or was not "
-                 "among the effects asked for"
+               ? "what hinges do besides turning is bounded below the accuracy wanted"
                : "nothing bounds what hinges do besides turning below the accuracy wanted";
 }
 
@@ -76,9 +79,9 @@ static fw_status say_stated(const fw_effect_case *c, const char **why) {
     if (count == 0) return FW_OK;
     FW_TRY(fw_text_end(&names));
     FW_NEED(*why = fw_arena_printf(c->arena,
-                                   "%s; %s stay%s a pin: the file states the stiffness, or the "
-                                   "axis is not known",
-                                   *why, names.data, count > 1 ? "" : "s"));
+                                   "%s; %s %s: the file states the stiffness, or the axis is not "
+                                   "known",
+                                   *why, names.data, count > 1 ? "stay pins" : "stays a pin"));
     return FW_OK;
 }
 
@@ -96,7 +99,7 @@ fw_status fw_hinge_settle(const fw_effect_case *c, const fw_effect_choice *choic
     if (c->mechanism->nhinge == 0) return FW_OK;
     if (gives)
         ledger->hinge.used = asked == FW_HINGE_ELASTICA ? FW_HINGE_ELASTICA : FW_HINGE_COMPLIANCE;
-    ledger->hinge.why = why_used(entry, asked, ledger->hinge.used, touching);
+    ledger->hinge.why = why_used(entry, choice, ledger->hinge.used, touching);
     if (choice->below > 0 && asked == ledger->hinge.used)
         FW_TRY(why_climbed(c, choice, &ledger->hinge.why));
     FW_TRY(say_stated(c, &ledger->hinge.why));

@@ -119,8 +119,8 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     if (d->wrong_option) return FW_OK;
     if (given) memcpy(&o, given, given->size < sizeof o ? given->size : sizeof o);
     fw_arena *arena = d->plan->arena;
-    const char **text[] = {&o.data_directory, &o.flow,       &o.scene,        &o.effects,
-                           &o.method,         &o.integrator, &o.stabilise,    &o.at,
+    const char **text[] = {&o.data_directory, &o.flow,       &o.scene,         &o.effects,
+                           &o.method,         &o.integrator, &o.stabilise,     &o.at,
                            &o.independent,    &o.rates,      &o.accelerations, &o.hinge_model};
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
         FW_TRY(keep(arena, text[i]));

@@ -27,5 +27,6 @@ fw_status fw_plan_statics(fw_plan *plan, const fw_statics **statics, const fw_me
                                  .path = plan->options.path};
     *scene = NULL;
     FW_TRY(fw_plan_start(plan, mechanism, scene, NULL));
-    return fw_static_equilibrium(plan->arena, *mechanism, *scene, &o, &plan->diags, statics);
+    FW_TRY(fw_static_equilibrium(plan->arena, *mechanism, *scene, &o, &plan->diags, statics));
+    return fw_level_strains(plan->arena, *mechanism, (*statics)->level);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/terminal.h"
+#include "report/hinge_model.h"
 #include "report/magnitude.h"
 #include <math.h>
 #include <string.h>
@@ -268,5 +269,6 @@ fw_status fw_report_simulate_text(const fw_scene *scene, const fw_mechanism *m,
     statistics(out, &motion->stats);
     peaks(m, motion, time, out);
     ledger(out, &motion->ledger);
+    fw_report_hinge_model(m, &motion->ledger.hinge, motion->level, out);
     return fw_text_end(out);
 }

@@ -252,6 +252,17 @@ bool fw_level_climb(const fw_level_step *step, double accuracy, const fw_effect_
     return true;
 }
 
-void fw_level_note(const fw_level_step *step, fw_hinge_use *use) {
-    if (step && !step->why_not) use->error = step->relative;
+fw_status fw_level_note(fw_arena *arena, const fw_level_step *step, double accuracy,
+                        const fw_effect_choice *asked, fw_hinge_use *use) {
+    char by[32], wanted[32];
+    if (!step || step->why_not) return FW_OK;
+    use->error = step->relative;
+    if (asked->hinge != FW_HINGE_AUTO || !(step->relative < accuracy) || !use->why) return FW_OK;
+    fw_percent_text(by, sizeof by, step->relative);
+    fw_percent_text(wanted, sizeof wanted, accuracy);
+    FW_NEED(use->why = fw_arena_printf(arena,
+                                       "%s; the cheapest that is good enough: %s is computed to "
+                                       "change %s %%, below the accuracy wanted, %s %%",
+                                       use->why, fw_hinge_model_text(step->next), by, wanted));
+    return FW_OK;
 }

@@ -40,7 +40,9 @@ fw_status fw_level_of_modes(struct fw_rest *w, double *relative);
    level. step may be NULL */
 bool fw_level_climb(const fw_level_step *step, double accuracy, const fw_effect_choice *asked,
                     fw_effect_choice *choice);
-/* its number as the error of the level used, where it was computed */
-void fw_level_note(const fw_level_step *step, fw_hinge_use *use);
+/* its number as the error of the level used, where it was computed, and where auto chose what that
+   means for the choice */
+fw_status fw_level_note(fw_arena *arena, const fw_level_step *step, double accuracy,
+                        const fw_effect_choice *asked, fw_hinge_use *use);
 
 #endif

@@ -410,7 +410,7 @@ fw_status fw_small_motions(fw_arena *arena, const fw_mechanism *mechanism, const
         fw_modes *own = fw_arena_one(arena, fw_modes);
         FW_NEED(own);
         *own = *found;
-        fw_level_note(&step, &own->ledger.hinge);
+        FW_TRY(fw_level_note(arena, &step, accuracy, &options->effects, &own->ledger.hinge));
         *modes = own;
         return FW_OK;
     }

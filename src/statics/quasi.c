@@ -109,7 +109,7 @@ fw_status fw_move_scene(fw_arena *arena, const fw_mechanism *mechanism, const fw
         FW_NEED(own);
         *own = *found;
         own->level = step;
-        fw_level_note(step, &own->ledger.hinge);
+        FW_TRY(fw_level_note(arena, step, accuracy, &options->effects, &own->ledger.hinge));
         *motion = own;
         return FW_OK;
     }

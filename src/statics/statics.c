@@ -276,12 +276,13 @@ fw_status fw_rest_statics(fw_rest *w, const fw_static_options *options,
 }
 
 static fw_status with_level(fw_arena *arena, const fw_statics *found, const fw_level_step *step,
+                            double accuracy, const fw_static_options *options,
                             const fw_statics **statics) {
     fw_statics *own = fw_arena_one(arena, fw_statics);
     FW_NEED(own);
     *own = *found;
     own->level = step;
-    fw_level_note(step, &own->ledger.hinge);
+    FW_TRY(fw_level_note(arena, step, accuracy, &options->effects, &own->ledger.hinge));
     *statics = own;
     return FW_OK;
 }
@@ -302,6 +303,6 @@ fw_status fw_static_equilibrium(fw_arena *arena, const fw_mechanism *mechanism,
         FW_TRY(fw_rest_statics(&w, options, &found));
         FW_TRY(fw_level_of_rest(&w, &step));
         if (!fw_level_climb(step, accuracy, &options->effects, &choice))
-            return with_level(arena, found, step, statics);
+            return with_level(arena, found, step, accuracy, options, statics);
     }
 }

@@ -8,33 +8,40 @@ static double turned(const fw_mechanism *m, const double *q, int body) {
     return body == FW_GROUND ? 0 : q[3 * body + 2] - m->body[body].phi_rad;
 }
 
-static void strains(const fw_mechanism *m, const fw_layout *layout, fw_elastica *const *beam,
+/* by the level's own section moments: of the arc as drawn, or of the exact beam. Leaves have only
+   bounds as drawn, which would hide the step: theirs are those of the beam on both levels */
+static double strain_of(const fw_mechanism *m, const fw_hinge *h, fw_hinge_model level,
+                        fw_elastica *beam, const fw_hinge_load *load) {
+    const fw_pin *pin = &m->pin[h->pin];
+    const fw_hinge_layout drawn = {.drawn = isfinite(h->axis_rad),
+                                   .upper = h->first_is_a ? pin->body_b : pin->body_a,
+                                   .axis_rad = h->axis_rad};
+    bool arc = m->device->flexure[h->flexure].kind == FW_FLEXURE_CSFH;
+    return fw_hinge_strain_exact(m, h, &drawn, level == FW_HINGE_ELASTICA || !arc ? beam : NULL,
+                                 load);
+}
+
+static void strains(const fw_mechanism *m, fw_hinge_model level, fw_elastica *const *beam,
                     const fw_level_state *at) {
     for (int k = 0; k < m->nhinge; k++) {
-        const fw_hinge *hinge = &m->hinge[k];
-        const fw_pin *pin = &m->pin[hinge->pin];
+        const fw_pin *pin = &m->pin[m->hinge[k].pin];
+        const double *force = at->reaction_N + 2 * m->hinge[k].pin;
         const fw_hinge_load load = {
-            at->angle_rad[hinge->pin], at->reaction_N[2 * hinge->pin],
-            at->reaction_N[2 * hinge->pin + 1],
+            at->angle_rad[m->hinge[k].pin], force[0], force[1],
             0.5 * (turned(m, at->q, pin->body_a) + turned(m, at->q, pin->body_b))};
-        at->strain[k] = fw_hinge_strain_exact(
-            m, hinge, layout && layout->drawn ? &layout->hinge[hinge->pin] : NULL,
-            beam ? beam[k] : NULL, &load);
+        at->strain[k] = strain_of(m, &m->hinge[k], level, beam[k], &load);
     }
 }
 
-fw_status fw_level_strains(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
-                           const fw_level_step *step) {
-    if (!step || step->why_not) return FW_OK;
+fw_status fw_level_strains(fw_arena *arena, const fw_mechanism *m, const fw_level_step *step) {
+    if (!step || step->why_not || !m->device || m->device->nflexure == 0) return FW_OK;
     fw_mark mark = fw_arena_mark(arena);
-    fw_elastica **beam = NULL;
-    if (step->next == FW_HINGE_ELASTICA) {
-        FW_NEED(beam = fw_arena_alloc(arena, (size_t)m->nhinge, sizeof *beam));
-        for (int k = 0; k < m->nhinge; k++)
-            FW_TRY(fw_hinge_beam(arena, &m->hinge[k], &beam[k]));
-    }
-    strains(m, layout, NULL, &step->at);
-    strains(m, layout, beam, &step->up);
+    fw_elastica **beam = fw_arena_alloc(arena, (size_t)m->nhinge, sizeof *beam);
+    FW_NEED(beam);
+    for (int k = 0; k < m->nhinge; k++)
+        FW_TRY(fw_hinge_beam(arena, &m->hinge[k], &beam[k]));
+    strains(m, step->used, beam, &step->at);
+    strains(m, step->next, beam, &step->up);
     fw_arena_rewind(arena, mark);
     return FW_OK;
 }

@@ -142,7 +142,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         motion.context = &watch[i];
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));
         if (watch[i].no_memory) return FW_NOMEM;
-        if (v->motion[i]) FW_TRY(fw_level_strains(arena, m, layout, v->motion[i]->level));
+        if (v->motion[i]) FW_TRY(fw_level_strains(arena, m, v->motion[i]->level));
         if (v->motion[i] && v->motion[i]->ended) warn_ended(scene, v->motion[i], diags);
     }
     return FW_OK;

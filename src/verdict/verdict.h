@@ -91,8 +91,8 @@ extern const fw_model_error fw_verdict_model_error;
 /* what the hinges' level may be off by in a motion, relative to the largest strain: computed at its
    peak where that is known (level.c), else fw_verdict_model_error.motion */
 double fw_motion_model_error(const fw_mechanism *mechanism, const fw_motion *motion);
-/* fills the strains of a step to the next level (may be NULL), both levels; layout may be NULL */
-fw_status fw_level_strains(fw_arena *arena, const fw_mechanism *mechanism, const fw_layout *layout,
+/* fills the strains of a step to the next level (may be NULL), on both levels */
+fw_status fw_level_strains(fw_arena *arena, const fw_mechanism *mechanism,
                            const fw_level_step *step);
 
 /* one variant: every scene's motion and the required workspace. layout may be NULL: joint forces
