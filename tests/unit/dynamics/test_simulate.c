@@ -314,7 +314,7 @@ static void test_energy_balance(void **state) {
         for (int k = 0; k < 3; k++) {
             const fw_motion *motion = NULL;
             const fw_motion_options o = {
-                .rtol = rtol[k], .samples = 21, .effects = {FW_EFFECTS_ALL, NULL}};
+                .rtol = rtol[k], .samples = 21, .effects = {.mode = FW_EFFECTS_ALL}};
             assert_int_equal(fw_simulate(f.arena, &r.m, &r.scene, &o, &f.diags, &motion), FW_OK);
             assert_true(motion->stats.energy_error < 300 * rtol[k]);
             assert_true(motion->stats.max_constraint_norm <= 1e-12);
