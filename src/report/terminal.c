@@ -268,7 +268,7 @@ fw_status fw_report_simulate_text(const fw_scene *scene, const fw_mechanism *m,
     if (motion->method_report) fw_text_printf(out, "%s\n", motion->method_report);
     statistics(out, &motion->stats);
     peaks(m, motion, time, out);
-    ledger(out, &motion->ledger);
     fw_report_hinge_model(m, &motion->ledger.hinge, motion->level, out);
+    ledger(out, &motion->ledger);
     return fw_text_end(out);
 }

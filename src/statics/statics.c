@@ -287,6 +287,26 @@ static fw_status with_level(fw_arena *arena, const fw_statics *found, const fw_l
     return FW_OK;
 }
 
+static fw_status equilibrium(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                             const fw_static_options *options, fw_diags *diags,
+                             const fw_statics **found, const fw_level_step **step) {
+    fw_rest w;
+    FW_TRY(fw_rest_new(arena, mechanism, scene, &options->effects, diags, &w));
+    /* first: it says why there may be no equilibrium */
+    FW_TRY(fw_pull_in_find(arena, mechanism, scene, &options->effects, diags, &w.pull_in));
+    FW_TRY(fw_rest_statics(&w, options, found));
+    return fw_level_of_rest(&w, step);
+}
+
+/* the next level was wanted and has no equilibrium: what is there counts */
+static fw_status stay(fw_arena *arena, const fw_statics **statics) {
+    fw_statics *own = fw_arena_one(arena, fw_statics);
+    FW_NEED(own);
+    *own = **statics;
+    *statics = own;
+    return fw_level_stays(arena, own->level, &own->ledger.hinge);
+}
+
 fw_status fw_static_equilibrium(fw_arena *arena, const fw_mechanism *mechanism,
                                 const fw_scene *scene, const fw_static_options *options,
                                 fw_diags *diags, const fw_statics **statics) {
@@ -294,15 +314,17 @@ fw_status fw_static_equilibrium(fw_arena *arena, const fw_mechanism *mechanism,
     double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
     *statics = NULL;
     for (;;) {
-        fw_rest w;
-        const fw_level_step *step;
+        const fw_static_options o = {
+            .effects = choice, .path = options->path, .most_points = options->most_points};
+        fw_diags own = fw_diags_new(arena);
+        const fw_level_step *step = NULL;
         const fw_statics *found;
-        FW_TRY(fw_rest_new(arena, mechanism, scene, &choice, diags, &w));
-        /* first: it says why there may be no equilibrium */
-        FW_TRY(fw_pull_in_find(arena, mechanism, scene, &choice, diags, &w.pull_in));
-        FW_TRY(fw_rest_statics(&w, options, &found));
-        FW_TRY(fw_level_of_rest(&w, &step));
-        if (!fw_level_climb(step, accuracy, &options->effects, &choice))
-            return with_level(arena, found, step, accuracy, options, statics);
+        bool higher = *statics != NULL;
+        fw_status status =
+            equilibrium(arena, mechanism, scene, &o, higher ? &own : diags, &found, &step);
+        if (higher && status == FW_SOLVER) return stay(arena, statics);
+        FW_TRY(status);
+        FW_TRY(with_level(arena, found, step, accuracy, options, statics));
+        if (!fw_level_climb(step, accuracy, &options->effects, &choice)) return FW_OK;
     }
 }

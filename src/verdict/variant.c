@@ -130,6 +130,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
                             fw_diags *diags, fw_variant_verdict *v, fw_watch *watch) {
     size_t n = (size_t)device->nscene;
     fw_motion_options motion = options->motion;
+    motion.within_limits = true;
     if (motion.most_angle_rad <= 0) motion.most_angle_rad = whole_turn;
     FW_NEED(v->motion = fw_arena_alloc(arena, n, sizeof *v->motion));
     FW_NEED(v->pull_in = fw_arena_alloc(arena, n, sizeof *v->pull_in));
