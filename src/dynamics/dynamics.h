@@ -35,6 +35,7 @@ typedef struct fw_motion_options {
     long most_steps;       /* over all tries; FW-D108 beyond; 0: 10 million */
     double most_angle_rad; /* ends the run when a joint has turned further: the verdict needs no
                               more; 0: never */
+    double hinge_accuracy; /* by which auto chooses the model of hinges; 0: accuracy */
     bool within_limits;  /* where hinges turn beyond their elastic limit auto takes no better model
                             of them: a verdict does not need it */
     fw_observer observe; /* NULL: nobody looks */

@@ -133,6 +133,7 @@ fw_status fw_move_scene(fw_arena *arena, const fw_mechanism *mechanism, const fw
     fw_motion_options o = *options;
     const fw_effect_choice *asked = &options->effects;
     double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
+    if (options->hinge_accuracy > 0) accuracy = options->hinge_accuracy;
     *motion = NULL;
     FW_TRY(fw_check_request(mechanism, scene, options, diags));
     for (;;) {
@@ -141,8 +142,7 @@ fw_status fw_move_scene(fw_arena *arena, const fw_mechanism *mechanism, const fw
         fw_diags own = fw_diags_new(arena);
         bool higher = *motion != NULL;
         fw_status status = move(arena, mechanism, scene, &o, higher ? &own : diags, &found);
-        if (higher && status == FW_SOLVER)
-            return stay(arena, mechanism, scene, options, motion);
+        if (higher && status == FW_SOLVER) return stay(arena, mechanism, scene, options, motion);
         FW_TRY(status);
         if (higher) take_messages(&own, diags);
         FW_TRY(fw_level_of_motion(arena, mechanism, scene, found, &step));

@@ -132,7 +132,9 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
     if (verdict->decision == FW_INCONCLUSIVE && straddles(verdict) &&
         verdict->accuracy_estimated > 1e-5) {
         fw_verdict_options tight = *options;
-        tight.motion.accuracy = 1e-6;
+        tight.motion.accuracy =
+            1e-6; /* of the numbers: the band has what the hinges' model is off */
+        tight.motion.hinge_accuracy = options->motion.accuracy;
         tight.motion.rtol = 0.0;
         fw_diags again = fw_diags_new(arena); /* the same warnings a second time */
         *verdict = (fw_verdict){.variant = variant, .nvariant = nvariant};
