@@ -69,8 +69,7 @@ typedef struct fw_run {
     double most_angle;                        /* rad; HUGE_VAL: no end before the end */
     long steps;                               /* over all tries */
     bool fresh;                               /* no step yet behind a break or an event */
-    double
-        patience; /* steps of one pass after which a choice of explicit ones is doubted; 0: any */
+    double patience; /* steps of one pass after which a choice of explicit ones is doubted; 0: any */
     double given_up_s; /* and where that was; NaN: it was not */
     double *end;       /* (npiece) scaled times at which a smooth piece ends */
     int npiece;
