@@ -94,6 +94,8 @@ typedef struct fw_design_options {
     const char *independent, *rates, *accelerations;
     const char *corners; /* "auto" (default): the verdict holds at the corners of each flow, too;
                             "none": for the drawn geometry only */
+    const char *hinge_model; /* how flexures enter the mechanism: "auto" (default, by accuracy),
+                                "revolute", "compliance" or "elastica" */
 } fw_design_options;
 
 /* Fills `size` bytes (as the caller's header defines the struct) with the defaults. NULL options:

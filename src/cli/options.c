@@ -170,10 +170,11 @@ static const char *take_stabilise(fw_cli_options *o, const char *v) {
 }
 
 static const char *take_hinge_model(fw_cli_options *o, const char *v) {
-    (void)o;
-    return strcmp(v, "auto") == 0 || strcmp(v, "revolute") == 0
-               ? NULL
-               : "knows only revolute in this version";
+    static const char *const known[] = {"auto", "revolute", "compliance", "elastica"};
+    o->design.hinge_model = v;
+    for (int i = 0; i < 4; i++)
+        if (strcmp(v, known[i]) == 0) return NULL;
+    return "needs auto, revolute, compliance or elastica";
 }
 
 static const char *take_rtol(fw_cli_options *o, const char *v) {
@@ -251,7 +252,10 @@ static const option_row table[] = {
      "(edges, etch, thickness, modulus); none: for the drawn geometry only",
      FW_OPT_PLAN, take_corners},
     {"flow", 0, "NAME", "only this process flow", FW_OPT_PLAN, take_flow},
-    {"hinge-model", 0, "MODEL", "auto or revolute", FW_OPT_PLAN, take_hinge_model},
+    {"hinge-model", 0, "MODEL",
+     "how flexures enter the mechanism: auto (the cheapest whose error is below the accuracy), "
+     "revolute (pins), compliance (closed form that gives and drifts) or elastica (exact beams)",
+     FW_OPT_PLAN, take_hinge_model},
     {"force", 0, NULL, "masks and recipes of a rejected design too, each marked REJECTED",
      FW_OPT_FABRICATE, take_force},
     {"mask-tolerance", 0, "NM", "largest distance between an arc and its polygon, in nm; default 5",

@@ -15,6 +15,7 @@ typedef struct fw_instant { /* the mechanism at one time, on the dense output */
     const double *reaction_N; /* (2 npin) on body b, world axes */
     bool begins; /* a smooth piece begins here: forces may have jumped since the last instant, whose
                     time may be the same */
+    fw_hinge_model hinge; /* how the hinges are taken in this run */
 } fw_instant;
 /* called FW_INSTANTS times in every step, in order of time, whatever the number of samples; with
    NULL when the run starts (over, with a tighter tolerance) */
@@ -34,7 +35,10 @@ typedef struct fw_motion_options {
     long most_steps;       /* over all tries; FW-D108 beyond; 0: 10 million */
     double most_angle_rad; /* ends the run when a joint has turned further: the verdict needs no
                               more; 0: never */
-    fw_observer observe;   /* NULL: nobody looks */
+    double hinge_accuracy; /* by which auto chooses the model of hinges; 0: accuracy */
+    bool within_limits;  /* where hinges turn beyond their elastic limit auto takes no better model
+                            of them: a verdict does not need it */
+    fw_observer observe; /* NULL: nobody looks */
     void *context;
     void *other; /* of the observer, too, for the looser run that errors are estimated from; NULL:
                     it is not looked at. The motion says which of the two saw what */
@@ -99,7 +103,8 @@ typedef struct fw_motion {
     const char *stabilise, *method_report; /* what the method has to say, or NULL */
     void *observed, *compared; /* contexts that saw this motion, and the looser run (NULL: none did;
                                   a row of equilibria has no such run) */
-    const fw_terms *terms;     /* what acted, for those who look at it again */
+    const fw_terms *terms;                 /* what acted, for those who look at it again */
+    const struct fw_level_step *level;     /* statics/level.h; NULL: not looked for, or no hinges */
 } fw_motion;
 
 /* one scene from the assembled position, with inertia. FW_SOLVER when the steps become too small.

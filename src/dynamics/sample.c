@@ -137,7 +137,8 @@ void fw_run_show(fw_run *r, fw_stepper *s, double theta_end) {
                                 .q = r->seen_q,
                                 .angle_rad = r->seen_angle,
                                 .reaction_N = r->seen_force,
-                                .begins = fresh && i == 0};
+                                .begins = fresh && i == 0,
+                                .hinge = r->motion->ledger.hinge.used};
         see(context, &now);
     }
 }

@@ -40,6 +40,8 @@ double fw_hinge_give_most(const fw_effect_case *c, int pin);
    the same at all times. Once per terms */
 fw_status fw_hinges_warm(fw_arena *arena, fw_terms *terms, double part, double varying,
                          const fw_law *law);
+/* the closed forms among the elements become exact beams, in a copy of the elements */
+fw_status fw_hinges_exact(fw_arena *arena, const fw_mechanism *mechanism, fw_terms *terms);
 /* hinge of a contact between conjugate surfaces, NULL: none; how far W may move freely, 0: not
    known; false: no gap closes within the motion */
 const fw_hinge *fw_contact_hinge(const fw_mechanism *mechanism, const fw_contact_use *use);

@@ -17,10 +17,30 @@ typedef enum fw_effect_mode {
     FW_EFFECTS_LIST,
     FW_EFFECTS_WHOLE /* all, without having been asked for: equilibria and modes for auto */
 } fw_effect_mode;
+/* How flexures enter the mechanism, the cheapest first. AUTO: pins where the bound on what they
+   change is below the accuracy, else compliance, and elastica where the step there is computed to
+   change more than the accuracy (statics/level.h). */
+typedef enum fw_hinge_model {
+    FW_HINGE_AUTO,
+    FW_HINGE_REVOLUTE,   /* pins at the elastic centres */
+    FW_HINGE_COMPLIANCE, /* three degrees of freedom at finite rotation in closed form (finite.h) */
+    FW_HINGE_ELASTICA    /* geometrically exact beams (elastica.h) */
+} fw_hinge_model;
+const char *fw_hinge_model_text(fw_hinge_model model);
+
 typedef struct fw_effect_choice {
     fw_effect_mode mode;
-    const char *list; /* comma separated ids, for FW_EFFECTS_LIST */
+    const char *list;     /* comma separated ids, for FW_EFFECTS_LIST */
+    fw_hinge_model hinge; /* other than AUTO: whatever the mode says of nonlinear-hinge */
+    double below; /* > 0: auto came to this level because the one below was off by so much */
 } fw_effect_choice;
+
+typedef struct fw_hinge_use { /* how the hinges were taken */
+    fw_hinge_model used;
+    const char *why; /* NULL: there are no hinges */
+    double error;    /* computed change of the largest hinge angle by the next level, relative; of
+                        the elastica what its solver tells; NaN: not computed */
+} fw_hinge_use;
 
 typedef struct fw_effect_entry { /* a line of the ledger */
     const char *id;
@@ -35,6 +55,7 @@ typedef struct fw_effect_ledger {
     fw_effect_entry *item; /* (count) */
     int count;
     double left_out; /* sum of the bounds of what auto left out; 0 where the choice was asked for */
+    fw_hinge_use hinge;
 } fw_effect_ledger;
 
 /* ---- what acts, compiled to plain arrays in SI; an absent effect leaves no entry behind ---- */
@@ -149,6 +170,13 @@ const fw_effect_row *const *fw_effect_rows(size_t *count);
 fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                              const fw_effect_choice *choice, double accuracy, fw_diags *diags,
                              fw_effect_ledger *ledger, fw_terms *terms);
+
+/* A copy of the terms with the hinges taken one level above `used`: pins released, or closed forms
+   as exact beams, springs and dampers with them. *next: that level, or `used` where there is none
+   (elastica, no hinge that could) */
+fw_status fw_hinges_up(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                       const fw_terms *terms, fw_hinge_model used, fw_terms *up,
+                       fw_hinge_model *next);
 
 /* the ledger of equilibria: neither inertia nor what acts on velocities has a part in them */
 void fw_effects_in_equilibrium(fw_effect_ledger *ledger);

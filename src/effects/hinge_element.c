@@ -15,18 +15,11 @@
    Inputs p in m and rad, w in m/s and rad/s; outputs N, N m. Valid until the arc closes to a full
    circle. Error: see flexure/finite.c. Cost of a force some 850 instructions. Source:
    docs/theory/effects/nonlinear-hinge.md. Test: test_nonlinear_hinge.c. */
-#include "effects/effect.h"
+#include "effects/hinge_element.h"
 #include <math.h>
 #include <string.h>
 
-typedef struct flexed { /* data of an element; ports: pin on body a, pin on body b */
-    fw_hinge_law law;
-    double sense;              /* o */
-    double axis_rad, free_rad; /* axis less half of the drawn turns */
-    double loss_s;             /* tau */
-    double factor, varying;    /* U times factor + varying law(t): temperature */
-    fw_hinge_rest rest;        /* what does not depend on the rotation */
-} flexed;
+typedef fw_flexed flexed;
 
 typedef struct bent {               /* values and rates, for what needs no second derivative */
     double c, n, x, y;              /* of psi, and e.D, n.D */
@@ -60,7 +53,6 @@ static inline bent bend(const flexed *f, const fw_seen *s) {
                   .drift_slope = law.drift_m.slope};
 }
 
-/* what U is multiplied by, and its rate */
 static inline double warmth(const fw_force_element *e, const fw_seen *s, double *rate) {
     const flexed *h = e->data;
     *rate = 0;
@@ -71,11 +63,13 @@ static inline double warmth(const fw_force_element *e, const fw_seen *s, double 
     return h->factor + h->varying * law[0];
 }
 
+double fw_flexed_warmth(const fw_force_element *e, const fw_seen *s, double *rate) {
+    return warmth(e, s, rate);
+}
+
 /* -(M dth + X dw + Y dv), with the gradients of th, w and v written out */
-static void force(const fw_force_element *e, const fw_seen *s, double *f) {
-    const flexed *h = e->data;
+static inline void push(const flexed *h, const fw_seen *s, double warm, double *f) {
     const bent b = bend(h, s);
-    double rate, warm = warmth(e, s, &rate);
     double moment = warm * (h->law.stiffness_Nm_per_rad * b.th +
                             0.5 * (b.kx_slope * b.w * b.w + b.ky_slope * b.v * b.v));
     double X = b.kx * (warm * b.w + h->loss_s * b.w_rate);
@@ -85,6 +79,15 @@ static void force(const fw_force_element *e, const fw_seen *s, double *f) {
     f[3] = -f[0], f[4] = -f[1];
     f[2] = both + moment - Y * b.drift_slope;
     f[5] = both - moment + Y * b.drift_slope;
+}
+
+static void force(const fw_force_element *e, const fw_seen *s, double *f) {
+    double rate;
+    push(e->data, s, warmth(e, s, &rate), f);
+}
+
+void fw_flexed_force(const fw_flexed *h, const fw_seen *s, double warm, double *f) {
+    push(h, s, warm, f);
 }
 
 static inline double stored(const flexed *h, const bent *b) { /* U where it was made */
@@ -97,6 +100,11 @@ static double energy(const fw_force_element *e, const fw_seen *s) {
     const bent b = bend(h, s);
     double rate;
     return warmth(e, s, &rate) * stored(h, &b);
+}
+
+double fw_flexed_loss_W(const fw_flexed *h, const fw_seen *s) {
+    const bent b = bend(h, s);
+    return h->loss_s * (b.kx * b.w_rate * b.w_rate + b.ky * b.v_rate * b.v_rate);
 }
 
 static void power(const fw_force_element *e, const fw_seen *s, double power[2]) {
@@ -143,8 +151,7 @@ static void project(strain *s, double x, double y, double side, const double *li
                 -x * half[i] * half[j] + side * (cross[i] * half[j] + half[i] * cross[j]);
 }
 
-static void look(const fw_force_element *e, const fw_seen *s, state *at) {
-    const flexed *f = e->data;
+static void look(const flexed *f, const fw_seen *s, state *at) {
     const double *a = s->p, *b = s->p + 3;
     double psi = f->axis_rad + 0.5 * (a[2] + b[2]), c = cos(psi), n = sin(psi);
     double dx = b[0] - a[0], dy = b[1] - a[1], x = c * dx + n * dy, y = c * dy - n * dx;
@@ -186,20 +193,25 @@ static void add_strain(const strain *s, fw_hinge_jet k, double tau, const double
         }
 }
 
-static void tangent(const fw_force_element *e, const fw_seen *s, double *stiffness,
-                    double *damping) {
-    const flexed *h = e->data;
+void fw_flexed_tangent(const fw_flexed *h, const fw_seen *s, double warm, double *stiffness,
+                       double *damping) {
     state at;
-    look(e, s, &at);
+    look(h, s, &at);
     memset(damping, 0, N * N * sizeof *damping);
     for (int i = 0; i < N; i++)
         for (int j = 0; j < N; j++)
             stiffness[N * i + j] = h->law.stiffness_Nm_per_rad * turns[i] * turns[j];
-    double rate, warm = warmth(e, s, &rate), tau = h->loss_s / warm;
+    double tau = h->loss_s / warm;
     add_strain(&at.w, at.kx, tau, s->w, stiffness, damping);
     add_strain(&at.v, at.ky, tau, s->w, stiffness, damping);
     for (int i = 0; i < N * N; i++)
         stiffness[i] *= warm, damping[i] *= warm;
+}
+
+static void tangent(const fw_force_element *e, const fw_seen *s, double *stiffness,
+                    double *damping) {
+    double rate;
+    fw_flexed_tangent(e->data, s, warmth(e, s, &rate), stiffness, damping);
 }
 
 static bool valid(const fw_force_element *e, const fw_seen *s, const char **why) {
@@ -296,6 +308,26 @@ fw_status fw_hinges_warm(fw_arena *arena, fw_terms *terms, double part, double v
             e->works = true;
         }
         e->data = f;
+    }
+    return FW_OK;
+}
+
+fw_status fw_hinges_exact(fw_arena *arena, const fw_mechanism *m, fw_terms *terms) {
+    fw_force_element *own;
+    FW_NEED(own = fw_arena_array(arena, fw_force_element, 2 * (size_t)terms->nelement + 1));
+    if (terms->nelement > 0) memcpy(own, terms->element, (size_t)terms->nelement * sizeof *own);
+    terms->element = own;
+    for (int i = 0; i < terms->nelement; i++) {
+        const fw_hinge *h;
+        if (own[i].class_ != &class_) continue;
+        h = &m->hinge[m->pin[own[i].pin].hinge];
+        if (!fw_exact_is_known(h)) continue;
+        flexed *f = fw_arena_one(arena, flexed);
+        FW_NEED(f);
+        *f = *(const flexed *)own[i].data;
+        FW_TRY(fw_exact_new(arena, h, &f->exact));
+        own[i].data = f;
+        own[i].class_ = &fw_exact_class;
     }
     return FW_OK;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "effects/effect.h"
 #include "effects/envelope.h"
+#include "effects/hinge_level.h"
 #include <math.h>
 #include <string.h>
 
@@ -135,13 +136,19 @@ static fw_status say(const fw_effect_case *c, fw_effect_entry *entry, double sum
     return FW_OK;
 }
 
-/* smallest bounds first, while their sum stays below the accuracy */
-static fw_status leave_out_small(const fw_effect_case *c, double accuracy, bool calm,
+/* smallest bounds first, while their sum stays below the accuracy; hinges as they were asked for */
+static fw_status leave_out_small(const fw_effect_case *c, double accuracy,
+                                 const fw_effect_choice *choice, bool calm,
                                  fw_effect_entry *entry) {
-    bool seen[ROWS];
+    bool seen[ROWS], in;
     double sum = 0;
     for (int i = 0; i < ROWS; i++) {
         seen[i] = !entry[i].called_for || (calm && rows[i]->calms);
+        if (!seen[i] && fw_hinge_forced(rows[i]->id, choice->hinge, &in)) {
+            seen[i] = true;
+            entry[i].active = in;
+            entry[i].reason = fw_hinge_forced_reason(choice);
+        }
         if (calm && rows[i]->calms && entry[i].called_for) {
             entry[i].active = true;
             if (isfinite(entry[i].bound))
@@ -165,16 +172,17 @@ static fw_status leave_out_small(const fw_effect_case *c, double accuracy, bool 
 }
 
 /* what calms hinges that give stays with them; with what is kept so the sum is another one */
-static fw_status decide_auto(const fw_effect_case *c, double accuracy, fw_effect_entry *entry) {
+static fw_status decide_auto(const fw_effect_case *c, double accuracy,
+                             const fw_effect_choice *choice, fw_effect_entry *entry) {
     fw_effect_entry first[ROWS];
     bool gives = false, loose = false;
     memcpy(first, entry, sizeof first);
-    FW_TRY(leave_out_small(c, accuracy, false, first));
+    FW_TRY(leave_out_small(c, accuracy, choice, false, first));
     for (int i = 0; i < ROWS; i++) {
         if (strcmp(rows[i]->id, "nonlinear-hinge") == 0) gives = first[i].active;
         loose = loose || (rows[i]->calms && first[i].called_for && !first[i].active);
     }
-    if (gives && loose) return leave_out_small(c, accuracy, true, entry);
+    if (gives && loose) return leave_out_small(c, accuracy, choice, true, entry);
     memcpy(entry, first, sizeof first);
     return FW_OK;
 }
@@ -204,6 +212,10 @@ static void decide_asked(const fw_effect_case *c, const fw_effect_choice *choice
     for (int i = 0; i < ROWS; i++) {
         fw_effect_entry *e = &entry[i];
         if (!e->called_for) continue;
+        if (fw_hinge_forced(e->id, choice->hinge, &e->active)) {
+            e->reason = fw_hinge_forced_reason(choice);
+            continue;
+        }
         bool in = all || (list && listed(choice->list, e->id)), stays = belongs(c, rows[i], e);
         e->active = in || stays;
         if (all)
@@ -253,13 +265,15 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, con
     FW_TRY(look_around(&c, &envelope));
     FW_TRY(find_bounds(&c, ledger->item));
     if (choice->mode == FW_EFFECTS_AUTO)
-        FW_TRY(decide_auto(&c, accuracy, ledger->item));
+        FW_TRY(decide_auto(&c, accuracy, choice, ledger->item));
     else
         decide_asked(&c, choice, ledger->item);
     for (int i = 0; i < ROWS; i++) {
         fw_effect_entry *e = &ledger->item[i];
         if (e->called_for && rows[i]->note) FW_TRY(rows[i]->note(&c, &e->reason));
-        if (choice->mode == FW_EFFECTS_AUTO && e->called_for && !e->active)
+        bool forced, was;
+        forced = fw_hinge_forced(e->id, choice->hinge, &was);
+        if (choice->mode == FW_EFFECTS_AUTO && e->called_for && !e->active && !forced)
             ledger->left_out += e->bound;
         if (e->active) {
             if (rows[i]->check) FW_TRY(rows[i]->check(&c, diags));
@@ -267,5 +281,5 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, con
         } else if (e->called_for && rows[i]->leave_out)
             FW_TRY(rows[i]->leave_out(&c, terms));
     }
-    return FW_OK;
+    return fw_hinge_settle(&c, choice, ledger, terms);
 }

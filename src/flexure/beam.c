@@ -170,7 +170,8 @@ void fw_beam_compliance(const fw_beam *b, fw_beam_linear *out) {
     out->error = fmax(out->error, 4e-15);
 }
 
-/* EI is what makes K = EI/(L + 2 dL) the stiffness of the closed form, as in fw_hinge_law_of */
+/* EI is what makes K = EI/(L + 2 dL) the stiffness of the closed form, as in fw_hinge_law_of; of a
+   crystal 1/E by the direction of the tangent, shear with the mean of 1/G */
 void fw_beam_of_flexure(const fw_flexure_input *in, const fw_flexure_result *closed_form,
                         fw_beam_piece *piece, fw_beam *out) {
     bool arc = in->kind == FW_FLEXURE_CSFH;
@@ -189,4 +190,14 @@ void fw_beam_of_flexure(const fw_flexure_input *in, const fw_flexure_result *clo
                      .shear_Pa = in->youngs_Pa / (2 * (1 + in->poisson)),
                      .depth_factor = closed_form->stiffness_Nm_per_rad * (L + 2 * dL) / thin,
                      .root_m = {dL, dL}};
+    if (!in->crystal.known || !in->crystal.aligned || !arc) return;
+    fw_beam_linear linear; /* the mean modulus of the arc is in K: the rest of K is the depth's */
+    out->cubic = true;
+    out->a0_per_Pa = in->crystal.a0_per_Pa;
+    out->a1_per_Pa = in->crystal.a1_per_Pa;
+    out->orientation_rad = 0.25 * atan2(in->crystal.sin4, in->crystal.cos4);
+    out->shear_Pa = 1 / in->crystal.g0_per_Pa;
+    out->depth_factor = 1;
+    fw_beam_compliance(out, &linear);
+    out->depth_factor = linear.c[0][0] * closed_form->stiffness_Nm_per_rad;
 }

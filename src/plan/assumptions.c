@@ -115,33 +115,54 @@ static fw_status repetitions(fw_plan *plan) {
     return FW_OK;
 }
 
-/* flexures as they are, or pins: the ledger of each motion decides */
-static fw_status how_hinges_move(fw_plan *plan) {
-    int give = 0, motions = 0;
+/* how many motions took their hinges in this way; the largest error that the bands have for it */
+typedef struct taken {
+    int motions, level[4];
+    double error;
+} taken;
+
+static taken how_taken(const fw_plan *plan) {
+    taken t = {0};
     for (int i = 0; i < plan->verdict.nvariant; i++) {
         const fw_variant_verdict *v = &plan->verdict.variant[i];
         for (int k = 0; v->motion && k < plan->device->nscene; k++) {
-            const fw_effect_ledger *l = v->motion[k] ? &v->motion[k]->ledger : NULL;
-            motions += l != NULL;
-            for (int j = 0; l && j < l->count; j++)
-                give += l->item[j].active && strcmp(l->item[j].id, "nonlinear-hinge") == 0;
+            if (!v->motion[k]) continue;
+            t.motions++;
+            t.level[v->motion[k]->ledger.hinge.used]++;
+            t.error = fmax(t.error, fw_motion_model_error(v->mechanism, v->motion[k]));
         }
     }
+    return t;
+}
+
+/* pins, closed forms or beams: the ledger of each motion says which */
+static fw_status how_hinges_move(fw_plan *plan) {
+    const taken t = how_taken(plan);
+    int give = t.level[FW_HINGE_COMPLIANCE], exact = t.level[FW_HINGE_ELASTICA];
+    bool all = give + exact == t.motions;
     if (give > 0)
-        FW_TRY(
-            fw_plan_assume(plan,
-                           "%singes turn, give way to forces and drift as flexures do, in "
-                           "closed form for the wound strip (nonlinear-hinge).",
-                           give < motions ? "In scenes whose ledger has nonlinear-hinge h" : "H"));
+        FW_TRY(fw_plan_assume(plan,
+                              "%singes turn, give way to forces and drift as flexures do, in "
+                              "closed form for the wound strip (nonlinear-hinge).",
+                              give < t.motions ? "In scenes whose ledger has nonlinear-hinge h"
+                                               : "H"));
+    if (exact > 0)
+        FW_TRY(fw_plan_assume(plan, "%singes are geometrically exact beams (elastica).",
+                              exact < t.motions ? "In scenes that need it h" : "H"));
+    char by[32];
+    fw_percent_text(by, sizeof by, t.error);
+    FW_TRY(fw_plan_assume(plan, "%s revolute joints at the centres of elastic weights.",
+                          give + exact == 0 ? "Hinges are"
+                          : all             ? "Required poses take them as"
+                                            : "Other scenes and required poses take them as"));
     return fw_plan_assume(plan,
-                          "%s revolute joints at the centres of elastic weights. Against "
-                          "geometrically exact flexures the peak moment of a hinge, joint force "
-                          "included, differs by up to %.1f %% in four reference load cases; the "
-                          "band of every utilisation holds this.",
-                          give == 0        ? "Hinges are"
-                          : give < motions ? "Other scenes and required poses take them as"
-                                           : "Required poses take them as",
-                          100.0 * fw_verdict_model_error.motion);
+                          "The band of every utilisation holds what these models of hinges may be "
+                          "off by, up to %s %%: the step to the next level, computed at each "
+                          "scene's peak, and the stiffness of the closed form against finite "
+                          "elements; where there is no such step, and at least where pins swing, "
+                          "%.1f %%, the most by which exact flexures changed the peak moment of a "
+                          "hinge in four reference load cases.",
+                          by, 100.0 * fw_verdict_model_error.motion);
 }
 
 /* what the corners of the flows are, and what they are not */

@@ -58,6 +58,13 @@ static bool known(const char *name, fw_method_row (*at)(size_t)) {
     return !name;
 }
 
+/* -1: there is no such model */
+static int hinge_model_of(const char *text) {
+    for (int i = FW_HINGE_AUTO; i <= FW_HINGE_ELASTICA; i++)
+        if (!text || strcmp(text, fw_hinge_model_text((fw_hinge_model)i)) == 0) return i;
+    return -1;
+}
+
 /* what is wrong, or NULL; 0 and NULL are defaults. Comparisons are written so that NaN fails. */
 static const char *wrong_option(const fw_design_options *o) {
     if (o->accuracy != 0.0 && !(o->accuracy >= 1e-12 && o->accuracy <= 0.1))
@@ -70,6 +77,8 @@ static const char *wrong_option(const fw_design_options *o) {
     if (o->mask_tolerance_m != 0.0 && !(o->mask_tolerance_m >= 1.42e-9 * (1.0 - 1e-12) &&
                                         o->mask_tolerance_m <= 1e-6 * (1.0 + 1e-12)))
         return "mask_tolerance_m must be 0 (default) or between 1.42e-9 and 1e-6";
+    if (hinge_model_of(o->hinge_model) < 0)
+        return "hinge_model must be \"auto\", \"revolute\", \"compliance\" or \"elastica\"";
     if (!known(o->method, fw_method_at)) return "method is not known in this version";
     if (!known(o->integrator, fw_integrator_at)) return "integrator is not known in this version";
     if (!known(o->stabilise, fw_stabilisation_at)) return "there is no such stabilisation";
@@ -95,8 +104,9 @@ static const char *wrong_size(const fw_design_options *o) {
 static fw_effect_choice effects_of(const char *text) {
     static const char *const word[] = {"auto", "all", "none"};
     for (int i = 0; i < 3; i++)
-        if (!text || strcmp(text, word[i]) == 0) return (fw_effect_choice){(fw_effect_mode)i, NULL};
-    return (fw_effect_choice){FW_EFFECTS_LIST, text};
+        if (!text || strcmp(text, word[i]) == 0)
+            return (fw_effect_choice){.mode = (fw_effect_mode)i};
+    return (fw_effect_choice){.mode = FW_EFFECTS_LIST, .list = text};
 }
 
 static fw_status keep(fw_arena *arena, const char **text) {
@@ -113,7 +123,8 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     fw_arena *arena = d->plan->arena;
     const char **text[] = {&o.data_directory, &o.flow,       &o.scene,         &o.effects,
                            &o.method,         &o.integrator, &o.stabilise,     &o.at,
-                           &o.independent,    &o.rates,      &o.accelerations, &o.corners};
+                           &o.independent,    &o.rates,      &o.accelerations, &o.corners,
+                           &o.hinge_model};
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
         FW_TRY(keep(arena, text[i]));
     d->wrong_option = wrong_option(&o);
@@ -131,6 +142,7 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     p->accelerations = o.accelerations;
     if (o.corners && strcmp(o.corners, "none") == 0) p->verdict.corners = FW_CORNERS_NONE;
     m->effects = effects_of(o.effects);
+    if (!d->wrong_option) m->effects.hinge = (fw_hinge_model)hinge_model_of(o.hinge_model);
     m->method = o.method;
     m->integrator = o.integrator;
     m->stabilise = o.stabilise;

@@ -130,6 +130,7 @@ fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mec
         fw_move_scene(plan->arena, *mechanism, *scene, &options, &plan->diags, motion);
     if (status == FW_SOLVER) return explain_pull_in(plan, pull_in, said);
     FW_TRY(status);
+    FW_TRY(fw_level_strains(plan->arena, *mechanism, (*motion)->level));
     FW_TRY(fw_poise_find(plan->arena, *mechanism, *scene, *motion, &plan->diags, &poise));
     note_tolerance(plan, options.rtol, (*motion)->stats.rtol);
     return FW_OK;

@@ -10,6 +10,7 @@ static const fw_scene without_loads = {.name = "(none)", .duration_s = 1.0};
 fw_status fw_plan_modes(fw_plan *plan, const fw_modes **modes, const fw_mechanism **mechanism,
                         const fw_scene **scene) {
     const fw_mode_options o = {.effects = plan->options.verdict.motion.effects,
+                               .accuracy = plan->options.verdict.motion.accuracy,
                                .at_equilibrium = plan->options.at_equilibrium,
                                .drawn = DRAWN_MODES};
     *scene = NULL;
@@ -22,8 +23,10 @@ fw_status fw_plan_modes(fw_plan *plan, const fw_modes **modes, const fw_mechanis
 fw_status fw_plan_statics(fw_plan *plan, const fw_statics **statics, const fw_mechanism **mechanism,
                           const fw_scene **scene) {
     const fw_static_options o = {.effects = plan->options.verdict.motion.effects,
+                                 .accuracy = plan->options.verdict.motion.accuracy,
                                  .path = plan->options.path};
     *scene = NULL;
     FW_TRY(fw_plan_start(plan, mechanism, scene, NULL));
-    return fw_static_equilibrium(plan->arena, *mechanism, *scene, &o, &plan->diags, statics);
+    FW_TRY(fw_static_equilibrium(plan->arena, *mechanism, *scene, &o, &plan->diags, statics));
+    return fw_level_strains(plan->arena, *mechanism, (*statics)->level);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/json.h"
+#include "report/hinge_model.h"
 #include "report/json_effects.h"
 #include "report/json_rest.h"
 
@@ -68,6 +69,8 @@ fw_status fw_report_modes_json(const fw_mechanism *mechanism, const fw_scene *sc
     for (int i = 0; i < modes->count; i++)
         fw_json_push(list, one(mechanism, &modes->mode[i], &failed), &failed);
     fw_json_put(root, "modes", list, &failed);
+    fw_json_put(root, "hinge_model",
+                fw_json_hinge_model(mechanism, &modes->ledger.hinge, NULL, &failed), &failed);
     fw_json_effects(effects, &modes->ledger, NULL, NULL, &failed);
     fw_json_put(root, "effects", effects, &failed);
     return fw_json_write(root, failed, out);

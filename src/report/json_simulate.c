@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/json.h"
+#include "report/hinge_model.h"
 #include "report/json_effects.h"
 
 static json_t *stats(const fw_motion *m, bool *failed) {
@@ -114,6 +115,9 @@ fw_status fw_report_simulate_json(const fw_mechanism *mechanism, const fw_motion
     if (motion->method_report)
         fw_json_put(root, "method_report", fw_json_text(motion->method_report), &failed);
     fw_json_put(root, "stats", stats(motion, &failed), &failed);
+    fw_json_put(root, "hinge_model",
+                fw_json_hinge_model(mechanism, &motion->ledger.hinge, motion->level, &failed),
+                &failed);
     json_t *effects = json_array();
     fw_json_effects(effects, &motion->ledger, NULL, NULL, &failed);
     fw_json_put(root, "effects", effects, &failed);

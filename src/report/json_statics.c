@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/json.h"
+#include "report/hinge_model.h"
 #include "report/json_effects.h"
 #include "report/json_rest.h"
 #include "report/rest.h"
@@ -146,6 +147,8 @@ fw_status fw_report_statics_json(const fw_mechanism *mechanism, const fw_scene *
     fw_json_put(root, "eigenvalues_per_s2", values, &failed);
     fw_json_put(root, "pull_in", pull_ins(s->pull_in, &failed), &failed);
     fw_json_put(root, "path", path(mechanism, s, &failed), &failed);
+    fw_json_put(root, "hinge_model",
+                fw_json_hinge_model(mechanism, &s->ledger.hinge, s->level, &failed), &failed);
     fw_json_effects(effects, &s->ledger, NULL, NULL, &failed);
     fw_json_put(root, "effects", effects, &failed);
     return fw_json_write(root, failed, out);

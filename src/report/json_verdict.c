@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/json_rest.h"
 #include "report/json.h"
+#include "report/hinge_model.h"
 #include "report/json_effects.h"
 #include "report/json_made.h"
 #include <math.h>
@@ -139,6 +140,25 @@ static json_t *effects(const fw_report_input *in, bool *failed) {
     return list;
 }
 
+/* of every scene with hinges, in every flow */
+static json_t *hinge_models(const fw_report_input *in, bool *failed) {
+    json_t *list = json_array();
+    for (int i = 0; i < in->verdict->nvariant; i++) {
+        const fw_variant_verdict *v = &in->verdict->variant[i];
+        for (int k = 0; v->motion && k < in->device->nscene; k++) {
+            const fw_motion *x = v->motion[k];
+            if (!x || !x->ledger.hinge.why) continue;
+            json_t *o = fw_json_hinge_model(v->mechanism, &x->ledger.hinge, x->level, failed);
+            fw_json_put(o, "model_error", fw_json_real(fw_motion_model_error(v->mechanism, x)),
+                        failed);
+            fw_json_put(o, "scene", fw_json_text(in->device->scene[k].name), failed);
+            fw_json_put(o, "flow", fw_json_text(v->variant ? v->variant->flow : NULL), failed);
+            fw_json_push(list, o, failed);
+        }
+    }
+    return list;
+}
+
 /* of every scene with comb drives */
 static json_t *pull_ins(const fw_report_input *in, bool *failed) {
     json_t *list = json_array();
@@ -207,6 +227,7 @@ fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out) {
         fw_json_push(flows, flow(&input->flow[i], &failed), &failed);
     fw_json_put(root, "flows", flows, &failed);
     fw_json_put(root, "effects", effects(input, &failed), &failed);
+    fw_json_put(root, "hinge_model", hinge_models(input, &failed), &failed);
     json_t *pull_in = pull_ins(input, &failed); /* only where there are drives */
     if (json_array_size(pull_in) > 0)
         fw_json_put(root, "pull_in", pull_in, &failed);

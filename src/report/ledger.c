@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What was simulated and what was left out, and how well. Measured run time is not printed: the
    same input gives the same bytes. */
+#include "report/hinge_model.h"
 #include "report/page.h"
 #include <math.h>
 
@@ -134,6 +135,7 @@ fw_status fw_report_section_effects(fw_page *page) {
         "scope=\"col\">Reason</th></tr></thead>\n");
     each_motion(page, effects_of);
     fw_text_add(page->out, "</table></div>\n");
+    fw_report_section_levels(page);
     pull_ins(page);
     return fw_text_end(page->out);
 }

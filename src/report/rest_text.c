@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/rest.h"
+#include "report/hinge_model.h"
 #include "report/magnitude.h"
 #include "statics/pull_in.h"
 #include <math.h>
@@ -69,6 +70,16 @@ fw_status fw_report_modes_text(const fw_scene *scene, const fw_modes *modes, fw_
                      "             bodies\n");
     for (int i = 0; i < modes->count; i++)
         mode_row(out, i + 1, &modes->mode[i]);
+    if (modes->ledger.hinge.why) {
+        fw_text_printf(out, "\nhinges as %s: %s", fw_hinge_model_text(modes->ledger.hinge.used),
+                       modes->ledger.hinge.why);
+        if (isfinite(modes->ledger.hinge.error)) {
+            char by[32];
+            fw_percent_text(by, sizeof by, modes->ledger.hinge.error);
+            fw_text_printf(out, "; frequencies off by up to %s %%", by);
+        }
+        fw_text_add(out, "\n");
+    }
     return fw_text_end(out);
 }
 
@@ -220,6 +231,7 @@ fw_status fw_report_statics_text(const fw_mechanism *m, const fw_scene *scene, c
     ties(m, s, force, out);
     if (s->pull_in) pull_in(s->pull_in, out);
     if (s->path) path_events(out, s);
+    fw_report_hinge_model(m, &s->ledger.hinge, s->level, out);
     return fw_text_end(out);
 }
 

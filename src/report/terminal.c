@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/terminal.h"
+#include "report/hinge_model.h"
 #include "report/magnitude.h"
 #include <math.h>
 #include <string.h>
@@ -301,6 +302,7 @@ fw_status fw_report_simulate_text(const fw_scene *scene, const fw_mechanism *m,
     if (motion->method_report) fw_text_printf(out, "%s\n", motion->method_report);
     statistics(out, &motion->stats);
     peaks(m, motion, time, out);
+    fw_report_hinge_model(m, &motion->ledger.hinge, motion->level, out);
     ledger(out, &motion->ledger);
     return fw_text_end(out);
 }

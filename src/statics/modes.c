@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "statics/level.h"
 #include "statics/modes.h"
 #include "statics/rest.h"
 #include "statics/tangent.h"
@@ -391,8 +392,26 @@ fw_status fw_rest_modes(fw_rest *w, const fw_mode_options *options, const fw_mod
 fw_status fw_small_motions(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                            const fw_mode_options *options, fw_diags *diags,
                            const fw_modes **modes) {
-    fw_rest w;
+    fw_effect_choice choice = options->effects;
+    double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
     *modes = NULL;
-    FW_TRY(fw_rest_new(arena, mechanism, scene, &options->effects, diags, &w));
-    return fw_rest_modes(&w, options, modes);
+    for (;;) {
+        fw_rest w;
+        double relative;
+        const fw_modes *found;
+        FW_TRY(fw_rest_new(arena, mechanism, scene, &choice, diags, &w));
+        FW_TRY(fw_rest_modes(&w, options, &found));
+        FW_TRY(fw_level_of_modes(&w, &relative));
+        const fw_level_step step = {.used = found->ledger.hinge.used,
+                                    .next = found->ledger.hinge.used + 1,
+                                    .relative = relative,
+                                    .why_not = isnan(relative) ? "not computed" : NULL};
+        if (fw_level_climb(&step, accuracy, &options->effects, &choice)) continue;
+        fw_modes *own = fw_arena_one(arena, fw_modes);
+        FW_NEED(own);
+        *own = *found;
+        FW_TRY(fw_level_note(arena, &step, accuracy, &options->effects, &own->ledger.hinge));
+        *modes = own;
+        return FW_OK;
+    }
 }

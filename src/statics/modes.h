@@ -10,6 +10,7 @@ typedef struct fw_mode_options {
     fw_effect_choice effects; /* "auto" is taken as "all": nothing is left out */
     bool at_equilibrium;      /* about the equilibrium under the scene's loads; else about rest:
                                  the assembled pose, drivers at their start, without the loads */
+    double accuracy;          /* of the hinges' level, where auto chooses it; 0: 1e-3 */
     int drawn;                /* for so many modes frames are made */
 } fw_mode_options;
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "statics/quasi.h"
+#include "statics/level.h"
 #include "statics/row.h"
 #include <math.h>
 #include <string.h>
@@ -59,14 +60,11 @@ static void say_cost(const fw_scene *scene, const fw_effect_ledger *ledger, doub
                     isinf(entry->bound) ? "; --effects all or auto knows better" : " %");
 }
 
-fw_status fw_move_scene(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                        const fw_motion_options *options, fw_diags *diags,
-                        const fw_motion **motion) {
+static fw_status move(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                      const fw_motion_options *options, fw_diags *diags, const fw_motion **motion) {
     fw_terms terms;
     fw_effect_ledger ledger;
     double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
-    *motion = NULL;
-    FW_TRY(fw_check_request(mechanism, scene, options, diags));
     FW_TRY(fw_effects_compile(arena, mechanism, scene, &options->effects, accuracy, diags, &ledger,
                               &terms));
     if (terms.quasi_static) {
@@ -90,4 +88,66 @@ fw_status fw_move_scene(fw_arena *arena, const fw_mechanism *mechanism, const fw
         keep_inertia(&ledger, &terms, why);
     }
     return fw_simulate_compiled(arena, mechanism, scene, options, &ledger, &terms, diags, motion);
+}
+
+static bool beyond_limits(const fw_mechanism *m, const fw_motion *x) {
+    for (int k = 0; k < m->nhinge; k++)
+        if (fabs(x->peak[m->hinge[k].pin].angle_rad) > m->hinge[k].closed_form.limit_angle_rad)
+            return true;
+    return false;
+}
+
+static fw_status with_level(fw_arena *arena, const fw_motion *found, const fw_level_step *step,
+                            double accuracy, const fw_effect_choice *asked,
+                            const fw_motion **motion) {
+    fw_motion *own = fw_arena_one(arena, fw_motion);
+    FW_NEED(own);
+    *own = *found;
+    own->level = step;
+    FW_TRY(fw_level_note(arena, step, accuracy, asked, &own->ledger.hinge));
+    *motion = own;
+    return FW_OK;
+}
+
+/* the next level failed: the motion that is there counts, and who looks on sees it again */
+static fw_status stay(fw_arena *arena, const fw_mechanism *m, const fw_scene *scene,
+                      const fw_motion_options *options, const fw_motion **motion) {
+    fw_motion *own = fw_arena_one(arena, fw_motion);
+    fw_motion_options o = *options;
+    const fw_motion *again;
+    FW_NEED(own);
+    *own = **motion;
+    FW_TRY(fw_level_stays(arena, own->level, &own->ledger.hinge));
+    *motion = own;
+    if (!options->observe) return FW_OK;
+    fw_diags quiet = fw_diags_new(arena);
+    o.effects.hinge = own->ledger.hinge.used;
+    return move(arena, m, scene, &o, &quiet, &again);
+}
+
+/* with the hinges as they were asked for; auto climbs where the step to the next level is computed
+   to change more than the accuracy wanted, and stays where that level has no such motion */
+fw_status fw_move_scene(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                        const fw_motion_options *options, fw_diags *diags,
+                        const fw_motion **motion) {
+    fw_motion_options o = *options;
+    const fw_effect_choice *asked = &options->effects;
+    double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
+    if (options->hinge_accuracy > 0) accuracy = options->hinge_accuracy;
+    *motion = NULL;
+    FW_TRY(fw_check_request(mechanism, scene, options, diags));
+    for (;;) {
+        const fw_motion *found;
+        const fw_level_step *step;
+        fw_diags own = fw_diags_new(arena);
+        bool higher = *motion != NULL;
+        fw_status status = move(arena, mechanism, scene, &o, higher ? &own : diags, &found);
+        if (higher && status == FW_SOLVER) return stay(arena, mechanism, scene, options, motion);
+        FW_TRY(status);
+        if (higher) take_messages(&own, diags);
+        FW_TRY(fw_level_of_motion(arena, mechanism, scene, found, &step));
+        FW_TRY(with_level(arena, found, step, accuracy, asked, motion));
+        if (options->within_limits && beyond_limits(mechanism, found)) return FW_OK;
+        if (!fw_level_climb(step, accuracy, asked, &o.effects)) return FW_OK;
+    }
 }

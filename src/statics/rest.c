@@ -217,6 +217,30 @@ fw_status fw_rest_new_terms(fw_arena *arena, const fw_mechanism *mechanism, cons
     return assemble(w, &own);
 }
 
+fw_status fw_rest_again(const fw_rest *w, const fw_terms *terms, fw_rest *other) {
+    fw_terms own = *terms;
+    *other =
+        (fw_rest){.arena = w->arena, .mechanism = w->plain, .scene = w->scene, .diags = w->diags};
+    other->ledger = w->ledger;
+    FW_TRY(assemble(other, &own));
+    other->lead = w->lead;
+    other->drive_unit = w->drive_unit;
+    fw_rest_factor(other, w->factor);
+    return FW_OK;
+}
+
+/* for fw_rest_again: strains are frozen in place */
+static fw_status keep_terms(fw_rest *w, const fw_terms *terms) {
+    size_t n = (size_t)terms->nbody + 1;
+    fw_terms *kept = fw_arena_one(w->arena, fw_terms);
+    FW_NEED(kept);
+    *kept = *terms;
+    FW_NEED(kept->strain = fw_arena_array(w->arena, double, n));
+    memcpy(kept->strain, terms->strain, n * sizeof *kept->strain);
+    w->terms = kept;
+    return FW_OK;
+}
+
 fw_status fw_rest_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
                       const fw_effect_choice *effects, fw_diags *diags, fw_rest *w) {
     fw_terms terms;
@@ -225,6 +249,8 @@ fw_status fw_rest_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_s
     fw_effect_choice choice = *effects;
     if (choice.mode == FW_EFFECTS_AUTO) choice.mode = FW_EFFECTS_WHOLE;
     FW_TRY(fw_effects_compile(arena, mechanism, scene, &choice, 1e-3, diags, &w->ledger, &terms));
+    FW_TRY(keep_terms(w, &terms));
+    w->plain = mechanism;
     return assemble(w, &terms);
 }
 

@@ -19,6 +19,9 @@ typedef struct fw_rest {
     const fw_scene *scene;
     fw_diags *diags;
     fw_effect_ledger ledger;
+    const fw_terms *terms; /* what was compiled, for the mechanism `plain`, before anything was
+                              done to it; NULL: not by fw_rest_new */
+    const fw_mechanism *plain;
     fw_model *model;
     fw_reduced reduced;
     double *q0;    /* (3 nbody) assembled, SI */
@@ -65,6 +68,8 @@ fw_status fw_rest_new_terms(fw_arena *arena, const fw_mechanism *mechanism, cons
 /* statics.c, modes.c: what their entries do with a new fw_rest */
 fw_status fw_rest_statics(fw_rest *w, const fw_static_options *options, const fw_statics **statics);
 fw_status fw_rest_modes(fw_rest *w, const fw_mode_options *options, const fw_modes **modes);
+/* the same scene, effects and factor with other terms (a level of hinges) */
+fw_status fw_rest_again(const fw_rest *w, const fw_terms *terms, fw_rest *other);
 void fw_rest_factor(fw_rest *w, double s);
 /* in_time.c: a model of the scene whose loads and drivers follow their laws, and these at one time;
    piece_s: a time in the smooth piece that is meant. arena, mechanism, scene and diags are set */

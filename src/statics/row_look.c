@@ -195,7 +195,8 @@ static void show(fw_row *r, double t) {
     const fw_instant now = {.t_s = t * r->w.model->scale.time_s,
                             .q = r->q,
                             .angle_rad = r->angle,
-                            .reaction_N = r->reaction};
+                            .reaction_N = r->reaction,
+                            .hinge = r->w.ledger.hinge.used};
     r->options->observe(r->options->context, &now);
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "statics/statics.h"
 #include "base/cancel.h"
+#include "statics/level.h"
 #include "statics/pull_in.h"
 #include "statics/rest.h"
 #include <float.h>
@@ -274,13 +275,56 @@ fw_status fw_rest_statics(fw_rest *w, const fw_static_options *options,
     return FW_OK;
 }
 
-fw_status fw_static_equilibrium(fw_arena *arena, const fw_mechanism *mechanism,
-                                const fw_scene *scene, const fw_static_options *options,
-                                fw_diags *diags, const fw_statics **statics) {
+static fw_status with_level(fw_arena *arena, const fw_statics *found, const fw_level_step *step,
+                            double accuracy, const fw_static_options *options,
+                            const fw_statics **statics) {
+    fw_statics *own = fw_arena_one(arena, fw_statics);
+    FW_NEED(own);
+    *own = *found;
+    own->level = step;
+    FW_TRY(fw_level_note(arena, step, accuracy, &options->effects, &own->ledger.hinge));
+    *statics = own;
+    return FW_OK;
+}
+
+static fw_status equilibrium(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                             const fw_static_options *options, fw_diags *diags,
+                             const fw_statics **found, const fw_level_step **step) {
     fw_rest w;
-    *statics = NULL;
     FW_TRY(fw_rest_new(arena, mechanism, scene, &options->effects, diags, &w));
     /* first: it says why there may be no equilibrium */
     FW_TRY(fw_pull_in_find(arena, mechanism, scene, &options->effects, diags, &w.pull_in));
-    return fw_rest_statics(&w, options, statics);
+    FW_TRY(fw_rest_statics(&w, options, found));
+    return fw_level_of_rest(&w, step);
+}
+
+/* the next level was wanted and has no equilibrium: what is there counts */
+static fw_status stay(fw_arena *arena, const fw_statics **statics) {
+    fw_statics *own = fw_arena_one(arena, fw_statics);
+    FW_NEED(own);
+    *own = **statics;
+    *statics = own;
+    return fw_level_stays(arena, own->level, &own->ledger.hinge);
+}
+
+fw_status fw_static_equilibrium(fw_arena *arena, const fw_mechanism *mechanism,
+                                const fw_scene *scene, const fw_static_options *options,
+                                fw_diags *diags, const fw_statics **statics) {
+    fw_effect_choice choice = options->effects;
+    double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
+    *statics = NULL;
+    for (;;) {
+        const fw_static_options o = {
+            .effects = choice, .path = options->path, .most_points = options->most_points};
+        fw_diags own = fw_diags_new(arena);
+        const fw_level_step *step = NULL;
+        const fw_statics *found;
+        bool higher = *statics != NULL;
+        fw_status status =
+            equilibrium(arena, mechanism, scene, &o, higher ? &own : diags, &found, &step);
+        if (higher && status == FW_SOLVER) return stay(arena, statics);
+        FW_TRY(status);
+        FW_TRY(with_level(arena, found, step, accuracy, options, statics));
+        if (!fw_level_climb(step, accuracy, &options->effects, &choice)) return FW_OK;
+    }
 }

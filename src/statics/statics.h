@@ -12,6 +12,7 @@
 typedef struct fw_static_options {
     fw_effect_choice effects; /* "auto" is taken as "all": nothing is left out */
     bool path;                /* follow the load path from s = 0 */
+    double accuracy;          /* of the hinges' level, where auto chooses it; 0: 1e-3 */
     int most_points;          /* of the path; 0: 2000 */
 } fw_static_options;
 
@@ -76,6 +77,7 @@ typedef struct fw_statics {
     fw_path *path;                    /* NULL: not asked for */
     const struct fw_pull_in *pull_in; /* pull_in.h; NULL: no comb drives */
     fw_effect_ledger ledger;
+    const struct fw_level_step *level; /* level.h; NULL: no hinges */
 } fw_statics;
 
 /* the stable equilibrium that descent from the assembled pose reaches at s = 1; with a path, its

@@ -128,7 +128,8 @@ bool fw_verdict_undecided(const fw_hinge_verdict *hinge, int nhinge) {
 
 fw_verdict_options fw_verdict_tighter(const fw_verdict_options *options) {
     fw_verdict_options tight = *options;
-    tight.motion.accuracy = 1e-6;
+    tight.motion.accuracy = 1e-6; /* of the numbers: the band has what the hinges' model is off */
+    tight.motion.hinge_accuracy = options->motion.accuracy;
     tight.motion.rtol = 0.0;
     return tight;
 }

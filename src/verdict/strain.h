@@ -3,6 +3,7 @@
 #ifndef FW_VERDICT_STRAIN_H
 #define FW_VERDICT_STRAIN_H
 #include "layout/layout.h"
+#include "flexure/elastica.h"
 #include "mechanism/mechanism.h"
 
 typedef struct fw_hinge_load {
@@ -20,6 +21,18 @@ double fw_hinge_strain(const fw_mechanism *mechanism, const fw_hinge *hinge,
 void fw_hinge_root_strains(const fw_mechanism *mechanism, const fw_hinge *hinge,
                            const fw_hinge_layout *drawn, const fw_hinge_load *load,
                            double strain[2]);
+/* the same with the section moments of an exact beam under this rotation and force; that of the
+   closed form where the beam has no such equilibrium. beam: of fw_hinge_beam; NULL: closed form */
+double fw_hinge_strain_exact(const fw_mechanism *mechanism, const fw_hinge *hinge,
+                             const fw_hinge_layout *drawn, fw_elastica *beam,
+                             const fw_hinge_load *load);
+/* *beam NULL: nothing is known of the strip, or its stiffness is stated */
+fw_status fw_hinge_beam(fw_arena *arena, const fw_hinge *hinge, fw_elastica **beam);
+/* largest |section moment| at the roots and inside, of the strip turned by theta under a force on
+   its second body, in the first one's frame; false: no equilibrium. kt: a moment inside counts only
+   where it is kt times those at the roots */
+bool fw_exact_moments(fw_elastica *beam, double theta_rad, const double force_N[2], double kt,
+                      double *root_Nm, double *inside_Nm);
 
 /* largest |section moment| at the roots and inside the arc; see strain.c */
 void fw_arc_moments(const fw_flexure *flexure, double centre_m, double moment_Nm, double fx_N,

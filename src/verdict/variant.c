@@ -149,7 +149,8 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_motion 
                          ? 0.0
                          : out->angle_error_rad / c->limit_angle_rad +
                                (strain->between + strain_error(motion)) / out->strain_limit;
-    double model = fw_verdict_model_error.motion + fw_verdict_model_error.strain + beyond_fit(c);
+    double model =
+        fw_motion_model_error(by->m, motion) + fw_verdict_model_error.strain + beyond_fit(c);
     out->numeric = numeric;
     out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - model) - numeric);
     out->utilisation_high = out->utilisation * (1.0 + model) + numeric;
@@ -208,6 +209,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
                             fw_watch *other) {
     size_t n = (size_t)device->nscene;
     fw_motion_options motion = options->motion;
+    motion.within_limits = true;
     if (motion.most_angle_rad <= 0) motion.most_angle_rad = whole_turn;
     FW_NEED(v->motion = fw_arena_alloc(arena, n, sizeof *v->motion));
     FW_NEED(v->pull_in = fw_arena_alloc(arena, n, sizeof *v->pull_in));
@@ -221,6 +223,8 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         FW_TRY(fw_watch_new(arena, m, layout, device->limits.cycles > 0, &other[i]));
         motion.other = &other[i];
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));
+        if (watch[i].no_memory) return FW_NOMEM;
+        if (v->motion[i]) FW_TRY(fw_level_strains(arena, m, v->motion[i]->level));
         if (v->motion[i] && v->motion[i]->ended) warn_ended(scene, v->motion[i], diags);
     }
     return FW_OK;

@@ -5,6 +5,7 @@
 #ifndef FW_VERDICT_VERDICT_H
 #define FW_VERDICT_VERDICT_H
 #include "dynamics/dynamics.h"
+#include "statics/level.h"
 #include "statics/pull_in.h"
 #include "verdict/made.h"
 #include "workspace/workspace.h"
@@ -143,6 +144,13 @@ typedef struct fw_model_error {
     double workspace; /* joint forces are not known for a required pose */
 } fw_model_error;
 extern const fw_model_error fw_verdict_model_error;
+
+/* what the hinges' level may be off by in a motion, relative to the largest strain: computed at its
+   peak where that is known (level.c), else fw_verdict_model_error.motion */
+double fw_motion_model_error(const fw_mechanism *mechanism, const fw_motion *motion);
+/* fills the strains of a step to the next level (may be NULL), on both levels */
+fw_status fw_level_strains(fw_arena *arena, const fw_mechanism *mechanism,
+                           const fw_level_step *step);
 
 /* one variant: every scene's motion and the required workspace. layout may be NULL: joint forces
    are then bounded instead of resolved along the flexure. */

@@ -67,9 +67,22 @@ static double turned(const fw_mechanism *m, const fw_instant *now, int body) {
     return body == FW_GROUND ? 0.0 : now->q[3 * body + 2] - m->body[body].phi_rad;
 }
 
+/* they take 50 kB each: only where a run has hinges as beams */
+static fw_status make_beams(fw_watch *w) {
+    const fw_mechanism *m = w->mechanism;
+    fw_elastica **beam = fw_arena_alloc(w->arena, (size_t)m->nhinge, sizeof *beam);
+    FW_NEED(beam);
+    for (int k = 0; k < m->nhinge; k++)
+        FW_TRY(fw_hinge_beam(w->arena, &m->hinge[k], &beam[k]));
+    w->beam = beam;
+    return FW_OK;
+}
+
 void fw_watch_see(void *context, const fw_instant *now) {
     fw_watch *w = context;
     const fw_mechanism *m = w->mechanism;
+    if (now && now->hinge == FW_HINGE_ELASTICA && !w->beam && !w->no_memory)
+        w->no_memory = make_beams(w) != FW_OK;
     for (int k = 0; k < m->nhinge; k++) {
         const fw_hinge *hinge = &m->hinge[k];
         const fw_pin *pin = &m->pin[hinge->pin];
@@ -84,7 +97,9 @@ void fw_watch_see(void *context, const fw_instant *now) {
                               0.5 * (turned(m, now, pin->body_a) + turned(m, now, pin->body_b))};
         const fw_hinge_layout *drawn =
             w->layout && w->layout->drawn ? &w->layout->hinge[hinge->pin] : NULL;
-        fw_strain_peak_add(&w->hinge[k], now->t_s, fw_hinge_strain(m, hinge, drawn, &load));
+        fw_elastica *beam = w->beam && now->hinge == FW_HINGE_ELASTICA ? w->beam[k] : NULL;
+        fw_strain_peak_add(&w->hinge[k], now->t_s,
+                           fw_hinge_strain_exact(m, hinge, drawn, beam, &load));
         if (w->root) count(w, k, drawn, &load, now);
     }
 }

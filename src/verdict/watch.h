@@ -16,9 +16,11 @@ typedef struct fw_strain_peak {
 typedef struct fw_watch { /* of one run */
     const fw_mechanism *mechanism;
     const fw_layout *layout; /* NULL: bounds instead of the drawn axis */
-    fw_strain_peak *hinge;   /* (nhinge) */
-    fw_turning (*root)[2];   /* (nhinge) of the strain at either root; NULL: nobody counts cycles */
     fw_arena *arena;
+    fw_elastica **beam; /* (nhinge) made when first needed; NULL: not yet */
+    bool no_memory;     /* for them: strains are those of the closed form, and the run has failed */
+    fw_strain_peak *hinge; /* (nhinge) */
+    fw_turning (*root)[2]; /* (nhinge) of the strain at either root; NULL: nobody counts cycles */
 } fw_watch;
 
 /* cycles: also keep the turning points that fatigue needs */

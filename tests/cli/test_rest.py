@@ -59,6 +59,39 @@ class InTemporary(unittest.TestCase):
         self.assertLessEqual(abs(got - want), relative * abs(want), f"{got!r} for {want!r}")
 
 
+class HingeModels(InTemporary):
+    LEAF = ROOT / "docs/gallery/leaf-four-bar/device.xml"
+
+    def test_every_model_in_every_command(self):
+        for command in ("statics", "modes"):
+            used = {}
+            for model in ("revolute", "compliance", "elastica", "auto"):
+                result = self.expect(run(command, self.LEAF, "--hinge-model", model, "--json"))
+                used[model] = json.loads(result.stdout)["hinge_model"]
+                self.assertEqual(used[model]["used"], "compliance" if model == "auto" else model)
+            self.assertEqual(used["elastica"]["why"], "asked for")
+            self.assertIn("below the accuracy wanted", used["auto"]["why"])
+            self.assertLess(used["compliance"]["error"], 1e-3)
+            self.assertGreater(used["revolute"]["error"], used["compliance"]["error"])
+
+    def test_the_step_is_the_difference(self):
+        pose = {}
+        for model in ("revolute", "compliance"):
+            pose[model] = json.loads(run("statics", self.LEAF, "--hinge-model", model, "--json").stdout)
+        step = pose["revolute"]["hinge_model"]["step"]
+        self.assertEqual(step["next"], "compliance")
+        for body, way in step["dq"].items():
+            for k in range(3):
+                self.assertAlmostEqual(pose["compliance"]["q"][body][k] - pose["revolute"]["q"][body][k], way[k],
+                                       delta=1e-11)
+        for hinge in step["hinges"]:
+            self.assertGreater(hinge["next_strain"], 0)
+
+    def test_wrong_model(self):
+        result = self.expect(run("statics", self.LEAF, "--hinge-model", "beam"), 2)
+        self.assertIn("revolute, compliance or elastica", result.stderr)
+
+
 class Modes(InTemporary):
     def test_reference_values(self):
         for arguments, table in (((), REST), (("--at", "rest"), REST), (("--at", "equilibrium"), LOADED)):

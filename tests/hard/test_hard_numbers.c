@@ -76,7 +76,7 @@ static bench *everything(fw_arena *arena) {
                                .reactions = true,
                                .most_angle_rad = 50,
                                .most_steps = 1000,
-                               .effects = {FW_EFFECTS_ALL, NULL}};
+                               .effects = {.mode = FW_EFFECTS_ALL}};
     return b;
 }
 

@@ -185,7 +185,7 @@ static inline double bounds_static(fw_arena *arena, const rig *r, double *omega)
     fw_effect_ledger ledger;
     fw_terms terms;
     fw_diags diags = fw_diags_new(arena);
-    const fw_effect_choice choice = {FW_EFFECTS_NONE, NULL};
+    const fw_effect_choice choice = {.mode = FW_EFFECTS_NONE};
     double force[60], u[60], turn[40], most = 0, work = 0, mass = 0;
     bool valid;
     assert_int_equal(

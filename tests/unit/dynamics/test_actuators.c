@@ -17,7 +17,7 @@ static fixture begin(void) {
 
 static fw_status simulate(fixture *f, const rig *r, int samples, const fw_motion **motion) {
     const fw_motion_options o = {
-        .rtol = 1e-12, .samples = samples, .effects = {FW_EFFECTS_AUTO, NULL}};
+        .rtol = 1e-12, .samples = samples, .effects = {.mode = FW_EFFECTS_AUTO}};
     return fw_simulate(f->arena, &r->m, &r->scene, &o, &f->diags, motion);
 }
 

@@ -154,7 +154,7 @@ static const fw_motion *run(fw_arena *arena, const rig *r, seen *s, double *rate
     const fw_motion *m = NULL;
     const fw_motion_options o = {.rtol = 1e-9,
                                  .samples = SAMPLES,
-                                 .effects = {FW_EFFECTS_ALL, NULL},
+                                 .effects = {.mode = FW_EFFECTS_ALL},
                                  .observe = s ? see : NULL,
                                  .context = s};
     assert_int_equal(fw_simulate(arena, &r->m, &r->scene, &o, &diags, &m), FW_OK);

@@ -4,7 +4,7 @@
 
 static const fw_motion *run(fw_arena *arena, const rig *r, double rtol, int samples) {
     fw_diags diags = fw_diags_new(arena);
-    fw_motion_options o = {.rtol = rtol, .samples = samples, .effects = {FW_EFFECTS_ALL, NULL}};
+    fw_motion_options o = {.rtol = rtol, .samples = samples, .effects = {.mode = FW_EFFECTS_ALL}};
     const fw_motion *motion = NULL;
     fw_status status = fw_simulate(arena, &r->m, &r->scene, &o, &diags, &motion);
     if (status != FW_OK) fail_msg("%s", diags.count ? diags.item[0].message : "no diagnostic");

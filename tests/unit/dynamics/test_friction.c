@@ -13,7 +13,7 @@ static const fw_motion *run_by(fw_arena *arena, const rig *r, const char *method
                            .integrator = integrator,
                            .rtol = rtol,
                            .samples = samples,
-                           .effects = {FW_EFFECTS_ALL, NULL}};
+                           .effects = {.mode = FW_EFFECTS_ALL}};
     const fw_motion *motion = NULL;
     fw_status status = fw_simulate(arena, &r->m, &r->scene, &o, &diags, &motion);
     if (status != FW_OK) fail_msg("%s", diags.count ? diags.item[0].message : "no diagnostic");
@@ -417,7 +417,7 @@ static void test_jam(void **state) {
         r.scene.duration_s = 1;
         rub(arena, &r, 0, FW_NONE, NOT, 0.7)->radius_m = jams ? 0.96 : 0.95;
         fw_diags diags = fw_diags_new(arena);
-        fw_motion_options o = {.effects = {FW_EFFECTS_ALL, NULL}};
+        fw_motion_options o = {.effects = {.mode = FW_EFFECTS_ALL}};
         const fw_motion *m = NULL;
         fw_status status = fw_simulate(arena, &r.m, &r.scene, &o, &diags, &m);
         assert_int_equal(status, jams ? FW_SOLVER : FW_OK);
@@ -446,7 +446,7 @@ static void test_jams_on_the_way(void **state) {
     rub(arena, &r, FW_NONE, 0, NOT, 0.8)->preload_N = 0.1;
     r.scene.duration_s = 2;
     fw_diags diags = fw_diags_new(arena);
-    fw_motion_options o = {.rtol = 1e-10, .effects = {FW_EFFECTS_ALL, NULL}};
+    fw_motion_options o = {.rtol = 1e-10, .effects = {.mode = FW_EFFECTS_ALL}};
     const fw_motion *m = NULL;
     assert_int_equal(fw_simulate(arena, &r.m, &r.scene, &o, &diags, &m), FW_SOLVER);
     assert_int_equal(diags.item[0].number, 244);

@@ -129,7 +129,7 @@ static outcome run(fw_arena *arena, const rig *r, const char *method, double rto
     fw_diags *diags = fw_arena_one(arena, fw_diags);
     *diags = fw_diags_new(arena);
     fw_motion_options o = {
-        .method = method, .rtol = rtol, .samples = 11, .effects = {FW_EFFECTS_ALL, NULL}};
+        .method = method, .rtol = rtol, .samples = 11, .effects = {.mode = FW_EFFECTS_ALL}};
     outcome out = {0};
     out.status = fw_simulate(arena, &r->m, &r->scene, &o, diags, &out.motion);
     out.message = diags->count ? diags->item[0].message : "";

@@ -314,7 +314,7 @@ static void test_energy_balance(void **state) {
         for (int k = 0; k < 3; k++) {
             const fw_motion *motion = NULL;
             const fw_motion_options o = {
-                .rtol = rtol[k], .samples = 21, .effects = {FW_EFFECTS_ALL, NULL}};
+                .rtol = rtol[k], .samples = 21, .effects = {.mode = FW_EFFECTS_ALL}};
             assert_int_equal(fw_simulate(f.arena, &r.m, &r.scene, &o, &f.diags, &motion), FW_OK);
             assert_true(motion->stats.energy_error < 300 * rtol[k]);
             assert_true(motion->stats.max_constraint_norm <= 1e-12);
@@ -434,7 +434,7 @@ static void test_mistakes(void **state) {
             r.m.pin[2].ax_m = (double)NAN;
             break;
         case 9:
-            o.effects = (fw_effect_choice){FW_EFFECTS_LIST, "magnetism"};
+            o.effects = (fw_effect_choice){.mode = FW_EFFECTS_LIST, .list = "magnetism"};
             break;
         default:
             r.scene.force[0].fx_N = 1e300;

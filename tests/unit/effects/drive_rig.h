@@ -43,7 +43,7 @@ static inline void rig_new(rig *r, uint64_t seed) {
 }
 
 static inline void rig_compile(rig *r) {
-    const fw_effect_choice choice = {FW_EFFECTS_AUTO, NULL};
+    const fw_effect_choice choice = {.mode = FW_EFFECTS_AUTO};
     assert_int_equal(fw_effects_compile(r->arena, &r->m, &r->scene, &choice, 1e-3, &r->diags,
                                         &r->ledger, &r->terms),
                      FW_OK);

@@ -103,6 +103,25 @@ static inline void rig_six_bar(rig *r, bool mirrored) {
     }
 }
 
+/* what exact beams are made of: the strip of rig_h1, without the corrections of a real one */
+static inline void rig_strip(fw_hinge *h, double E_Pa) {
+    double a = 0.75 * M_PI;
+    h->input = (fw_flexure_input){.kind = FW_FLEXURE_CSFH,
+                                  .length_m = 2 * a * 100e-6,
+                                  .angle_rad = 2 * a,
+                                  .radius_m = 100e-6,
+                                  .width_m = 8e-6,
+                                  .fillet_m = -1,
+                                  .depth_m = 50e-6,
+                                  .youngs_Pa = E_Pa,
+                                  .poisson = 0.22};
+    h->closed_form = (fw_flexure_result){.centre_m = 100e-6 * sin(a) / a,
+                                         .stiffness_Nm_per_rad = rig_h1(E_Pa).stiffness_Nm_per_rad,
+                                         .youngs_Pa = E_Pa,
+                                         .poisson = 0.22,
+                                         .concentration = 1};
+}
+
 static inline void rig_compile(rig *r) {
     assert_int_equal(fw_terms_new(r->arena, &r->m, &r->scene, &r->terms), FW_OK);
     assert_int_equal(fw_effect_joint_elasticity.add(&r->c, &r->terms), FW_OK);

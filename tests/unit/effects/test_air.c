@@ -169,7 +169,7 @@ static void stand_new(stand *s) {
 }
 
 static fw_status compile(stand *s) {
-    const fw_effect_choice choice = {FW_EFFECTS_AUTO, NULL};
+    const fw_effect_choice choice = {.mode = FW_EFFECTS_AUTO};
     return fw_effects_compile(s->arena, &s->m, &s->scene, &choice, 1e-3, &s->diags, &s->ledger,
                               &s->terms);
 }

@@ -279,7 +279,7 @@ static void test_compiled(void **state) {
         if (strcmp(r.ledger.item[i].id, "comb-drive") == 0) entry = &r.ledger.item[i];
     assert_true(entry && entry->active && isinf(entry->bound));
     r.scene.comb[0].voltage_V = 0;
-    const fw_effect_choice all = {FW_EFFECTS_ALL, NULL};
+    const fw_effect_choice all = {.mode = FW_EFFECTS_ALL};
     assert_int_equal(
         fw_effects_compile(r.arena, &r.m, &r.scene, &all, 1e-3, &r.diags, &r.ledger, &r.terms),
         FW_OK);

@@ -36,7 +36,7 @@ static void lever_new(lever *s, double k, double c) {
 static fw_status compile(fw_arena *arena, const lever *s, fw_effect_mode mode, const char *list,
                          double accuracy, fw_diags *diags, fw_effect_ledger *ledger,
                          fw_terms *terms) {
-    const fw_effect_choice choice = {mode, list};
+    const fw_effect_choice choice = {.mode = mode, .list = list};
     return fw_effects_compile(arena, &s->m, &s->scene, &choice, accuracy, diags, ledger, terms);
 }
 

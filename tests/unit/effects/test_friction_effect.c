@@ -101,7 +101,7 @@ static void test_unknown_radius(void **state) {
     use(&s, 1, FW_NONE, 0.3);
     fw_effect_ledger ledger;
     fw_terms terms;
-    const fw_effect_choice all = {FW_EFFECTS_ALL, NULL};
+    const fw_effect_choice all = {.mode = FW_EFFECTS_ALL};
     assert_int_equal(fw_effects_compile(arena, &s.m, &s.scene, &all, 1e-3, &diags, &ledger, &terms),
                      FW_INPUT);
     assert_int_equal(diags.count, 1);
@@ -159,7 +159,7 @@ static double bound_of(fw_arena *arena, double mu, double radius, double preload
     s.scene.duration_s = halves * acos(-1.0) / w;
     fw_friction_use *u = use(&s, 0, FW_NONE, mu);
     u->radius_m = radius, u->preload_N = preload;
-    const fw_effect_choice all = {FW_EFFECTS_AUTO, NULL};
+    const fw_effect_choice all = {.mode = FW_EFFECTS_AUTO};
     assert_int_equal(fw_effects_compile(arena, &s.m, &s.scene, &all, 1e-3, &diags, &ledger, &terms),
                      FW_OK);
     for (int i = 0; i < ledger.count; i++)

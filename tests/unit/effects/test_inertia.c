@@ -255,7 +255,7 @@ static void choices(void **state) {
     fw_diags diags = fw_diags_new(s.arena);
     fw_effect_ledger ledger;
     fw_terms terms;
-    const fw_effect_choice all = {FW_EFFECTS_ALL, NULL};
+    const fw_effect_choice all = {.mode = FW_EFFECTS_ALL};
     set_torque(&s, NULL, load);
     assert_int_equal(
         fw_effects_compile(s.arena, &s.m, &s.scene, &all, 1e-3, &diags, &ledger, &terms), FW_OK);

@@ -46,7 +46,7 @@ static void stand_new(stand *s) {
 }
 
 static void compile(stand *s) {
-    const fw_effect_choice choice = {FW_EFFECTS_AUTO, NULL};
+    const fw_effect_choice choice = {.mode = FW_EFFECTS_AUTO};
     fw_status status = fw_effects_compile(s->arena, &s->m, &s->scene, &choice, 1e-3, &s->diags,
                                           &s->ledger, &s->terms);
     if (status != FW_OK) fail_msg("%s", s->diags.item[0].message);
@@ -103,7 +103,7 @@ static void what_it_stands_on(void **state) {
     stand_new(&s);
     s.variant.substrate_expansion.unknown = true;
     s.warm[0].expansion_per_K = 0; /* of the layer only */
-    const fw_effect_choice choice = {FW_EFFECTS_AUTO, NULL};
+    const fw_effect_choice choice = {.mode = FW_EFFECTS_AUTO};
     assert_int_equal(
         fw_effects_compile(s.arena, &s.m, &s.scene, &choice, 1e-3, &s.diags, &s.ledger, &s.terms),
         FW_INPUT);

@@ -121,7 +121,7 @@ static const fw_effect_entry *entry(const fw_effect_ledger *l, const char *id) {
    with a cable that may pull anything it has none. Tendons stay, whatever their bound is. */
 static void others(void **state) {
     (void)state;
-    const fw_effect_choice choice = {FW_EFFECTS_AUTO, NULL};
+    const fw_effect_choice choice = {.mode = FW_EFFECTS_AUTO};
     for (int i = 0; i < 3; i++) {
         lever s;
         fw_effect_ledger ledger;

@@ -48,7 +48,7 @@ static void bench_new(bench *b) {
 }
 
 static void compile(bench *b) {
-    const fw_effect_choice choice = {FW_EFFECTS_AUTO, NULL};
+    const fw_effect_choice choice = {.mode = FW_EFFECTS_AUTO};
     assert_int_equal(fw_effects_compile(b->arena, &b->m, &b->scene, &choice, 1e-3, &b->diags,
                                         &b->ledger, &b->terms),
                      FW_OK);

@@ -11,7 +11,7 @@ static fw_model *model_of(fw_arena *arena, const rig *r, const char *method) {
     fw_diags diags = fw_diags_new(arena);
     fw_effect_ledger ledger;
     fw_terms *terms = fw_arena_one(arena, fw_terms);
-    const fw_effect_choice all = {FW_EFFECTS_ALL, NULL};
+    const fw_effect_choice all = {.mode = FW_EFFECTS_ALL};
     double *q = fw_arena_array(arena, double, 3 * (size_t)r->m.nbody);
     for (int b = 0; b < r->m.nbody; b++) {
         const fw_mass *p = &r->m.body[b];

@@ -42,7 +42,7 @@ static void try(uint64_t seed, score *to) {
         fw_terms terms;
         const fw_motion *row = NULL;
         const char *why = NULL;
-        const fw_effect_choice all = {FW_EFFECTS_ALL, NULL};
+        const fw_effect_choice all = {.mode = FW_EFFECTS_ALL};
         uint64_t more = seed ^ 0x77;
         if (d.laws > 0 && rig_random(&more) < 0.8) slow_down(&d, seed);
         d.r.scene.ninitial = 0;

@@ -6,7 +6,7 @@
 #include "statics/quasi.h"
 
 static const fw_motion *move(fixture *f, const rig *r, int samples) {
-    const fw_motion_options o = {.samples = samples, .effects = {FW_EFFECTS_ALL, NULL}};
+    const fw_motion_options o = {.samples = samples, .effects = {.mode = FW_EFFECTS_ALL}};
     const fw_motion *m = NULL;
     assert_int_equal(fw_move_scene(f->arena, &r->m, &r->scene, &o, &f->diags, &m), FW_OK);
     return m;

@@ -5,7 +5,7 @@
 #include "statics/pull_in.h"
 
 static const double eps0 = 8.8541878128e-12;
-static const fw_effect_choice all = {FW_EFFECTS_ALL, NULL};
+static const fw_effect_choice all = {.mode = FW_EFFECTS_ALL};
 
 static const fw_comb plate_drive = {.id = "plate",
                                     .kind = FW_ELECTRODES_PLATE,

@@ -12,7 +12,7 @@ static const fw_motion *row_of(fixture *f, const rig *r, const fw_motion_options
     fw_effect_ledger ledger;
     fw_terms terms;
     const char *unused;
-    const fw_effect_choice all = {FW_EFFECTS_ALL, NULL};
+    const fw_effect_choice all = {.mode = FW_EFFECTS_ALL};
     const fw_motion *m = NULL;
     assert_int_equal(
         fw_effects_compile(f->arena, &r->m, &r->scene, &all, 1e-3, &f->diags, &ledger, &terms),
@@ -273,7 +273,7 @@ static void moved(void **state) {
     (void)state;
     fixture f = begin();
     rig r = rig_six_bar(f.arena, false);
-    const fw_motion_options o = {.samples = 7, .effects = {FW_EFFECTS_ALL, NULL}};
+    const fw_motion_options o = {.samples = 7, .effects = {.mode = FW_EFFECTS_ALL}};
     const fw_motion *a = NULL, *b = full_motion(&f, &r, &o);
     assert_int_equal(fw_move_scene(f.arena, &r.m, &r.scene, &o, &f.diags, &a), FW_OK);
     for (int i = 0; i < 7 * 15; i++)
@@ -343,7 +343,7 @@ static void left_out_by_hand(void **state) {
     (void)state;
     fixture f = begin();
     rig r = rig_six_bar(f.arena, false);
-    const fw_motion_options none = {.samples = 2, .effects = {FW_EFFECTS_NONE, NULL}};
+    const fw_motion_options none = {.samples = 2, .effects = {.mode = FW_EFFECTS_NONE}};
     assert_string_equal(move(&f, &r, &none)->method, "quasi-static"); /* a step */
     assert_true(said(&f, 254));
     fw_diags quiet = fw_diags_new(f.arena);

@@ -146,7 +146,7 @@ static void moved_by_the_ground_alone(void **state) {
     for (int b = 0; b < 2; b++)
         q[3 * b] = r.m.body[b].x_m, q[3 * b + 1] = r.m.body[b].y_m,
               q[3 * b + 2] = r.m.body[b].phi_rad;
-    const fw_kinematics_options o = {.effects = {FW_EFFECTS_ALL, NULL}};
+    const fw_kinematics_options o = {.effects = {.mode = FW_EFFECTS_ALL}};
     const fw_kinematics *k;
     assert_int_equal(fw_kinematics_follow(f.arena, &r.m, &r.scene, q, 13, &o, &f.diags, &k), FW_OK);
     for (int i = 0; i < 13; i++) { /* centres of mass are half way up */
@@ -270,7 +270,7 @@ static void ends_of_ramps(void **state) {
                                .law = &ramp};
         r.scene.temperature = &warm, r.scene.ntemperature = 1;
         r.scene.duration_s = 4;
-        fw_motion_options o = {.rtol = 1e-12, .samples = 401, .effects = {FW_EFFECTS_ALL, NULL}};
+        fw_motion_options o = {.rtol = 1e-12, .samples = 401, .effects = {.mode = FW_EFFECTS_ALL}};
         const fw_motion *m = NULL;
         assert_int_equal(fw_simulate(f.arena, &r.m, &r.scene, &o, &f.diags, &m), FW_OK);
         assert_true(m->stats.energy_error < 1e-10);
@@ -420,7 +420,7 @@ static void points_follow(void **state) {
         r[i].scene.force[r[i].scene.nforce++] =
             (fw_force){.body = 0, .x_m = size * -0.5, .y_m = size * 0.8, .fx_N = 2, .fy_N = 1};
     }
-    const fw_effect_choice all = {FW_EFFECTS_ALL, NULL};
+    const fw_effect_choice all = {.mode = FW_EFFECTS_ALL};
     fw_terms terms[2];
     fw_effect_ledger ledger;
     for (int i = 0; i < 2; i++)

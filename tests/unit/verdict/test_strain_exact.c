@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Section moments and strains of exact beams in the verdict; what a level of hinges may be off by.
+ */
+#include "effects/hinge_rigs.h"
+#include "statics/statics.h"
+#include "verdict/strain.h"
+#include "verdict/verdict.h"
+
+typedef struct reference { /* hinge.md 2.5: load, and the largest section moment of each hinge by
+                              shooting (Runge-Kutta, n = 128), uN um */
+    int body[2];
+    double load[2][3], moment[6];
+} reference;
+
+static const reference cases[] = {
+    {{0, 4},
+     {{0, 0, 1.5e-7}, {0, 0, 0.5e-7}},
+     {88144.06990808416, 60117.741497948286, 9456.680709989181, 26103.77875915954,
+      31793.495153542353, 76278.98301787999}},
+    {{0, 4},
+     {{0, 0, -3e-7}, {0, 0, 3e-7}},
+     {49006.1990410099, 101212.5577837496, 65411.442688069525, 66252.8174284424, 102369.41793731936,
+      48357.193526499046}},
+    {{2, 2},
+     {{150e-6, 0, 0}, {0, 0, 0}},
+     {89946.29087428449, 48448.60509332679, 40260.392743738426, 42496.0067147719, 44121.93349371431,
+      89019.95688284576}},
+    {{2, 2},
+     {{0, 0, 3e-7}, {0, 0, 0}},
+     {51905.78682913905, 66396.66919991787, 102855.84827983088, 98150.34636382847,
+      60316.18318954761, 50784.899586790576}},
+};
+
+typedef struct scenery {
+    rig r;
+    fw_device device;
+    fw_flexure flexure;
+    fw_force force[2];
+    fw_torque torque[2];
+} scenery;
+
+static void six_bar(scenery *s, const reference *load, double share) {
+    rig *r = &s->r;
+    rig_six_bar(r, false);
+    s->flexure = (fw_flexure){.kind = FW_FLEXURE_CSFH,
+                              .radius_m = 100e-6,
+                              .angle_rad = 1.5 * M_PI,
+                              .length_m = 150e-6 * M_PI,
+                              .width_m = 8e-6};
+    s->device = (fw_device){.flexure = &s->flexure, .nflexure = 1};
+    r->m.device = &s->device;
+    r->variant.material.youngs.value = 147.0790923914665e9;
+    for (int i = 0; i < 6; i++) {
+        rig_strip(&r->hinge[i], 147.0790923914665e9);
+        r->hinge[i].closed_form.strain_per_rad = 8e-6 / (2 * 150e-6 * M_PI);
+        r->hinge[i].closed_form.concentration = 1.3;
+    }
+    for (int i = 0; i < 2; i++) {
+        s->force[i] = (fw_force){.body = load->body[i],
+                                 .fx_N = share * load->load[i][0],
+                                 .fy_N = share * load->load[i][1]};
+        s->torque[i] = (fw_torque){.body = load->body[i], .value_Nm = share * load->load[i][2]};
+    }
+    r->scene.force = s->force, r->scene.nforce = 2;
+    r->scene.torque = s->torque, r->scene.ntorque = 2;
+}
+
+static const fw_statics *rest(rig *r, fw_hinge_model model) {
+    const fw_statics *out = NULL;
+    const fw_static_options o = {.effects = {.hinge = model}};
+    if (fw_static_equilibrium(r->arena, &r->m, &r->scene, &o, &r->diags, &out) != FW_OK)
+        fail_msg("%s", r->diags.count ? r->diags.item[r->diags.count - 1].message : "?");
+    return out;
+}
+
+static fw_hinge_load load_of(const rig *r, const fw_statics *x, int i) {
+    const fw_pin *p = &r->m.pin[i];
+    double a = p->body_a == FW_GROUND ? 0 : x->q[3 * p->body_a + 2];
+    double b = p->body_b == FW_GROUND ? 0 : x->q[3 * p->body_b + 2];
+    return (fw_hinge_load){x->angle_rad[i], x->reaction_N[2 * i], x->reaction_N[2 * i + 1],
+                           0.5 * (a + b)};
+}
+
+/* all hinges of the six-bar under four loads, to 3e-8; the strain is that moment's, or what is
+   inside the arc where it is more than the fillet's concentration adds */
+static void moments_of_the_six_bar(void **state) {
+    (void)state;
+    for (size_t l = 0; l < sizeof cases / sizeof *cases; l++) {
+        scenery s;
+        six_bar(&s, &cases[l], 1);
+        const fw_statics *x = rest(&s.r, FW_HINGE_ELASTICA);
+        for (int i = 0; i < 6; i++) {
+            const fw_hinge *h = &s.r.hinge[i];
+            fw_elastica *beam;
+            const fw_hinge_load at = load_of(&s.r, x, i);
+            assert_int_equal(fw_hinge_beam(s.r.arena, h, &beam), FW_OK);
+            double axis = h->axis_rad + at.frame_rad - 0.5 * at.angle_rad, root, inside;
+            const double force[2] = {-cos(axis) * at.fx_N - sin(axis) * at.fy_N,
+                                     sin(axis) * at.fx_N - cos(axis) * at.fy_N};
+            assert_true(fw_exact_moments(beam, at.angle_rad, force, 1, &root, &inside));
+            /* the tables have the largest of the 129 nodes of their steps: less than the largest */
+            double off = fmax(root, inside) * 1e12 / cases[l].moment[i] - 1;
+            assert_true(off > -3e-8 && off < 1.5e-4);
+            if (inside <= root) assert_true(fabs(off) < 3e-8);
+            double strain = fw_hinge_strain_exact(&s.r.m, h, NULL, beam, &at);
+            double area = 8e-6 * 50e-6, E = 147.0790923914665e9;
+            double per = h->closed_form.strain_per_rad / h->closed_form.stiffness_Nm_per_rad;
+            assert_near(strain,
+                        per * fmax(root, inside / 1.3) + hypot(at.fx_N, at.fy_N) / (E * area),
+                        1e-9 * strain);
+        }
+        fw_arena_free(s.r.arena);
+    }
+}
+
+/* The section moments of the closed form are those of the arc as drawn: they differ by the product
+   of force and rotation, so that a third of the load has a ninth of the difference */
+static void closed_form_to_second_order(void **state) {
+    (void)state;
+    double off[2] = {0}, size[2] = {0};
+    for (int part = 0; part < 2; part++) {
+        scenery s;
+        six_bar(&s, &cases[2], part ? 1.0 / 3 : 1);
+        const fw_statics *x = rest(&s.r, FW_HINGE_ELASTICA);
+        for (int i = 0; i < 6; i++) {
+            const fw_hinge *h = &s.r.hinge[i];
+            const fw_hinge_load at = load_of(&s.r, x, i);
+            const fw_hinge_layout drawn = {
+                .drawn = true, .upper = s.r.pin[i].body_b, .axis_rad = h->axis_rad};
+            fw_elastica *beam;
+            assert_int_equal(fw_hinge_beam(s.r.arena, h, &beam), FW_OK);
+            double exact = fw_hinge_strain_exact(&s.r.m, h, &drawn, beam, &at);
+            double closed = fw_hinge_strain(&s.r.m, h, &drawn, &at);
+            off[part] = fmax(off[part], fabs(exact - closed));
+            size[part] = fmax(size[part], exact);
+        }
+        fw_arena_free(s.r.arena);
+    }
+    assert_true(off[0] / size[0] < 0.05 && off[0] / size[0] > 1e-4);
+    assert_near(off[0] / off[1], 9, 1.5);
+    assert_near(size[0] / size[1], 3, 0.2);
+}
+
+/* strains of a step are those of its two equilibria, and the band takes the larger difference */
+static void band_of_a_step(void **state) {
+    (void)state;
+    scenery s;
+    six_bar(&s, &cases[0], 1);
+    const fw_statics *pins = rest(&s.r, FW_HINGE_REVOLUTE);
+    fw_motion x = {.ledger = pins->ledger, .level = pins->level};
+    fw_terms still = {.quasi_static = true};
+    x.terms = &still;
+    assert_near(fw_motion_model_error(&s.r.m, &x), fw_verdict_model_error.motion,
+                0); /* no strains */
+    assert_int_equal(fw_level_strains(s.r.arena, &s.r.m, pins->level), FW_OK);
+    double off = 0, largest = 0;
+    for (int i = 0; i < 6; i++) {
+        off = fmax(off, fabs(pins->level->up.strain[i] - pins->level->at.strain[i]));
+        largest = fmax(largest, pins->level->at.strain[i]);
+        s.r.hinge[i].closed_form.error.stiffness = 0.006;
+    }
+    double want = fmax(off / largest, pins->level->relative) + 0.006;
+    assert_near(fw_motion_model_error(&s.r.m, &x), want, 1e-15);
+    assert_true(want > 0.007 && want < 0.04);
+    still.quasi_static = false; /* pins that swing */
+    assert_true(fw_motion_model_error(&s.r.m, &x) >= fw_verdict_model_error.motion);
+    const fw_statics *exact = rest(&s.r, FW_HINGE_ELASTICA);
+    x.ledger = exact->ledger, x.level = exact->level;
+    assert_near(fw_motion_model_error(&s.r.m, &x), 0.006, 0);
+    x.ledger = pins->ledger, x.level = NULL;
+    assert_near(fw_motion_model_error(&s.r.m, &x), fw_verdict_model_error.motion, 0);
+    fw_arena_free(s.r.arena);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(moments_of_the_six_bar),
+        cmocka_unit_test(closed_form_to_second_order),
+        cmocka_unit_test(band_of_a_step),
+    };
+    return cmocka_run_group_tests_name("strain-exact", tests, NULL, NULL);
+}
