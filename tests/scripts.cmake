@@ -24,6 +24,7 @@ fw_script_test(cli.rest COMMAND ${Python3_EXECUTABLE} tests/cli/test_rest.py ${F
 fw_script_test(cli.workspace COMMAND ${Python3_EXECUTABLE} tests/cli/test_workspace.py ${FW_PROGRAM})
 fw_script_test(cli.assemble COMMAND ${Python3_EXECUTABLE} tests/cli/test_assemble.py ${FW_PROGRAM})
 fw_script_test(cli.effects COMMAND ${Python3_EXECUTABLE} tests/cli/test_effects.py ${FW_PROGRAM})
+fw_script_test(cli.hinge COMMAND ${Python3_EXECUTABLE} tests/cli/test_hinge.py ${FW_PROGRAM})
 fw_script_test(cli.pictures COMMAND ${Python3_EXECUTABLE} tests/cli/test_pictures.py ${FW_PROGRAM})
 fw_script_test(cli.reproducible COMMAND ${Python3_EXECUTABLE} tests/cli/test_reproducible.py ${FW_PROGRAM})
 fw_script_test(fault.files COMMAND ${Python3_EXECUTABLE} tests/fault/test_faults.py ${FW_PROGRAM})
