@@ -40,7 +40,7 @@ fw_status fw_plan_verdict_text(fw_plan *plan, fw_terminal_style style, fw_text *
 static fw_status report_ladders(fw_plan *plan, fw_ladders *ladders) {
     fw_diags said = plan->diags;
     plan->diags = fw_diags_new(plan->arena);
-    fw_status status = fw_plan_ladders(plan, FW_LADDER_CHEAP, ladders);
+    fw_status status = fw_plan_ladders(plan, FW_LADDER_ONCE, ladders);
     plan->diags = said;
     return status;
 }

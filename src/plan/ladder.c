@@ -22,12 +22,13 @@ static double now_s(void) {
                : (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-fw_status fw_ladder_climb(const fw_ladder_case *c, const fw_ladder_level *of,
+fw_status fw_ladder_climb(const fw_ladder_case *c, const fw_ladder_level *of, bool measured,
                           fw_report_level *row) {
     double spent = 0;
     int done = 0;
     *row = (fw_report_level){.name = of->name};
-    for (int batch = 1; done == 0 || (spent < 2e-3 && row->state == FW_LEVEL_SOLVED); batch *= 2) {
+    for (int batch = 1; done == 0 || (measured && spent < 2e-3 && row->state == FW_LEVEL_SOLVED);
+         batch *= 2) {
         fw_ladder_case fresh = *c;
         fw_status status = FW_OK;
         FW_NEED(fresh.arena = fw_arena_new(0));

@@ -28,8 +28,9 @@ const fw_ladder_level *fw_ladder_levels(size_t *count);
 typedef enum fw_ladder_wanted {
     FW_LADDER_CHEAP = -1, /* all but those of external programs */
     FW_LADDER_AUTO = -2,  /* the same, and external ones where those do not reach the accuracy */
-    FW_LADDER_ALL = -3
-} fw_ladder_wanted; /* else: index of the one level */
+    FW_LADDER_ALL = -3,
+    FW_LADDER_ONCE = -4 /* as CHEAP, each level run once: what it costs is not wanted */
+} fw_ladder_wanted;     /* else: index of the one level */
 
 enum { FW_DRIFT_POINTS = 41 };
 typedef struct fw_ladder_drift {
@@ -67,8 +68,8 @@ fw_status fw_plan_ladders(fw_plan *plan, int wanted, fw_ladders *out);
 fw_status fw_plan_report_hinges(fw_plan *plan, const fw_ladders *all, fw_report_hinge **out);
 const char *fw_ladder_id(const fw_ladder *ladder);
 
-/* one level, repeated until the clock can see it (at least once, at most for 2 ms) */
-fw_status fw_ladder_climb(const fw_ladder_case *c, const fw_ladder_level *level,
+/* one level; measured: repeated until the clock can see it, at most for 2 ms */
+fw_status fw_ladder_climb(const fw_ladder_case *c, const fw_ladder_level *level, bool measured,
                           fw_report_level *row);
 /* hinge frame to world: where the pin + (along, across) is in the drawn pose; the pin is at W */
 void fw_ladder_place(const fw_mechanism *mechanism, const fw_hinge *hinge, const double at_m[2],

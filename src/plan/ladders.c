@@ -41,7 +41,7 @@ static fw_status climb(const climber *k, fw_ladder *l) {
     l->shared = before(k, l);
     for (int i = 0; i < (int)count && l->shared < 0; i++) {
         if (!takes(k, l, i, &level[i])) continue;
-        FW_TRY(fw_ladder_climb(&c, &level[i], &l->row[l->rows]));
+        FW_TRY(fw_ladder_climb(&c, &level[i], k->wanted != FW_LADDER_ONCE, &l->row[l->rows]));
         l->rows++;
         fw_ladder_pick(l, k->all->accuracy);
     }
