@@ -194,7 +194,8 @@ static void crystal_of(const fw_flexure_input *in, const fw_flexure_result *clos
 }
 
 /* EI is what makes K = EI/(L + 2 dL) the stiffness of the closed form, as in fw_hinge_law_of; of a
-   crystal it goes with the direction. Test: test_beam.c flexures, crystals */
+   crystal it goes with the direction. Test: test_beam.c, of a crystal
+   tests/cli/test_hinge.py test_random_beams */
 void fw_beam_of_flexure(const fw_flexure_input *in, const fw_flexure_result *closed_form,
                         fw_beam_piece *piece, fw_beam *out) {
     bool arc = in->kind == FW_FLEXURE_CSFH;
