@@ -229,6 +229,22 @@ static const char *take_svg(fw_cli_options *o, const char *v) {
     return *v ? NULL : "needs the name of a file";
 }
 
+static const char *take_level(fw_cli_options *o, const char *v) {
+    static const char *const word[] = {"closed-form", "compliance", "elastica",
+                                       "continuum",   "auto",       "all"};
+    for (int i = 0; i < 6; i++)
+        if (strcmp(v, word[i]) == 0) {
+            o->level = word[i];
+            return NULL;
+        }
+    return "needs closed-form, compliance, elastica, continuum, auto or all";
+}
+
+static const char *take_deck(fw_cli_options *o, const char *v) {
+    o->deck = v;
+    return *v ? NULL : "needs the name of a directory";
+}
+
 static const option_row table[] = {
     {"output", 'o', "DIR", "directory of the results; it appears whole or not at all",
      FW_OPT_OUTPUT, take_output},
@@ -304,6 +320,15 @@ static const option_row table[] = {
     {"svg", 0, "FILE",
      "drift of the axis and gap of the surfaces against the angle; - is standard output",
      FW_OPT_HINGE, take_svg},
+    {"level", 0, "LEVEL",
+     "closed-form, compliance, elastica or continuum: only this one; all; auto (default where "
+     "--accuracy is given): continuum, which takes seconds, where the others do not reach the "
+     "accuracy. Default: all but continuum",
+     FW_OPT_HINGE, take_level},
+    {"deck", 0, "DIR",
+     "input decks of the solids for CalculiX: every hinge, linear and at finite rotation, and the "
+     "mechanism under each scene; each file whole or not at all",
+     FW_OPT_HINGE, take_deck},
     {"quiet", 'q', NULL, "no messages but errors", FW_OPT_COMMON, take_quiet},
     {"verbose", 'v', NULL, "a line per stage, and every note", FW_OPT_COMMON, take_verbose},
     {"color", 0, "WHEN", "auto, always or never", FW_OPT_COMMON, take_colour},

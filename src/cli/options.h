@@ -16,7 +16,8 @@ typedef struct fw_cli_options {
     const char *device; /* "-" = standard input; for explain: the code */
     const char *output; /* -o */
     const char *csv, *forces, *animate;
-    const char *svg; /* of assemble and hinge */
+    const char *svg;          /* of assemble and hinge */
+    const char *level, *deck; /* of hinge; NULL: by accuracy, none */
     bool json, quiet, verbose, no_progress, help, version;
     int colour; /* -1 auto, 0 never, 1 always */
 } fw_cli_options;

@@ -74,9 +74,11 @@ static const fw_command table[] = {
      "centre,\n"
      "stiffnesses, peak strain per radian (crystal: peak stress over the mean modulus), limit "
      "angle,\n"
-     "each level's own estimate of its error, and what it costs. Then how the axis drifts, and "
-     "where\n"
-     "the conjugate surfaces meet. --svg, or -o DIR with hinge.json and hinge.svg, draws it.",
+     "each level's own estimate of its error, and what it costs. * marks the cheapest level whose\n"
+     "estimate for the stiffness is within --accuracy; where none is, the best. Then how the axis\n"
+     "drifts, and where the conjugate surfaces meet. --svg, or -o DIR with hinge.json and "
+     "hinge.svg,\n"
+     "draws it.",
      FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_HINGE, fw_command_hinge},
     {"workspace", "DEVICE.xml", "reachable set under the strain limit, certified; picture",
      "flexwright workspace device.xml -o workspace-out",

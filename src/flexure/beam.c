@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flexure/beam.h"
 #include "flexure/gauss.h"
+#include "flexure/kinds.h"
 #include <math.h>
 
 static double sinc(double x) {
@@ -170,8 +171,31 @@ void fw_beam_compliance(const fw_beam *b, fw_beam_linear *out) {
     out->error = fmax(out->error, 4e-15);
 }
 
+/* the crystal of the closed form in the frame of the flexure; psi of a tangent is a quarter turn
+   off the polar angle, which cos 4 psi does not feel. The two roots give as fw_root_m_per_Pa has it
+ */
+static void crystal_of(const fw_flexure_input *in, const fw_flexure_result *closed_form,
+                       fw_beam *out) {
+    const fw_crystal *k = &in->crystal;
+    double turn = 0.5 * M_PI - out->psi_rad; /* from the middle to either end */
+    fw_flexure_shape shape;
+    fw_flexure_shape_of(in, &shape);
+    out->cubic = true;
+    out->a0_per_Pa = k->a0_per_Pa;
+    out->a1_per_Pa = k->aligned ? k->a1_per_Pa : 0; /* else the mean over all directions */
+    out->orientation_rad = 0.25 * atan2(k->sin4, k->cos4);
+    out->depth_factor = closed_form->depth_factor * shape.golovin;
+    out->shear_Pa = closed_form->youngs_Pa / (2 * (1 + closed_form->poisson));
+    for (int end = 0; end < 2; end++) {
+        double four = 4 * (out->orientation_rad + (end ? turn : -turn));
+        double per_E = out->a0_per_Pa + out->a1_per_Pa * cos(four);
+        out->root_m[end] = fw_root_m_per_Pa(&shape, k, k->aligned ? cos(four) : 0) / per_E;
+    }
+}
+
 /* EI is what makes K = EI/(L + 2 dL) the stiffness of the closed form, as in fw_hinge_law_of; of a
-   crystal 1/E by the direction of the tangent, shear with the mean of 1/G */
+   crystal it goes with the direction. Test: test_beam.c, of a crystal
+   tests/cli/test_hinge.py test_random_beams */
 void fw_beam_of_flexure(const fw_flexure_input *in, const fw_flexure_result *closed_form,
                         fw_beam_piece *piece, fw_beam *out) {
     bool arc = in->kind == FW_FLEXURE_CSFH;
@@ -190,14 +214,5 @@ void fw_beam_of_flexure(const fw_flexure_input *in, const fw_flexure_result *clo
                      .shear_Pa = in->youngs_Pa / (2 * (1 + in->poisson)),
                      .depth_factor = closed_form->stiffness_Nm_per_rad * (L + 2 * dL) / thin,
                      .root_m = {dL, dL}};
-    if (!in->crystal.known || !in->crystal.aligned || !arc) return;
-    fw_beam_linear linear; /* the mean modulus of the arc is in K: the rest of K is the depth's */
-    out->cubic = true;
-    out->a0_per_Pa = in->crystal.a0_per_Pa;
-    out->a1_per_Pa = in->crystal.a1_per_Pa;
-    out->orientation_rad = 0.25 * atan2(in->crystal.sin4, in->crystal.cos4);
-    out->shear_Pa = 1 / in->crystal.g0_per_Pa;
-    out->depth_factor = 1;
-    fw_beam_compliance(out, &linear);
-    out->depth_factor = linear.c[0][0] * closed_form->stiffness_Nm_per_rad;
+    if (in->crystal.known) crystal_of(in, closed_form, out);
 }

@@ -164,7 +164,7 @@ static void crystal_arc(const fw_flexure_shape *f, const fw_flexure_input *in, f
      eps/rad = t/(2 (L + 2 dL)) Kt max((1 + t/3r) F_inner, (1 - t/3r) F_outer), at the root fillet
      crystal: sigma/rad = t/(2 int ds/E) Kt max(...) q, eps = sigma/E (fw_crystal_stress)
    error: K 0.15-0.51 %, W 0.2 um, strain -0.2..+2.9 % against 3-D finite elements on held-out
-   shapes. Cost 50 ns with the shape at hand, a crystal 75 (bench_hinge_closed.c).
+   shapes. Cost 65 ns with the shape at hand and its errors, a crystal 100 (bench_hinge_closed.c).
    source: docs/theory/flexure.md eq. 1-13; test_ladder.c, test_crystal.c */
 void fw_flexure_csfh(const fw_flexure_shape *f, const fw_flexure_input *in,
                      fw_flexure_result *out) {

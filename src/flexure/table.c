@@ -20,55 +20,10 @@ static const fw_flexure_model *model_of(fw_flexure_kind kind) {
     return &table[i];
 }
 
-/* Largest deviations from 3-D finite elements with real roots on held-out shapes (t/r 0.08 to 0.1,
-   L/t 31 to 59, h/t 0.9 to 6.3, rho/t 0.4 to 1), rounded up:
-     arc:  K 0.6 %, kx 1 %, ky 1.4 %, W 0.0025 r (0.2 um of 100 um), strain 2.9 %
-     leaf: K 0.6 %, kx 1.4 %, ky 1.4 %, W: its middle, to 0.01 t by the roots' unlikeness
-   Outside nothing was compared: times 2 for each of fillet outside [0.05, 1] t, arc thicker than
-   t/r = 0.15, strip shorter than 20 t, depth above 10 t; times 10 in all above t/r = 0.3. A
-   crystal: K 2 %, kx 2 %, ky 3 % (linear FE of two arcs, three directions each, ideal ends), W
-   0.005 r, strain 6 %; where its direction is not known the spread over all of them is added.
-   source: docs/theory/flexure.md; test_ladder.c errors_hold */
-static fw_flexure_error widened(const fw_flexure_error *e, double by) {
-    return (fw_flexure_error){by * e->stiffness, by * e->kx,       by * e->ky,
-                              by * e->strain,    by * e->centre_m, e->outside || by > 1};
-}
-
-static fw_flexure_error outline_errors(const fw_flexure_shape *f) {
-    bool arc = f->kind == FW_FLEXURE_CSFH;
-    double t = f->width_m, wide = 1;
-    const fw_flexure_error e = {
-        0.006, arc ? 0.010 : 0.014, 0.014, 0.029, arc ? 0.0025 * f->radius_m : 0.01 * t, false};
-    wide *= (f->fillet_m >= 0 && f->fillet_m < 0.05 * t) || f->fillet_m > t * (1.0 + 1e-9) ? 2 : 1;
-    wide *= arc && t > 0.15 * f->radius_m ? 2 : 1;
-    wide *= f->length_m < 20 * t ? 2 : 1;
-    if (arc && t > 0.3 * f->radius_m) wide = fmax(wide, 10);
-    return widened(&e, wide);
-}
-
-static fw_flexure_error crystal_errors(const fw_flexure_shape *f, const fw_crystal *k) {
-    const fw_flexure_error *of = &f->error;
-    fw_flexure_error e = {of->stiffness + 0.014, of->kx + 0.010,   of->ky + 0.016,
-                          of->strain + 0.031,    2 * of->centre_m, of->outside};
-    if (k->aligned) return e;
-    double spread = fabs(k->a1_per_Pa / k->a0_per_Pa);
-    bool arc = f->kind == FW_FLEXURE_CSFH;
-    e.stiffness += arc ? 0 : spread;
-    e.kx += arc ? 0.1 * spread : spread;
-    e.ky += spread;
-    e.centre_m += arc ? 0.2 * spread * f->radius_m : 0;
-    return e;
-}
-
-static fw_flexure_error errors_of(const fw_flexure_shape *f, const fw_flexure_input *in,
-                                  bool deep) {
-    fw_flexure_error e = in->crystal.known ? crystal_errors(f, &in->crystal) : f->error;
-    return deep ? widened(&e, 2) : e;
-}
-
 /* limit angle = strength / safety factor / (E eps/rad); its relative uncertainty is that of the
    strain formula: half of the 2.9 % by which held-out finite elements were off (crystal: of 6 %),
-   and 5 % more where the fillet lies outside the fitted range or the arc is thick (t/r > 0.3) */
+   and 2 % more (leaf 4 %) for fillets below t/4, 5 % more where the fillet lies outside the fitted
+   range or the arc is thick (t/r > 0.3) */
 void fw_flexure_closed_form_at(const fw_flexure_shape *f, const fw_flexure_input *in,
                                fw_flexure_result *out) {
     /* every member is set here or by the kind: clearing them all first would cost a fifth */
@@ -79,16 +34,14 @@ void fw_flexure_closed_form_at(const fw_flexure_shape *f, const fw_flexure_input
     double along = out->compliance[1][1], across = out->compliance[2][2];
     double both = 1 / (along * across);
     out->kx_N_per_m = across * both, out->ky_N_per_m = along * both;
-    out->strain_bound_per_rad = FW_FLEXURE_STRAIN_SAFE * out->strain_per_rad;
+    out->strain_bound_per_rad = f->safe * out->strain_per_rad;
     out->stress_per_rad_Pa = in->youngs_Pa * out->strain_per_rad;
     out->limit_angle_rad = in->strength_Pa / (in->safety_factor * out->stress_per_rad_Pa);
-    bool deep = in->depth_m > 10 * f->width_m;
-    if (in->crystal.known || deep)
-        out->error = errors_of(f, in, deep);
-    else
-        out->error = f->error;
+    out->error = fw_flexure_errors(f, in, out);
     out->limit_uncertainty = (in->crystal.known ? 0.03 : FW_FLEXURE_STRAIN_UNCERTAINTY) +
-                             (f->beyond_fit ? 0.065 - FW_FLEXURE_STRAIN_UNCERTAINTY : 0);
+                             (f->beyond_fit ? 0.065 - FW_FLEXURE_STRAIN_UNCERTAINTY
+                              : f->sharp    ? (f->kind == FW_FLEXURE_LEAF ? 0.04 : 0.02)
+                                            : 0);
 }
 
 void fw_flexure_shape_of(const fw_flexure_input *in, fw_flexure_shape *f) {
@@ -96,8 +49,10 @@ void fw_flexure_shape_of(const fw_flexure_input *in, fw_flexure_shape *f) {
     f->per_length = 1 / f->length_m;
     f->per_whole = 1 / f->whole_m;
     f->per_section = 12 / (f->width_m * f->width_m);
-    f->error = outline_errors(f);
+    f->widening = fw_flexure_widening(f);
     double x = f->fillet_m / f->width_m;
+    f->sharp = x >= 0 && x < 0.25;
+    f->safe = fw_flexure_safe(f);
     f->beyond_fit = (x >= 0 && x < 0.05) || x > 1.0 + 1e-9 ||
                     (f->kind == FW_FLEXURE_CSFH && f->width_m > 0.3 * f->radius_m);
 }

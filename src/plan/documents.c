@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Documents that span the flows of a plan; those of one flow are composed in its own room. */
+#include "plan/ladder.h"
 #include "plan/stages.h"
 #include "report/json.h"
 
@@ -35,10 +36,24 @@ fw_status fw_plan_verdict_text(fw_plan *plan, fw_terminal_style style, fw_text *
     return fw_report_verdict_text(&input, style, out);
 }
 
+/* mechanisms are built again: what there is to say of them has been said by the verdict */
+static fw_status report_ladders(fw_plan *plan, fw_ladders *ladders) {
+    fw_diags said = plan->diags;
+    plan->diags = fw_diags_new(plan->arena);
+    fw_status status = fw_plan_ladders(plan, FW_LADDER_ONCE, ladders);
+    plan->diags = said;
+    return status;
+}
+
 fw_status fw_plan_report_html(fw_plan *plan, fw_text *out) {
     FW_TRY(fw_plan_assumptions(plan));
+    fw_ladders ladders;
+    fw_report_hinge *hinge;
     fw_report_input input = fw_plan_report_input(plan);
     FW_NEED(input.flow);
+    FW_TRY(report_ladders(plan, &ladders));
+    FW_TRY(fw_plan_report_hinges(plan, &ladders, &hinge));
+    input.hinge = hinge, input.nhinge = ladders.count;
     return fw_report_write_html(plan->arena, &input, out);
 }
 

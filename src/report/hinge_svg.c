@@ -193,11 +193,10 @@ static void legend(fw_text *out) {
                          LEFT + 180 * i, colour[i], LEFT + 180 * i + 32, word[i]);
 }
 
-fw_status fw_report_hinges_svg(const fw_device *device, const fw_report_hinge *hinge, int count,
-                               fw_text *out) {
+fw_status fw_report_hinges_picture(const fw_device *device, const fw_report_hinge *hinge, int count,
+                                   fw_text *out) {
     int height = HEADING + count * HIGH + 8;
     fw_report_markup(out,
-                     "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
                      "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 {i} "
                      "{i}\" width=\"{i}\" height=\"{i}\" font-family=\"system-ui,'DejaVu Sans',"
                      "sans-serif\">\n<title>{s}: hinges</title>\n"
@@ -222,4 +221,10 @@ fw_status fw_report_hinges_svg(const fw_device *device, const fw_report_hinge *h
     }
     fw_text_add(out, "</svg>\n");
     return fw_text_end(out);
+}
+
+fw_status fw_report_hinges_svg(const fw_device *device, const fw_report_hinge *hinge, int count,
+                               fw_text *out) {
+    fw_text_add(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    return fw_report_hinges_picture(device, hinge, count, out);
 }

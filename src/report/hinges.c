@@ -97,5 +97,5 @@ fw_status fw_report_section_hinges(fw_page *page) {
         "The worst case of every hinge over all flows, scenes and required poses. "
         "The dashed line in the bar is the limit, safety factor included; the "
         "whisker is the error band.");
-    return fw_text_end(page->out);
+    return fw_report_ladder(page);
 }

@@ -189,6 +189,11 @@ fw_status fw_report_section_effects(fw_page *page);
 fw_status fw_report_section_accuracy(fw_page *page);
 fw_status fw_report_section_assumptions(fw_page *page);
 fw_status fw_report_section_messages(fw_page *page);
+/* ladder.c: table of the hinges by every model, and their picture; nothing without hinges */
+fw_status fw_report_ladder(fw_page *page);
+/* hinge_svg.c: the picture as an element */
+fw_status fw_report_hinges_picture(const fw_device *device, const fw_report_hinge *hinge, int count,
+                                   fw_text *out);
 /* table of hinge verdicts; `with_flow` adds the column */
 void fw_report_hinge_table(fw_text *out, const fw_hinge_verdict *hinge, int nhinge, bool with_flow,
                            const char *caption);

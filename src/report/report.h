@@ -31,7 +31,9 @@ typedef struct fw_report_input {
     const char *version;
     const char **assumption; /* (nassumption) sentences */
     int nassumption;
-    const fw_diags *diags; /* NULL: none */
+    const fw_diags *diags;               /* NULL: none */
+    const struct fw_report_hinge *hinge; /* (nhinge) the ladder, per flow */
+    int nhinge;
 } fw_report_input;
 
 /* report.html: one file, needs nothing else, readable without script and on paper */
@@ -62,6 +64,25 @@ fw_status fw_report_device_svg(fw_arena *arena, const fw_device *device, const f
 fw_status fw_report_device_png(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                                const fw_verdict *verdict, int width_px, fw_text *out);
 
+typedef enum fw_report_level_state {
+    FW_LEVEL_SOLVED,
+    FW_LEVEL_NONE,   /* the level has nothing for this hinge: `why` */
+    FW_LEVEL_MISSING /* it needs a program that is not installed: `why` */
+} fw_report_level_state;
+
+typedef struct fw_report_level { /* a hinge by one model of the ladder */
+    const char *name;
+    fw_report_level_state state; /* other than solved: only `why` holds */
+    const char *why;
+    double at_m[2];                                      /* elastic centre less pin, hinge frame */
+    double centre_m[2];                                  /* the same, world, drawn pose */
+    double stiffness_Nm_per_rad, kx_N_per_m, ky_N_per_m; /* x along the hinge's axis */
+    double strain_per_rad, limit_angle_rad;
+    double moment_Nm, drift_m; /* at the limit angle; NaN: the level does not know */
+    fw_flexure_error error;    /* the level's own estimate */
+    double cpu_s;              /* of one evaluation, measured: never in the report */
+} fw_report_level;
+
 typedef struct fw_report_hinge { /* one panel */
     const char *id, *flow;       /* flow NULL: none */
     const fw_hinge *hinge;
@@ -71,6 +92,8 @@ typedef struct fw_report_hinge { /* one panel */
     double contact_rad[2]; /* by a pure moment, on either side; NaN: none */
     double
         cover_rad[2]; /* world directions from W between which the surfaces are; NaN: not drawn */
+    const fw_report_level *level; /* (nlevel) */
+    int nlevel;
 } fw_report_hinge;
 /* every hinge as it is, and drift of its axis and gap of its surfaces against the angle */
 fw_status fw_report_hinges_svg(const fw_device *device, const fw_report_hinge *hinge, int count,

@@ -551,8 +551,15 @@ static fixture *fixture_new(fw_arena *arena, double limit) {
     f->diags = fw_diags_new(arena);
     fw_diag_warning(&f->diags, 160, (fw_place){"device.xml", 14, 33},
                     "thickness differs from the pack");
-    f->input = (fw_report_input){&f->device, &f->layout, v, f->flow,  VARIANTS,
-                                 "0.1.0",    assumption, 1, &f->diags};
+    f->input = (fw_report_input){.device = &f->device,
+                                 .layout = &f->layout,
+                                 .verdict = v,
+                                 .flow = f->flow,
+                                 .nflow = VARIANTS,
+                                 .version = "0.1.0",
+                                 .assumption = assumption,
+                                 .nassumption = 1,
+                                 .diags = &f->diags};
     return f;
 }
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/hinge_ladder.h"
+#include "plan/ladder.h"
 #include <math.h>
 
 static double turned(double angle_rad) { /* into (-pi, pi] */
@@ -9,11 +9,10 @@ static double turned(double angle_rad) { /* into (-pi, pi] */
 /* Least angle between where the convex surface is pushed by the drift and the sector in which both
    surfaces are: W of body b drifts along +-y of the hinge's frame from W of body a; small
    rotations, the sector does not turn */
-static double aside(const fw_ladder_case *c) {
-    const fw_hinge *h = c->hinge;
-    const fw_pin *pin = &c->mechanism->pin[h->pin];
+static double aside(const fw_mechanism *m, const fw_hinge *h) {
+    const fw_pin *pin = &m->pin[h->pin];
     if (!isfinite(h->cover_from_rad) || !isfinite(h->axis_rad)) return 0;
-    double drawn = pin->body_a == FW_GROUND ? 0 : c->mechanism->body[pin->body_a].phi_rad;
+    double drawn = pin->body_a == FW_GROUND ? 0 : m->body[pin->body_a].phi_rad;
     double push =
         h->axis_rad - drawn + (h->first_is_a ? 0.5 : -0.5) * M_PI + (h->convex_is_a ? M_PI : 0);
     double middle = 0.5 * (h->cover_from_rad + h->cover_to_rad);
@@ -21,15 +20,14 @@ static double aside(const fw_ladder_case *c) {
     return fmax(0, fabs(turned(push - middle)) - half);
 }
 
-void fw_ladder_drift_of(const fw_ladder_case *c, fw_ladder_drift *out) {
-    const fw_hinge *h = c->hinge;
+void fw_ladder_drift_of(const fw_mechanism *m, const fw_hinge *h, fw_ladder_drift *out) {
     const fw_hinge_law *law = &h->law;
-    const fw_flexure *f = &c->mechanism->device->flexure[h->flexure];
+    const fw_flexure *f = &m->device->flexure[h->flexure];
     double sense = h->first_is_a ? 1 : -1; /* of the pin's rotation against the law's */
     double most = 1.9 * (M_PI - law->half_angle_rad) / law->share;
     *out = (fw_ladder_drift){
         .surfaces = {.gap_m = f->gap_m,
-                     .aside_rad = aside(c),
+                     .aside_rad = aside(m, h),
                      .centre_m = {-h->closed_form.offset_m[0], -h->closed_form.offset_m[1]}},
         .limit_rad = fmin(fmin(h->closed_form.limit_angle_rad, most), 3),
         .contact_rad = {(double)NAN, (double)NAN},

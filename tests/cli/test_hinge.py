@@ -1,0 +1,268 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The ladder of `flexwright hinge`: four reference flexures by every level against the tables of
+docs/theory (finite elements and closed forms computed elsewhere), levels against each other within
+what they say of their own errors, the picked level, decks, sharing, and the report."""
+import json
+import math
+import os
+import pathlib
+import random
+import re
+import shutil
+import tempfile
+import unittest
+import xml.etree.ElementTree as tree
+
+from common import GALLERY, run
+
+CCX = shutil.which("ccx")
+CHEAP = ["closed-form", "compliance", "elastica"]
+UM = 1e-6
+
+
+def device(flexures, youngs="169 GPa", poisson=0.22, depth="50 um", strength="500 MPa", crystal=False):
+    """every flexure between the ground and a body of its own; (attributes of <flexure>, axis in degrees)"""
+    modulus = "" if crystal else f'youngs-modulus="{youngs}" poisson="{poisson}"'
+    out = ['<device xmlns="urn:flexwright:device:1" name="flexures">',
+           f'<material ref="silicon-100" {modulus} strength="{strength}" thickness="{depth}"/>',
+           '<limits safety-factor="1"/>']
+    for i, (flexure, _) in enumerate(flexures):
+        attributes = " ".join(f'{key}="{value}"' for key, value in flexure.items())
+        out.append(f'<flexure id="f{i}" {attributes}/>')
+    out.append("<mechanism>")
+    for i, (_, axis) in enumerate(flexures):
+        out.append(f'<body id="b{i}" mass="0.02 mg" inertia="0.003 mg mm^2" x="{i + 0.5} mm" y="0 mm"/>'
+                   f'<revolute id="h{i}" a="ground" a-x="{i} mm" b="b{i}" b-x="-0.5 mm" hinge="f{i}" '
+                   f'axis="{axis} deg"/>')
+    out.append("</mechanism></device>")
+    return "\n".join(out)
+
+
+def arc(r, angle, t, rho):
+    return {"kind": "csfh", "radius": f"{r} um", "angle": f"{angle} deg", "width": f"{t} um",
+            "gap": "2 um", "fillet": f"{rho} um"}
+
+
+def leaf(length, t, rho):
+    return {"kind": "leaf", "length": f"{length} um", "width": f"{t} um", "fillet": f"{rho} um"}
+
+
+# closed form x depth x root and finite elements, 3-D, real roots (blocks r +- 40 um, rho = 4 um): K uN um/rad,
+# W from the arc's centre um, Kx, Ky N/m, peak strain 1/rad
+CLOSED = {"H1": (767465.1, 29.6829), "H2": (2227656.5, 62.9610), "H3": (181722.7, 29.2994)}
+SOLID = {"H1": (769198.6, 29.8787, 127.020, 251.951, 0.011625), "H2": (2235484.8, 63.1165, 443.768, 2269.21, 0.022575),
+         "H3": (181755.1, 29.3113, 30.0111, 58.6924, 0.014394)}
+
+
+class Hinge(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.here = pathlib.Path(temporary.name)
+
+    def ladder(self, xml, *arguments, **options):
+        path = self.here / "device.xml"
+        path.write_text(xml)
+        done = run("hinge", path, "--json", *arguments, **options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(done.stdout)
+
+    def reference(self, *arguments):
+        """{name: {level: row}} of H1 to H4, axis along -x, so that the hinge's x is the world's -x"""
+        found = {}
+        common = self.ladder(device([(arc(100, 270, 8, 4), 0), (arc(100, 180, 10, 4), 0), (leaf(471.2389, 8, 4), 0)]),
+                             *arguments)
+        copper = self.ladder(device([(arc(100, 270, 10, 4), 0)], "115 GPa", 0.34, "9 um"), *arguments)
+        for name, hinge in zip(("H1", "H2", "H4", "H3"), common["hinges"] + copper["hinges"]):
+            found[name] = {row["level"]: row for row in hinge["levels"]}
+        return found
+
+    def agree(self, a, b, what=("stiffness_Nm_per_rad", "kx_N_per_m", "ky_N_per_m", "strain_per_rad")):
+        """two rows of one hinge differ by no more than the sum of their errors"""
+        keys = {"stiffness_Nm_per_rad": "stiffness", "kx_N_per_m": "kx", "ky_N_per_m": "ky", "strain_per_rad": "strain"}
+        for key in what:
+            allowed = a["error"][keys[key]] + b["error"][keys[key]]
+            self.assertLessEqual(abs(a[key] / b[key] - 1), allowed, (key, a, b))
+        apart = math.dist(a["centre_m"], b["centre_m"])
+        self.assertLessEqual(apart, a["error"]["centre_m"] + b["error"]["centre_m"], (a, b))
+
+    def test_reference_closed(self):
+        for name, levels in self.reference().items():
+            self.assertEqual(list(levels), CHEAP)
+            for row in levels.values():
+                self.assertTrue(row["solved"])
+            closed, beam, law = levels["closed-form"], levels["elastica"], levels["compliance"]
+            self.agree(closed, beam)
+            # a pure moment bends evenly: stiffness and limit are the same numbers by three ways
+            for row in (beam, law):
+                self.assertAlmostEqual(row["stiffness_Nm_per_rad"] / closed["stiffness_Nm_per_rad"], 1, 9)
+                self.assertAlmostEqual(row["limit_angle_rad"] / closed["limit_angle_rad"], 1, 8)
+                self.assertAlmostEqual(row["limit_moment_Nm"] / closed["limit_moment_Nm"], 1, 7)
+            self.assertAlmostEqual(beam["limit_drift_m"] / law["limit_drift_m"], 1, 2)
+            self.assertIsNone(closed["limit_drift_m"])
+            self.assertLess(closed["cpu_s"], beam["cpu_s"])
+            if name in CLOSED:
+                self.assertAlmostEqual(closed["stiffness_Nm_per_rad"] * 1e12, CLOSED[name][0], delta=0.06)
+                self.within(closed, SOLID[name])
+                self.within(beam, SOLID[name])
+
+    def within(self, row, solid):
+        K, _, kx, ky, strain = solid
+        error = row["error"]
+        self.assertLessEqual(abs(row["stiffness_Nm_per_rad"] * 1e12 / K - 1), error["stiffness"])
+        self.assertLessEqual(abs(row["kx_N_per_m"] / kx - 1), error["kx"])
+        self.assertLessEqual(abs(row["ky_N_per_m"] / ky - 1), error["ky"])
+        self.assertLessEqual(abs(row["strain_per_rad"] / strain - 1), error["strain"])
+
+    def test_exact_drift(self):
+        """of an arc: delta = r th (sinc a sinc th/2 - sinc(a + th/2)); with short roots within 2 %"""
+        levels = self.reference()["H1"]
+        row, sinc = levels["elastica"], lambda x: math.sin(x) / x
+        th, a = row["limit_angle_rad"], math.radians(135)
+        exact = 100e-6 * th * (sinc(a) * sinc(th / 2) - sinc(a + th / 2))
+        self.assertAlmostEqual(row["limit_drift_m"] / exact, 1, delta=0.02)
+
+    @unittest.skipUnless(CCX, "CalculiX is not installed")
+    def test_reference_continuum(self):
+        for name, levels in self.reference("--level", "all").items():
+            solid, closed = levels["continuum"], levels["closed-form"]
+            self.agree(closed, solid)
+            self.agree(levels["elastica"], solid)
+            costs = [levels[level]["cpu_s"] for level in ("closed-form", "elastica", "continuum")]
+            self.assertEqual(costs, sorted(costs))
+            self.assertLess(solid["error"]["stiffness"], closed["error"]["stiffness"])
+            if name not in SOLID:
+                continue
+            # the table's own mesh is off by 1e-4 of K and 1 % of the strain
+            self.assertAlmostEqual(solid["stiffness_Nm_per_rad"] * 1e12 / SOLID[name][0], 1,
+                                   delta=solid["error"]["stiffness"] + 1e-4)
+            self.assertAlmostEqual(solid["kx_N_per_m"] / SOLID[name][2], 1, delta=solid["error"]["kx"])
+            self.assertAlmostEqual(solid["ky_N_per_m"] / SOLID[name][3], 1, delta=solid["error"]["ky"])
+            self.assertAlmostEqual(solid["strain_per_rad"] / SOLID[name][4], 1, delta=solid["error"]["strain"] + 0.01)
+            # W from where the closed form has it: the pin
+            moved = math.dist(solid["centre_m"], closed["centre_m"]) / UM
+            self.assertAlmostEqual(moved, SOLID[name][1] - CLOSED[name][1], delta=solid["error"]["centre_m"] / UM)
+
+    def random_flexures(self, count, seed):
+        draw = random.Random(seed)
+        made = []
+        for i in range(count):
+            t = draw.uniform(5, 12)
+            rho = t * draw.uniform(0.1, 1)
+            if i % 4 == 3:
+                made.append((leaf(draw.uniform(25, 60) * t, t, rho), draw.uniform(-180, 180)))
+                continue
+            made.append((arc(t / draw.uniform(0.05, 0.15), draw.uniform(140, 300), t, rho), draw.uniform(-180, 180)))
+        return made
+
+    def test_random_beams(self):
+        for crystal in (False, True):
+            text = device(self.random_flexures(40, 11), poisson=0.28, strength="100 MPa", crystal=crystal)
+            for hinge in self.ladder(text)["hinges"]:
+                levels = {row["level"]: row for row in hinge["levels"]}
+                closed, beam = levels["closed-form"], levels["elastica"]
+                self.assertTrue(beam["solved"], hinge)
+                self.agree(closed, beam)
+                self.assertAlmostEqual(beam["stiffness_Nm_per_rad"] / closed["stiffness_Nm_per_rad"], 1, 6)
+                # the beam's own part of the error alone: thick arcs
+                for key in ("kx_N_per_m", "ky_N_per_m"):
+                    short = key[:2]
+                    own = beam["error"][short] - closed["error"][short]
+                    # of a crystal, shear goes with the direction too: some 0.1 %
+                    self.assertLessEqual(abs(beam[key] / closed[key] - 1), own + (0.002 if crystal else 1e-6), hinge)
+
+    @unittest.skipUnless(CCX, "CalculiX is not installed")
+    def test_random_solids(self):
+        for crystal in (False, True):
+            text = device(self.random_flexures(4, 5)[1:], poisson=0.28, crystal=crystal)
+            for hinge in self.ladder(text, "--level", "all")["hinges"]:
+                levels = {row["level"]: row for row in hinge["levels"]}
+                self.agree(levels["closed-form"], levels["continuum"])
+                self.agree(levels["elastica"], levels["continuum"])
+
+    def test_accuracy_picks(self):
+        text = device([(arc(100, 270, 8, 4), 0)])
+        rough = self.ladder(text, "--accuracy", "0.05")["hinges"][0]
+        self.assertEqual((rough["picked"]["level"], rough["picked"]["reached"]), ("closed-form", True))
+        self.assertEqual([row["level"] for row in rough["levels"]], CHEAP)
+        plain = self.ladder(text)["hinges"][0]
+        self.assertEqual((plain["picked"]["level"], plain["picked"]["reached"]), ("closed-form", False))
+        self.assertIn("none reaches", plain["picked"]["why"])
+        fine = self.ladder(text, "--accuracy", "0.001")["hinges"][0]
+        self.assertEqual(fine["levels"][-1]["level"], "continuum")
+        if CCX:
+            self.assertEqual((fine["picked"]["level"], fine["picked"]["reached"]), ("continuum", True))
+            finer = self.ladder(text, "--accuracy", "1e-6")["hinges"][0]
+            self.assertEqual((finer["picked"]["level"], finer["picked"]["reached"]), ("continuum", False))
+        one = self.ladder(text, "--level", "elastica")["hinges"][0]
+        self.assertEqual([row["level"] for row in one["levels"]], ["elastica"])
+        shown = run("hinge", self.here / "device.xml", "--accuracy", "0.05").stdout
+        self.assertRegex(shown, r"\n  \* closed-form ")
+        self.assertRegex(shown, r"\n  \* the cheapest whose own estimate")
+        self.assertIn("--level all", run("hinge", self.here / "device.xml").stdout)
+        wrong = run("hinge", self.here / "device.xml", "--level", "solid")
+        self.assertEqual(wrong.returncode, 2)
+
+    def test_not_installed(self):
+        empty = self.here / "bin"
+        empty.mkdir()
+        environment = dict(os.environ, PATH=str(empty))
+        hinge = self.ladder(device([(arc(100, 270, 8, 4), 0)]), "--level", "all", env=environment)["hinges"][0]
+        row = hinge["levels"][-1]
+        self.assertEqual((row["level"], row["solved"]), ("continuum", False))
+        self.assertIn("calculix", row["why"].lower())
+        self.assertEqual(hinge["picked"]["level"], "closed-form")
+
+    def test_shared(self):
+        same, other = arc(100, 270, 8, 4), arc(100, 270, 9, 4)
+        hinges = self.ladder(device([(same, 0), (other, 0), (same, 77)]))["hinges"]
+        self.assertEqual([h["same_as"] and h["same_as"]["id"] for h in hinges], [None, None, "h0"])
+        for a, b in zip(hinges[0]["levels"], hinges[2]["levels"]):
+            self.assertEqual(a["cpu_s"], b["cpu_s"])  # one measurement
+            self.assertEqual(a["stiffness_Nm_per_rad"], b["stiffness_Nm_per_rad"])
+            # its place is its own: the same way from the pin, turned
+            first = complex(*a["centre_m"])
+            second = complex(*b["centre_m"]) - 2e-3
+            self.assertAlmostEqual(abs(first), abs(second), delta=1e-15)
+        # of a crystal the direction matters
+        hinges = self.ladder(device([(same, 0), (same, 77), (same, 90)], crystal=True))["hinges"]
+        self.assertEqual([h["same_as"] and h["same_as"]["id"] for h in hinges], [None, None, "h0"])
+
+    def test_decks(self):
+        path = self.here / "device.xml"
+        path.write_text(device([(arc(100, 270, 8, 4), 0), (leaf(400, 8, 4), 0)]))
+        out = self.here / "decks"
+        done = run("hinge", path, "--deck", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        names = sorted(p.name for p in out.iterdir())
+        self.assertEqual(names, ["hinge-h0-large.inp", "hinge-h0.inp", "hinge-h1-large.inp", "hinge-h1.inp"])
+        for name in names:
+            text = (out / name).read_text()
+            self.assertTrue(text.rstrip().endswith("*END STEP"), name)
+            self.assertIn("*ELEMENT", text)
+        again = {name: (out / name).read_bytes() for name in names}
+        run("hinge", path, "--deck", out, "--level", "closed-form")
+        self.assertEqual(again, {p.name: p.read_bytes() for p in out.iterdir()})
+        missing = run("hinge", path, "--deck", self.here / "no/such/place")
+        self.assertEqual(missing.returncode, 5, missing.stderr)
+        self.assertFalse((self.here / "no").exists())
+
+    def test_report(self):
+        out = self.here / "out"
+        done = run("plan", GALLERY, "-o", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = (out / "report.html").read_text()
+        tree.fromstring(text.replace("<!DOCTYPE html>", ""))
+        table = text[text.index("The hinges by models"):]
+        table = table[:table.index("</table>")]
+        self.assertEqual(len(re.findall("<td>elastica</td>", table)), 12)  # six hinges, two flows
+        self.assertEqual(len(re.findall("rowspan=\"3\"", table)), 12)
+        self.assertNotIn("continuum</td>", table)
+        self.assertIn("\u00b1", table)
+        self.assertIn("drift of the axis", text)
+        self.assertNotRegex(table, r"\b(nan|inf)\b")
+
+
+if __name__ == "__main__":
+    unittest.main()
