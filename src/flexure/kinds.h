@@ -11,6 +11,11 @@ void fw_leaf_shape(const fw_flexure_input *in, fw_flexure_shape *shape);
 void fw_flexure_leaf(const fw_flexure_shape *shape, const fw_flexure_input *in,
                      fw_flexure_result *out);
 
+void fw_path_shape(const fw_flexure_input *in, fw_flexure_shape *shape);
+void fw_flexure_path(const fw_flexure_shape *shape, const fw_flexure_input *in,
+                     fw_flexure_result *out);
+fw_flexure_error fw_path_errors(const fw_flexure_shape *shape, const fw_flexure_input *in);
+
 /* dL/E of a root whose tangent has cos 4 psi, psi from [100]; section.c */
 double fw_root_m_per_Pa(const fw_flexure_shape *shape, const fw_crystal *crystal, double cos4);
 

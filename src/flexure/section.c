@@ -34,6 +34,18 @@ double fw_root_m_per_Pa(const fw_flexure_shape *f, const fw_crystal *k, double c
            (f->root_length_m - f->root_block_m) * k->a1_per_Pa * cos4;
 }
 
+/* e = r - rn = r (1 - u/atanh u) (Winkler), by its series where the difference would cancel */
+double fw_neutral_offset(double r, double u) {
+    double u2 = u * u;
+    return u < 0.02 ? r * u2 * (1.0 / 3.0 + u2 * (4.0 / 45.0 + u2 * 44.0 / 945.0))
+                    : r * (1.0 - u / atanh(u));
+}
+
+double fw_golovin(double u) {
+    double u2 = u * u;
+    return 1.0 - 2.0 / 15.0 * u2 - u2 * u2 / 21.0;
+}
+
 /* Kt = 0.944 + 0.2113 (t/rho)^(2/3), without the curved-beam factor 1 + t/3r
    valid as above; within 1 % of the finite elements it was fitted to, -0.2..+2.9 % on held-out ones
    docs/theory/flexure.md eq. 7; test_flexure.c concentration_matches_finite_elements */
