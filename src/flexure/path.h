@@ -17,6 +17,11 @@ typedef struct fw_course {
     double root_m[2], concentration[2]; /* dL, Kt of the first and second end */
 } fw_course;
 void fw_path_of(const fw_flexure_input *in, fw_course *path);
+/* left or right edge (side +1, -1) at part 0..1 of a piece */
+fw_vec2 fw_path_edge(const fw_course *path, int piece, double part, int side);
+/* part 0..1 of the whole length at the place of the centre line nearest to a point, to 1/48 of a
+   piece: for pictures */
+double fw_path_nearest(const fw_course *path, double x_m, double y_m);
 
 /* ---- strain under a wrench ---- */
 typedef struct fw_path_point {

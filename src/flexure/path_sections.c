@@ -93,6 +93,32 @@ double fw_path_fibre(const fw_path_section *at, double youngs_Pa, const fw_path_
     return 0.5 * t / (section * youngs_Pa) * fw_path_fibre_factor(at);
 }
 
+/* ---- places ---- */
+
+fw_vec2 fw_path_edge(const fw_course *p, int i, double part, int side) {
+    const fw_strip_shape *f = &p->shape[i];
+    double s = part * f->piece.length_m;
+    double off = fw_strip_aside(f, s) + 0.5 * side * fw_strip_width(f, s);
+    fw_pose at = fw_strip_along(p->start[i], f->piece.curvature_per_m, s);
+    return (fw_vec2){at.x_m - off * sin(at.angle_rad), at.y_m + off * cos(at.angle_rad)};
+}
+
+double fw_path_nearest(const fw_course *p, double x_m, double y_m) {
+    enum { PLACES = 48 };
+    double least = HUGE_VAL, where = 0, before = 0;
+    for (int i = 0; i < p->n; i++) {
+        const fw_strip_piece *q = &p->shape[i].piece;
+        for (int k = 0; k <= PLACES; k++) {
+            double s = q->length_m * k / PLACES;
+            fw_pose at = fw_strip_along(p->start[i], q->curvature_per_m, s);
+            double far = hypot(at.x_m - x_m, at.y_m - y_m);
+            if (far < least) least = far, where = before + s;
+        }
+        before += q->length_m;
+    }
+    return where / before;
+}
+
 /* ---- strain under a wrench ---- */
 
 fw_status fw_path_strain_new(fw_arena *arena, const fw_flexure_input *in, fw_path_strain *out) {
