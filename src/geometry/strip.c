@@ -51,7 +51,7 @@ static void through(fw_vec2 a, fw_vec2 b, fw_vec2 c, fw_strip_side *out) {
     out->line = !(fabs(cross) > 1e-13 * vec_length(ac));
     if (out->line) return;
     fw_vec2 d = vec_sub(vec_scale(vv, u), vec_scale(uu, v));
-    out->centre = vec_along(b, -0.5 / cross, vec_left(d));
+    out->centre = vec_along(b, 0.5 / cross, vec_left(d));
     out->radius_m = vec_distance(b, out->centre);
     fw_vec2 p = vec_sub(a, out->centre), q = vec_sub(b, out->centre), r = vec_sub(c, out->centre);
     out->sweep_rad = fw_vec_angle(p, q) + fw_vec_angle(q, r);

@@ -96,6 +96,7 @@ typedef struct fw_hinge_shape {
     fw_vec2 inner_corner;     /* end of the root face inside */
     double reach_m;           /* farthest of flexure and fillets from W */
     double cut_m;             /* of a path: along the centre line, from the root to the cut */
+    unsigned cut_flags;       /* JOINT, of a path THROUGH as well */
 } fw_hinge_shape;
 
 /* one row per kind of flexure; false: no room for two roots */

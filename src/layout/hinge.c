@@ -181,7 +181,7 @@ static fw_status draw_head(fw_arena *arena, const fw_hinge_shape *s, fw_side *si
     side->solid_m = fmax(q0 + 0.4 * (q1 - q0), fw_dot(far.leave, u) + 6e-6);
 
     fw_sketch k = fw_sketch_start(arena, &side->local, s->joint_in);
-    fw_sketch_line(&k, s->joint_out, FW_SEGMENT_JOINT);
+    fw_sketch_line(&k, s->joint_out, s->cut_flags);
     edge(&k, s->edge_centre, s->edge_sweep_rad, s->joint_out, s->outer_start);
     fw_sketch_arc(&k, s->outer_centre, s->outer_sweep_rad, s->outer_end);
     fw_sketch_line(&k, q, 0);

@@ -41,6 +41,7 @@ bool fw_hinge_shape_csfh(const fw_flexure *flexure, fw_hinge_shape *shape) {
     shape->arc_centre = o;
     shape->strip_sweep_rad = 2.0 * cut;
     shape->fillet_m = rho;
+    shape->cut_flags = FW_SEGMENT_JOINT;
     shape->width_m = t;
     shape->size_m = r;
     shape->joint_in = fw_add(o, ri, fw_polar(cut));

@@ -14,6 +14,7 @@ bool fw_hinge_shape_leaf(const fw_flexure *flexure, fw_hinge_shape *shape) {
     shape->arc_centre = fw_v(0.0, 0.0);
     shape->strip_sweep_rad = 0.0;
     shape->fillet_m = rho;
+    shape->cut_flags = FW_SEGMENT_JOINT;
     shape->width_m = t;
     shape->size_m = y;
     shape->joint_in = fw_v(-x, cut);

@@ -6,6 +6,7 @@
 #include "layout/draw.h"
 
 enum { PLACES = 48 };
+static const double beyond_fillet_m = 1e-6;
 
 /* the strip in the hinge frame, W at the origin */
 static void lay(const fw_flexure *f, double fillet_m, fw_course *p) {
@@ -93,7 +94,7 @@ static double sweep_between(fw_vec2 centre, fw_vec2 from, fw_vec2 to) {
     return fw_vec_angle(vec_sub(from, centre), vec_sub(to, centre));
 }
 
-/* where the cut meets the other edge */
+/* where the cut, square to the centre line, meets an edge */
 static fw_vec2 across(const fw_course *p, double back_m, double sign) {
     const fw_strip_shape *f = &p->shape[p->n - 1];
     double s = f->piece.length_m - back_m;
@@ -133,14 +134,14 @@ static bool root_shape(const fw_course *p, double rho, fw_hinge_shape *s) {
     if (!fit(&(corner){root, into, right, 0.5 * t}, &edge[1], rho, &out)) return false;
     in.back_m = back_of(p, in.on_edge), out.back_m = back_of(p, out.on_edge);
     double depth = block_depth(&last->piece, root, left, rho);
-    double cut = fmax(in.back_m, out.back_m);
+    /* on the edges themselves, which run through it: the bias then moves both pieces alike */
+    double cut = fmax(in.back_m, out.back_m) + beyond_fillet_m;
     if (!(in.face_m < depth - flat && in.back_m > 0 && out.back_m > 0)) return false;
     if (!(cut < (p->n == 1 ? 0.45 : 0.95) * last->piece.length_m)) return false;
 
     *s = (fw_hinge_shape){.fillet_m = rho, .width_m = t, .strip_sweep_rad = 0};
-    bool inside = in.back_m >= out.back_m;
-    s->joint_in = inside ? in.on_edge : across(p, cut, 1);
-    s->joint_out = inside ? across(p, cut, -1) : out.on_edge;
+    s->cut_flags = FW_SEGMENT_JOINT | FW_SEGMENT_THROUGH;
+    s->joint_in = across(p, cut, 1), s->joint_out = across(p, cut, -1);
     s->outer_start = out.on_edge, s->outer_centre = out.centre, s->outer_end = out.on_face;
     s->inner_start = in.on_face, s->inner_centre = in.centre, s->inner_end = in.on_edge;
     edge_part(&edge[1], s->joint_out, s->outer_start, &s->edge_centre, &s->edge_sweep_rad);
@@ -220,7 +221,7 @@ static fw_status draw_path(fw_arena *arena, const fw_flexure *f, fw_hinge_plan *
         add_edge(&k, &e, true, at, to);
         at = to;
     }
-    fw_sketch_line(&k, up->joint_in, FW_SEGMENT_JOINT);
+    fw_sketch_line(&k, up->joint_in, up->cut_flags);
     at = up->joint_in;
     for (int i = p.n - 1; i >= 0; i--) {
         const fw_segment e = fw_strip_edge(&p.shape[i], p.start[i], 0);
@@ -228,7 +229,7 @@ static fw_status draw_path(fw_arena *arena, const fw_flexure *f, fw_hinge_plan *
         add_edge(&k, &e, false, at, to);
         at = to;
     }
-    fw_sketch_line(&k, mirrored(low->joint_out), FW_SEGMENT_JOINT);
+    fw_sketch_line(&k, mirrored(low->joint_out), low->cut_flags);
     return fw_sketch_close(&k, &plan->flexure);
 }
 
