@@ -309,6 +309,19 @@ static double peak(const fw_course *p, const fw_path_stuff *m, const fw_flexure_
     return best;
 }
 
+/* mean of both roots' dL/E, counted in the mean modulus */
+static double crystal_root(const fw_course *p, const fw_path_stuff *m) {
+    double sum = 0;
+    for (int end = 0; end < 2; end++) {
+        fw_path_section at;
+        double root, t;
+        fw_path_root(p, m, end, &at, &root);
+        t = at.width_m;
+        sum += 0.5 * root * at.thin_per_Nm2 * m->depth_m * t * t * t / 12;
+    }
+    return sum * m->youngs_Pa;
+}
+
 /* Strip of any centre line P(s), width t(s), local radius R, neutral radius R - e (Winkler), depth
    factor D(R, t), Golovin's factor g(t/2R), roots dL as weights at the two ends:
      w  = ds/(E I D g),  W = int P_n w/int w,  P_n = P moved by e to the centre of curvature
@@ -338,6 +351,7 @@ void fw_flexure_path(const fw_flexure_shape *f, const fw_flexure_input *in,
     C[2][2] = sum[FXX] + sum[AYY];
     C[1][2] = C[2][1] = sum[AXY] - sum[FXY];
     out->youngs_Pa = m.youngs_Pa, out->poisson = m.poisson;
+    if (m.crystal) out->root_length_m = crystal_root(&p, &m);
     out->stiffness_Nm_per_rad = 1 / sum[W1];
     out->stiffness_thin = 1 / sum[THIN];
     const fw_path_stuff flat = {m.crystal, m.youngs_Pa, m.poisson, 0};
