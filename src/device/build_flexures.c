@@ -92,8 +92,7 @@ static void check_middle(fw_reader *r, const fw_record *record, const fw_flexure
 
 /* ---- path ---- */
 
-/* width where the piece before a piece ends: none before, or one that was reported */
-enum { FIRST = 0, UNKNOWN = -1 };
+enum { UNKNOWN = -1 }; /* width where the piece before ends, which was reported */
 
 static bool failed_any(const fw_record *record, const char *const *name, int n) {
     bool failed = false;
@@ -102,28 +101,25 @@ static bool failed_any(const fw_record *record, const char *const *name, int n) 
     return failed;
 }
 
-/* one <line> or <arc>; `before`: the width at its start, or one of the above */
-static bool read_piece(fw_reader *r, const fw_record *record, double before, double given,
-                       fw_strip_piece *p) {
+/* one <line> or <arc>; `before`: the width where it begins */
+static bool read_piece(fw_reader *r, const fw_record *record, double before, fw_strip_piece *p) {
     static const char *const line[] = {"length", "width", "width-middle", "width-end"};
     static const char *const bent[] = {"radius", "angle", "width", "width-middle", "width-end"};
     char label[FW_LABEL], a[FW_LABEL], b[FW_LABEL];
     bool arc = fw_is(record, "arc");
     if (arc ? failed_any(record, bent, 5) : failed_any(record, line, 4)) return false;
     double *w = p->width_m;
-    w[0] = fw_number_or(record, "width", before == FIRST ? given : before);
+    w[0] = fw_number_or(record, "width", before);
     if (before == UNKNOWN && !(w[0] > 0)) return false;
-    if (isnan(w[0]))
-        fw_diag_error(r->diags, 263, record->element->place,
-                      "%s: the first piece of a path needs its width, here or at the <flexure>",
-                      fw_label(record, label));
-    else if (before > 0 && fabs(w[0] - before) > 1e-12)
+    if (before > 0 && fabs(w[0] - before) > 1e-12) {
         fw_diag_error(r->diags, 263, fw_place_of(record, "width"),
-                      "%s: begins %s wide where the piece before it ends %s wide; a step is a notch "
-                      "that beam theory knows nothing of: leave width out, or set width-end before",
+                      "%s: begins %s wide where the path so far ends %s wide; a step is a notch "
+                      "that beam theory knows nothing of: leave width out, or set width-end before "
+                      "(at the first piece: width of the flexure)",
                       fw_label(record, label), fw_in_unit(a, w[0], "um"),
                       fw_in_unit(b, before, "um"));
-    if (!(w[0] > 0) || (before > 0 && fabs(w[0] - before) > 1e-12)) return false;
+        return false;
+    }
     if (before > 0) w[0] = before;
     w[2] = fw_number_or(record, "width-end", w[0]);
     w[1] = fw_number_or(record, "width-middle", 0.5 * (w[0] + w[2]));
@@ -133,9 +129,10 @@ static bool read_piece(fw_reader *r, const fw_record *record, double before, dou
     }
     double radius = fw_number_of(record, "radius"), angle = fw_number_of(record, "angle");
     if (angle == 0) {
-        fw_diag_error(r->diags, 262, fw_place_of(record, "angle"),
-                      "%s: an arc of 0 deg has no length; remove it, or write <line length=\"...\"/>",
-                      fw_label(record, label));
+        fw_diag_error(
+            r->diags, 262, fw_place_of(record, "angle"),
+            "%s: an arc of 0 deg has no length; remove it, or write <line length=\"...\"/>",
+            fw_label(record, label));
         return false;
     }
     p->length_m = radius * fabs(angle);
@@ -165,11 +162,12 @@ static void check_whole(fw_reader *r, const fw_record *record, const fw_flexure 
                       fw_label(record, label), fw_in_unit(a, apart, "um"),
                       fw_in_unit(b, 2 * wide, "um"));
     if (f->width_m > f->length_m / 4)
-        fw_diag_error(r->diags, 59, record->element->place,
-                      "%s: width %s is more than a quarter of the length (%s); beam formulas do not "
-                      "hold for so stout a flexure; make it thinner or longer",
-                      fw_label(record, label), fw_in_unit(a, f->width_m, "um"),
-                      fw_in_unit(b, f->length_m, "um"));
+        fw_diag_error(
+            r->diags, 59, record->element->place,
+            "%s: width %s is more than a quarter of the length (%s); beam formulas do not "
+            "hold for so stout a flexure; make it thinner or longer",
+            fw_label(record, label), fw_in_unit(a, f->width_m, "um"),
+            fw_in_unit(b, f->length_m, "um"));
 }
 
 /* children in their order; what is wrong with one is said there and the whole is not judged */
@@ -177,7 +175,7 @@ static fw_status read_path(fw_reader *r, int at, fw_flexure *f) {
     const fw_record *record = &r->record[at];
     char label[FW_LABEL];
     fw_strip_piece *piece;
-    double before = FIRST, least = HUGE_VAL;
+    double before = f->width_m, least = HUGE_VAL;
     bool ok = true;
     int n = 0;
     FW_NEED(piece = fw_arena_array(r->arena, fw_strip_piece, FW_STRIP_MOST));
@@ -189,7 +187,7 @@ static fw_status read_path(fw_reader *r, int at, fw_flexure *f) {
                           FW_STRIP_MOST);
             return FW_OK;
         }
-        bool good = read_piece(r, &r->record[i], before, f->width_m, &piece[n]);
+        bool good = read_piece(r, &r->record[i], before, &piece[n]);
         before = good ? piece[n].width_m[2] : UNKNOWN;
         ok = ok && good;
         n++;
@@ -233,13 +231,6 @@ static void refuse_attributes(fw_reader *r, const fw_record *record, const char 
                           fw_label(record, label), name[i], what);
 }
 
-static void need_width(fw_reader *r, const fw_record *record, const char *kind) {
-    char label[FW_LABEL];
-    if (!fw_given(record, "width"))
-        fw_diag_error(r->diags, 58, record->element->place, "%s: a %s needs its width",
-                      fw_label(record, label), kind);
-}
-
 static void leaf_of(fw_reader *r, const fw_record *record, fw_flexure *f) {
     char label[FW_LABEL];
     static const char *const foreign[] = {"radius", "angle"};
@@ -276,11 +267,11 @@ static fw_status flexure_of(fw_reader *r, int at, fw_flexure *f) {
     if (strcmp(kind, "path") == 0) {
         f->kind = FW_FLEXURE_PATH;
         f->angle_rad = 0, f->width_middle_m = 0;
-        refuse_attributes(r, record, foreign, 4, 262, "belongs to the pieces of a path; move it there");
+        refuse_attributes(r, record, foreign, 4, 262,
+                          "belongs to the pieces of a path; move it there");
         return fw_failed(record, "width") ? FW_OK : read_path(r, at, f);
     }
     refuse_pieces(r, at, kind);
-    need_width(r, record, kind);
     if (strcmp(kind, "csfh") == 0) {
         f->kind = FW_FLEXURE_CSFH;
         if (!complete_arc(r, record, f)) return FW_OK;
@@ -299,7 +290,6 @@ fw_status fw_build_flexures(fw_reader *r) {
     fw_device *d = r->device;
     FW_NEED(d->flexure = fw_arena_array(r->arena, fw_flexure, (size_t)fw_count(r, "flexure")));
     for (int i = 0; i < r->nrecord; i++)
-        if (fw_is(&r->record[i], "flexure"))
-            FW_TRY(flexure_of(r, i, &d->flexure[d->nflexure++]));
+        if (fw_is(&r->record[i], "flexure")) FW_TRY(flexure_of(r, i, &d->flexure[d->nflexure++]));
     return r->diags->failed ? FW_NOMEM : FW_OK;
 }

@@ -39,14 +39,14 @@ typedef enum fw_flexure_kind { FW_FLEXURE_CSFH, FW_FLEXURE_LEAF, FW_FLEXURE_PATH
 typedef struct fw_flexure { /* <flexure id kind radius|length angle width gap fillet .../> */
     const char *id;
     fw_flexure_kind kind;
-    double length_m;                 /* along the centre line, face to face */
-    double angle_rad;                /* subtended angle 2a (csfh); turn of a path */
-    double radius_m;                 /* of the centre line (csfh) */
-    double width_m;                  /* in the plane, t; of a path the least one */
-    double width_middle_m;           /* csfh, leaf: in the middle, where it differs; 0: uniform */
-    double gap_m;                    /* of the conjugate surfaces; 0 = none */
-    double fillet_m;                 /* NaN: chosen by the layout */
-    const fw_strip_piece *piece;     /* (npiece) of a path, in the order of the file */
+    double length_m;             /* along the centre line, face to face */
+    double angle_rad;            /* subtended angle 2a (csfh); turn of a path */
+    double radius_m;             /* of the centre line (csfh) */
+    double width_m;              /* in the plane, t; of a path the least one */
+    double width_middle_m;       /* csfh, leaf: in the middle, where it differs; 0: uniform */
+    double gap_m;                /* of the conjugate surfaces; 0 = none */
+    double fillet_m;             /* NaN: chosen by the layout */
+    const fw_strip_piece *piece; /* (npiece) of a path, in the order of the file */
     int npiece;
     bool length_given, radius_given; /* in the file: what advice should name */
     fw_place place, length_place;

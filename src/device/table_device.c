@@ -69,18 +69,19 @@ static const fw_attribute_row flexure_rows[] = {
     {"angle", D_ANGLE, .unit = "deg",
      ABOVE(0, 330 * PI / 180, "beyond 330 deg the ends of the arc meet"),
      .sentence = "Subtended by the arc (csfh only)."},
-    {"width", THIN, .fallback = "that of a path's first piece",
-     .sentence = "Of the thin part, in the wafer plane; with width-middle at its two ends. csfh and "
-                 "leaf need it."},
+    {"width", THIN, REQUIRED,
+     .sentence = "Of the thin part, in the wafer plane; with width-middle at its two ends, of a "
+                 "path where it begins."},
     {"width-middle", THIN, .fallback = "width",
-     .sentence = "Half way along a csfh or leaf; each edge is then one arc through the ends and the "
-                 "middle."},
+     .sentence =
+         "Half way along a csfh or leaf; each edge is then one arc through the ends and the "
+         "middle."},
     {"gap", GAP, .fallback = "0 um", .sentence = "Of the conjugate surfaces; 0: none."},
     {"fillet", GAP, .fallback = "chosen by the layout", .sentence = "Radius at the roots."},
 };
 #define PIECE_WIDTHS                                                                               \
     {"width", THIN, .fallback = "where the piece before it ends",                                  \
-     .sentence = "Where it begins; the first piece takes that of the flexure."},                   \
+     .sentence = "Where it begins; the first piece begins with the width of the flexure."},        \
         {"width-middle", THIN, .fallback = "half way between width and width-end",                 \
          .sentence = "Half way along; each edge is one arc through start, middle and end."},       \
     {                                                                                              \

@@ -158,8 +158,7 @@ static double farthest(const fw_course *p, double x, double y) {
     for (int i = 0; i < p->n; i++)
         for (int k = 0; k <= PLACES; k++) {
             const fw_strip_piece *q = &p->shape[i].piece;
-            fw_pose at =
-                fw_strip_along(p->start[i], q->curvature_per_m, q->length_m * k / PLACES);
+            fw_pose at = fw_strip_along(p->start[i], q->curvature_per_m, q->length_m * k / PLACES);
             far = fmax(far, hypot(at.x_m - x, at.y_m - y));
         }
     return far;
@@ -249,9 +248,12 @@ fw_flexure_error fw_path_errors(const fw_flexure_shape *f, const fw_flexure_inpu
     if (thick > 0.3) by = fmax(by, 10);
     double taper = slope * slope, off = 2 * aside / size;
     double centre = k > 0 ? 0.0025 / k : 0.01 * f->width_m;
-    return (fw_flexure_error){by * 0.006 + taper, by * 0.014 + taper + off,
-                              by * 0.014 + taper + off, by * 0.029 + taper,
-                              by * centre + aside + 0.1 * taper * size, by > 1};
+    return (fw_flexure_error){by * 0.006 + taper,
+                              by * 0.014 + taper + off,
+                              by * 0.014 + taper + off,
+                              by * 0.029 + taper,
+                              by * centre + aside + 0.1 * taper * size,
+                              by > 1};
 }
 
 static fw_path_section section_of(const fw_course *p, const fw_path_stuff *m, int i, double s) {

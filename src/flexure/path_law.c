@@ -5,8 +5,8 @@
 
      P(s, th) = A + int_0^s (cos, sin)(psi(s) + th f(s)) ds
      drift    = R(-th/2) [B(th) + R(th) (W - B) - W],  W = int w P/C as made
-     c(th)    = int w b b' ds + int (t t'/EA + n n' 6/5/GA) ds,  b = (y, -x) of P(s, th) from its own
-                centre int w P/C, all in the frame half turned
+     c(th)    = int w b b' ds + int (t t'/EA + n n' 6/5/GA) ds,  b = (y, -x) of P(s, th) from its
+   own centre int w P/C, all in the frame half turned
 
    drift from the exact kinematics, c from the second variation about that state with the rotation
    held: of one arc that is the law of finite.c. Of c and drift the law takes c_xx, c_yy and the
@@ -20,14 +20,14 @@
 
 enum { NODES = FW_GAUSS_MOST, PANELS = 4 };
 
-typedef struct knot { /* node of the quadrature */
-    double psi_rad, share; /* as made; f */
+typedef struct knot {        /* node of the quadrature */
+    double psi_rad, share;   /* as made; f */
     double length_m, weight; /* ds; w ds over C */
-    double stretch, shear; /* ds/EA, ds 6/5/GA */
+    double stretch, shear;   /* ds/EA, ds 6/5/GA */
 } knot;
 
 struct fw_path_way {
-    knot *knot; /* (n) panel after panel */
+    knot *knot;      /* (n) panel after panel */
     double *panel_m; /* (n/NODES) length of each panel */
     int n;
     double inside[NODES * NODES]; /* fw_gauss_integrals */
@@ -76,7 +76,7 @@ static void share_out(fw_path_way *way, const double *weight) {
     }
 }
 
-typedef struct wound { /* sums of one state */
+typedef struct wound {                /* sums of one state */
     double end[2];                    /* B */
     double centre[2];                 /* int w P/C */
     double xx, xy, yy, axx, axy, ayy; /* int w P P' over C; int of the rest */

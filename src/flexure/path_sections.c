@@ -6,15 +6,13 @@
 static double per_youngs(const fw_path_stuff *m, double psi_rad) {
     const fw_crystal *k = m->crystal;
     if (!k) return 1 / m->youngs_Pa;
-    return k->a0_per_Pa +
-           k->a1_per_Pa * (k->cos4 * cos(4 * psi_rad) - k->sin4 * sin(4 * psi_rad));
+    return k->a0_per_Pa + k->a1_per_Pa * (k->cos4 * cos(4 * psi_rad) - k->sin4 * sin(4 * psi_rad));
 }
 
 static double per_shear(const fw_path_stuff *m, double psi_rad) {
     const fw_crystal *k = m->crystal;
     if (!k) return 2 * (1 + m->poisson) / m->youngs_Pa;
-    return k->g0_per_Pa +
-           k->g1_per_Pa * (k->cos4 * cos(4 * psi_rad) - k->sin4 * sin(4 * psi_rad));
+    return k->g0_per_Pa + k->g1_per_Pa * (k->cos4 * cos(4 * psi_rad) - k->sin4 * sin(4 * psi_rad));
 }
 
 /* In: place, m, Pa; out: what a section gives per moment and force, SI. Formulas:
@@ -137,11 +135,10 @@ fw_status fw_path_strain_new(fw_arena *arena, const fw_flexure_input *in, fw_pat
             if (root) {
                 double psi4 = 4 * at.pose.angle_rad;
                 by = p.concentration[k > 0];
-                if (in->crystal.known)
-                    by *= fw_crystal_stress(&in->crystal, cos(psi4), sin(psi4));
+                if (in->crystal.known) by *= fw_crystal_stress(&in->crystal, cos(psi4), sin(psi4));
             }
-            out->point[out->n++] = (fw_path_point){
-                at.pose.x_m, at.pose.y_m, by * fw_path_fibre(&at, in->youngs_Pa, &m)};
+            out->point[out->n++] = (fw_path_point){at.pose.x_m, at.pose.y_m,
+                                                   by * fw_path_fibre(&at, in->youngs_Pa, &m)};
         }
     return FW_OK;
 }
@@ -154,8 +151,7 @@ double fw_path_strain_at(const fw_path_strain *s, const double at_m[2], const do
     double worst = 0, before = 0, now = 0;
     for (int i = 0; i < s->n; i++) {
         const fw_path_point *p = &s->point[i];
-        double next =
-            F[0] + (p->y_m - at_m[1]) * F[1] - (p->x_m - at_m[0]) * F[2];
+        double next = F[0] + (p->y_m - at_m[1]) * F[1] - (p->x_m - at_m[0]) * F[2];
         worst = fmax(worst, fabs(next) * p->strain_per_Nm);
         if (i > 1)
             worst = fmax(worst, (fabs(now) + 0.125 * fabs(before - 2 * now + next)) *

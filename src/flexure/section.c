@@ -37,9 +37,12 @@ double fw_root_m_per_Pa(const fw_flexure_shape *f, const fw_crystal *k, double c
 /* e = r - rn = r (1 - u/atanh u) (Winkler), by its series where the difference would cancel: what
    is left out is below 4e-16 of e at u = 0.1 */
 double fw_neutral_offset(double r, double u) {
-    static const double of[] = {1 / 3.0,           4 / 45.0,
-                                44 / 945.0,        428 / 14175.0,
-                                10196 / 467775.0,  10719068 / 638512875.0,
+    static const double of[] = {1 / 3.0,
+                                4 / 45.0,
+                                44 / 945.0,
+                                428 / 14175.0,
+                                10196 / 467775.0,
+                                10719068 / 638512875.0,
                                 25865068 / 1915538625.0};
     double u2 = u * u, sum = 0;
     if (!(u < 0.1)) return r * (1.0 - u / atanh(u));

@@ -141,7 +141,7 @@ typedef struct fw_side { /* one body at one hinge */
 typedef struct fw_hinge_plan {
     fw_hinge_shape shape[2]; /* as seen by each side: alike but for paths */
     fw_side side[2];         /* 0 lower, 1 upper */
-    int convex;      /* which side carries the convex surface */
+    int convex;              /* which side carries the convex surface */
     fw_contour flexure;
 } fw_hinge_plan;
 

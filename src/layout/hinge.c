@@ -339,7 +339,8 @@ static void choose_neck(fw_side *side, double keep_out_m) {
 static void choose_rings(fw_hinge_plan *plan, double gap) {
     const fw_hinge_shape *s = &plan->shape[0], *t = &plan->shape[1];
     double free_width = fmin(fmax(0.3 * s->size_m, 12e-6), 20e-6);
-    double thick = fmax(3.0 * fmax(s->width_m, t->width_m), fmin(fmax(0.5 * s->size_m, 24e-6), FW_RING_M));
+    double thick =
+        fmax(3.0 * fmax(s->width_m, t->width_m), fmin(fmax(0.5 * s->size_m, 24e-6), FW_RING_M));
     fw_side *in = &plan->side[plan->convex], *out = &plan->side[!plan->convex];
     double reach = fmax(fmax(s->reach_m, fw_norm(s->inner_corner)),
                         fmax(t->reach_m, fw_norm(t->inner_corner)));

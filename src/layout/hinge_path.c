@@ -145,8 +145,7 @@ static bool root_shape(const fw_course *p, double rho, fw_hinge_shape *s) {
     s->outer_start = out.on_edge, s->outer_centre = out.centre, s->outer_end = out.on_face;
     s->inner_start = in.on_face, s->inner_centre = in.centre, s->inner_end = in.on_edge;
     edge_part(&edge[1], s->joint_out, s->outer_start, &s->edge_centre, &s->edge_sweep_rad);
-    edge_part(&edge[0], s->inner_end, s->joint_in, &s->inner_edge_centre,
-              &s->inner_edge_sweep_rad);
+    edge_part(&edge[0], s->inner_end, s->joint_in, &s->inner_edge_centre, &s->inner_edge_sweep_rad);
     s->outer_sweep_rad = sweep_between(out.centre, out.on_edge, out.on_face);
     s->inner_sweep_rad = sweep_between(in.centre, in.on_face, in.on_edge);
     s->root = root, s->face = right, s->into = into;
@@ -168,6 +167,15 @@ static double farthest(const fw_course *p) {
     return far;
 }
 
+/* what rings are proportioned by: radius of an arc, half of a line; of a path that of the arc as
+   long that turns as much */
+static double size_of(const fw_flexure *f, const fw_course *p, double reach) {
+    double turn = fabs(p->start[p->n].angle_rad - p->start[0].angle_rad);
+    if (f->kind == FW_FLEXURE_CSFH) return f->radius_m;
+    if (f->kind == FW_FLEXURE_LEAF) return 0.5 * f->length_m;
+    return fmin(reach, turn > 1 ? f->length_m / turn : 0.5 * f->length_m);
+}
+
 bool fw_hinge_shape_path(const fw_flexure *f, double fillet_m, fw_hinge_shape shape[2]) {
     fw_course up, low;
     double rho = fillet_m, least = 0.02 * fw_flexure_narrowest_m(f);
@@ -179,11 +187,9 @@ bool fw_hinge_shape_path(const fw_flexure *f, double fillet_m, fw_hinge_shape sh
         if (root_shape(&up, rho, &shape[1]) && root_shape(&low, rho, &shape[0])) break;
     }
     if (!(rho > least)) return false;
-    double reach = fmax(farthest(&up), fmax(vec_length(shape[0].outer_end),
-                                            vec_length(shape[1].outer_end)));
-    double size = f->kind == FW_FLEXURE_CSFH   ? f->radius_m
-                  : f->kind == FW_FLEXURE_LEAF ? 0.5 * f->length_m
-                                               : 0.75 * reach;
+    double reach =
+        fmax(farthest(&up), fmax(vec_length(shape[0].outer_end), vec_length(shape[1].outer_end)));
+    double size = size_of(f, &up, reach);
     for (int i = 0; i < 2; i++) {
         shape[i].reach_m = reach;
         shape[i].size_m = size;

@@ -180,9 +180,8 @@ static void draw(const panel *p) {
                 .scale = 0.42 * SKETCH / reach,
                 .axis = isfinite(h->axis_rad) ? h->axis_rad : 0};
     surfaces(p, &s);
-    fw_report_markup(
-        p->out, "<path fill=\"{r}\" stroke=\"#1f2328\" stroke-width=\"{c}\" d=\"",
-        varies ? "#1f2328" : "none", varies ? 0.5 : fmax(1.2, s.scale * f->width_m));
+    fw_report_markup(p->out, "<path fill=\"{r}\" stroke=\"#1f2328\" stroke-width=\"{c}\" d=\"",
+                     varies ? "#1f2328" : "none", varies ? 0.5 : fmax(1.2, s.scale * f->width_m));
     double from[2], to[2], a = 0.5 * f->angle_rad;
     if (varies)
         outline(p, &s, &path);

@@ -56,7 +56,8 @@ static fw_status bend_make(fw_arena *arena, const fw_device *device, const fw_la
         int m = chords(s);
         for (int k = 0; k < m; k++) {
             fw_vec2 p = along(s, (double)k / m);
-            bend->point[bend->npoint++] = (fw_report_bend_point){p.x, p.y, weight(h, f, varies ? &path : NULL, p)};
+            bend->point[bend->npoint++] =
+                (fw_report_bend_point){p.x, p.y, weight(h, f, varies ? &path : NULL, p)};
         }
     }
     return FW_OK;

@@ -51,15 +51,15 @@ static double varying_strain(const fw_hinge *hinge, const fw_hinge_layout *drawn
     const double W[2] = {c->centre_m + c->offset_m[0], c->offset_m[1]};
     double moment = c->stiffness_Nm_per_rad * load->angle_rad;
     if (!drawn || !drawn->drawn) {
-        double most = fabs(moment) + farthest_m(&hinge->section, W[0], W[1]) *
-                                         hypot(load->fx_N, load->fy_N);
+        double most =
+            fabs(moment) + farthest_m(&hinge->section, W[0], W[1]) * hypot(load->fx_N, load->fy_N);
         return c->strain_per_rad / c->stiffness_Nm_per_rad * most;
     }
     double turn = drawn->axis_rad + load->frame_rad, cs = cos(turn), sn = sin(turn);
     double fx = -sign * load->fx_N, fy = -sign * load->fy_N;
-    return fw_path_strain_at(&hinge->section, W,
-                             (const double[3]){sign * moment, cs * fx + sn * fy,
-                                               -sn * fx + cs * fy});
+    return fw_path_strain_at(
+        &hinge->section, W,
+        (const double[3]){sign * moment, cs * fx + sn * fy, -sn * fx + cs * fy});
 }
 
 double fw_hinge_strain(const fw_mechanism *m, const fw_hinge *hinge, const fw_hinge_layout *drawn,

@@ -60,8 +60,7 @@ static void one_arc_is_a_csfh(void **state) {
         want.fillet_m = trial % 5 == 0 ? -1 : t * uniform(0.1, 0.9);
         if (trial % 3 == 1)
             want.crystal = fw_crystal_cubic(165.7e9, 63.9e9, 79.6e9, uniform(-3, 3));
-        if (trial % 6 == 2)
-            want.crystal = fw_crystal_cubic(165.7e9, 63.9e9, 79.6e9, (double)NAN);
+        if (trial % 6 == 2) want.crystal = fw_crystal_cubic(165.7e9, 63.9e9, 79.6e9, (double)NAN);
         fw_flexure_result a, b;
         fw_flexure_closed_form(&want, &a);
         const fw_strip_piece one = bent(r, angle, t);
@@ -251,7 +250,8 @@ static void beam_of_a_path(void **state) {
             const double wrench[3] = {load == 0 ? M : 0, load == 1 ? F : 0, load == 2 ? F : 0};
             fw_elastica_result r;
             fw_elastica_of_wrench(e, wrench, 1e-7, false, &r);
-            assert_true(r.code == FW_ELASTICA_OK || (r.code == FW_ELASTICA_ROUGH && r.error < 1e-5));
+            assert_true(r.code == FW_ELASTICA_OK ||
+                        (r.code == FW_ELASTICA_ROUGH && r.error < 1e-5));
             double unit[3] = {1 / sqrt(out.compliance[0][0]), 1 / softest, 1 / softest};
             double scale = load ? F * softest : M * sqrt(out.compliance[0][0]);
             for (int i = 0; i < 3; i++) {
@@ -306,8 +306,8 @@ static void strain_along_the_strip(void **state) {
     fw_arena_free(arena);
 }
 
-/* thick in the middle: strain where the fillets are, less than of the thin strip; an hourglass bends
-   in its middle, without Kt */
+/* thick in the middle: strain where the fillets are, less than of the thin strip; an hourglass
+   bends in its middle, without Kt */
 static void where_it_is_strained(void **state) {
     (void)state;
     fw_flexure_input leaf = made_of(NULL, 0);
@@ -346,10 +346,10 @@ static void errors_are_stated(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_arc_is_a_csfh),      cmocka_unit_test(one_line_is_a_leaf),
-        cmocka_unit_test(brute_force),            cmocka_unit_test(what_holds_of_any),
-        cmocka_unit_test(beam_of_a_path),         cmocka_unit_test(strain_along_the_strip),
-        cmocka_unit_test(where_it_is_strained),   cmocka_unit_test(errors_are_stated),
+        cmocka_unit_test(one_arc_is_a_csfh),    cmocka_unit_test(one_line_is_a_leaf),
+        cmocka_unit_test(brute_force),          cmocka_unit_test(what_holds_of_any),
+        cmocka_unit_test(beam_of_a_path),       cmocka_unit_test(strain_along_the_strip),
+        cmocka_unit_test(where_it_is_strained), cmocka_unit_test(errors_are_stated),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

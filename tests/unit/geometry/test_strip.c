@@ -35,7 +35,8 @@ static void edges_hold_the_widths(void **state) {
             for (int side = 0; side < 2; side++) {
                 const fw_segment e = fw_strip_edge(&f, start, side);
                 double off = m + (side ? -0.5 : 0.5) * w, t;
-                fw_vec2 q = {at.x_m - off * sin(at.angle_rad), at.y_m + off * cos(at.angle_rad)}, on;
+                fw_vec2 q = {at.x_m - off * sin(at.angle_rad), at.y_m + off * cos(at.angle_rad)},
+                        on;
                 assert_near(fw_segment_nearest(&e, q, &t, &on), 0, 1e-14);
             }
         }
@@ -115,8 +116,8 @@ static void a_width_that_vanishes_is_seen(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(edges_hold_the_widths),      cmocka_unit_test(area_in_closed_form),
-        cmocka_unit_test(turned_is_the_mirror_image), cmocka_unit_test(crossings_are_found),
+        cmocka_unit_test(edges_hold_the_widths),         cmocka_unit_test(area_in_closed_form),
+        cmocka_unit_test(turned_is_the_mirror_image),    cmocka_unit_test(crossings_are_found),
         cmocka_unit_test(a_width_that_vanishes_is_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
