@@ -48,7 +48,7 @@ typedef struct fw_path_pose { /* at one rotation, in the frame half turned */
     double drift_m[2];        /* of W of a pure moment */
 } fw_path_pose;
 typedef struct fw_path_way fw_path_way;
-/* what does not depend on the rotation; fw_path_pose_at: valid below a full turn, 2 us a piece */
+/* what does not depend on the rotation; fw_path_pose_at: valid below a full turn, 4 us a piece */
 fw_status fw_path_way_new(fw_arena *arena, const fw_flexure_input *in, const fw_path_way **out);
 void fw_path_pose_at(const fw_path_way *way, double rotation_rad, fw_path_pose *out);
 /* largest part up to a rotation, either way, that the law leaves out: drift along x (m), coupling
