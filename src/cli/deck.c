@@ -49,6 +49,12 @@ static fw_status one_hinge(const writer *w, int h) {
     fw_continuum_options options = {.refinement = w->refinement, .nangle = 4};
     fw_place place = plan->device->flexure[hinge->flexure].place;
     fw_continuum_shape shape;
+    if (fw_flexure_input_varies(&hinge->input)) {
+        fw_diag_note(&plan->diags, 213, place,
+                     "no deck of hinge %s: solids are made of one arc or line of one width",
+                     w->mechanism->pin[hinge->pin].id);
+        return FW_OK;
+    }
     fw_solid_shape_of(w->mechanism, w->layout, h, &shape);
     for (int i = 0; i < options.nangle; i++)
         options.angle_rad[i] = 0.25 * (i + 1) * hinge->closed_form.limit_angle_rad;

@@ -19,6 +19,10 @@ static fw_status representable(const fw_mechanism *m, const fw_scene *s, fw_diag
     for (int p = 0; p < m->npin; p++)
         if (m->pin[p].free_angle_rad != 0.0)
             return refused(diags, none, "a joint is strained in the drawn pose (free angle)");
+    for (int h = 0; h < m->nhinge; h++)
+        if (fw_flexure_input_varies(&m->hinge[h].input))
+            return refused(diags, m->device->flexure[m->hinge[h].flexure].place,
+                           "a flexure is a path, or its width varies");
     if (!s) return FW_OK;
     if (s->gravity || s->ntendon || s->ncomb || s->nbase || s->ncontact || s->ntemperature ||
         s->nstress)

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Material, limits, flows, flexures, workspaces and the die. */
+/* Material, limits, flows, workspaces and the die. */
 #include "device/reader.h"
 #include <math.h>
 #include <string.h>
-
-#define PI 3.14159265358979323846
 
 static fw_status read_override(fw_reader *r, const fw_record *record, const char *name,
                                const char *id, fw_dimension dimension, fw_quantity *q) {
@@ -154,100 +152,5 @@ fw_status fw_build_parts(fw_reader *r) {
                         "failure-probability has no meaning for the device's own material, whose "
                         "strength is stated (line %d) and rules alone; remove one of the two",
                         stated->place.line);
-    return r->diags->failed ? FW_NOMEM : FW_OK;
-}
-
-/* exactly two of length, radius, angle; the third follows from length = radius angle */
-static bool complete_arc(fw_reader *r, const fw_record *record, fw_flexure *f) {
-    char label[FW_LABEL];
-    bool length = fw_given(record, "length"), radius = fw_given(record, "radius");
-    bool angle = fw_given(record, "angle");
-    if (length + radius + angle != 2) {
-        fw_diag_error(r->diags, 58, record->element->place,
-                      "%s: a csfh needs exactly two of length, radius and angle (length = radius x "
-                      "angle); %d given",
-                      fw_label(record, label), length + radius + angle);
-        return false;
-    }
-    if (!length)
-        f->length_m = f->radius_m * f->angle_rad;
-    else if (!radius)
-        f->radius_m = f->length_m / f->angle_rad;
-    else
-        f->angle_rad = f->length_m / f->radius_m;
-    return !fw_failed(record, "length") && !fw_failed(record, "radius") &&
-           !fw_failed(record, "angle");
-}
-
-static void check_arc(fw_reader *r, const fw_record *record, const fw_flexure *f) {
-    char label[FW_LABEL], a[FW_LABEL], b[FW_LABEL];
-    if (f->angle_rad > 330 * PI / 180 * (1 + 1e-12))
-        fw_diag_error(r->diags, 59, f->length_place,
-                      "%s: length over radius is an angle of %s; it must be at most 330 deg, else "
-                      "the ends of the arc meet; shorten it or take a greater radius",
-                      fw_label(record, label), fw_in_unit(a, f->angle_rad, "deg"));
-    if (f->width_m >= 2 * f->radius_m)
-        fw_diag_error(
-            r->diags, 59, fw_place_of(record, "width"),
-            "%s: width %s is not below twice the radius (%s), so the inner side of the arc "
-            "has no radius left; make it thinner",
-            fw_label(record, label), fw_in_unit(a, f->width_m, "um"),
-            fw_in_unit(b, 2 * f->radius_m, "um"));
-}
-
-static void check_slender(fw_reader *r, const fw_record *record, const fw_flexure *f) {
-    char label[FW_LABEL], a[FW_LABEL], b[FW_LABEL];
-    if (f->width_m > f->length_m / 4)
-        fw_diag_error(
-            r->diags, 59, fw_place_of(record, "width"),
-            "%s: width %s is more than a quarter of the length (%s); beam formulas do not "
-            "hold for so stout a flexure; make it thinner or longer",
-            fw_label(record, label), fw_in_unit(a, f->width_m, "um"),
-            fw_in_unit(b, f->length_m, "um"));
-}
-
-static fw_flexure flexure_of(fw_reader *r, const fw_record *record) {
-    const char *kind = fw_text_of(record, "kind");
-    bool length = fw_given(record, "length");
-    fw_flexure f = {.id = fw_text_of(record, "id"),
-                    .length_m = fw_number_of(record, "length"),
-                    .angle_rad = fw_number_of(record, "angle"),
-                    .radius_m = fw_number_of(record, "radius"),
-                    .width_m = fw_number_of(record, "width"),
-                    .gap_m = fw_number_or(record, "gap", 0.0),
-                    .fillet_m = fw_number_of(record, "fillet"),
-                    .length_given = length,
-                    .radius_given = fw_given(record, "radius"),
-                    .place = record->element->place,
-                    .length_place = fw_place_of(record, length ? "length" : "radius")};
-    if (!kind) return f;
-    char label[FW_LABEL];
-    if (strcmp(kind, "csfh") == 0) {
-        f.kind = FW_FLEXURE_CSFH;
-        if (!complete_arc(r, record, &f)) return f;
-        check_arc(r, record, &f);
-        if (f.width_m < 2 * f.radius_m) check_slender(r, record, &f);
-        return f;
-    }
-    f.kind = FW_FLEXURE_LEAF;
-    static const char *const foreign[] = {"radius", "angle"};
-    for (int i = 0; i < 2; i++)
-        if (fw_given(record, foreign[i]))
-            fw_diag_error(r->diags, 58, fw_place_of(record, foreign[i]),
-                          "%s: a leaf is straight and has no %s; remove it or write kind=\"csfh\"",
-                          fw_label(record, label), foreign[i]);
-    if (!length)
-        fw_diag_error(r->diags, 58, record->element->place, "%s: a leaf needs its length",
-                      fw_label(record, label));
-    check_slender(r, record, &f);
-    return f;
-}
-
-fw_status fw_build_flexures(fw_reader *r) {
-    fw_device *d = r->device;
-    FW_NEED(d->flexure = fw_arena_array(r->arena, fw_flexure, (size_t)fw_count(r, "flexure")));
-    for (int i = 0; i < r->nrecord; i++)
-        if (fw_is(&r->record[i], "flexure"))
-            d->flexure[d->nflexure++] = flexure_of(r, &r->record[i]);
     return r->diags->failed ? FW_NOMEM : FW_OK;
 }

@@ -12,7 +12,7 @@ static const char *const tie_text[] = {
 /* does the joint have conjugate surfaces, whose radius can serve? */
 static bool has_surfaces(const fw_device *d, int joint) {
     int k = d->joint[joint].flexure;
-    return k >= 0 && d->flexure[k].kind == FW_FLEXURE_CSFH && d->flexure[k].gap_m > 0;
+    return k >= 0 && d->flexure[k].kind != FW_FLEXURE_LEAF && d->flexure[k].gap_m > 0;
 }
 
 static void check_what_slides(fw_reader *r, const fw_record *record, const fw_friction_use *f) {

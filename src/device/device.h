@@ -8,6 +8,7 @@
 #define FW_DEVICE_DEVICE_H
 #include "base/diag.h"
 #include "device/material.h"
+#include "geometry/strip.h"
 #include "quantity/law.h"
 #include "quantity/quantity.h"
 #include <stdbool.h>
@@ -33,22 +34,31 @@ typedef struct fw_flow_use { /* <flow ref material thickness carrier/> */
     fw_place place, material_place;
 } fw_flow_use;
 
-typedef enum fw_flexure_kind { FW_FLEXURE_CSFH, FW_FLEXURE_LEAF } fw_flexure_kind;
+typedef enum fw_flexure_kind { FW_FLEXURE_CSFH, FW_FLEXURE_LEAF, FW_FLEXURE_PATH } fw_flexure_kind;
 
 typedef struct fw_flexure { /* <flexure id kind radius|length angle width gap fillet .../> */
     const char *id;
     fw_flexure_kind kind;
-    double length_m;                 /* along the centre line, face to face */
-    double angle_rad;                /* subtended angle 2a (csfh) */
-    double radius_m;                 /* of the centre line (csfh) */
-    double width_m;                  /* in the plane, t */
-    double gap_m;                    /* of the conjugate surfaces; 0 = none */
-    double fillet_m;                 /* NaN: chosen by the layout */
+    double length_m;             /* along the centre line, face to face */
+    double angle_rad;            /* subtended angle 2a (csfh); turn of a path */
+    double radius_m;             /* of the centre line (csfh) */
+    double width_m;              /* in the plane, t; of a path the least one */
+    double width_middle_m;       /* csfh, leaf: in the middle, where it differs; 0: uniform */
+    double gap_m;                /* of the conjugate surfaces; 0 = none */
+    double fillet_m;             /* NaN: chosen by the layout */
+    const fw_strip_piece *piece; /* (npiece) of a path, in the order of the file */
+    int npiece;
     double flare_m; /* of a section as made: half of what one face of the layer is wider than the
                        other, width_m being their mean; 0 as drawn */
     bool length_given, radius_given; /* in the file: what advice should name */
     fw_place place, length_place;
 } fw_flexure;
+
+/* the pieces of any kind, one of a csfh or leaf; returns how many, at most FW_STRIP_MOST */
+int fw_flexure_pieces(const fw_flexure *flexure, fw_strip_piece *piece);
+/* is there more to it than one arc or line of one width? */
+bool fw_flexure_varies(const fw_flexure *flexure);
+double fw_flexure_narrowest_m(const fw_flexure *flexure);
 
 typedef struct fw_body { /* <body>, or a link of <six-bar> */
     const char *id;

@@ -15,3 +15,24 @@ bool fw_device_needs_shapes(const fw_device *device) {
     }
     return false;
 }
+
+int fw_flexure_pieces(const fw_flexure *f, fw_strip_piece *piece) {
+    if (f->kind == FW_FLEXURE_PATH) {
+        for (int i = 0; i < f->npiece; i++)
+            piece[i] = f->piece[i];
+        return f->npiece;
+    }
+    double t = f->width_m, middle = f->width_middle_m > 0 ? f->width_middle_m : t;
+    *piece = (fw_strip_piece){.length_m = f->length_m,
+                              .curvature_per_m = f->kind == FW_FLEXURE_CSFH ? 1 / f->radius_m : 0,
+                              .width_m = {t, middle, t}};
+    return 1;
+}
+
+bool fw_flexure_varies(const fw_flexure *f) {
+    return f->kind == FW_FLEXURE_PATH || (f->width_middle_m > 0 && f->width_middle_m != f->width_m);
+}
+
+double fw_flexure_narrowest_m(const fw_flexure *f) {
+    return f->width_middle_m > 0 && f->width_middle_m < f->width_m ? f->width_middle_m : f->width_m;
+}

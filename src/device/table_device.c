@@ -2,7 +2,7 @@
 /* Rows of the table: what a device is made of and what is asked of it. */
 #include "device/table_rows.h"
 
-static const char *const flexure_kinds[] = {"csfh", "leaf", NULL};
+static const char *const flexure_kinds[] = {"csfh", "leaf", "path", NULL};
 static const char *const carriers[] = {"none", "insulating", NULL};
 static const char *const yes_no[] = {"yes", "no", NULL};
 
@@ -103,7 +103,8 @@ static const fw_attribute_row flow_rows[] = {
 static const fw_attribute_row flexure_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id for hinges to refer to."},
     {"kind", .kind = FW_KIND_WORD, REQUIRED, .words = flexure_kinds,
-     .sentence = "csfh: a thin arc between conjugate surfaces; leaf: a thin straight strip."},
+     .sentence = "csfh: a thin arc between conjugate surfaces; leaf: a thin straight strip; path: "
+                 "its pieces are <line> and <arc> inside, in their order, tangent to each other."},
     {"length", SIZE,
      .sentence = "Along the centre line, from face to face. csfh: exactly two of "
                  "length, radius and angle."},
@@ -111,9 +112,34 @@ static const fw_attribute_row flexure_rows[] = {
     {"angle", D_ANGLE, .unit = "deg",
      ABOVE(0, 330 * PI / 180, "beyond 330 deg the ends of the arc meet"),
      .sentence = "Subtended by the arc (csfh only)."},
-    {"width", THIN, REQUIRED, .sentence = "Of the thin part, in the wafer plane."},
+    {"width", THIN, REQUIRED,
+     .sentence = "Of the thin part, in the wafer plane; with width-middle at its two ends, of a "
+                 "path where it begins."},
+    {"width-middle", THIN, .fallback = "width",
+     .sentence =
+         "Half way along a csfh or leaf; each edge is then one arc through the ends and the "
+         "middle."},
     {"gap", GAP, .fallback = "0 um", .sentence = "Of the conjugate surfaces; 0: none."},
     {"fillet", GAP, .fallback = "chosen by the layout", .sentence = "Radius at the roots."},
+};
+#define PIECE_WIDTHS                                                                               \
+    {"width", THIN, .fallback = "where the piece before it ends",                                  \
+     .sentence = "Where it begins; the first piece begins with the width of the flexure."},        \
+        {"width-middle", THIN, .fallback = "half way between width and width-end",                 \
+         .sentence = "Half way along; each edge is one arc through start, middle and end."},       \
+    {                                                                                              \
+        "width-end", THIN, .fallback = "width", .sentence = "Where it ends."                       \
+    }
+static const fw_attribute_row line_rows[] = {
+    {"length", SIZE, REQUIRED, .sentence = "Of the centre line."},
+    PIECE_WIDTHS,
+};
+static const fw_attribute_row arc_rows[] = {
+    {"radius", SIZE, REQUIRED, .sentence = "Of the centre line."},
+    {"angle", D_ANGLE, .unit = "deg",
+     RANGE(-330 * PI / 180, 330 * PI / 180, "beyond 330 deg the ends of an arc meet"), REQUIRED,
+     .sentence = "By which it turns: to the left above 0, to the right below."},
+    PIECE_WIDTHS,
 };
 static const fw_attribute_row workspace_rows[] = {
     {"flow", REF(FW_SPACE_FLOW), .fallback = "all flows", .sentence = "Only in this flow."},
@@ -148,6 +174,8 @@ const fw_element_row fw_table_device[] = {
      .sentence = "A fabrication flow to plan for."},
     {"flexure", "device", "id", FW_SPACE_FLEXURE, .most = 4000, ROWS(flexure_rows),
      .sentence = "Geometry of a flexure hinge."},
+    {"line", "flexure", .most = 40000, ROWS(line_rows), .sentence = "A straight piece of a path."},
+    {"arc", "flexure", .most = 40000, ROWS(arc_rows), .sentence = "A circular piece of a path."},
     {"workspace", "device", .most = 200, ROWS(workspace_rows),
      .sentence = "Platform poses that must be reachable, relative to the drawn pose."},
     {"die", "device", .once = true, ROWS(die_rows), .sentence = "The chip around the mechanism."},

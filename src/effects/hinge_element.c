@@ -217,7 +217,7 @@ static void tangent(const fw_force_element *e, const fw_seen *s, double *stiffne
 static bool valid(const fw_force_element *e, const fw_seen *s, const char **why) {
     const flexed *h = e->data;
     double th = h->sense * (s->p[5] - s->p[2] - h->free_rad);
-    if (fabs(h->law.half_angle_rad + 0.5 * h->law.share * th) < M_PI) return true;
+    if (fw_hinge_law_holds(&h->law, th)) return true;
     *why =
         "the flexure is wound up to a full circle, where its ends would meet; lower the load, or "
         "make its angle smaller";

@@ -55,7 +55,10 @@ fw_status fw_exact_new(fw_arena *arena, const fw_hinge *h, fw_exact **out) {
     const fw_flexure_result *c = &h->closed_form;
     fw_exact *x = fw_arena_one(arena, fw_exact);
     FW_NEED(x);
-    fw_beam_of_flexure(&h->input, c, &x->piece, &x->beam);
+    if (fw_flexure_input_varies(&h->input))
+        FW_TRY(fw_path_beam(arena, &h->input, c, &x->beam));
+    else
+        fw_beam_of_flexure(&h->input, c, &x->piece, &x->beam);
     /* where the pin is: the ends of the strip are that far from it in both bodies */
     const double pin[2] = {c->centre_m + c->offset_m[0], c->offset_m[1]};
     static const double none[3] = {0};

@@ -3,13 +3,6 @@
 #include "flexure/section.h"
 #include <math.h>
 
-/* e = r - rn = r (1 - u/atanh u), by its series where the difference would cancel */
-static double neutral_offset(double r, double u) {
-    double u2 = u * u;
-    return u < 0.02 ? r * u2 * (1.0 / 3.0 + u2 * (4.0 / 45.0 + u2 * 44.0 / 945.0))
-                    : r * (1.0 - u / atanh(u));
-}
-
 /* moments of the arc with weight 1, cos 4b and -sin 4b, by J_n = int cos(n b) db = 2 sin(n a)/n:
    products of sines and cosines to sums. Exact; test_crystal.c sums_are_the_integrals */
 static void sums_of(fw_flexure_shape *f) {
@@ -34,7 +27,7 @@ static void sums_of(fw_flexure_shape *f) {
    source: docs/theory/flexure.md eq. 1, 2, 6, 7; test_ladder.c */
 void fw_csfh_shape(const fw_flexure_input *in, fw_flexure_shape *f) {
     double r = in->radius_m, a = 0.5 * in->angle_rad, t = in->width_m, u = 0.5 * t / r;
-    double dL = fw_root_length_m(t, in->fillet_m), e = neutral_offset(r, u), u2 = u * u;
+    double dL = fw_root_length_m(t, in->fillet_m), e = fw_neutral_offset(r, u);
     double s = sin(a), c = cos(a), c2 = c * c - s * s, s2 = 2 * s * c;
     *f = (fw_flexure_shape){.kind = in->kind,
                             .length_m = in->length_m,
@@ -51,8 +44,8 @@ void fw_csfh_shape(const fw_flexure_input *in, fw_flexure_shape *f) {
                             .per_eccentric = 1 / e,
                             .curved = t / (3.0 * r),
                             .per_root_rt = 1 / sqrt(r * t),
-                            .per_golovin = 1 / (1.0 - 2.0 / 15.0 * u2 - u2 * u2 / 21.0),
-                            .golovin = 1.0 - 2.0 / 15.0 * u2 - u2 * u2 / 21.0,
+                            .per_golovin = 1 / fw_golovin(u),
+                            .golovin = fw_golovin(u),
                             .root_length_m = dL,
                             .root_block_m = fw_root_block_m(t, in->fillet_m),
                             .whole_m = in->length_m + 2.0 * dL,

@@ -87,9 +87,10 @@ double fw_flexure_widening(const fw_flexure_shape *f) {
    all above t/r = 0.3 */
 fw_flexure_error fw_flexure_errors(const fw_flexure_shape *f, const fw_flexure_input *in,
                                    const fw_flexure_result *r) {
-    fw_flexure_error e = isotropic(f, in, r);
+    bool path = f->kind == FW_FLEXURE_PATH;
+    fw_flexure_error e = path ? f->error : isotropic(f, in, r);
     if (in->crystal.known) of_crystal(f, &in->crystal, &e);
     double by = f->widening * (in->depth_m > 10 * f->width_m * (1.0 + 1e-9) ? 2 : 1);
     return (fw_flexure_error){by * e.stiffness, by * e.kx,       by * e.ky,
-                              by * e.strain,    by * e.centre_m, by > 1};
+                              by * e.strain,    by * e.centre_m, by > 1 || e.outside};
 }

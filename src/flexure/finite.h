@@ -16,6 +16,8 @@ typedef struct fw_hinge_law {
     double axial_m_per_N, shear_m_per_N; /* L/(2 EA), L/(2 kGA) */
     double uneven_x,
         uneven_y; /* of a crystal: share that bend_m_per_N is larger along and across */
+    const struct fw_hinge_table
+        *table; /* of a path (path.h): this instead of the above; else NULL */
 } fw_hinge_law;
 
 /* what the free arc gives at every rotation: sinc(a), share sinc'(a), sin(a), cos(a) */
@@ -45,6 +47,8 @@ void fw_hinge_law_slopes(const fw_hinge_law *law, const fw_hinge_rest *rest, dou
    gradient of the energy by the twist, and its symmetric tangent; SI */
 void fw_hinge_law_wrench(const fw_hinge_law *law, const fw_hinge_rest *rest, const double twist[3],
                          double wrench[3], double tangent[3][3]);
+/* does the law hold at this rotation? not where the flexure is wound up to a full circle */
+bool fw_hinge_law_holds(const fw_hinge_law *law, double rotation_rad);
 /* least rotation, of either sign, at which a pure moment makes W drift by `gap_m`; NaN: at none
    below half a turn */
 double fw_hinge_drift_reaches(const fw_hinge_law *law, double gap_m);

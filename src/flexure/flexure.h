@@ -2,7 +2,8 @@
 /* Hinge mechanics in closed form. Theory: docs/theory/flexure.md; reference: shared hinge tables.
 
    Frame of a flexure: arc centre O at the origin, symmetry axis +x, root of the first body at polar
-   angle -a, of the second at +a. A leaf lies along y, its middle at the origin. */
+   angle -a, of the second at +a. A leaf lies along y, its middle at the origin. A path (path.h) has
+   its two ends on the y axis, the first one below, and W on the x axis, at x >= 0. */
 #ifndef FW_FLEXURE_FLEXURE_H
 #define FW_FLEXURE_FLEXURE_H
 #include "device/device.h"
@@ -14,6 +15,9 @@ typedef struct fw_flexure_input {
                                              rigid, without roots and without concentration */
     double youngs_Pa, poisson;
     double strength_Pa, safety_factor;
+    double width_middle_m;       /* csfh, leaf: 0 uniform, as in fw_flexure */
+    const fw_strip_piece *piece; /* (npiece) of a path; must live as long */
+    int npiece;
     fw_crystal crystal; /* {.known = false}: isotropic, youngs_Pa and poisson hold; else they are
                            only what strains are counted in: strain = stress/youngs_Pa */
 } fw_flexure_input;
@@ -75,6 +79,8 @@ typedef struct fw_flexure_shape {
     double safe;     /* strain_bound_per_rad over strain_per_rad */
     bool sharp;      /* fillet below t/4 */
     bool beyond_fit; /* of the root's concentration */
+    fw_flexure_error error; /* of a path, isotropic and not too deep */
+    fw_pose start;          /* of a path: first end and its tangent */
 } fw_flexure_shape;
 
 typedef struct fw_flexure_model { /* one row per kind: adding a hinge kind is one file and one row
@@ -91,6 +97,10 @@ void fw_flexure_closed_form(const fw_flexure_input *in, fw_flexure_result *out);
 void fw_flexure_shape_of(const fw_flexure_input *in, fw_flexure_shape *shape);
 void fw_flexure_closed_form_at(const fw_flexure_shape *shape, const fw_flexure_input *in,
                                fw_flexure_result *out);
+/* what is to be asked of a flexure as described; material, depth and limits are left 0 */
+fw_flexure_input fw_flexure_input_of(const fw_flexure *flexure, double fillet_m);
+/* not one arc or line of one width: the rows of `path` serve it, whatever its kind */
+bool fw_flexure_input_varies(const fw_flexure_input *in);
 /* the fillet used where the file gives none: as wide as the flexure, where the arc leaves room */
 double fw_flexure_default_fillet(const fw_flexure *flexure);
 

@@ -18,6 +18,10 @@ double fw_flexure_widening(const fw_flexure_shape *shape);
 double fw_flexure_safe(const fw_flexure_shape *shape);
 fw_flexure_error fw_flexure_errors(const fw_flexure_shape *shape, const fw_flexure_input *in,
                                    const fw_flexure_result *result);
+void fw_path_shape(const fw_flexure_input *in, fw_flexure_shape *shape);
+void fw_flexure_path(const fw_flexure_shape *shape, const fw_flexure_input *in,
+                     fw_flexure_result *out);
+fw_flexure_error fw_path_errors(const fw_flexure_shape *shape, const fw_flexure_input *in);
 
 /* dL/E of a root whose tangent has cos 4 psi, psi from [100]; section.c */
 double fw_root_m_per_Pa(const fw_flexure_shape *shape, const fw_crystal *crystal, double cos4);

@@ -11,6 +11,11 @@ double fw_root_block_m(double width_m,
                        double fillet_m); /* what of it a fillet of no radius would leave */
 double fw_fillet_concentration(double width_m, double fillet_m);
 
+/* e = R - rn of a strip of width t bent to radius R, u = t/2R; exact stiffness of it over the thin
+   one (Golovin) */
+double fw_neutral_offset(double radius_m, double u);
+double fw_golovin(double u);
+
 typedef struct fw_depth {
     double stiffness; /* EI_eff / EI: 1 plane stress .. 1/(1-nu^2) plane strain */
     double inner,

@@ -6,6 +6,8 @@ static const fw_flexure_model table[] = {
     {FW_FLEXURE_CSFH, "csfh", "circular arc with a pair of conjugate surfaces", fw_csfh_shape,
      fw_flexure_csfh},
     {FW_FLEXURE_LEAF, "leaf", "straight leaf", fw_leaf_shape, fw_flexure_leaf},
+    {FW_FLEXURE_PATH, "path", "lines and arcs of any width, one after the other", fw_path_shape,
+     fw_flexure_path},
 };
 
 const fw_flexure_model *fw_flexure_models(size_t *count) {
@@ -44,12 +46,30 @@ void fw_flexure_closed_form_at(const fw_flexure_shape *f, const fw_flexure_input
                                             : 0);
 }
 
+bool fw_flexure_input_varies(const fw_flexure_input *in) {
+    return in->kind == FW_FLEXURE_PATH ||
+           (in->width_middle_m > 0 && in->width_middle_m != in->width_m);
+}
+
+fw_flexure_input fw_flexure_input_of(const fw_flexure *f, double fillet_m) {
+    return (fw_flexure_input){.kind = f->kind,
+                              .length_m = f->length_m,
+                              .angle_rad = f->angle_rad,
+                              .radius_m = f->radius_m,
+                              .width_m = f->width_m,
+                              .fillet_m = fillet_m,
+                              .width_middle_m = f->width_middle_m,
+                              .piece = f->piece,
+                              .npiece = f->npiece};
+}
+
 void fw_flexure_shape_of(const fw_flexure_input *in, fw_flexure_shape *f) {
-    model_of(in->kind)->shape(in, f);
+    model_of(fw_flexure_input_varies(in) ? FW_FLEXURE_PATH : in->kind)->shape(in, f);
     f->per_length = 1 / f->length_m;
     f->per_whole = 1 / f->whole_m;
     f->per_section = 12 / (f->width_m * f->width_m);
-    f->widening = fw_flexure_widening(f);
+    f->widening = f->kind == FW_FLEXURE_PATH ? 1 : fw_flexure_widening(f);
+    if (f->kind == FW_FLEXURE_PATH) f->error = fw_path_errors(f, in);
     double x = f->fillet_m / f->width_m;
     f->sharp = x >= 0 && x < 0.25;
     f->safe = fw_flexure_safe(f);
@@ -65,6 +85,15 @@ void fw_flexure_closed_form(const fw_flexure_input *in, fw_flexure_result *out) 
 
 double fw_flexure_default_fillet(const fw_flexure *flexure) {
     double t = flexure->width_m;
+    if (flexure->kind == FW_FLEXURE_PATH) { /* of the two ends the one that leaves less */
+        double least = HUGE_VAL;
+        for (int end = 0; end < 2; end++) {
+            const fw_strip_piece *p = &flexure->piece[end ? flexure->npiece - 1 : 0];
+            double w = p->width_m[2 * end], k = fabs(p->curvature_per_m);
+            least = fmin(least, k > 0 ? fmin(w, (1 / k - 0.5 * w) / 3.0) : w);
+        }
+        return least;
+    }
     if (flexure->kind != FW_FLEXURE_CSFH) return t;
     return fmin(t, (flexure->radius_m - 0.5 * t) / 3.0);
 }

@@ -18,6 +18,8 @@ typedef enum fw_segment_kind { FW_LINE, FW_ARC } fw_segment_kind;
 
 enum {
     FW_SEGMENT_JOINT = 1, /* shared with the neighbouring piece: its end corners stay as they are */
+    FW_SEGMENT_THROUGH = 16, /* besides: at either end the edge runs on in the neighbouring piece on
+                                the same line or circle, not square to the joint */
 };
 
 typedef struct fw_segment {
@@ -121,9 +123,10 @@ fw_status fw_contour_round(fw_arena *arena, const fw_contour *contour, double co
    by d along the joint's own line, outward, to the same doubles for both pieces. A neighbour that
    leaves the joint square (or tangent to the other piece's edge) ends there; any other is led there
    along the square of the joint, exact when the other piece's edge is straight, else off by d^2 /
-   2R of its radius. Two JOINT segments at one vertex, and an arc as a joint, are refused. Refuses
-   (FW_GEOMETRY, the two segments in *i, *j) when the topology could change: a concave arc with
-   radius <= d, or a clearance <= 2 d. */
+   2R of its radius. A joint that is also THROUGH slides to where its own line meets the moved
+   edges, to 1e-15 m, which both pieces find alike. Two JOINT segments at one vertex, and an arc as
+   a joint, are refused. Refuses (FW_GEOMETRY, the two segments in *i, *j) when the topology could
+   change: a concave arc with radius <= d, or a clearance <= 2 d. */
 fw_status fw_contour_offset(fw_arena *arena, const fw_contour *contour, double d_m, fw_contour *out,
                             int *i, int *j);
 

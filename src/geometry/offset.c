@@ -39,6 +39,31 @@ static bool slide_joint(const fw_segment *joint, double d, fw_vec2 *a, fw_vec2 *
     return true;
 }
 
+/* The moved end of a joint at v whose edges run through it: where the joint's line meets the moved
+   edge. Both pieces have that edge; their numbers for it may differ in the last digits, so that the
+   way along the joint is rounded to 1e-15 m, a thousandth of what counts as one point. false: they
+   meet nowhere near. */
+static bool slide_through(const fw_segment *joint, const fw_segment *edge, double d, fw_vec2 v,
+                          fw_vec2 *at) {
+    fw_vec2 u = vec_unit(vec_sub(joint->b, joint->a)), hit[2] = {v, v};
+    if (vec_same(v, joint->a)) u = vec_scale(-1, u);
+    fw_segment m = moved(edge, d);
+    int n = 1;
+    if (m.kind == FW_LINE) {
+        fw_vec2 e = fw_segment_tangent(&m, 0);
+        double sine = vec_cross(u, e);
+        if (fabs(sine) < 0.5) return false;
+        hit[0] = vec_along(v, vec_cross(vec_sub(m.a, v), e) / sine, u);
+    } else
+        n = fw_line_circle(v, u, m.centre, m.radius, hit);
+    if (n == 0) return false;
+    fw_vec2 aim = vec_along(v, d, u);
+    if (n == 2 && vec_distance(hit[1], aim) < vec_distance(hit[0], aim)) hit[0] = hit[1];
+    double way = vec_dot(vec_sub(hit[0], v), u);
+    *at = vec_along(v, 1e-15 * round(1e15 * way), u);
+    return fabs(way - d) < 0.25 * fabs(d);
+}
+
 /* where the moved neighbour meets the edge that leaves the joint's moved end square to the joint:
    the neighbouring piece's own moved edge. Equal to that end when the neighbour is square itself.
  */
@@ -107,6 +132,12 @@ static bool plan_vertex(const fw_segment *before, const fw_segment *after, doubl
         return false; /* two cut lines meet: there is no edge to move */
     if (turn < -0.5 * FW_PI + FW_SMOOTH_RAD)
         return false; /* the neighbouring piece has no room beside this one */
+    const fw_segment *joint = is_joint(before) ? before : after;
+    if (joint->flags & FW_SEGMENT_THROUGH) {
+        if (!slide_through(joint, joint == before ? after : before, d, before->b, &a)) return false;
+        j->end = j->start = a;
+        return true;
+    }
     if (is_joint(before)) {
         if (!slide_joint(before, d, &a, &b)) return false;
         j->end = b;

@@ -87,12 +87,16 @@ typedef struct fw_hinge_shape {
     double fillet_m, width_m, size_m; /* size: radius, or half the length of a leaf */
     fw_vec2 joint_in, joint_out;      /* the cut */
     fw_vec2 outer_start, outer_centre, outer_end; /* fillet on the bulge side */
-    fw_vec2 inner_start, inner_centre;            /* fillet inside; ends at joint_in */
-    double edge_sweep_rad; /* outer edge from the cut to outer_start, about O; 0: none */
+    fw_vec2 inner_start, inner_centre, inner_end; /* fillet inside; usually ends at joint_in */
+    /* edges from the cut to outer_start, and from inner_end to the cut; sweep 0: a line, or none */
+    fw_vec2 edge_centre, inner_edge_centre;
+    double edge_sweep_rad, inner_edge_sweep_rad;
     double outer_sweep_rad, inner_sweep_rad;
     fw_vec2 root, face, into; /* middle of the root; along its face; into the block */
     fw_vec2 inner_corner;     /* end of the root face inside */
     double reach_m;           /* farthest of flexure and fillets from W */
+    double cut_m;             /* of a path: along the centre line, from the root to the cut */
+    unsigned cut_flags;       /* JOINT, of a path THROUGH as well */
 } fw_hinge_shape;
 
 /* one row per kind of flexure; false: no room for two roots */
@@ -102,6 +106,8 @@ typedef struct fw_hinge_drawer {
 } fw_hinge_drawer;
 bool fw_hinge_shape_csfh(const fw_flexure *flexure, fw_hinge_shape *shape);
 bool fw_hinge_shape_leaf(const fw_flexure *flexure, fw_hinge_shape *shape);
+/* both roots of a flexure that varies: [0] in the lower body's own (mirrored) frame */
+bool fw_hinge_shape_path(const fw_flexure *flexure, double fillet_m, fw_hinge_shape shape[2]);
 /* elastic centre from O, by the same function as the mechanics use */
 double fw_hinge_centre(const fw_flexure *flexure, double fillet_m);
 
@@ -133,9 +139,9 @@ typedef struct fw_side { /* one body at one hinge */
 } fw_side;
 
 typedef struct fw_hinge_plan {
-    fw_hinge_shape shape;
-    fw_side side[2]; /* 0 lower, 1 upper */
-    int convex;      /* which side carries the convex surface */
+    fw_hinge_shape shape[2]; /* as seen by each side: alike but for paths */
+    fw_side side[2];         /* 0 lower, 1 upper */
+    int convex;              /* which side carries the convex surface */
     fw_contour flexure;
 } fw_hinge_plan;
 
@@ -193,6 +199,10 @@ fw_status fw_strip_draw(fw_drawing *d, fw_window_side side, double low_start, do
 fw_status fw_attachment_add(fw_drawing *d, const fw_attachment *item);
 
 fw_status fw_hinges_plan(fw_drawing *d);
+fw_status fw_flexure_draw(fw_arena *arena, const fw_flexure *flexure, fw_hinge_plan *plan);
+/* a head that crosses itself, or comes nearer than FW_OWN_SPACE_M to its own flexure beyond the
+   root: of a path, whose roots may point anywhere */
+bool fw_path_in_the_way(const fw_flexure *flexure, const fw_hinge_plan *plan);
 /* draws a head with other free dimensions; false: there is no such row */
 bool fw_head_exists(int choice);
 double fw_head_wider(const fw_side *side); /* radius added to the disc in its own plate */

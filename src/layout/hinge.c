@@ -155,6 +155,14 @@ static fw_status round_head(fw_arena *arena, fw_side *side) {
     return round_smaller(arena, NECK_END, &side->head);
 }
 
+/* of the flexure between its cut and a fillet */
+static void edge(fw_sketch *k, fw_vec2 centre, double sweep_rad, fw_vec2 from, fw_vec2 to) {
+    if (sweep_rad != 0.0)
+        fw_sketch_arc(k, centre, sweep_rad, to);
+    else if (from.x != to.x || from.y != to.y)
+        fw_sketch_line(k, to, 0);
+}
+
 /* root block, ring and neck of one body, in its own frame (block at positive y) */
 static fw_status draw_head(fw_arena *arena, const fw_hinge_shape *s, fw_side *side) {
     double q0 = side->ring_in_m, q1 = side->ring_out_m, end = side->ring_end_rad;
@@ -173,9 +181,8 @@ static fw_status draw_head(fw_arena *arena, const fw_hinge_shape *s, fw_side *si
     side->solid_m = fmax(q0 + 0.4 * (q1 - q0), fw_dot(far.leave, u) + 6e-6);
 
     fw_sketch k = fw_sketch_start(arena, &side->local, s->joint_in);
-    fw_sketch_line(&k, s->joint_out, FW_SEGMENT_JOINT);
-    if (s->edge_sweep_rad > 0.0)
-        fw_sketch_arc(&k, s->arc_centre, s->edge_sweep_rad, s->outer_start);
+    fw_sketch_line(&k, s->joint_out, s->cut_flags);
+    edge(&k, s->edge_centre, s->edge_sweep_rad, s->joint_out, s->outer_start);
     fw_sketch_arc(&k, s->outer_centre, s->outer_sweep_rad, s->outer_end);
     fw_sketch_line(&k, q, 0);
     fw_sketch_arc(&k, w, end - angle_of(q), fw_add(w, q0, cap));
@@ -190,29 +197,10 @@ static fw_status draw_head(fw_arena *arena, const fw_hinge_shape *s, fw_side *si
     if (far.turns) fw_sketch_line(&k, choose_far_side(s, q0).turn, 0);
     fw_sketch_line(&k, s->inner_corner, far.turns ? NOSE : 0);
     fw_sketch_line(&k, s->inner_start, NOSE);
-    fw_sketch_arc(&k, s->inner_centre, s->inner_sweep_rad, s->joint_in);
+    fw_sketch_arc(&k, s->inner_centre, s->inner_sweep_rad, s->inner_end);
+    edge(&k, s->inner_edge_centre, s->inner_edge_sweep_rad, s->inner_end, s->joint_in);
     FW_TRY(fw_sketch_close(&k, &side->head));
     return round_head(arena, side);
-}
-
-/* the thin part between the two cuts */
-static fw_status draw_flexure(fw_arena *arena, fw_hinge_plan *plan) {
-    const fw_hinge_shape *s = &plan->shape;
-    const fw_local *up = &plan->side[1].local;
-    fw_vec2 low_in = fw_v(s->joint_in.x, -s->joint_in.y);
-    fw_vec2 low_out = fw_v(s->joint_out.x, -s->joint_out.y);
-    fw_sketch k = fw_sketch_start(arena, up, low_out);
-    if (s->strip_sweep_rad > 0.0)
-        fw_sketch_arc(&k, s->arc_centre, s->strip_sweep_rad, s->joint_out);
-    else
-        fw_sketch_line(&k, s->joint_out, 0);
-    fw_sketch_line(&k, s->joint_in, FW_SEGMENT_JOINT);
-    if (s->strip_sweep_rad > 0.0)
-        fw_sketch_arc(&k, s->arc_centre, -s->strip_sweep_rad, low_in);
-    else
-        fw_sketch_line(&k, low_in, 0);
-    fw_sketch_line(&k, low_out, FW_SEGMENT_JOINT);
-    return fw_sketch_close(&k, &plan->flexure);
 }
 
 /* ---- which way ---- */
@@ -349,11 +337,14 @@ static void choose_neck(fw_side *side, double keep_out_m) {
 
 /* radii about W, from inside: flexure, free width, convex ring, gap, concave ring */
 static void choose_rings(fw_hinge_plan *plan, double gap) {
-    const fw_hinge_shape *s = &plan->shape;
+    const fw_hinge_shape *s = &plan->shape[0], *t = &plan->shape[1];
     double free_width = fmin(fmax(0.3 * s->size_m, 12e-6), 20e-6);
-    double thick = fmax(3.0 * s->width_m, fmin(fmax(0.5 * s->size_m, 24e-6), FW_RING_M));
+    double thick =
+        fmax(3.0 * fmax(s->width_m, t->width_m), fmin(fmax(0.5 * s->size_m, 24e-6), FW_RING_M));
     fw_side *in = &plan->side[plan->convex], *out = &plan->side[!plan->convex];
-    in->ring_in_m = fmax(s->reach_m, fw_norm(s->inner_corner)) + free_width;
+    double reach = fmax(fmax(s->reach_m, fw_norm(s->inner_corner)),
+                        fmax(t->reach_m, fw_norm(t->inner_corner)));
+    in->ring_in_m = reach + free_width;
     in->ring_out_m = in->ring_in_m + thick;
     out->ring_in_m = in->ring_out_m + (gap > 0.0 ? gap : FW_CORNER_M);
     out->ring_out_m = out->ring_in_m + thick;
@@ -364,7 +355,7 @@ static void choose_rings(fw_hinge_plan *plan, double gap) {
 /* A ring runs on past the bulge until the other body's stem (inside) or bar (outside) is the free
    rotation away. Returns the sector in which the two surfaces face each other. */
 static double choose_ring_ends(fw_hinge_plan *plan, double gap) {
-    const fw_hinge_shape *s = &plan->shape;
+    const fw_hinge_shape *s = &plan->shape[plan->convex];
     fw_side *in = &plan->side[plan->convex], *out = &plan->side[!plan->convex];
     double stem =
         fmin(angle_of(near_point(s, in->ring_in_m)), angle_of(near_point(s, in->ring_out_m)));
@@ -374,7 +365,7 @@ static double choose_ring_ends(fw_hinge_plan *plan, double gap) {
     for (int i = 0; i < 2; i++) {
         fw_side *side = &plan->side[i];
         double q0 = side->ring_in_m, q1 = side->ring_out_m;
-        double most = fmin(angle_of(near_point(s, q0)) - 20e-6 / q0,
+        double most = fmin(angle_of(near_point(&plan->shape[i], q0)) - 20e-6 / q0,
                            side->own_rad - asin(side->neck_m / q1) - 15e-6 / q1);
         if (!(gap > 0.0) || side->ring_end_rad > most) side->ring_end_rad = most;
     }
@@ -415,14 +406,20 @@ static fw_status plan_hinge(fw_drawing *d, int joint) {
     fw_hinge_layout *layout = &d->layout->hinge[joint];
     double axis = 0.0;
     bool drawn = false;
-    plan->shape.fillet_m = isnan(f->fillet_m) ? fw_flexure_default_fillet(f) : f->fillet_m;
-    for (size_t i = 0; i < sizeof drawers / sizeof drawers[0]; i++)
-        if (drawers[i].kind == f->kind) drawn = drawers[i].shape(f, &plan->shape);
+    double fillet = isnan(f->fillet_m) ? fw_flexure_default_fillet(f) : f->fillet_m;
+    plan->shape[0].fillet_m = fillet;
+    if (fw_flexure_varies(f))
+        drawn = fw_hinge_shape_path(f, fillet, plan->shape);
+    else {
+        for (size_t i = 0; i < sizeof drawers / sizeof drawers[0]; i++)
+            if (drawers[i].kind == f->kind) drawn = drawers[i].shape(f, &plan->shape[0]);
+        plan->shape[1] = plan->shape[0];
+    }
     if (!drawn)
         return refuse(d, joint, 121,
                       "no room for two root blocks 8 um apart and their fillets; lengthen the "
                       "flexure, or make it thinner or its angle smaller");
-    say_smaller_fillet(d, joint, plan->shape.fillet_m);
+    say_smaller_fillet(d, joint, plan->shape[0].fillet_m);
     choose_sides(d, joint, plan, &axis);
     choose_rings(plan, f->gap_m);
     double facing = choose_ring_ends(plan, f->gap_m);
@@ -432,24 +429,29 @@ static fw_status plan_hinge(fw_drawing *d, int joint) {
             "the conjugate surfaces would face each other over less than 20 degrees; turn "
             "the bulge away from the links, or set gap=\"0 um\" to leave them out");
     for (int i = 0; i < 2; i++) {
-        fw_status status = draw_head(d->arena, &plan->shape, &plan->side[i]);
+        fw_status status = draw_head(d->arena, &plan->shape[i], &plan->side[i]);
         if (status == FW_GEOMETRY)
             return refuse(d, joint, 122,
                           "the root block, the ring and the neck of one body do not join to one "
                           "outline; lengthen the flexure, or make it or the link thinner");
         FW_TRY(status);
     }
-    FW_TRY(draw_flexure(d->arena, plan));
+    FW_TRY(fw_flexure_draw(d->arena, f, plan));
+    if (fw_flexure_varies(f) && fw_path_in_the_way(f, plan))
+        return refuse(d, joint, 264,
+                      "the root blocks and rings that belong to its two ends would cross, or come "
+                      "within 7 um of the strip; let the ends point away from the bulge, or open "
+                      "the path");
 
     const fw_side *in = &plan->side[plan->convex], *out = &plan->side[!plan->convex];
     layout->drawn = true;
     layout->centre = fw_joint_point(d->device, joint);
-    layout->arc_centre = fw_local_point(&plan->side[1].local, plan->shape.arc_centre);
+    layout->arc_centre = fw_local_point(&plan->side[1].local, plan->shape[1].arc_centre);
     layout->axis_rad = axis;
     layout->lower = plan->side[0].body;
     layout->upper = plan->side[1].body;
     layout->convex = in->body;
-    layout->fillet_m = plan->shape.fillet_m;
+    layout->fillet_m = plan->shape[0].fillet_m;
     layout->surface_radius_m = f->gap_m > 0.0 ? in->ring_out_m : 0.0;
     layout->gap_m = f->gap_m;
     layout->facing_rad = f->gap_m > 0.0 ? facing : 0.0;
@@ -464,7 +466,7 @@ fw_status fw_head_draw(fw_drawing *d, int joint, int body, int choice) {
     fw_side *side = &plan->side[plan->side[1].body == body];
     side->choice = choice;
     choose_neck(side, d->layout->hinge[joint].keep_out_m);
-    return draw_head(d->arena, &plan->shape, side);
+    return draw_head(d->arena, &plan->shape[side == &plan->side[1]], side);
 }
 
 fw_status fw_hinges_plan(fw_drawing *d) {

@@ -5,12 +5,7 @@
 double fw_hinge_centre(const fw_flexure *flexure, double fillet_m) {
     /* of a uniform modulus: one drawing serves every flow; what a crystal moves is the mechanism's
        business (fw_flexure_result.offset_m) */
-    fw_flexure_input in = {.kind = flexure->kind,
-                           .length_m = flexure->length_m,
-                           .angle_rad = flexure->angle_rad,
-                           .radius_m = flexure->radius_m,
-                           .width_m = flexure->width_m,
-                           .fillet_m = fillet_m};
+    const fw_flexure_input in = fw_flexure_input_of(flexure, fillet_m);
     fw_flexure_shape shape;
     fw_flexure_shape_of(&in, &shape);
     return shape.centre_m;
@@ -46,11 +41,14 @@ bool fw_hinge_shape_csfh(const fw_flexure *flexure, fw_hinge_shape *shape) {
     shape->arc_centre = o;
     shape->strip_sweep_rad = 2.0 * cut;
     shape->fillet_m = rho;
+    shape->cut_flags = FW_SEGMENT_JOINT;
     shape->width_m = t;
     shape->size_m = r;
     shape->joint_in = fw_add(o, ri, fw_polar(cut));
     shape->joint_out = fw_add(o, ro, fw_polar(cut));
+    shape->edge_centre = o;
     shape->edge_sweep_rad = inner - outer;
+    shape->inner_end = shape->joint_in;
     shape->outer_start = fw_add(o, ro, fw_polar(a - outer));
     shape->outer_centre = fw_add(o, ro + rho, fw_polar(a - outer));
     shape->outer_end = fw_add(o, far_end, e);

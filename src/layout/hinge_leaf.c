@@ -14,11 +14,13 @@ bool fw_hinge_shape_leaf(const fw_flexure *flexure, fw_hinge_shape *shape) {
     shape->arc_centre = fw_v(0.0, 0.0);
     shape->strip_sweep_rad = 0.0;
     shape->fillet_m = rho;
+    shape->cut_flags = FW_SEGMENT_JOINT;
     shape->width_m = t;
     shape->size_m = y;
     shape->joint_in = fw_v(-x, cut);
     shape->joint_out = fw_v(x, cut);
     shape->edge_sweep_rad = 0.0;
+    shape->inner_end = shape->joint_in;
     shape->outer_start = shape->joint_out;
     shape->outer_centre = fw_v(x + rho, cut);
     shape->outer_end = fw_v(x + rho, y);

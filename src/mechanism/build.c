@@ -162,20 +162,46 @@ fw_flexure_input fw_mechanism_flexure(const fw_device *device, const fw_layout *
         fillet = layout->hinge[joint].fillet_m;
     else if (isnan(fillet))
         fillet = fw_flexure_default_fillet(f);
-    return (fw_flexure_input){
-        .kind = f->kind,
-        .length_m = f->length_m,
-        .angle_rad = f->angle_rad,
-        .radius_m = f->radius_m,
-        .width_m = f->width_m,
-        .fillet_m = fillet,
-        .depth_m = variant->thickness_m,
-        .youngs_Pa = m->youngs.value,
-        .poisson = m->poisson.unknown ? 0 : m->poisson.value,
-        .strength_Pa = m->strength.value,
-        .safety_factor = device->safety_factor,
-        .crystal = crystal_of(device, layout, variant, joint),
-    };
+    fw_flexure_input in = fw_flexure_input_of(f, fillet);
+    in.depth_m = variant->thickness_m;
+    in.youngs_Pa = m->youngs.value;
+    in.poisson = m->poisson.unknown ? 0 : m->poisson.value;
+    in.strength_Pa = m->strength.value;
+    in.safety_factor = device->safety_factor;
+    in.crystal = crystal_of(device, layout, variant, joint);
+    return in;
+}
+
+/* said once per flexure: what its law at finite rotation leaves out of a strip that is no mirror
+   image of itself */
+static void say_left_out(const fw_builder *b, const fw_flexure *f, const fw_joint *joint,
+                         const fw_path_way *way, double limit_rad) {
+    double drift, coupling;
+    char um[32], share[32], degrees[32];
+    double most = fmin(limit_rad, 1.0);
+    fw_path_left_out(way, most, &drift, &coupling);
+    if (!(drift > 1e-9 || coupling > 0.01) || fw_said_already(b->diags, 265, f->place)) return;
+    fw_diag_warning(
+        b->diags, 265, f->place,
+        "hinge %s: its path is not its own mirror image; up to %s deg the law of hinges that "
+        "give leaves out %s um of drift along its axis and a coupling of %s between "
+        "the two directions of force; make the path symmetric if that matters",
+        fw_name_or_none(joint->id), fw_number_text(degrees, sizeof degrees, most * 180 / M_PI, 3),
+        fw_number_text(um, sizeof um, 1e6 * drift, 2),
+        fw_number_text(share, sizeof share, coupling, 2));
+}
+
+/* flared: what a section as made adds to the strain of a moment */
+static fw_status varying(const fw_builder *b, const fw_flexure *f, const fw_joint *joint,
+                         double flared, fw_hinge *hinge) {
+    const fw_path_way *way;
+    FW_TRY(fw_path_law(b->arena, &hinge->input, &hinge->closed_form, &hinge->law));
+    FW_TRY(fw_path_strain_new(b->arena, &hinge->input, &hinge->section));
+    for (int i = 0; i < hinge->section.n; i++)
+        hinge->section.point[i].strain_per_Nm *= flared;
+    FW_TRY(fw_path_way_new(b->arena, &hinge->input, &way));
+    say_left_out(b, f, joint, way, hinge->closed_form.limit_angle_rad);
+    return FW_OK;
 }
 
 static fw_status flexure_result(const fw_builder *b, int j, const fw_joint *joint,
@@ -188,12 +214,15 @@ static fw_status flexure_result(const fw_builder *b, int j, const fw_joint *join
     hinge->input = fw_mechanism_flexure(b->device, b->layout, b->variant, j);
     FW_TRY(limits_of(b, &hinge->input, &hinge->limits));
     fw_flexure_closed_form(&hinge->input, result);
+    double drawn = result->strain_per_rad / result->stiffness_Nm_per_rad;
     fw_flexure_flare(&hinge->input, f->flare_m, result);
+    double flared = result->strain_per_rad / result->stiffness_Nm_per_rad / drawn;
     if (!isfinite(result->stiffness_Nm_per_rad) || !(result->stiffness_Nm_per_rad > 0))
         return fw_diag_error(
             b->diags, 85, f->place,
             "flexure %s has no finite stiffness; check its length, angle and width",
             fw_name_or_none(f->id));
+    if (fw_flexure_input_varies(&hinge->input)) return varying(b, f, joint, flared, hinge);
     fw_hinge_law_of(&hinge->input, result, &hinge->law);
     return FW_OK;
 }

@@ -9,9 +9,9 @@
 #ifndef FW_MECHANISM_MECHANISM_H
 #define FW_MECHANISM_MECHANISM_H
 #include "device/device.h"
-#include "flexure/finite.h"
 #include "flexure/flexure.h"
 #include "flexure/limit.h"
+#include "flexure/path.h"
 #include "layout/layout.h"
 
 typedef struct fw_variant { /* what the device is made of, in one flow */
@@ -50,6 +50,7 @@ typedef struct fw_hinge { /* a pin that is a flexure */
     fw_flexure_input input; /* what the closed form was asked, for other levels */
     fw_flexure_result closed_form;
     fw_limits limits; /* what it bears; closed_form.limit_angle_rad is that of the governing one */
+    fw_path_strain section; /* of a flexure that varies (flexure/path.h); n 0: one arc or line */
     fw_hinge_law law; /* at finite rotation; its stiffness is the flexure's own, not a stated one */
     /* the arc as drawn: direction, in the world, from the arc's centre to the middle of the arc
        (leaf: across it); `first` is the body at polar angle -a from there (element frame of

@@ -40,7 +40,8 @@ static fw_mask_facts facts_of(const fw_device *device, const fw_layout *layout) 
     for (int j = 0; j < device->njoint; j++)
         if (device->joint[j].flexure != FW_NONE)
             facts.narrowest_line_m =
-                fmin(facts.narrowest_line_m, device->flexure[device->joint[j].flexure].width_m);
+                fmin(facts.narrowest_line_m,
+                     fw_flexure_narrowest_m(&device->flexure[device->joint[j].flexure]));
     facts.deepest_hinge_width_m = facts.narrowest_line_m;
     return facts;
 }

@@ -142,11 +142,37 @@ static void surfaces(const panel *p, const sketch *s) {
     }
 }
 
+/* outline of a flexure that varies, left edge there and right edge back */
+static void outline(const panel *p, const sketch *s, const fw_course *path) {
+    enum { PLACES = 24 };
+    const char *join = "M";
+    double centre = p->of->hinge->closed_form.centre_m, at[2];
+    for (int side = 1; side >= -1; side -= 2)
+        for (int i = 0; i < path->n; i++)
+            for (int k = 0; k <= PLACES; k++) {
+                int piece = side > 0 ? i : path->n - 1 - i;
+                double part = (double)(side > 0 ? k : PLACES - k) / PLACES;
+                fw_vec2 q = fw_path_edge(path, piece, part, side);
+                place(s, q.x - centre, q.y, at);
+                fw_report_markup(p->out, "{r}{c} {c}", join, at[0], at[1]);
+                join = "L";
+            }
+    fw_text_add(p->out, "Z");
+}
+
 static void draw(const panel *p) {
     const fw_hinge *h = p->of->hinge;
     const fw_flexure *f = p->flexure;
     bool bent = f->kind == FW_FLEXURE_CSFH;
     double centre = h->closed_form.centre_m, size = bent ? f->radius_m : 0.5 * f->length_m;
+    bool varies = fw_flexure_input_varies(&h->input);
+    fw_course path;
+    if (varies) {
+        fw_flexure_shape shape;
+        fw_path_of(&h->input, &path);
+        fw_flexure_shape_of(&h->input, &shape);
+        size = shape.radius_m, bent = false;
+    }
     double reach =
         fmax(size + (bent ? centre : 0), h->surface_radius_m + p->of->gap_m) + 0.5 * f->width_m;
     sketch s = {.x = 20 + 0.5 * SKETCH,
@@ -154,10 +180,12 @@ static void draw(const panel *p) {
                 .scale = 0.42 * SKETCH / reach,
                 .axis = isfinite(h->axis_rad) ? h->axis_rad : 0};
     surfaces(p, &s);
-    fw_report_markup(p->out, "<path fill=\"none\" stroke=\"#1f2328\" stroke-width=\"{c}\" d=\"",
-                     fmax(1.2, s.scale * f->width_m));
+    fw_report_markup(p->out, "<path fill=\"{r}\" stroke=\"#1f2328\" stroke-width=\"{c}\" d=\"",
+                     varies ? "#1f2328" : "none", varies ? 0.5 : fmax(1.2, s.scale * f->width_m));
     double from[2], to[2], a = 0.5 * f->angle_rad;
-    if (bent)
+    if (varies)
+        outline(p, &s, &path);
+    else if (bent)
         arc(p, &s, -centre, f->radius_m, -a, a);
     else {
         place(&s, 0, -size, from), place(&s, 0, size, to);

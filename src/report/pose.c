@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/page.h"
+#include "flexure/path.h"
 #include <math.h>
 
 static const double PI = 3.14159265358979323846;
@@ -8,10 +9,12 @@ enum { CHORDS_PER_TURN = 36 };
 
 /* share of the upper body in the rotation of a point of the flexure: how far along the centre line
    it lies, 0 at the root of `lower`, 1 at the root of `upper` */
-static double weight(const fw_hinge_layout *h, const fw_flexure *f, fw_vec2 p) {
+static double weight(const fw_hinge_layout *h, const fw_flexure *f, const fw_course *path,
+                     fw_vec2 p) {
     double c = cos(h->axis_rad), s = sin(h->axis_rad);
     double x = p.x - h->arc_centre.x, y = p.y - h->arc_centre.y;
     double lx = c * x + s * y, ly = -s * x + c * y;
+    if (path) return fw_path_nearest(path, lx, ly);
     double w =
         f->kind == FW_FLEXURE_LEAF ? 0.5 + ly / f->length_m : 0.5 + atan2(ly, lx) / f->angle_rad;
     return isfinite(w) ? fmax(0.0, fmin(1.0, w)) : 0.5;
@@ -35,6 +38,10 @@ static fw_status bend_make(fw_arena *arena, const fw_device *device, const fw_la
     const fw_hinge_layout *h = &layout->hinge[piece->joint];
     const fw_flexure *f = &device->flexure[device->joint[piece->joint].flexure];
     const fw_contour *contour = &piece->contour;
+    const fw_flexure_input in = fw_flexure_input_of(f, h->fillet_m);
+    bool varies = fw_flexure_varies(f);
+    fw_course path;
+    if (varies) fw_path_of(&in, &path);
     int n = 0;
     for (int i = 0; i < contour->count; i++)
         n += chords(&contour->segment[i]);
@@ -49,7 +56,8 @@ static fw_status bend_make(fw_arena *arena, const fw_device *device, const fw_la
         int m = chords(s);
         for (int k = 0; k < m; k++) {
             fw_vec2 p = along(s, (double)k / m);
-            bend->point[bend->npoint++] = (fw_report_bend_point){p.x, p.y, weight(h, f, p)};
+            bend->point[bend->npoint++] =
+                (fw_report_bend_point){p.x, p.y, weight(h, f, varies ? &path : NULL, p)};
         }
     }
     return FW_OK;

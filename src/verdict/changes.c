@@ -51,6 +51,7 @@ static bool lengthen(fw_trial *trial, const fw_trial_hinge *h, double extra) {
     if (h->joint == FW_NONE) return false;        /* softer flexures are less stable */
     if (h->utilisation_high <= 1.0) return false; /* its solids meet: length is not the cause */
     fw_flexure *f = flexure_of(trial, h);
+    if (f->kind == FW_FLEXURE_PATH) return false; /* which of its pieces is the designer's choice */
     double length = f->length_m * fmin(fmax(h->utilisation_high * extra, 1.0005), 3.0);
     bool by_radius = f->kind == FW_FLEXURE_CSFH && f->radius_given;
     double unit = by_radius ? 1e-7 * f->angle_rad : 1e-6;
@@ -92,7 +93,9 @@ fw_status fw_change_lengths(fw_trial *trial, fw_verdict *out, bool *done) {
 
 /* ---- widths: under a given load the stress goes with 1/t^2, as long as stiffness follows ---- */
 
+/* flexures that vary have no one width to change */
 static bool widen_one(fw_trial *trial, fw_flexure *f, double by) {
+    if (fw_flexure_varies(f)) return false;
     f->width_m = ceil(f->width_m * fmin(fmax(by, 1.0005), 1.5) * 1e7 - 1e-6) * 1e-7;
     const fw_flexure *was = &trial->device->flexure[f - trial->changed->flexure];
     bool slender = f->width_m <= 0.25 * f->length_m &&

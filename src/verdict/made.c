@@ -34,11 +34,27 @@ static double made_fillet(double fillet_m, double edge_m, double width_m) {
     return fmin(fmax(0.0, fillet_m - edge_m), width_m);
 }
 
+/* both edges of a path move by `edge_m` along their normals */
+static fw_status change_pieces(fw_arena *arena, double edge_m, fw_flexure *f) {
+    if (f->npiece == 0) return FW_OK;
+    fw_strip_piece *piece = fw_arena_array(arena, fw_strip_piece, (size_t)f->npiece);
+    FW_NEED(piece);
+    for (int i = 0; i < f->npiece; i++) {
+        piece[i] = f->piece[i];
+        for (int k = 0; k < 3; k++)
+            piece[i].width_m[k] += 2.0 * edge_m;
+    }
+    f->piece = piece;
+    return FW_OK;
+}
+
 static fw_status change_flexure(fw_arena *arena, const fw_made *made, fw_flexure *f,
                                 const char **gone) {
     double drawn_width = f->width_m, edge = made->edge_m;
     if (isnan(f->fillet_m)) f->fillet_m = fw_flexure_default_fillet(f);
     f->width_m += 2.0 * edge;
+    if (f->width_middle_m > 0.0) f->width_middle_m += 2.0 * edge;
+    FW_TRY(change_pieces(arena, edge, f));
     f->flare_m = made->flare_m;
     f->fillet_m = made_fillet(f->fillet_m, edge, f->width_m);
     bool gap = f->gap_m > 0.0;

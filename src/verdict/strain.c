@@ -38,16 +38,46 @@ static double bounded_moment(const fw_flexure *f, double centre_m, double M, dou
     return fabs(M) + largest_lever(f, centre_m) * force_N;
 }
 
+/* likewise of any centre line: no section is farther from the pin than this */
+static double farthest_m(const fw_path_strain *s, double x, double y) {
+    double far = 0;
+    for (int i = 0; i < s->n; i++)
+        far = fmax(far, hypot(s->point[i].x_m - x, s->point[i].y_m - y));
+    return far;
+}
+
+/* a flexure that varies: moment and section modulus place by place (flexure/path.h) */
+static double varying_strain(const fw_hinge *hinge, const fw_hinge_layout *drawn,
+                             const fw_hinge_load *load, double sign) {
+    const fw_flexure_result *c = &hinge->closed_form;
+    const double W[2] = {c->centre_m + c->offset_m[0], c->offset_m[1]};
+    double moment = c->stiffness_Nm_per_rad * load->angle_rad;
+    if (!drawn || !drawn->drawn) {
+        double most =
+            fabs(moment) + farthest_m(&hinge->section, W[0], W[1]) * hypot(load->fx_N, load->fy_N);
+        return c->strain_per_rad / c->stiffness_Nm_per_rad * most;
+    }
+    double turn = drawn->axis_rad + load->frame_rad, cs = cos(turn), sn = sin(turn);
+    double fx = -sign * load->fx_N, fy = -sign * load->fy_N;
+    return fw_path_strain_at(
+        &hinge->section, W,
+        (const double[3]){sign * moment, cs * fx + sn * fy, -sn * fx + cs * fy});
+}
+
 double fw_hinge_strain(const fw_mechanism *m, const fw_hinge *hinge, const fw_hinge_layout *drawn,
                        const fw_hinge_load *load) {
     const fw_pin *pin = &m->pin[hinge->pin];
     const fw_flexure *f = &m->device->flexure[hinge->flexure];
     const fw_flexure_result *c = &hinge->closed_form;
     double per_moment = c->strain_per_rad / c->stiffness_Nm_per_rad;
-    double area = f->width_m * m->variant->thickness_m;
+    double area = fw_flexure_narrowest_m(f) * m->variant->thickness_m;
     double force = hypot(load->fx_N, load->fy_N);
     double axial = force / (m->variant->material.youngs.value * area);
     double moment = c->stiffness_Nm_per_rad * load->angle_rad;
+    if (hinge->section.n > 0)
+        return varying_strain(hinge, drawn, load,
+                              drawn && drawn->upper != pin->body_b ? -1.0 : 1.0) +
+               axial;
     if (!drawn || !drawn->drawn || f->kind != FW_FLEXURE_CSFH)
         return per_moment * (bounded_moment(f, c->centre_m, moment, force) +
                              hypot(c->offset_m[0], c->offset_m[1]) * force) +
@@ -75,6 +105,12 @@ void fw_hinge_root_strains(const fw_mechanism *m, const fw_hinge *hinge,
     const fw_flexure_result *c = &hinge->closed_form;
     double per_moment = c->strain_per_rad / c->stiffness_Nm_per_rad;
     double moment = c->stiffness_Nm_per_rad * load->angle_rad, r = f->radius_m;
+    if (hinge->section.n > 0) { /* of the worst section, with the sign of the rotation */
+        double worst =
+            varying_strain(hinge, drawn, load, drawn && drawn->upper == pin->body_b ? 1.0 : -1.0);
+        strain[0] = strain[1] = copysign(worst, load->angle_rad);
+        return;
+    }
     if (!drawn || !drawn->drawn) {
         double force = hypot(load->fx_N, load->fy_N);
         strain[0] = strain[1] =

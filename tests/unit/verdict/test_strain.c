@@ -242,8 +242,55 @@ static void root_strains_of_a_leaf(void **state) {
     assert_relative(fw_hinge_strain(&m, &hinge, &drawn, &load), turned + bent + axial, 1e-12);
 }
 
+/* a path of one arc under any load: at the roots as the arc, inside never less (the arc's formula
+   takes the fibre factor away with Kt); without a drawing a bound */
+static void path_as_the_arc_it_is(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_flexure f[2] = {arc(), arc()};
+    double t = f[0].width_m, L = f[0].length_m;
+    const fw_strip_piece one = {L, 1 / f[0].radius_m, {t, t, t}};
+    f[1].kind = FW_FLEXURE_PATH, f[1].piece = &one, f[1].npiece = 1;
+    fw_device device = {.flexure = f, .nflexure = 2};
+    fw_variant variant = {.thickness_m = 50e-6};
+    variant.material.youngs.value = 147.08e9;
+    fw_pin pin = {.id = "A", .body_a = FW_GROUND, .body_b = 0, .hinge = 0};
+    fw_hinge hinge[2] = {{.flexure = 0}, {.flexure = 1}};
+    for (int i = 0; i < 2; i++) {
+        hinge[i].input = fw_flexure_input_of(&f[i], 4e-6);
+        hinge[i].input.depth_m = 50e-6, hinge[i].input.youngs_Pa = 147.08e9;
+        hinge[i].input.poisson = 0.22, hinge[i].input.strength_Pa = 500e6;
+        hinge[i].input.safety_factor = 1;
+        fw_flexure_closed_form(&hinge[i].input, &hinge[i].closed_form);
+    }
+    assert_int_equal(fw_path_strain_new(arena, &hinge[1].input, &hinge[1].section), FW_OK);
+    fw_mechanism m = {.device = &device,
+                      .variant = &variant,
+                      .pin = &pin,
+                      .npin = 1,
+                      .hinge = hinge,
+                      .nhinge = 2};
+    fw_hinge_layout drawn = {.drawn = true, .axis_rad = 1.0, .lower = FW_GROUND, .upper = 0};
+    double K = hinge[0].closed_form.stiffness_Nm_per_rad;
+    for (int i = 0; i < 360; i++) {
+        fw_hinge_load load = {0.1, 3e-4 * cos(i / 57.3), 3e-4 * sin(i / 57.3), 0.3};
+        double want = fw_hinge_strain(&m, &hinge[0], &drawn, &load), root, inside;
+        double got = fw_hinge_strain(&m, &hinge[1], &drawn, &load);
+        double c = cos(1.3), s = sin(1.3), fx = -load.fx_N, fy = -load.fy_N;
+        fw_arc_moments(&f[0], hinge[0].closed_form.centre_m, K * 0.1, c * fx + s * fy,
+                       -s * fx + c * fy, &root, &inside);
+        if (root * hinge[0].closed_form.concentration > 1.2 * inside)
+            assert_relative(got, want, 1e-9);
+        else
+            assert_true(got > 0.999 * want && got < 1.15 * want);
+        assert_true(fw_hinge_strain(&m, &hinge[1], NULL, &load) >= got);
+    }
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(path_as_the_arc_it_is),
         cmocka_unit_test(section_moments_of_a_whole_six_bar),
         cmocka_unit_test(no_section_carries_more),
         cmocka_unit_test(pure_rotation_and_bound),

@@ -1,0 +1,206 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A path at finite rotation. With w = ds/(E I D g) and the roots' dL/(E I D g) at the two ends, C =
+   int w, a pure moment that turns the second body by th turns the section at s by th f(s), f(s) =
+   int_0^s w / C, exactly, at any th (inextensible). So
+
+     P(s, th) = A + int_0^s (cos, sin)(psi(s) + th f(s)) ds
+     drift    = R(-th/2) [B(th) + R(th) (W - B) - W],  W = int w P/C as made
+     c(th)    = int w b b' ds + int (t t'/EA + n n' 6/5/GA) ds,  b = (y, -x) of P(s, th) from its
+   own centre int w P/C, all in the frame half turned
+
+   drift from the exact kinematics, c from the second variation about that state with the rotation
+   held: of one arc that is the law of finite.c. Of c and drift the law takes c_xx, c_yy and the
+   drift along y; of a strip that is its own mirror image the rest is 0.
+   In: outline, m, Pa, rad; out: m, m/N. Valid |th| < 2 pi; the forces' error goes with their square
+   as in finite.c. Quadrature and series to 1e-12. Cost: 0.2 ms for the table of one hinge.
+   Source: docs/theory/flexure.md, "Any centre line, varying width". Test: test_path_law.c. */
+#include "flexure/gauss.h"
+#include "flexure/path_sections.h"
+#include <math.h>
+
+enum { NODES = FW_GAUSS_MOST, PANELS = 4 };
+
+typedef struct knot {        /* node of the quadrature */
+    double psi_rad, share;   /* as made; f */
+    double length_m, weight; /* ds; w ds over C */
+    double stretch, shear;   /* ds/EA, ds 6/5/GA */
+} knot;
+
+struct fw_path_way {
+    knot *knot;      /* (n) panel after panel */
+    double *panel_m; /* (n/NODES) length of each panel */
+    int n;
+    double inside[NODES * NODES]; /* fw_gauss_integrals */
+    fw_pose first, last;
+    double root[2]; /* shares of the roots */
+    double W[2];    /* centre of weights as made */
+    double total;   /* C */
+};
+
+/* sections of the strip as made */
+static double lay_knots(fw_path_way *way, const fw_course *p, const fw_path_stuff *m,
+                        const double *node, const double *weight) {
+    double total = 0;
+    for (int i = 0; i < p->n; i++)
+        for (int j = 0; j < PANELS; j++) {
+            double h = p->shape[i].piece.length_m / PANELS;
+            way->panel_m[way->n / NODES] = h;
+            for (int k = 0; k < NODES; k++) {
+                fw_path_section at;
+                fw_path_section_at(p, m, i, (j + node[k]) * h, &at);
+                double ds = weight[k] * h, t = at.width_m;
+                way->knot[way->n++] = (knot){.psi_rad = at.pose.angle_rad,
+                                             .length_m = ds,
+                                             .weight = ds * at.bend_per_Nm2,
+                                             .stretch = ds * at.thin_per_Nm2 * t * t / 12,
+                                             .shear = ds * at.shear_per_N};
+                total += ds * at.bend_per_Nm2;
+            }
+        }
+    return total;
+}
+
+/* f at the nodes: within a panel by the polynomial through them */
+static void share_out(fw_path_way *way, const double *weight) {
+    double before = way->root[0];
+    for (int first = 0; first < way->n; first += NODES) {
+        knot *at = way->knot + first;
+        double sum = 0;
+        for (int i = 0; i < NODES; i++) {
+            at[i].share = before;
+            for (int j = 0; j < NODES; j++)
+                at[i].share += way->inside[i * NODES + j] * at[j].weight / weight[j];
+            sum += at[i].weight;
+        }
+        before += sum;
+    }
+}
+
+typedef struct wound {                /* sums of one state */
+    double end[2];                    /* B */
+    double centre[2];                 /* int w P/C */
+    double xx, xy, yy, axx, axy, ayy; /* int w P P' over C; int of the rest */
+} wound;
+
+static void add_point(wound *o, double weight, double x, double y) {
+    o->centre[0] += weight * x, o->centre[1] += weight * y;
+    o->xx += weight * x * x, o->xy += weight * x * y, o->yy += weight * y * y;
+}
+
+/* the strip wound by th, in the first body's frame with the first end at the origin */
+static wound wind(const fw_path_way *way, double th) {
+    wound o = {0};
+    double x = 0, y = 0, c[NODES], s[NODES];
+    for (int first = 0; first < way->n; first += NODES) {
+        const knot *at = way->knot + first;
+        double h = way->panel_m[first / NODES], across = 0, up = 0;
+        for (int i = 0; i < NODES; i++) {
+            double psi = at[i].psi_rad + th * at[i].share;
+            c[i] = cos(psi), s[i] = sin(psi);
+            across += at[i].length_m * c[i], up += at[i].length_m * s[i];
+            o.axx += at[i].stretch * c[i] * c[i] + at[i].shear * s[i] * s[i];
+            o.axy += (at[i].stretch - at[i].shear) * c[i] * s[i];
+            o.ayy += at[i].stretch * s[i] * s[i] + at[i].shear * c[i] * c[i];
+        }
+        for (int i = 0; i < NODES; i++) {
+            double px = x, py = y;
+            for (int j = 0; j < NODES; j++) {
+                px += h * way->inside[i * NODES + j] * c[j];
+                py += h * way->inside[i * NODES + j] * s[j];
+            }
+            add_point(&o, at[i].weight, px, py);
+        }
+        x += across, y += up;
+    }
+    o.end[0] = x, o.end[1] = y;
+    add_point(&o, way->root[1], x, y); /* the first root is at the origin */
+    return o;
+}
+
+fw_status fw_path_way_new(fw_arena *arena, const fw_flexure_input *in, const fw_path_way **out) {
+    fw_course p;
+    fw_path_way *way;
+    double node[NODES], weight[NODES], root;
+    fw_path_section at;
+    fw_path_of(in, &p);
+    const fw_path_stuff m = fw_path_stuff_of(&p, in);
+    FW_NEED(way = fw_arena_one(arena, fw_path_way));
+    FW_NEED(way->knot = fw_arena_array(arena, knot, (size_t)(p.n * PANELS * NODES)));
+    FW_NEED(way->panel_m = fw_arena_array(arena, double, (size_t)(p.n * PANELS)));
+    fw_gauss_rule(NODES, node, weight);
+    fw_gauss_integrals(NODES, node, weight, way->inside);
+    way->first = p.start[0], way->last = p.start[p.n];
+    way->total = lay_knots(way, &p, &m, node, weight);
+    for (int end = 0; end < 2; end++) {
+        fw_path_root(&p, &m, end, &at, &root);
+        way->root[end] = root * at.bend_per_Nm2;
+        way->total += way->root[end];
+    }
+    way->root[0] /= way->total, way->root[1] /= way->total;
+    for (int i = 0; i < way->n; i++)
+        way->knot[i].weight /= way->total;
+    share_out(way, weight);
+    const wound made = wind(way, 0);
+    way->W[0] = made.centre[0], way->W[1] = made.centre[1];
+    *out = way;
+    return FW_OK;
+}
+
+void fw_path_pose_at(const fw_path_way *way, double th, fw_path_pose *out) {
+    const wound o = wind(way, th);
+    const wound made = {.end = {way->last.x_m - way->first.x_m, way->last.y_m - way->first.y_m}};
+    double c = cos(0.5 * th), s = sin(0.5 * th);
+    double bx = way->W[0] - made.end[0], by = way->W[1] - made.end[1];
+    double x = o.end[0] + cos(th) * bx - sin(th) * by - way->W[0];
+    double y = o.end[1] + sin(th) * bx + cos(th) * by - way->W[1];
+    out->drift_m[0] = c * x + s * y, out->drift_m[1] = c * y - s * x;
+    /* softness in the first body's frame, then turned by -th/2 */
+    const double *g = o.centre;
+    double xx = way->total * (o.yy - g[1] * g[1]) + o.axx;
+    double yy = way->total * (o.xx - g[0] * g[0]) + o.ayy;
+    double xy = -way->total * (o.xy - g[0] * g[1]) + o.axy;
+    out->c[0][0] = c * c * xx + 2 * c * s * xy + s * s * yy;
+    out->c[1][1] = s * s * xx - 2 * c * s * xy + c * c * yy;
+    out->c[0][1] = out->c[1][0] = c * s * (yy - xx) + (c * c - s * s) * xy;
+}
+
+void fw_path_left_out(const fw_path_way *way, double rotation_rad, double *drift_m,
+                      double *coupling) {
+    enum { STEPS = 16 };
+    *drift_m = *coupling = 0;
+    for (int i = -STEPS; i <= STEPS; i++) {
+        fw_path_pose at;
+        fw_path_pose_at(way, rotation_rad * i / STEPS, &at);
+        *drift_m = fmax(*drift_m, fabs(at.drift_m[0]));
+        *coupling = fmax(*coupling, fabs(at.c[0][1]) / sqrt(at.c[0][0] * at.c[1][1]));
+    }
+}
+
+fw_status fw_path_law(fw_arena *arena, const fw_flexure_input *in,
+                      const fw_flexure_result *closed_form, fw_hinge_law *law) {
+    enum { N = FW_PATH_TERMS };
+    const fw_path_way *way;
+    struct fw_hinge_table *t;
+    fw_flexure_shape f;
+    fw_path_pose at[N];
+    FW_TRY(fw_path_way_new(arena, in, &way));
+    FW_NEED(t = fw_arena_one(arena, struct fw_hinge_table));
+    for (int i = 0; i < N; i++)
+        fw_path_pose_at(way, 2 * M_PI * cos(M_PI * (i + 0.5) / N), &at[i]);
+    for (int n = 0; n < N; n++)
+        for (int i = 0; i < N; i++) {
+            double by = (n ? 2.0 : 1.0) / N * cos(M_PI * n * (i + 0.5) / N);
+            t->along_m_per_N[n] += by * at[i].c[0][0];
+            t->across_m_per_N[n] += by * at[i].c[1][1];
+            t->drift_m[n] += by * at[i].drift_m[1];
+        }
+    fw_flexure_shape_of(in, &f);
+    fw_path_pose_at(way, 0, &at[0]);
+    *law = (fw_hinge_law){.stiffness_Nm_per_rad = closed_form->stiffness_Nm_per_rad,
+                          .half_angle_rad = f.half_angle_rad,
+                          .length_m = f.length_m,
+                          .share = 1 - way->root[0] - way->root[1],
+                          .bend_m_per_N = at[0].c[0][0],
+                          .table = t};
+    return FW_OK;
+}

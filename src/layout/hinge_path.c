@@ -1,0 +1,309 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Flexures whose centre line is any path or whose width varies: both roots, and the strip between
+   the cuts. docs/theory/layout.md, section 2. */
+#include "flexure/path.h"
+#include "geometry/segment.h"
+#include "layout/draw.h"
+
+enum { PLACES = 48 };
+static const double beyond_fillet_m = 1e-6;
+
+/* the strip in the hinge frame, W at the origin */
+static void lay(const fw_flexure *f, double fillet_m, fw_course *p) {
+    const fw_flexure_input in = fw_flexure_input_of(f, fillet_m);
+    double centre = fw_hinge_centre(f, fillet_m);
+    fw_path_of(&in, p);
+    for (int i = 0; i <= p->n; i++)
+        p->start[i].x_m -= centre;
+}
+
+/* the same as the lower body sees it: mirrored about x, so walked from the other end */
+static void turned(const fw_course *p, fw_course *out) {
+    fw_strip_piece piece[FW_STRIP_MOST], back[FW_STRIP_MOST];
+    for (int i = 0; i < p->n; i++)
+        piece[i] = p->shape[i].piece;
+    fw_strip_turned(piece, p->n, back);
+    fw_pose start = p->start[p->n], at = {start.x_m, -start.y_m, M_PI - start.angle_rad};
+    at.angle_rad = fw_angle_near(-start.angle_rad + M_PI, 0.5 * M_PI);
+    out->n = p->n;
+    for (int i = 0; i < p->n; i++) {
+        fw_strip_shape_of(&back[i], &out->shape[i]);
+        out->start[i] = at;
+        at = fw_strip_along(at, back[i].curvature_per_m, back[i].length_m);
+    }
+    out->start[p->n] = at;
+}
+
+/* ---- one fillet ---- */
+
+typedef struct corner { /* root: middle, into the block, to the side of the fillet */
+    fw_vec2 root, into, side;
+    double half_m;
+} corner;
+
+typedef struct fillet {
+    fw_vec2 centre, on_edge, on_face;
+    double face_m; /* on_face from the middle of the root */
+    double back_m; /* on_edge from the root, along the centre line */
+} fillet;
+
+/* In the corner's coordinates, x into the block and y to its side, the edge passes (0, t/2):
+     line of slope m:   yc = t/2 - m rho + rho sqrt(1 + m^2)
+     circle (X, Y), R:  (X + rho)^2 + (yc - Y)^2 = (R -+ rho)^2, - where its centre lies outside of
+                        the strip
+   The fillet's centre is at (-rho, yc), its end on the face at (0, yc). In, out: m. Exact.
+   false: no such circle. Test: test_layout_path.c */
+static bool fit(const corner *c, const fw_segment *e, double rho, fillet *out) {
+    double yc, t = c->half_m;
+    fw_vec2 at;
+    if (e->kind == FW_LINE) {
+        fw_vec2 d = vec_sub(e->b, e->a);
+        double m = vec_dot(d, c->side) / vec_dot(d, c->into), root = sqrt(1 + m * m);
+        yc = t - m * rho + rho * root;
+        at = (fw_vec2){-rho + rho * m / root, yc - rho / root};
+    } else {
+        fw_vec2 to = vec_sub(e->centre, c->root);
+        double X = vec_dot(to, c->into), Y = vec_dot(to, c->side), R = e->radius;
+        bool hollow = Y > t;
+        double far = hollow ? R - rho : R + rho, in = far * far - (X + rho) * (X + rho);
+        if (!(far > 0 && in >= 0)) return false;
+        yc = hollow ? Y - sqrt(in) : Y + sqrt(in);
+        fw_vec2 ray = {-rho - X, yc - Y};
+        at = vec_along((fw_vec2){X, Y}, R / vec_length(ray), ray);
+    }
+    out->face_m = yc;
+    out->centre = vec_along(vec_along(c->root, -rho, c->into), yc, c->side);
+    out->on_face = vec_along(c->root, yc, c->side);
+    out->on_edge = vec_along(vec_along(c->root, at.x, c->into), at.y, c->side);
+    return yc > t;
+}
+
+/* how far behind the root, along the last piece's centre line, a point is across from */
+static double back_of(const fw_course *p, fw_vec2 at) {
+    const fw_strip_piece *q = &p->shape[p->n - 1].piece;
+    fw_pose end = p->start[p->n];
+    fw_vec2 into = {cos(end.angle_rad), sin(end.angle_rad)}, left = vec_left(into);
+    fw_vec2 from = vec_sub(at, (fw_vec2){end.x_m, end.y_m});
+    double k = q->curvature_per_m, x = vec_dot(from, into), y = vec_dot(from, left);
+    return k == 0 ? -x : atan2(-x * k, 1 - y * k) / k;
+}
+
+/* ---- one root ---- */
+
+static double sweep_between(fw_vec2 centre, fw_vec2 from, fw_vec2 to) {
+    return fw_vec_angle(vec_sub(from, centre), vec_sub(to, centre));
+}
+
+/* where the cut, square to the centre line, meets an edge */
+static fw_vec2 across(const fw_course *p, double back_m, double sign) {
+    const fw_strip_shape *f = &p->shape[p->n - 1];
+    double s = f->piece.length_m - back_m;
+    fw_pose at = fw_strip_along(p->start[p->n - 1], f->piece.curvature_per_m, s);
+    double off = fw_strip_aside(f, s) + 0.5 * sign * fw_strip_width(f, s);
+    return (fw_vec2){at.x_m - off * sin(at.angle_rad), at.y_m + off * cos(at.angle_rad)};
+}
+
+/* an edge between the cut and a fillet's end: about the edge's own centre, or straight */
+static void edge_part(const fw_segment *edge, fw_vec2 from, fw_vec2 to, fw_vec2 *centre,
+                      double *sweep) {
+    *centre = edge->centre;
+    *sweep = edge->kind == FW_LINE || vec_same(from, to) ? 0 : sweep_between(*centre, from, to);
+}
+
+/* how far the block may reach inside the centre line: 40 um or 4 t, half the radius, and no nearer
+   to the other block than half the least space from the axis */
+static double block_depth(const fw_strip_piece *last, fw_vec2 root, fw_vec2 left, double rho) {
+    double t = last->width_m[2], depth = fmax(FW_RING_M, 4.0 * t);
+    if (last->curvature_per_m == 0) depth = fmax(FW_RING_M, 0.5 * t + rho + 4.0 * t);
+    if (last->curvature_per_m > 0) depth = fmin(depth, 0.5 / last->curvature_per_m);
+    if (left.y < 0) depth = fmin(depth, (root.y - 0.525 * FW_LEAST_SPACE_M) / -left.y);
+    return depth;
+}
+
+static bool root_shape(const fw_course *p, double rho, fw_hinge_shape *s) {
+    const double flat = 1e-6;
+    const fw_strip_shape *last = &p->shape[p->n - 1];
+    fw_pose end = p->start[p->n];
+    fw_vec2 into = {cos(end.angle_rad), sin(end.angle_rad)}, left = vec_left(into);
+    fw_vec2 root = {end.x_m, end.y_m}, right = vec_scale(-1, left);
+    double t = last->piece.width_m[2];
+    fillet in, out;
+    const fw_segment edge[2] = {fw_strip_edge(last, p->start[p->n - 1], 0),
+                                fw_strip_edge(last, p->start[p->n - 1], 1)};
+    if (!fit(&(corner){root, into, left, 0.5 * t}, &edge[0], rho, &in)) return false;
+    if (!fit(&(corner){root, into, right, 0.5 * t}, &edge[1], rho, &out)) return false;
+    in.back_m = back_of(p, in.on_edge), out.back_m = back_of(p, out.on_edge);
+    double depth = block_depth(&last->piece, root, left, rho);
+    /* on the edges themselves, which run through it: the bias then moves both pieces alike */
+    double cut = fmax(in.back_m, out.back_m) + beyond_fillet_m;
+    if (!(in.face_m < depth - flat && in.back_m > 0 && out.back_m > 0)) return false;
+    if (!(cut < (p->n == 1 ? 0.45 : 0.95) * last->piece.length_m)) return false;
+
+    *s = (fw_hinge_shape){.fillet_m = rho, .width_m = t, .strip_sweep_rad = 0};
+    s->cut_flags = FW_SEGMENT_JOINT | FW_SEGMENT_THROUGH;
+    s->joint_in = across(p, cut, 1), s->joint_out = across(p, cut, -1);
+    s->outer_start = out.on_edge, s->outer_centre = out.centre, s->outer_end = out.on_face;
+    s->inner_start = in.on_face, s->inner_centre = in.centre, s->inner_end = in.on_edge;
+    edge_part(&edge[1], s->joint_out, s->outer_start, &s->edge_centre, &s->edge_sweep_rad);
+    edge_part(&edge[0], s->inner_end, s->joint_in, &s->inner_edge_centre, &s->inner_edge_sweep_rad);
+    s->outer_sweep_rad = sweep_between(out.centre, out.on_edge, out.on_face);
+    s->inner_sweep_rad = sweep_between(in.centre, in.on_face, in.on_edge);
+    s->root = root, s->face = right, s->into = into;
+    s->inner_corner = vec_along(root, depth, left);
+    s->cut_m = cut;
+    return s->outer_sweep_rad < 0 && s->inner_sweep_rad < 0;
+}
+
+/* farthest of both edges from W at the origin, exact */
+static double farthest(const fw_course *p) {
+    double far = 0, t;
+    for (int i = 0; i < p->n; i++)
+        for (int side = 0; side < 2; side++) {
+            const fw_segment e = fw_strip_edge(&p->shape[i], p->start[i], side);
+            far = fmax(far, fmax(vec_length(e.a), vec_length(e.b)));
+            if (e.kind == FW_ARC && fw_segment_faces(&e, e.centre, &t))
+                far = fmax(far, vec_length(e.centre) + e.radius);
+        }
+    return far;
+}
+
+/* what rings are proportioned by: radius of an arc, half of a line; of a path that of the arc as
+   long that turns as much */
+static double size_of(const fw_flexure *f, const fw_course *p, double reach) {
+    double turn = fabs(p->start[p->n].angle_rad - p->start[0].angle_rad);
+    if (f->kind == FW_FLEXURE_CSFH) return f->radius_m;
+    if (f->kind == FW_FLEXURE_LEAF) return 0.5 * f->length_m;
+    return fmin(reach, turn > 1 ? f->length_m / turn : 0.5 * f->length_m);
+}
+
+bool fw_hinge_shape_path(const fw_flexure *f, double fillet_m, fw_hinge_shape shape[2]) {
+    fw_course up, low;
+    double rho = fillet_m, least = 0.02 * fw_flexure_narrowest_m(f);
+    for (; rho > least; rho *= 0.95) { /* both roots alike; W moves with the fillet */
+        lay(f, rho, &up);
+        turned(&up, &low);
+        if (up.start[up.n].y_m < FW_LEAST_SPACE_M || low.start[low.n].y_m < FW_LEAST_SPACE_M)
+            return false;
+        if (root_shape(&up, rho, &shape[1]) && root_shape(&low, rho, &shape[0])) break;
+    }
+    if (!(rho > least)) return false;
+    double reach =
+        fmax(farthest(&up), fmax(vec_length(shape[0].outer_end), vec_length(shape[1].outer_end)));
+    double size = size_of(f, &up, reach);
+    for (int i = 0; i < 2; i++) {
+        shape[i].reach_m = reach;
+        shape[i].size_m = size;
+        shape[i].arc_centre = fw_v(-fw_hinge_centre(f, rho), 0);
+    }
+    return true;
+}
+
+/* ---- the strip ---- */
+
+static void add_edge(fw_sketch *k, const fw_segment *e, bool forward, fw_vec2 from, fw_vec2 to) {
+    if (e->kind == FW_LINE) {
+        fw_sketch_line(k, to, 0);
+        return;
+    }
+    double way = forward ? e->sweep_rad : -e->sweep_rad;
+    double sweep = sweep_between(e->centre, from, to);
+    if (sweep * way < 0) sweep += copysign(2 * M_PI, way);
+    fw_sketch_arc(k, e->centre, sweep, to);
+}
+
+static fw_vec2 mirrored(fw_vec2 p) {
+    return fw_v(p.x, -p.y);
+}
+
+static fw_status draw_path(fw_arena *arena, const fw_flexure *f, fw_hinge_plan *plan) {
+    const fw_hinge_shape *low = &plan->shape[0], *up = &plan->shape[1];
+    fw_course p;
+    lay(f, up->fillet_m, &p);
+    fw_vec2 at = mirrored(low->joint_out);
+    fw_sketch k = fw_sketch_start(arena, &plan->side[1].local, at);
+    for (int i = 0; i < p.n; i++) {
+        const fw_segment e = fw_strip_edge(&p.shape[i], p.start[i], 1);
+        fw_vec2 to = i == p.n - 1 ? up->joint_out : e.b;
+        add_edge(&k, &e, true, at, to);
+        at = to;
+    }
+    fw_sketch_line(&k, up->joint_in, up->cut_flags);
+    at = up->joint_in;
+    for (int i = p.n - 1; i >= 0; i--) {
+        const fw_segment e = fw_strip_edge(&p.shape[i], p.start[i], 0);
+        fw_vec2 to = i == 0 ? mirrored(low->joint_in) : e.a;
+        add_edge(&k, &e, false, at, to);
+        at = to;
+    }
+    fw_sketch_line(&k, mirrored(low->joint_out), low->cut_flags);
+    return fw_sketch_close(&k, &plan->flexure);
+}
+
+/* one arc or line between the two cuts */
+fw_status fw_flexure_draw(fw_arena *arena, const fw_flexure *f, fw_hinge_plan *plan) {
+    if (fw_flexure_varies(f)) return draw_path(arena, f, plan);
+    const fw_hinge_shape *s = &plan->shape[1];
+    fw_vec2 low_in = mirrored(s->joint_in), low_out = mirrored(s->joint_out);
+    fw_sketch k = fw_sketch_start(arena, &plan->side[1].local, low_out);
+    if (s->strip_sweep_rad > 0.0)
+        fw_sketch_arc(&k, s->arc_centre, s->strip_sweep_rad, s->joint_out);
+    else
+        fw_sketch_line(&k, s->joint_out, 0);
+    fw_sketch_line(&k, s->joint_in, FW_SEGMENT_JOINT);
+    if (s->strip_sweep_rad > 0.0)
+        fw_sketch_arc(&k, s->arc_centre, -s->strip_sweep_rad, low_in);
+    else
+        fw_sketch_line(&k, low_in, 0);
+    fw_sketch_line(&k, low_out, FW_SEGMENT_JOINT);
+    return fw_sketch_close(&k, &plan->flexure);
+}
+
+/* ---- what a path may run into ---- */
+
+static bool crosses_itself(const fw_contour *c) {
+    fw_hit hit[FW_MOST_HITS];
+    for (int i = 0; i < c->count; i++)
+        for (int j = i + 2; j < c->count; j++)
+            if (!(i == 0 && j == c->count - 1) &&
+                fw_segment_intersect(&c->segment[i], &c->segment[j], hit) > 0)
+                return true;
+    return false;
+}
+
+static double distance_to(const fw_contour *c, fw_vec2 from) {
+    double least = HUGE_VAL, t;
+    fw_vec2 at;
+    for (int i = 0; i < c->count; i++)
+        least = fmin(least, fw_segment_nearest(&c->segment[i], from, &t, &at));
+    return least;
+}
+
+/* the strip beyond `clear` behind the root of `upper`: nearer than the least space of one outline
+   to that body? on 49 places of each edge and piece */
+static bool near_head(const fw_course *p, const fw_hinge_plan *plan, int upper) {
+    const fw_side *side = &plan->side[upper];
+    double whole = 0, before = 0, clear = plan->shape[upper].cut_m + 3 * FW_LEAST_SPACE_M;
+    for (int i = 0; i < p->n; i++)
+        whole += p->shape[i].piece.length_m;
+    for (int i = 0; i < p->n; before += p->shape[i++].piece.length_m)
+        for (int k = 0; k <= PLACES; k++) {
+            double s = p->shape[i].piece.length_m * k / PLACES;
+            if ((upper ? whole - before - s : before + s) < clear) continue;
+            for (int sign = -1; sign <= 1; sign += 2) {
+                fw_vec2 q = fw_path_edge(p, i, (double)k / PLACES, sign);
+                q = fw_local_point(&plan->side[1].local, q);
+                if (distance_to(&side->head, q) < FW_OWN_SPACE_M ||
+                    fw_contour_contains(&side->head, q))
+                    return true;
+            }
+        }
+    return false;
+}
+
+bool fw_path_in_the_way(const fw_flexure *f, const fw_hinge_plan *plan) {
+    fw_course p;
+    lay(f, plan->shape[1].fillet_m, &p);
+    for (int i = 0; i < 2; i++)
+        if (crosses_itself(&plan->side[i].head) || near_head(&p, plan, i)) return true;
+    return false;
+}
