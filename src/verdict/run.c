@@ -129,7 +129,6 @@ bool fw_verdict_undecided(const fw_hinge_verdict *hinge, int nhinge) {
 fw_verdict_options fw_verdict_tighter(const fw_verdict_options *options) {
     fw_verdict_options tight = *options;
     tight.motion.accuracy = 1e-6; /* of the numbers: the band has what the hinges' model is off */
-    tight.motion.hinge_accuracy = options->motion.accuracy;
     tight.motion.rtol = 0.0;
     return tight;
 }
@@ -158,6 +157,7 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
     if (verdict->decision == FW_INCONCLUSIVE &&
         fw_verdict_undecided(verdict->hinge, verdict->nhinge)) {
         fw_verdict_options tight = fw_verdict_tighter(options);
+        tight.motion.hinge_accuracy = options->motion.accuracy;
         fw_diags again = fw_diags_new(arena); /* the same warnings a second time */
         *verdict = (fw_verdict){.variant = variant, .nvariant = nvariant};
         FW_TRY(attempt(arena, device, *layout, &tight, &again, verdict));

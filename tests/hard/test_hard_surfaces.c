@@ -187,7 +187,7 @@ static void held(void **state) {
     const int pin[] = {0, 2, 5};
     for (int i = 0; i < 3; i++)
         press(arena, &r, pin[i], 1.5, GAP_M, 5e-4);
-    const fw_motion *best = refine(arena, &r, 1e-5, 6 * 2500);
+    const fw_motion *best = refine(arena, &r, 1e-7, 6 * 2500);
     for (int i = 0; i < 3; i++) {
         history h = print_history(&r, best, pin[i]);
         int last = SAMPLES - 1, earlier = SAMPLES * 4 / 5;
