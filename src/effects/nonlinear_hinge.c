@@ -41,5 +41,5 @@ const fw_effect_row fw_effect_nonlinear_hinge = {
     .called_for = called_for,
     .bound = bound,
     .add = fw_hinges_flex,
-    .cost = 1100,
+    .cost = 665,
     .count = count};
