@@ -135,7 +135,7 @@ static inline const fw_motion *bounds_run_at(fw_arena *arena, const rig *r, fw_e
                            .rtol = rtol,
                            .samples = 2,
                            .most_steps = 100000,
-                           .effects = {mode, list}};
+                           .effects = {.mode = mode, .list = list}};
     fw_effect_ledger ledger;
     fw_terms terms;
     const char *why;

@@ -88,7 +88,7 @@ static inline const fw_motion *hinge_run(fw_arena *arena, const rig *r, fw_effec
     fw_diags diags = fw_diags_new(arena);
     const fw_motion *m = NULL;
     const fw_motion_options o = {
-        .accuracy = accuracy, .rtol = 1e-8, .samples = 2, .effects = {mode, list}};
+        .accuracy = accuracy, .rtol = 1e-8, .samples = 2, .effects = {.mode = mode, .list = list}};
     return fw_simulate(arena, &r->m, &r->scene, &o, &diags, &m) == FW_OK ? m : NULL;
 }
 
