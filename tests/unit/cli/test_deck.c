@@ -31,7 +31,7 @@ static void clean(const char *room) {
 
 static void six_bar(void **state) {
     (void)state;
-    char room[] = "/tmp/fw-deck-XXXXXX", out[600];
+    char room[] = "fw-deck-XXXXXX", out[600];
     assert_non_null(mkdtemp(room));
     snprintf(out, sizeof out, "%s/out", room);
     fw_plan *plan = plan_of("reference-six-bar");
@@ -51,7 +51,7 @@ static void six_bar(void **state) {
 
 static void springs_and_weight(void **state) {
     (void)state;
-    char room[] = "/tmp/fw-deck-XXXXXX", out[600];
+    char room[] = "fw-deck-XXXXXX", out[600];
     assert_non_null(mkdtemp(room));
     snprintf(out, sizeof out, "%s/out", room);
     fw_plan *plan = plan_of("leaf-four-bar");
