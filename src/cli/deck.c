@@ -55,7 +55,7 @@ static fw_status one_hinge(const writer *w, int h) {
                      w->mechanism->pin[hinge->pin].id);
         return FW_OK;
     }
-    fw_solid_shape_of(w->mechanism, w->layout, h, &shape);
+    fw_continuum_shape_of(&hinge->input, &shape);
     for (int i = 0; i < options.nangle; i++)
         options.angle_rad[i] = 0.25 * (i + 1) * hinge->closed_form.limit_angle_rad;
     for (int large = 0; large < 2; large++) {
@@ -74,8 +74,7 @@ static fw_status whole_mechanism(const writer *w, const fw_scene *scene) {
     fw_diags own = fw_diags_new(plan->arena);
     fw_solid_device device;
     fw_text deck = fw_text_new(plan->arena);
-    fw_status status =
-        fw_solid_device_of(plan->arena, w->mechanism, w->layout, scene, &own, &device);
+    fw_status status = fw_solid_device_of(plan->arena, w->mechanism, scene, &own, &device);
     if (status == FW_OK)
         status = fw_solid_deck(plan->arena, &device,
                                &(fw_solid_options){.refinement = w->refinement}, &own, &deck);

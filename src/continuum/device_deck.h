@@ -56,18 +56,12 @@ typedef struct fw_solid_result {
     fw_continuum_mesh_size mesh;
 } fw_solid_result;
 
-/* the flexure of one hinge of a mechanism; fillet as the layout has it (NULL: as the flexure has,
-   or its default), blocks as fw_continuum_shape_of */
-void fw_solid_shape_of(const fw_mechanism *mechanism, const fw_layout *layout, int hinge,
-                       fw_continuum_shape *shape);
-
 /* From a mechanism whose joints all are flexures, with the scene's forces and torques at its end
-   (scene NULL: none). Fillets as the layout has them (NULL: as the flexure has, or its default);
-   blocks as for one hinge; material isotropic. FW_GEOMETRY (FW-D213): other joints, or loads that
-   are not forces and torques. */
-fw_status fw_solid_device_of(fw_arena *arena, const fw_mechanism *mechanism,
-                             const fw_layout *layout, const fw_scene *scene, fw_diags *diags,
-                             fw_solid_device *device);
+   (scene NULL: none). Fillets as the mechanism's closed forms have them; blocks as for one hinge;
+   material isotropic. FW_GEOMETRY (FW-D213): other joints, or loads that are not forces and
+   torques. */
+fw_status fw_solid_device_of(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
+                             fw_diags *diags, fw_solid_device *device);
 
 /* input deck (um, uN, MPa): geometrically nonlinear equilibrium under the loads and rotations */
 fw_status fw_solid_deck(fw_arena *arena, const fw_solid_device *device,

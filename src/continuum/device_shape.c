@@ -30,32 +30,10 @@ static fw_status representable(const fw_mechanism *m, const fw_scene *s, fw_diag
     return FW_OK;
 }
 
-void fw_solid_shape_of(const fw_mechanism *m, const fw_layout *layout, int hinge,
-                       fw_continuum_shape *shape) {
-    const fw_hinge *h = &m->hinge[hinge];
-    const fw_flexure *f = &m->device->flexure[h->flexure];
-    const fw_material *material = &m->variant->material;
-    double fillet = isnan(f->fillet_m) ? fw_flexure_default_fillet(f) : f->fillet_m;
-    if (layout && layout->drawn && layout->hinge[h->pin].drawn)
-        fillet = layout->hinge[h->pin].fillet_m;
-    const fw_flexure_input in = {.kind = f->kind,
-                                 .length_m = f->length_m,
-                                 .angle_rad = f->angle_rad,
-                                 .radius_m = f->radius_m,
-                                 .width_m = f->width_m,
-                                 .fillet_m = fillet,
-                                 .depth_m = m->variant->thickness_m,
-                                 .youngs_Pa = material->youngs.value,
-                                 .poisson = material->poisson.value,
-                                 .strength_Pa = material->strength.value,
-                                 .safety_factor = m->device->safety_factor};
-    fw_continuum_shape_of(&in, shape);
-}
-
-static void hinge_of(const fw_mechanism *m, const fw_layout *layout, int h, fw_solid_hinge *to) {
+static void hinge_of(const fw_mechanism *m, int h, fw_solid_hinge *to) {
     const fw_hinge *hinge = &m->hinge[h];
     const fw_pin *pin = &m->pin[hinge->pin];
-    fw_solid_shape_of(m, layout, h, &to->shape);
+    fw_continuum_shape_of(&hinge->input, &to->shape);
     /* W of the closed form lies at the pin, as in the layout */
     double W = to->shape.centre_x_m, c = cos(hinge->axis_rad), s = sin(hinge->axis_rad);
     fw_vec2 at = fw_pin_place(m, pin, 0);
@@ -71,8 +49,8 @@ static double factor_at_end(const fw_law *law, double duration_s) {
     return value[0];
 }
 
-fw_status fw_solid_device_of(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
-                             const fw_scene *scene, fw_diags *diags, fw_solid_device *device) {
+fw_status fw_solid_device_of(fw_arena *arena, const fw_mechanism *m, const fw_scene *scene,
+                             fw_diags *diags, fw_solid_device *device) {
     const fw_material *material = &m->variant->material;
     FW_TRY(representable(m, scene, diags));
     *device = (fw_solid_device){
@@ -84,7 +62,7 @@ fw_status fw_solid_device_of(fw_arena *arena, const fw_mechanism *m, const fw_la
     FW_NEED(device->body = fw_arena_array(arena, fw_solid_body, (size_t)m->nbody));
     FW_NEED(device->force = fw_arena_array(arena, fw_solid_force, (size_t)nforce));
     for (int h = 0; h < m->nhinge; h++)
-        hinge_of(m, layout, h, &device->hinge[h]);
+        hinge_of(m, h, &device->hinge[h]);
     for (int b = 0; b < m->nbody; b++)
         device->body[b] =
             (fw_solid_body){.id = m->body[b].id, .x_m = m->body[b].x_m, .y_m = m->body[b].y_m};

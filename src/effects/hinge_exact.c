@@ -32,8 +32,8 @@ static const double rough = 1e-6, deflected = 1e-3;
 static const double linear = 3e-8;
 
 struct fw_exact {
-    fw_beam_piece piece;
     fw_beam beam;
+    double length_m; /* of the strip */
     fw_elastica *solver;
     bool asked, held, weighed; /* the state below is that of `twist`; its energy is known */
     double twist[3], wrench[3], k[3][3], energy_J;
@@ -55,15 +55,13 @@ fw_status fw_exact_new(fw_arena *arena, const fw_hinge *h, fw_exact **out) {
     const fw_flexure_result *c = &h->closed_form;
     fw_exact *x = fw_arena_one(arena, fw_exact);
     FW_NEED(x);
-    if (fw_flexure_input_varies(&h->input))
-        FW_TRY(fw_path_beam(arena, &h->input, c, &x->beam));
-    else
-        fw_beam_of_flexure(&h->input, c, &x->piece, &x->beam);
+    FW_TRY(fw_flexure_beam(arena, &h->input, c, &x->beam));
     /* where the pin is: the ends of the strip are that far from it in both bodies */
     const double pin[2] = {c->centre_m + c->offset_m[0], c->offset_m[1]};
     static const double none[3] = {0};
     fw_elastica_result r;
     FW_TRY(fw_elastica_new(arena, &x->beam, pin, false, &x->solver));
+    x->length_m = fw_elastica_linear(x->solver)->length_m;
     fw_elastica_of_twist(x->solver, none, fw_exact_tolerance, false, &r);
     take_stiffness(&r, x->rest);
     *out = x;
@@ -120,10 +118,10 @@ static bool solve(fw_exact *x, const double twist[3]) {
     x->asked = true;
     x->weighed = false;
     memcpy(x->twist, twist, sizeof x->twist);
-    if (fmax(fabs(twist[0]), hypot(twist[1], twist[2]) / x->piece.length_m) < linear)
+    if (fmax(fabs(twist[0]), hypot(twist[1], twist[2]) / x->length_m) < linear)
         return x->held = hardly_bent(x);
     fw_elastica_of_twist(x->solver, twist, fw_exact_tolerance, false, &r);
-    x->held = good(&r, x->piece.length_m);
+    x->held = good(&r, x->length_m);
     memcpy(x->wrench, r.wrench, sizeof x->wrench);
     take_stiffness(&r, x->k);
     return x->held;

@@ -63,5 +63,8 @@ fw_status fw_path_law(fw_arena *arena, const fw_flexure_input *in,
    stiffness. Pieces and the table of widths are taken from the arena. */
 fw_status fw_path_beam(fw_arena *arena, const fw_flexure_input *in,
                        const fw_flexure_result *closed_form, fw_beam *out);
+/* that of any flexure: the path's where the width varies, else of one arc or line (beam.h) */
+fw_status fw_flexure_beam(fw_arena *arena, const fw_flexure_input *in,
+                          const fw_flexure_result *closed_form, fw_beam *out);
 
 #endif

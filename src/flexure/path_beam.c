@@ -38,3 +38,12 @@ fw_status fw_path_beam(fw_arena *arena, const fw_flexure_input *in,
     out->depth_factor = linear.c[0][0] * closed_form->stiffness_Nm_per_rad;
     return FW_OK;
 }
+
+fw_status fw_flexure_beam(fw_arena *arena, const fw_flexure_input *in,
+                          const fw_flexure_result *closed_form, fw_beam *out) {
+    if (fw_flexure_input_varies(in)) return fw_path_beam(arena, in, closed_form, out);
+    fw_beam_piece *piece = fw_arena_one(arena, fw_beam_piece);
+    FW_NEED(piece);
+    fw_beam_of_flexure(in, closed_form, piece, out);
+    return FW_OK;
+}

@@ -65,13 +65,9 @@ static void errors_of(const fw_ladder_case *c, const fw_elastica_result *at, fw_
 fw_status fw_ladder_elastica(const fw_ladder_case *c, fw_report_level *row) {
     const fw_flexure_input *in = &c->hinge->input;
     const fw_flexure_result *r = &c->hinge->closed_form;
-    fw_beam_piece piece;
     fw_beam beam;
     turned t = {.per_moment = r->strain_per_rad / r->stiffness_Nm_per_rad};
-    if (fw_flexure_input_varies(in))
-        FW_TRY(fw_path_beam(c->arena, in, r, &beam));
-    else
-        fw_beam_of_flexure(in, r, &piece, &beam);
+    FW_TRY(fw_flexure_beam(c->arena, in, r, &beam));
     FW_TRY(fw_elastica_new(c->arena, &beam, NULL, false, &t.e));
     double limit = in->strength_Pa / (in->safety_factor * in->youngs_Pa);
     double angle =

@@ -7,13 +7,11 @@ static const double tolerance = 1e-8;
 fw_status fw_hinge_beam(fw_arena *arena, const fw_hinge *h, fw_elastica **out) {
     const fw_flexure_result *c = &h->closed_form;
     fw_beam *beam;
-    fw_beam_piece *piece;
     *out = NULL;
     if (h->stated || !(h->input.length_m > 0) || !isfinite(h->axis_rad)) return FW_OK;
-    FW_NEED(beam = fw_arena_one(arena, fw_beam));
-    FW_NEED(piece = fw_arena_one(arena, fw_beam_piece));
     if (fw_flexure_input_varies(&h->input)) return FW_OK; /* looked at section by section */
-    fw_beam_of_flexure(&h->input, c, piece, beam);
+    FW_NEED(beam = fw_arena_one(arena, fw_beam));
+    FW_TRY(fw_flexure_beam(arena, &h->input, c, beam));
     const double pin[2] = {c->centre_m + c->offset_m[0], c->offset_m[1]};
     return fw_elastica_new(arena, beam, pin, false, out);
 }

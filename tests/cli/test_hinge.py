@@ -248,6 +248,20 @@ class Hinge(unittest.TestCase):
         self.assertEqual(missing.returncode, 5, missing.stderr)
         self.assertFalse((self.here / "no").exists())
 
+    def test_paths_as_exact_beams(self):
+        """hinges whose width varies: both models of what gives agree, and the exact one keeps the energy"""
+        path = GALLERY.parent.parent / "free-form-four-bar/device.xml"
+        peaks = []
+        for model in ("compliance", "elastica"):
+            done = run("simulate", path, "--hinge-model", model, "--json")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            result = json.loads(done.stdout)
+            self.assertLess(result["stats"]["energy_error"], 1e-7)
+            peaks.append([p["angle_rad"] for p in result["peaks"]])
+        for closed, exact in zip(*peaks):
+            self.assertLess(abs(closed - exact), 5e-3 * abs(exact))
+            self.assertNotEqual(closed, exact)
+
     def test_report(self):
         out = self.here / "out"
         done = run("plan", GALLERY, "-o", out)

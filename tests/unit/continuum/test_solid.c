@@ -135,8 +135,7 @@ static void read_engine(fw_arena *arena, fw_diags *diags, engine *e) {
     if (status == FW_OK)
         status = fw_mechanism_build(arena, e->device, e->layout, &e->variant, diags, &e->mechanism);
     if (status == FW_OK)
-        status = fw_solid_device_of(arena, e->mechanism, e->layout, &e->device->scene[0], diags,
-                                    &e->solid);
+        status = fw_solid_device_of(arena, e->mechanism, &e->device->scene[0], diags, &e->solid);
     if (status != FW_OK) fail_msg("%s", diags->count ? diags->item[0].message : "no message");
 }
 
@@ -222,13 +221,12 @@ static void refusals(void **state) {
     fw_mechanism m = *e.mechanism;
     fw_scene scene = e.device->scene[0];
     m.nspring = 1;
-    assert_int_equal(fw_solid_device_of(arena, &m, NULL, NULL, &diags, &out), FW_GEOMETRY);
+    assert_int_equal(fw_solid_device_of(arena, &m, NULL, &diags, &out), FW_GEOMETRY);
     m = *e.mechanism;
     m.npin = 7;
-    assert_int_equal(fw_solid_device_of(arena, &m, NULL, NULL, &diags, &out), FW_GEOMETRY);
+    assert_int_equal(fw_solid_device_of(arena, &m, NULL, &diags, &out), FW_GEOMETRY);
     scene.gravity = true;
-    assert_int_equal(fw_solid_device_of(arena, e.mechanism, NULL, &scene, &diags, &out),
-                     FW_GEOMETRY);
+    assert_int_equal(fw_solid_device_of(arena, e.mechanism, &scene, &diags, &out), FW_GEOMETRY);
     e.solid.nhinge = 2; /* three links hang in the air */
     fw_text deck = fw_text_new(arena);
     assert_int_equal(fw_solid_deck(arena, &e.solid, &(fw_solid_options){0}, &diags, &deck),
