@@ -36,6 +36,8 @@ typedef struct fw_motion_options {
     double most_angle_rad; /* ends the run when a joint has turned further: the verdict needs no
                               more; 0: never */
     double hinge_accuracy; /* by which auto chooses the model of hinges; 0: accuracy */
+    long most_beams; /* auto takes exact beams only where the motion with the model before asked for
+                        the forces of hinges no more often than this; 0: however often */
     bool within_limits;  /* where hinges turn beyond their elastic limit auto takes no better model
                             of them: a verdict does not need it */
     fw_observer observe; /* NULL: nobody looks */

@@ -267,13 +267,12 @@ fw_status fw_level_note(fw_arena *arena, const fw_level_step *step, double accur
     return FW_OK;
 }
 
-fw_status fw_level_stays(fw_arena *arena, const fw_level_step *step, fw_hinge_use *use) {
+fw_status fw_level_stays(fw_arena *arena, const fw_level_step *step, const char *why_not,
+                         fw_hinge_use *use) {
     char by[32];
     fw_percent_text(by, sizeof by, step->relative);
-    FW_NEED(use->why =
-                fw_arena_printf(arena,
-                                "%s; %s is computed to change %s %%, but the scene could "
-                                "not be followed with it",
-                                use->why ? use->why : "", fw_hinge_model_text(step->next), by));
+    FW_NEED(use->why = fw_arena_printf(arena, "%s; %s is computed to change %s %%, but %s",
+                                       use->why ? use->why : "", fw_hinge_model_text(step->next),
+                                       by, why_not));
     return FW_OK;
 }

@@ -45,7 +45,8 @@ bool fw_level_climb(const fw_level_step *step, double accuracy, const fw_effect_
 fw_status fw_level_note(fw_arena *arena, const fw_level_step *step, double accuracy,
                         const fw_effect_choice *asked, fw_hinge_use *use);
 
-/* the next level was wanted and had no solution: what that means for the choice */
-fw_status fw_level_stays(fw_arena *arena, const fw_level_step *step, fw_hinge_use *use);
+/* the next level was wanted and not taken, `why_not`: what that means for the choice */
+fw_status fw_level_stays(fw_arena *arena, const fw_level_step *step, const char *why_not,
+                         fw_hinge_use *use);
 
 #endif

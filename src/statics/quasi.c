@@ -117,12 +117,31 @@ static fw_status stay(fw_arena *arena, const fw_mechanism *m, const fw_scene *sc
     const fw_motion *again;
     FW_NEED(own);
     *own = **motion;
-    FW_TRY(fw_level_stays(arena, own->level, &own->ledger.hinge));
+    FW_TRY(fw_level_stays(arena, own->level, "the scene could not be followed with it",
+                          &own->ledger.hinge));
     *motion = own;
     if (!options->observe) return FW_OK;
     fw_diags quiet = fw_diags_new(arena);
     o.effects.hinge = own->ledger.hinge.used;
     return move(arena, m, scene, &o, &quiet, &again);
+}
+
+/* exact beams cost some 10 us each: not by itself where there would be very many */
+static fw_status too_many_beams(fw_arena *arena, const fw_mechanism *m,
+                                const fw_motion_options *options, const fw_level_step *step,
+                                const fw_motion **motion, bool *too_many) {
+    double beams = (double)(*motion)->stats.rhs * m->nhinge;
+    *too_many = options->most_beams > 0 && step->next == FW_HINGE_ELASTICA &&
+                beams > (double)options->most_beams;
+    if (!*too_many) return FW_OK;
+    fw_motion *own = fw_arena_one(arena, fw_motion);
+    FW_NEED(own);
+    *own = **motion;
+    *motion = own;
+    const char *why = fw_arena_printf(
+        arena, "would take some %.0e exact beams: ask for --hinge-model elastica", beams);
+    FW_NEED(why);
+    return fw_level_stays(arena, step, why, &own->ledger.hinge);
 }
 
 /* with the hinges as they were asked for; auto climbs where the step to the next level is computed
@@ -149,5 +168,8 @@ fw_status fw_move_scene(fw_arena *arena, const fw_mechanism *mechanism, const fw
         FW_TRY(with_level(arena, found, step, accuracy, asked, motion));
         if (options->within_limits && beyond_limits(mechanism, found)) return FW_OK;
         if (!fw_level_climb(step, accuracy, asked, &o.effects)) return FW_OK;
+        bool too_many;
+        FW_TRY(too_many_beams(arena, mechanism, options, step, motion, &too_many));
+        if (too_many) return FW_OK;
     }
 }

@@ -304,7 +304,8 @@ static fw_status stay(fw_arena *arena, const fw_statics **statics) {
     FW_NEED(own);
     *own = **statics;
     *statics = own;
-    return fw_level_stays(arena, own->level, &own->ledger.hinge);
+    return fw_level_stays(arena, own->level, "the equilibrium could not be found with it",
+                          &own->ledger.hinge);
 }
 
 fw_status fw_static_equilibrium(fw_arena *arena, const fw_mechanism *mechanism,

@@ -7,10 +7,15 @@
 
 void fw_verdict_keep_worst(fw_hinge_verdict *worst, const fw_hinge_verdict *other);
 bool fw_verdict_governs(const fw_hinge_verdict *h, const fw_hinge_verdict *other);
-/* one of these hinges is inconclusive, and a tighter run may decide it */
-bool fw_verdict_undecided(const fw_hinge_verdict *hinge, int nhinge);
-/* the same request at the tightest accuracy */
-fw_verdict_options fw_verdict_tighter(const fw_verdict_options *options);
+/* hinges of which some are inconclusive: what may decide them (closer.c) */
+typedef enum fw_closer {
+    FW_CLOSER_NOTHING,
+    FW_CLOSER_NUMBERS, /* tighter numbers alone */
+    FW_CLOSER_HINGES   /* those, and a better model of the hinges */
+} fw_closer;
+fw_closer fw_verdict_closer(const fw_hinge_verdict *hinge, int nhinge);
+/* the same request, as close as that */
+fw_verdict_options fw_verdict_tighter(const fw_verdict_options *options, fw_closer closer);
 /* every joint is where both its bodies put it, within 10 nm, in the drawn position (FW-D206) */
 fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *mechanism,
                                    fw_diags *diags);

@@ -48,7 +48,7 @@ fw_status fw_level_strains(fw_arena *arena, const fw_mechanism *m, const fw_leve
 
 /* stiffness of the closed form against 3-D finite elements: both levels have it, so that the step
    does not see it, and the angles under given loads follow it */
-static double of_stiffness(const fw_mechanism *m) {
+double fw_motion_lasting_error(const fw_mechanism *m) {
     double most = 0;
     for (int k = 0; k < m->nhinge; k++)
         if (!m->hinge[k].stated) most = fmax(most, m->hinge[k].closed_form.error.stiffness);
@@ -61,7 +61,7 @@ static double of_stiffness(const fw_mechanism *m) {
    step. Exact beams have no next level: what is left is what they have in common with solids. */
 double fw_motion_model_error(const fw_mechanism *m, const fw_motion *x) {
     const fw_level_step *s = x->level;
-    double usual = fw_verdict_model_error.motion, common = of_stiffness(m), off = 0, largest = 0;
+    double usual = fw_verdict_model_error.motion, common = fw_motion_lasting_error(m), off = 0, largest = 0;
     if (x->ledger.hinge.used == FW_HINGE_ELASTICA) return fmin(usual, common);
     if (!s || s->why_not || m->nhinge == 0) return usual;
     for (int k = 0; k < m->nhinge; k++) {

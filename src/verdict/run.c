@@ -117,22 +117,6 @@ static fw_status draw(fw_arena *arena, const fw_device *device, fw_diags *diags,
     return fatal ? status : FW_OK;
 }
 
-/* not so where a tighter run would change nothing: what is inconclusive is no band of a hinge, or
-   its band is the model's */
-bool fw_verdict_undecided(const fw_hinge_verdict *hinge, int nhinge) {
-    for (int k = 0; k < nhinge; k++)
-        if (hinge[k].scene && hinge[k].decision == FW_INCONCLUSIVE && hinge[k].numeric > 1e-5)
-            return true;
-    return false;
-}
-
-fw_verdict_options fw_verdict_tighter(const fw_verdict_options *options) {
-    fw_verdict_options tight = *options;
-    tight.motion.accuracy = 1e-6; /* of the numbers: the band has what the hinges' model is off */
-    tight.motion.rtol = 0.0;
-    return tight;
-}
-
 /* what the flows make of it; the drawn verdict stays in each variant */
 static fw_status as_made(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                          const fw_verdict_options *options, fw_verdict *verdict) {
@@ -153,11 +137,13 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
     fw_variant_verdict *variant = verdict->variant;
     FW_TRY(attempt(arena, device, *layout, options, diags, verdict));
 
-    /* a band that straddles 1 because of the integrator: try tighter by itself, once */
-    if (verdict->decision == FW_INCONCLUSIVE &&
-        fw_verdict_undecided(verdict->hinge, verdict->nhinge)) {
-        fw_verdict_options tight = fw_verdict_tighter(options);
-        tight.motion.hinge_accuracy = options->motion.accuracy;
+    /* a band that straddles 1 for want of computing: once more, closer. Numbers first: they cost
+       less than better hinges, which then may not be needed */
+    for (fw_closer last = FW_CLOSER_NOTHING; verdict->decision == FW_INCONCLUSIVE;) {
+        fw_closer closer = fw_verdict_closer(verdict->hinge, verdict->nhinge);
+        if (closer <= last) break;
+        last = closer;
+        fw_verdict_options tight = fw_verdict_tighter(options, closer);
         fw_diags again = fw_diags_new(arena); /* the same warnings a second time */
         *verdict = (fw_verdict){.variant = variant, .nvariant = nvariant};
         FW_TRY(attempt(arena, device, *layout, &tight, &again, verdict));

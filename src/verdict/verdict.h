@@ -21,6 +21,8 @@ typedef struct fw_hinge_verdict {
     double peak_strain, strain_limit;
     double utilisation, utilisation_low, utilisation_high;
     double numeric; /* part of the band on either side that a tighter run would take away */
+    double lasting; /* relative part of it that neither a tighter run nor a better model of the
+                       hinges would take away */
     double t_s;     /* NaN for the workspace */
     fw_decision decision;
     int joint;
@@ -148,6 +150,8 @@ extern const fw_model_error fw_verdict_model_error;
 /* what the hinges' level may be off by in a motion, relative to the largest strain: computed at its
    peak where that is known (level.c), else fw_verdict_model_error.motion */
 double fw_motion_model_error(const fw_mechanism *mechanism, const fw_motion *motion);
+/* the part of it that exact beams have too */
+double fw_motion_lasting_error(const fw_mechanism *mechanism);
 /* fills the strains of a step to the next level (may be NULL), on both levels */
 fw_status fw_level_strains(fw_arena *arena, const fw_mechanism *mechanism,
                            const fw_level_step *step);
