@@ -191,7 +191,8 @@ static void tightest(fw_search *s, int k) {
                                *worst = &made->corner[h->corner].hinge[k];
         if (now->scene && (!worst->scene || now->utilisation > worst->utilisation)) h->corner = c;
     }
-    h->most = made->corner[h->corner].hinge[k].utilisation;
+    h->most =
+        made->corner[h->corner].hinge[k].utilisation + made->corner[h->corner].hinge[k].numeric;
 }
 
 /* sigma and what it is made of, from the row that governs the nominal device; the bound over all

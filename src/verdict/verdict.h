@@ -56,7 +56,7 @@ typedef struct fw_made_corner { /* one device that the flow may make, judged lik
 
 typedef struct fw_made_hinge {
     int corner;    /* of those that were run, the tightest */
-    double most;   /* bound on the utilisation at any corner, run or not */
+    double most;   /* bound on the utilisation at any corner, run or not, numbers included */
     double sigma;  /* of the nominal utilisation, first order, inputs independent */
     double *share; /* (ninput) dU/dx sigma_x */
 } fw_made_hinge;

@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a closer look may decide, by every outcome that it may have: the utilisation moves by no
+   more than the part of the band that goes away, and the band that stays is put about it again. */
+#include "verdict/compare.h"
+#include "test.h"
+#include <math.h>
+
+static double unit(uint64_t *seed) {
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*seed >> 11) / 9007199254740992.0;
+}
+
+static fw_hinge_verdict hinge(double u, double numeric, double model, double lasting) {
+    fw_hinge_verdict h = {.scene = "s", .utilisation = u, .numeric = numeric, .lasting = lasting};
+    h.utilisation_low = u * (1 - model) - numeric;
+    h.utilisation_high = u * (1 + model) + numeric;
+    h.decision = h.utilisation_low > 1    ? FW_REJECT
+                 : h.utilisation_high < 1 ? FW_ACCEPT
+                                          : FW_INCONCLUSIVE;
+    return h;
+}
+
+/* some outcome is not inconclusive */
+static bool decides(const fw_hinge_verdict *h, double moves, double stays) {
+    for (int i = 0; i <= 400; i++) {
+        double u = h->utilisation + moves * (i - 200) / 200.0;
+        if (u * (1 + stays) < 1 || u * (1 - stays) > 1) return true;
+    }
+    return false;
+}
+
+static void no_outcome_is_missed(void **state) {
+    (void)state;
+    uint64_t seed = 7;
+    int count[3] = {0};
+    for (int i = 0; i < 20000; i++) {
+        double u = 0.8 + 0.4 * unit(&seed), model = 0.02 + 0.1 * unit(&seed);
+        double numeric = pow(10, -6 + 5 * unit(&seed));
+        double lasting = model * unit(&seed);
+        fw_hinge_verdict h = hinge(u, numeric, model, lasting);
+        if (h.decision != FW_INCONCLUSIVE) continue;
+        fw_closer closer = fw_verdict_closer(&h, 1);
+        count[closer]++;
+        if (closer == FW_CLOSER_NUMBERS) {
+            assert_true(numeric > 1e-5 && decides(&h, numeric, model));
+        } else {
+            if (numeric > 1e-5) assert_false(decides(&h, numeric * 0.999, model));
+            bool better = decides(&h, (numeric + u * (model - lasting)) * 0.999, lasting);
+            if (closer == FW_CLOSER_NOTHING) assert_false(better);
+        }
+    }
+    for (int c = 0; c < 3; c++)
+        assert_true(count[c] > 100);
+}
+
+/* one hinge that stays inconclusive spares the look at another, unless that one may be rejected */
+static void all_hinges_count(void **state) {
+    (void)state;
+    fw_hinge_verdict two[2] = {hinge(1, 1e-6, 0.03, 0.03), hinge(0.975, 0.01, 0.02, 0.02)};
+    assert_int_equal(fw_verdict_closer(two, 1), FW_CLOSER_NOTHING);
+    assert_int_equal(fw_verdict_closer(two + 1, 1), FW_CLOSER_NUMBERS);
+    assert_int_equal(fw_verdict_closer(two, 2), FW_CLOSER_NOTHING);
+    two[1] = hinge(1.025, 0.01, 0.02, 0.02);
+    assert_int_equal(fw_verdict_closer(two, 2), FW_CLOSER_NUMBERS);
+    two[1] = hinge(0.975, 0.01, 0.02, 0.02);
+    two[1].touches = true; /* solids that meet are no question of numbers */
+    assert_int_equal(fw_verdict_closer(two + 1, 1), FW_CLOSER_NOTHING);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(no_outcome_is_missed),
+                                       cmocka_unit_test(all_hinges_count)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
