@@ -44,6 +44,9 @@ typedef struct fw_motion_options {
     void *context;
     void *other; /* of the observer, too, for the looser run that errors are estimated from; NULL:
                     it is not looked at. The motion says which of the two saw what */
+    /* what observers of the two runs saw is near enough, margin (fw_motion_stats.estimate_margin)
+       times what it differs by being its error; else the tolerance is tightened. NULL: always */
+    bool (*settled)(const void *observed, const void *compared, double margin, double accuracy);
 } fw_motion_options;
 
 typedef struct fw_peak { /* per pin: extreme of |phi_b - phi_a - free angle| over the scene */
@@ -105,8 +108,8 @@ typedef struct fw_motion {
     const char *stabilise, *method_report; /* what the method has to say, or NULL */
     void *observed, *compared; /* contexts that saw this motion, and the looser run (NULL: none did;
                                   a row of equilibria has no such run) */
-    const fw_terms *terms;                 /* what acted, for those who look at it again */
-    const struct fw_level_step *level;     /* statics/level.h; NULL: not looked for, or no hinges */
+    const fw_terms *terms;     /* what acted, for those who look at it again */
+    const struct fw_level_step *level; /* statics/level.h; NULL: not looked for, or no hinges */
 } fw_motion;
 
 /* one scene from the assembled position, with inertia. FW_SOLVER when the steps become too small.

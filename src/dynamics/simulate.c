@@ -179,8 +179,11 @@ static double accuracy_wanted(const fw_run *r) {
 static bool good_enough(const fw_run *r) {
     const reached x = what_is_reached(r);
     double accuracy = accuracy_wanted(r);
+    const fw_motion_options *o = r->options;
     return x.error_rad <= accuracy * x.angle_rad &&
-           (!r->options->reactions || fw_run_extremes_good(r, accuracy));
+           (!o->reactions || fw_run_extremes_good(r, accuracy)) &&
+           (!o->settled || o->settled(r->motion->observed, r->motion->compared,
+                                      r->motion->stats.estimate_margin, accuracy));
 }
 
 /* an angle or a force that is round-off has no relative accuracy */

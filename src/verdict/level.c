@@ -61,7 +61,8 @@ double fw_motion_lasting_error(const fw_mechanism *m) {
    step. Exact beams have no next level: what is left is what they have in common with solids. */
 double fw_motion_model_error(const fw_mechanism *m, const fw_motion *x) {
     const fw_level_step *s = x->level;
-    double usual = fw_verdict_model_error.motion, common = fw_motion_lasting_error(m), off = 0, largest = 0;
+    double usual = fw_verdict_model_error.motion, common = fw_motion_lasting_error(m), off = 0,
+           largest = 0;
     if (x->ledger.hinge.used == FW_HINGE_ELASTICA) return fmin(usual, common);
     if (!s || s->why_not || m->nhinge == 0) return usual;
     for (int k = 0; k < m->nhinge; k++) {

@@ -58,21 +58,10 @@ static void collide(const fw_hinge_layout *drawn, fw_hinge_verdict *out) {
     if (out->touches && out->decision == FW_ACCEPT) out->decision = FW_INCONCLUSIVE;
 }
 
-/* peaks of forces that ride on stiff axes come nearer with a tighter tolerance, but not at the
-   order of the method: twice what two runs differ by (test_hard_verdict: 1.1 times was seen) */
-static const double fw_strains_settle = 2;
-
-/* What stiff axes carry is known less well than the rotation: strains have an error of their own,
-   from the same two runs as that of the angle (statistics.estimate_margin). The largest difference
-   of all hinges counts for each, since one alone may agree by chance. */
 static double strain_error(const fw_motion *motion) {
     const fw_watch *saw = motion->observed, *looser = motion->compared;
-    double most = 0.0;
     if (!saw || !looser || motion->ended) return 0.0;
-    for (int k = 0; k < saw->mechanism->nhinge; k++)
-        if (saw->hinge[k].seen > 0 && looser->hinge[k].seen > 0)
-            most = fmax(most, fabs(saw->hinge[k].strain - looser->hinge[k].strain));
-    return fw_strains_settle * motion->stats.estimate_margin * most;
+    return fw_watch_error(saw, looser, motion->stats.estimate_margin);
 }
 
 /* what a hinge is judged by, the same for all that is run */
@@ -235,6 +224,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         if (!fw_device_in_flow(scene->flow, m->variant->flow)) continue;
         FW_TRY(fw_watch_new(arena, m, layout, device->limits.cycles > 0, &watch[i]));
         motion.observe = fw_watch_see;
+        motion.settled = fw_watch_settled;
         motion.context = &watch[i];
         FW_TRY(fw_watch_new(arena, m, layout, device->limits.cycles > 0, &other[i]));
         motion.other = &other[i];

@@ -32,6 +32,26 @@ static void count(fw_watch *w, int k, const fw_hinge_layout *drawn, const fw_hin
     }
 }
 
+static const double fw_strains_settle = 2;
+
+double fw_watch_error(const fw_watch *saw, const fw_watch *looser, double margin) {
+    double most = 0;
+    for (int k = 0; k < saw->mechanism->nhinge; k++)
+        if (saw->hinge[k].seen > 0 && looser->hinge[k].seen > 0)
+            most = fmax(most, fabs(saw->hinge[k].strain - looser->hinge[k].strain));
+    return fw_strains_settle * margin * most;
+}
+
+bool fw_watch_settled(const void *saw, const void *looser, double margin, double accuracy) {
+    const fw_watch *watch = saw;
+    double limit = HUGE_VAL;
+    for (int k = 0; k < watch->mechanism->nhinge; k++) {
+        const fw_flexure_result *c = &watch->mechanism->hinge[k].closed_form;
+        limit = fmin(limit, c->limit_angle_rad * c->strain_per_rad);
+    }
+    return !(fw_watch_error(watch, looser, margin) > fmin(10 * accuracy, 0.03) * limit);
+}
+
 static void keep(fw_strain_peak *p, double t_s, double strain, double between) {
     if (strain <= p->strain) return;
     p->strain = strain;

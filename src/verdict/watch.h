@@ -28,6 +28,14 @@ fw_status fw_watch_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_
                        bool cycles, fw_watch *watch);
 /* an fw_observer; context is the watch */
 void fw_watch_see(void *context, const fw_instant *instant);
+/* Strains of which the numerical error is known from two runs. What stiff axes carry is known less
+   well than the rotation: peaks of forces that ride on them come nearer with a tighter tolerance,
+   but not at the order of the method. Error: twice what any hinge's largest strain differs by (1.1
+   times was seen, test_hard_verdict.c), times the margin of the two runs; the largest difference
+   of all hinges counts for each, since one alone may agree by chance. */
+double fw_watch_error(const fw_watch *saw, const fw_watch *looser, double margin);
+/* that is below ten times the accuracy wanted of each limit: fw_motion_options.settled */
+bool fw_watch_settled(const void *saw, const void *looser, double margin, double accuracy);
 /* one more instant of one hinge */
 void fw_strain_peak_add(fw_strain_peak *peak, double t_s, double strain);
 
