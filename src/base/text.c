@@ -32,11 +32,21 @@ static int reserve(fw_text *text, size_t more) {
     return 1;
 }
 
-void fw_text_bytes(fw_text *text, const void *data, size_t n) {
-    if (!reserve(text, n)) return;
-    if (n) memcpy(text->data + text->length, data, n);
+void fw_text_reserve(fw_text *text, size_t n) {
+    reserve(text, n);
+}
+
+unsigned char *fw_text_room(fw_text *text, size_t n) {
+    if (!reserve(text, n)) return NULL;
+    unsigned char *at = (unsigned char *)text->data + text->length;
     text->length += n;
     text->data[text->length] = '\0';
+    return at;
+}
+
+void fw_text_bytes(fw_text *text, const void *data, size_t n) {
+    unsigned char *at = fw_text_room(text, n);
+    if (at && n) memcpy(at, data, n);
 }
 
 void fw_text_add(fw_text *text, const char *string) {

@@ -16,6 +16,10 @@ typedef struct fw_text {
 fw_text fw_text_new(fw_arena *arena);
 void fw_text_add(fw_text *text, const char *string);
 void fw_text_bytes(fw_text *text, const void *data, size_t n);
+/* room for n bytes more at once; nothing is added */
+void fw_text_reserve(fw_text *text, size_t n);
+/* n bytes more, to be filled by the caller; NULL: no memory, and the text has failed */
+unsigned char *fw_text_room(fw_text *text, size_t n);
 /* printf without %f, %e, %g: those follow the locale; use fw_text_number */
 void fw_text_printf(fw_text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* `digits` significant digits, shortest form, '.' always; 17 round-trips */

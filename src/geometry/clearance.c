@@ -52,6 +52,10 @@ static bool at_shared_corner(const fw_contour *contour, int i, int j, const fw_c
 static double pair_clearance(const search *in, int i, int j) {
     const fw_segment *p = around(in->contour, i), *q = around(in->contour, j);
     int n = in->contour->count;
+    fw_vec2 along;
+    double gap = fw_concentric_gap(p, q, &along);
+    if (!isinf(gap)) /* material lies between them where the larger one is convex */
+        return ((p->radius > q->radius) == (p->sweep_rad > 0)) == in->inside ? gap : HUGE_VAL;
     fw_hit hit[FW_MOST_HITS];
     int hits = fw_segment_intersect(p, q, hit);
     for (int k = 0; k < hits;
@@ -76,9 +80,10 @@ static double own_clearance(const fw_segment *s, bool inside) {
     return round && (s->sweep_rad > 0) == inside ? 2 * s->radius : HUGE_VAL;
 }
 
-double fw_contour_clearance(const fw_contour *contour, bool inside, int *i, int *j) {
+double fw_contour_clearance_below(const fw_contour *contour, bool inside, double limit_m, int *i,
+                                  int *j) {
     search in = {contour, inside};
-    double least = HUGE_VAL;
+    double least = limit_m;
     int best_i = -1, best_j = -1;
     for (int p = 0; p < contour->count; p++) {
         const fw_segment *s = &contour->segment[p];
@@ -103,4 +108,8 @@ double fw_contour_clearance(const fw_contour *contour, bool inside, int *i, int 
     if (i) *i = best_i;
     if (j) *j = best_j;
     return least;
+}
+
+double fw_contour_clearance(const fw_contour *contour, bool inside, int *i, int *j) {
+    return fw_contour_clearance_below(contour, inside, HUGE_VAL, i, j);
 }

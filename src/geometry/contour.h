@@ -98,6 +98,10 @@ double fw_contour_distance(const fw_contour *p, const fw_contour *q, fw_vec2 *at
    so neither a rounded corner nor a step in an edge is a width. An arc of half a turn or more faces
    itself. JOINT segments are no edges. HUGE_VAL and -1, -1 when there is none. */
 double fw_contour_clearance(const fw_contour *contour, bool inside, int *i, int *j);
+/* the same where it is less than a limit; else the limit, and -1, -1. Cost: pairs of segments whose
+   boxes are nearer than that */
+double fw_contour_clearance_below(const fw_contour *contour, bool inside, double limit_m, int *i,
+                                  int *j);
 
 /* ---- changing ---- */
 fw_status fw_contour_transform(fw_arena *arena, const fw_contour *contour, fw_pose pose,

@@ -79,6 +79,20 @@ int fw_segment_chords(const fw_segment *p, const fw_segment *q, fw_chord chord[F
     return p->kind == FW_ARC || q->kind == FW_ARC ? square_chords(p, q, chord, n) : n;
 }
 
+double fw_concentric_gap(const fw_segment *p, const fw_segment *q, fw_vec2 *along) {
+    if (p->kind != FW_ARC || q->kind != FW_ARC || (p->sweep_rad > 0) == (q->sweep_rad > 0) ||
+        vec_distance(p->centre, q->centre) > FW_COINCIDENT_M ||
+        fabs(p->radius - q->radius) <= FW_COINCIDENT_M)
+        return HUGE_VAL;
+    const fw_vec2 end[4] = {q->a, q->b, p->a, p->b};
+    double t;
+    for (int i = 0; i < 4; i++) { /* where angles overlap, an end of one lies before the other */
+        *along = vec_unit(vec_sub(end[i], p->centre));
+        if (fw_segment_faces(i < 2 ? p : q, *along, &t)) return fabs(p->radius - q->radius);
+    }
+    return HUGE_VAL;
+}
+
 double fw_segment_distance(const fw_segment *p, const fw_segment *q, fw_vec2 *at_p, fw_vec2 *at_q) {
     fw_hit hit[FW_MOST_HITS];
     if (fw_segment_intersect(p, q, hit) > 0) {

@@ -180,7 +180,9 @@ static fw_status check_room(const fw_contour *contour, double d, int *i, int *j)
             return refuse(i, j, k, k);
     }
     int p, q;
-    if (fw_contour_clearance(contour, d < 0, &p, &q) <= 2 * fabs(d)) return refuse(i, j, p, q);
+    double most = 2 * fabs(d) * (1 + 1e-15) + 1e-18; /* a clearance of 2 d is refused */
+    if (fw_contour_clearance_below(contour, d < 0, most, &p, &q) <= 2 * fabs(d))
+        return refuse(i, j, p, q);
     return FW_OK;
 }
 

@@ -59,7 +59,20 @@ double fw_segment_parameter(const fw_segment *s, fw_vec2 on) {
     return t < 0 ? 0 : t > 1 ? 1 : t;
 }
 
+/* clearly outside of the arc, by two cross products: of the sector when it is less than half a
+   turn, else of the sector that is left. False says nothing. */
+static bool clearly_outside(const fw_segment *arc, fw_vec2 direction) {
+    double side = arc->sweep_rad > 0 ? 1 : -1, sweep = fabs(arc->sweep_rad);
+    fw_vec2 u = vec_sub(arc->a, arc->centre), v = vec_sub(arc->b, arc->centre);
+    double margin = 1e-9 * arc->radius * (fabs(direction.x) + fabs(direction.y));
+    double from_a = side * vec_cross(u, direction), to_b = side * vec_cross(direction, v);
+    if (sweep < 3.14) return from_a < -margin || to_b < -margin;
+    return sweep > 3.15 && from_a < -margin && to_b < -margin;
+}
+
 bool fw_segment_faces(const fw_segment *arc, fw_vec2 direction, double *t) {
+    *t = 0;
+    if (clearly_outside(arc, direction)) return false;
     double run = run_angle(arc, direction), sweep = fabs(arc->sweep_rad);
     *t = fmin(run / sweep, 1);
     return run <= sweep + FW_COINCIDENT_M / arc->radius;

@@ -95,6 +95,10 @@ typedef struct fw_chord {
 } fw_chord;
 enum { FW_MOST_CHORDS = 12 };
 int fw_segment_chords(const fw_segment *p, const fw_segment *q, fw_chord chord[FW_MOST_CHORDS]);
+/* |r1 - r2| of concentric arcs that run opposite ways, so that their normals face each other, and
+   lie before each other seen from the centre, in the unit direction `along`: the least of all
+   chords on which they face each other. HUGE_VAL: they are not like that */
+double fw_concentric_gap(const fw_segment *p, const fw_segment *q, fw_vec2 *along);
 double fw_segment_distance(const fw_segment *p, const fw_segment *q, fw_vec2 *at_p, fw_vec2 *at_q);
 
 /* turns of the contour about the point, counter-clockwise positive */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "geometry/tessellate.h"
 #include "geometry/segment.h"
+#include <string.h>
 
 #define GRID_PER_M      1e9     /* 1 dbu = 1 nm */
 #define LEAST_SAGITTA_M 1.42e-9 /* below it rounding can turn an arc's corners the wrong way */
@@ -37,28 +38,77 @@ typedef struct builder {
     bool outside; /* a coordinate beyond 2^30 */
 } builder;
 
-static void add(builder *b, fw_vec2 p, bool fixed) {
-    double x = floor(p.x * GRID_PER_M + 0.5), y = floor(p.y * GRID_PER_M + 0.5);
-    if (!(fabs(x) < 1073741824.0 && fabs(y) < 1073741824.0)) {
-        b->outside = true;
-        return;
-    }
-    fw_point v = {(int32_t)x, (int32_t)y};
-    if (b->count > 0 && b->vertex[b->count - 1].x_dbu == v.x_dbu &&
-        b->vertex[b->count - 1].y_dbu == v.y_dbu) {
-        b->fixed[b->count - 1] |= fixed;
-        return;
-    }
-    b->fixed[b->count] = fixed;
-    b->vertex[b->count++] = v;
+/* floor(x + 1/2) for |x| < 2^30, without a call */
+static int32_t rounded(double x) {
+    int32_t n = (int32_t)(x + 0.5);
+    return n - (n > x + 0.5);
 }
 
+static fw_point on_grid(builder *b, fw_vec2 p) {
+    double x = p.x * GRID_PER_M, y = p.y * GRID_PER_M;
+    if (fabs(x) < 1073741823.0 && fabs(y) < 1073741823.0) return (fw_point){rounded(x), rounded(y)};
+    b->outside = true;
+    return (fw_point){0, 0};
+}
+
+static void add(builder *b, fw_vec2 p, bool fixed) {
+    b->fixed[b->count] = fixed;
+    b->vertex[b->count++] = on_grid(b, p);
+}
+
+/* n points from an arm's end, each the one before turned by h, and anew from the end every 64, so
+   that rounding adds up to less than 1e-13 R; into at[0], at[way], at[2 way].. */
+static void turn_about(builder *b, fw_vec2 centre, fw_vec2 end, double h, int n, fw_point *at,
+                       int way) {
+    enum { ANEW = 64 };
+    const fw_vec2 step = {cos(h), sin(h)};
+    fw_vec2 arm = end;
+    for (int k = 1; k <= n; k++, at += way) {
+        if (k % ANEW == 0)
+            arm = fw_vec_rotate(end, k * h);
+        else
+            arm = (fw_vec2){step.x * arm.x - step.y * arm.y, step.y * arm.x + step.x * arm.y};
+        *at = on_grid(b, vec_add(centre, arm));
+    }
+}
+
+/* vertices k/n of the arc, k = 1..n-1, from both ends to its middle: always as `canonical` has it,
+   so that both neighbours of an arc find the same */
 static void add_arc(builder *b, const fw_segment *s, double eps) {
     bool reversed;
     fw_segment c = canonical(s, &reversed);
-    int n = chord_count(c.radius, c.sweep_rad, eps);
-    for (int k = 1; k < n; k++)
-        add(b, fw_segment_point(&c, (double)(reversed ? n - k : k) / n), false);
+    int n = chord_count(c.radius, c.sweep_rad, eps), half = n / 2;
+    double h = c.sweep_rad / n;
+    fw_point *first = b->vertex + b->count, *last = first + n - 2;
+    turn_about(b, c.centre, vec_sub(c.a, c.centre), h, half < n ? half : n - 1, first, 1);
+    turn_about(b, c.centre, vec_sub(c.b, c.centre), -h, n - 1 - half, last, -1);
+    memset(b->fixed + b->count, 0, (size_t)(n - 1));
+    b->count += n - 1;
+    for (; reversed && first < last; first++, last--) {
+        fw_point swap = *first;
+        *first = *last;
+        *last = swap;
+    }
+}
+
+static bool same_point(fw_point p, fw_point q) {
+    return p.x_dbu == q.x_dbu && p.y_dbu == q.y_dbu;
+}
+
+/* takes out vertices that repeat */
+static void once_each(builder *b) {
+    int kept = 0;
+    for (int i = 0; i < b->count; i++) {
+        if (kept > 0 && same_point(b->vertex[kept - 1], b->vertex[i])) {
+            b->fixed[kept - 1] |= b->fixed[i];
+            continue;
+        }
+        b->fixed[kept] = b->fixed[i];
+        b->vertex[kept++] = b->vertex[i];
+    }
+    while (kept > 1 && same_point(b->vertex[0], b->vertex[kept - 1]))
+        b->fixed[0] |= b->fixed[--kept];
+    b->count = kept;
 }
 
 /* is q on the straight way from p to r, exactly? */
@@ -70,11 +120,7 @@ static bool on_the_way(fw_point p, fw_point q, fw_point r) {
 
 /* takes out vertices that repeat or lie exactly between their neighbours */
 static void tidy(builder *b) {
-    while (b->count > 1 && b->vertex[0].x_dbu == b->vertex[b->count - 1].x_dbu &&
-           b->vertex[0].y_dbu == b->vertex[b->count - 1].y_dbu) {
-        b->fixed[0] |= b->fixed[b->count - 1];
-        b->count--;
-    }
+    once_each(b);
     int n = b->count, kept = 0;
     if (n < 4) return;
     fw_point first = b->vertex[0];

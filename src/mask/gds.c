@@ -32,11 +32,16 @@ static void u16(fw_text *out, unsigned value) {
     fw_text_bytes(out, b, sizeof b);
 }
 
-static void i32(fw_text *out, int32_t value) {
+static unsigned char *put_i32(unsigned char *at, int32_t value) {
     uint32_t v = (uint32_t)value;
-    unsigned char b[4] = {(unsigned char)(v >> 24), (unsigned char)(v >> 16 & 0xff),
-                          (unsigned char)(v >> 8 & 0xff), (unsigned char)(v & 0xff)};
-    fw_text_bytes(out, b, sizeof b);
+    at[0] = (unsigned char)(v >> 24), at[1] = (unsigned char)(v >> 16 & 0xff);
+    at[2] = (unsigned char)(v >> 8 & 0xff), at[3] = (unsigned char)(v & 0xff);
+    return at + 4;
+}
+
+static void point(fw_text *out, int32_t x, int32_t y) {
+    unsigned char *at = fw_text_room(out, 8);
+    if (at) put_i32(put_i32(at, x), y);
 }
 
 static void record(fw_text *out, unsigned type, size_t payload) {
@@ -84,10 +89,10 @@ static void boundary(fw_text *out, const fw_mask_layer *layer, const fw_polygon 
     number(out, LAYER, layer->layer);
     number(out, DATATYPE, layer->datatype);
     record(out, XY, 8 * ((size_t)polygon->count + 1));
-    for (int i = 0; i <= polygon->count; i++) { /* closed: the first point again */
-        i32(out, polygon->vertex[i % polygon->count].x_dbu);
-        i32(out, polygon->vertex[i % polygon->count].y_dbu);
-    }
+    unsigned char *at = fw_text_room(out, 8 * ((size_t)polygon->count + 1));
+    for (int i = 0; at && i < polygon->count; i++)
+        at = put_i32(put_i32(at, polygon->vertex[i].x_dbu), polygon->vertex[i].y_dbu);
+    if (at) put_i32(put_i32(at, polygon->vertex[0].x_dbu), polygon->vertex[0].y_dbu); /* closed */
     record(out, ENDEL, 0);
 }
 
@@ -96,8 +101,7 @@ static void text(fw_text *out, const fw_mask_layer *layer, int32_t x, int32_t y,
     number(out, LAYER, layer->layer);
     number(out, TEXTTYPE, layer->datatype);
     record(out, XY, 8);
-    i32(out, x);
-    i32(out, y);
+    point(out, x, y);
     string(out, STRING, line);
     record(out, ENDEL, 0);
 }
@@ -117,6 +121,10 @@ static fw_status texts(const fw_mask *mask, fw_text *out) {
 }
 
 fw_status fw_mask_write_gds(const fw_mask *mask, fw_text *out) {
+    size_t total = 4096; /* texts may take more */
+    for (int i = 0; i < mask->nshape; i++)
+        total += 64 + 8 * (size_t)mask->shape[i].polygon.count;
+    fw_text_reserve(out, total);
     number(out, HEADER, VERSION);
     zero_dates(out, BGNLIB);
     string(out, LIBNAME, mask->rejected ? "FLEXWRIGHT_REJECTED" : "FLEXWRIGHT");

@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The boundary of the union on one layer: every segment that is no joint, shape by shape, and where
+   it turns. */
+#include "mask/rules_search.h"
+#include <stdlib.h>
+
+static const double GRID_M = 1e-9;
+static const double ROUND_M = 0.70710678118654752e-9; /* a vertex moves by at most g/sqrt2 */
+static const double PART_RAD = FW_PI / 24;            /* 7.5 deg */
+
+static bool on_grid(double x) {
+    double n = x / GRID_M;
+    return fabs(n - nearbyint(n)) < 1e-5;
+}
+
+static double slack_of(const fw_segment *s, double tolerance_m) {
+    bool exact = on_grid(s->a.x) && on_grid(s->a.y) && on_grid(s->b.x) && on_grid(s->b.y);
+    return s->kind == FW_ARC ? tolerance_m + ROUND_M : exact ? 0 : ROUND_M;
+}
+
+typedef struct start {
+    fw_vec2 at;
+    int edge;
+} start;
+
+static int by_place(const void *left, const void *right) {
+    const start *p = left, *q = right;
+    if (!vec_same(p->at, q->at)) return vec_before(p->at, q->at) ? -1 : 1;
+    return p->edge - q->edge;
+}
+
+static int first_at(const start *list, int n, fw_vec2 at) {
+    int low = 0;
+    while (n > 0) {
+        int half = n / 2;
+        if (vec_before(list[low + half].at, at))
+            low += half + 1, n -= half + 1;
+        else
+            n = half;
+    }
+    return low;
+}
+
+/* corners of the union: across a joint the outline goes on in the other piece. Cost O(n log n) */
+static fw_status mark_corners(fw_arena *arena, fw_rule_edge *list, int n) {
+    fw_mark mark = fw_arena_mark(arena);
+    start *by = fw_arena_array(arena, start, (size_t)n);
+    FW_NEED(by);
+    for (int i = 0; i < n; i++) {
+        list[i].corner_a = list[i].corner_b = true;
+        by[i] = (start){list[i].s.a, i};
+    }
+    qsort(by, (size_t)n, sizeof *by, by_place);
+    for (int i = 0; i < n; i++)
+        for (int k = first_at(by, n, list[i].s.b); k < n && vec_same(by[k].at, list[i].s.b); k++) {
+            int j = by[k].edge;
+            fw_vec2 u = fw_segment_tangent(&list[i].s, 1), v = fw_segment_tangent(&list[j].s, 0);
+            if (vec_dot(u, v) > 0 && fabs(vec_cross(u, v)) < FW_SMOOTH_RAD)
+                list[i].corner_b = list[j].corner_a = false;
+        }
+    fw_arena_rewind(arena, mark);
+    return FW_OK;
+}
+
+static int by_left(const void *left, const void *right) {
+    const fw_rule_range *p = left, *q = right;
+    if (p->box.x0 != q->box.x0) return p->box.x0 < q->box.x0 ? -1 : 1;
+    return p->first - q->first;
+}
+
+static int by_left_edge(const void *left, const void *right) {
+    const fw_rule_edge *p = left, *q = right;
+    if (p->box.x0 != q->box.x0) return p->box.x0 < q->box.x0 ? -1 : 1;
+    return p->segment - q->segment;
+}
+
+static void add_shape(fw_rule_search *in, int k, double tolerance_m) {
+    const fw_contour *c = &in->shape[k].contour;
+    fw_rule_range *range = &in->range[in->nrange];
+    *range = (fw_rule_range){.first = in->nedge, .shape = k, .box = fw_contour_box(c)};
+    for (int i = 0; i < c->count; i++) {
+        const fw_segment *s = &c->segment[i];
+        if (s->flags & FW_SEGMENT_JOINT) continue;
+        fw_rule_edge *e = &in->edge[in->nedge++];
+        *e = (fw_rule_edge){.s = *s,
+                            .box = fw_segment_box(s),
+                            .shape = k,
+                            .segment = i,
+                            .slack_m = slack_of(s, tolerance_m)};
+        range->count++;
+        in->slack_m = fmax(in->slack_m, e->slack_m);
+    }
+    if (range->count == 0) return;
+    qsort(in->edge + range->first, (size_t)range->count, sizeof *in->edge, by_left_edge);
+    in->nrange++;
+}
+
+fw_status fw_rule_edges(fw_rule_search *in, int nshape, double tolerance_m) {
+    size_t edges = 0, shapes = 0;
+    for (int k = 0; k < nshape; k++)
+        if (in->shape[k].layer == in->index) shapes++, edges += (size_t)in->shape[k].contour.count;
+    FW_NEED(in->edge = fw_arena_array(in->arena, fw_rule_edge, edges));
+    FW_NEED(in->range = fw_arena_array(in->arena, fw_rule_range, shapes));
+    for (int k = 0; k < nshape; k++)
+        if (in->shape[k].layer == in->index) add_shape(in, k, tolerance_m);
+    FW_TRY(mark_corners(in->arena, in->edge, in->nedge));
+    qsort(in->range, (size_t)in->nrange, sizeof *in->range, by_left);
+    return FW_OK;
+}
+
+bool fw_rule_parts(fw_rule_search *in, fw_rule_edge *e) {
+    if (e->part) return true;
+    int n = e->s.kind == FW_ARC ? (int)ceil(fabs(e->s.sweep_rad) / PART_RAD) : 1;
+    fw_segment *part = fw_arena_array(in->arena, fw_segment, (size_t)n);
+    fw_box *box = fw_arena_array(in->arena, fw_box, (size_t)n);
+    if (!part || !box) {
+        in->no_memory = true;
+        return false;
+    }
+    for (int m = 0; m < n; m++) {
+        double t0 = (double)m / n, t1 = (double)(m + 1) / n;
+        part[m] =
+            fw_segment_cut(&e->s, t0, fw_segment_point(&e->s, t0), t1, fw_segment_point(&e->s, t1));
+        box[m] = fw_segment_box(&part[m]);
+    }
+    e->part = part, e->part_box = box, e->nparts = n;
+    return true;
+}

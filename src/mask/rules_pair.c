@@ -1,0 +1,240 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Width and space between two edges: chords between points whose outward normals enclose more than
+   90 degrees, that leave both edges through material (width) or through empty space (space).
+     - The rule judges every such chord. Arcs are taken in parts of at most 7.5 degrees, to which
+   the limit of 90 degrees is met; concentric arcs that face each other, and an arc that faces
+   itself, have theirs in closed form: R1 - R2, and R sqrt 2 where the limit begins.
+     - The measure takes those square on edges or ending at corners: from corners to both feet on
+       an arc or the foot on a line, from corner to corner, square on both; and the diameter of half
+       a turn.
+   In: two edges, m. Error: a few ulp of the coordinates. Cost O(1), but O(parts) near edges that
+   break a rule. Source: Euclidian width and space with a 90 deg limit, as KLayout has it. Test:
+   test_mask_rules.c, test_rules_search.c. */
+#include "mask/rules_search.h"
+#include <stdlib.h>
+
+static const double FACING = -1e-6;       /* normals more than 90 deg apart */
+static const double NEAR_CORNER_M = 1e-7; /* contacts there are the corner itself */
+static const double SQUARE = 1e-5;
+
+/* ---- findings ---- */
+
+void fw_rule_report(fw_rule_search *in, fw_finding f) {
+    if (f.shape[0] > f.shape[1] || (f.shape[0] == f.shape[1] && f.segment[0] > f.segment[1])) {
+        int shape = f.shape[0], segment = f.segment[0];
+        f.shape[0] = f.shape[1];
+        f.segment[0] = f.segment[1];
+        f.shape[1] = shape;
+        f.segment[1] = segment;
+    }
+    if (in->nfound == in->room) {
+        size_t more = in->room ? 2 * (size_t)in->room : 16;
+        fw_finding *grown = fw_arena_grow(in->arena, in->found, (size_t)in->nfound, more, sizeof f);
+        if (!grown) {
+            in->no_memory = true;
+            return;
+        }
+        in->found = grown;
+        in->room = (int)more;
+    }
+    in->found[in->nfound++] = f;
+}
+
+static int in_order(const void *left, const void *right) {
+    const fw_finding *p = left, *q = right;
+    if (p->shape[0] != q->shape[0]) return p->shape[0] - q->shape[0];
+    if (p->shape[1] != q->shape[1]) return p->shape[1] - q->shape[1];
+    if (p->kind != q->kind) return (int)p->kind - (int)q->kind;
+    if (p->value_m != q->value_m) return p->value_m < q->value_m ? -1 : 1;
+    if (p->segment[0] != q->segment[0]) return p->segment[0] - q->segment[0];
+    if (p->segment[1] != q->segment[1]) return p->segment[1] - q->segment[1];
+    if (p->at.x != q->at.x) return p->at.x < q->at.x ? -1 : 1;
+    return p->at.y < q->at.y ? -1 : p->at.y > q->at.y;
+}
+
+void fw_rule_tidy(fw_rule_search *in) {
+    int kept = 0;
+    if (in->nfound) qsort(in->found, (size_t)in->nfound, sizeof *in->found, in_order);
+    for (int i = 0; i < in->nfound; i++) {
+        const fw_finding *f = &in->found[i], *last = kept ? &in->found[kept - 1] : NULL;
+        if (last && last->kind == f->kind && last->shape[0] == f->shape[0] &&
+            last->shape[1] == f->shape[1])
+            continue;
+        in->found[kept++] = *f;
+    }
+    in->nfound = kept;
+}
+
+static void judged(fw_rule_search *in, fw_rule_kind what, const fw_rule_edge *p,
+                   const fw_rule_edge *q, double length, fw_vec2 at) {
+    double needed = fw_rule_needed(in, what, p->slack_m + q->slack_m);
+    if (length < needed - FW_COINCIDENT_M)
+        fw_rule_report(
+            in,
+            (fw_finding){what, {p->shape, q->shape}, {p->segment, q->segment}, length, needed, at});
+}
+
+static void measured(fw_rule_search *in, fw_rule_kind what, double length) {
+    double *least = what == FW_RULE_WIDTH ? &in->measure->width_m : &in->measure->space_m;
+    if (length < *least) *least = length;
+}
+
+/* ---- chords ---- */
+
+/* of a segment whose material is on its left, at a point on it: no angle is computed */
+static fw_vec2 outward(const fw_segment *s, fw_vec2 at) {
+    if (s->kind == FW_LINE) {
+        fw_vec2 u = vec_unit(vec_sub(s->b, s->a));
+        return (fw_vec2){u.y, -u.x};
+    }
+    return vec_scale((s->sweep_rad > 0 ? 1 : -1) / s->radius, vec_sub(at, s->centre));
+}
+
+typedef struct crossing { /* a chord, as two edges see it */
+    fw_rule_kind kind;
+    double length_m;
+    double slant_p, slant_q; /* |cosine| of its angle with either edge */
+} crossing;
+
+static bool crosses(const fw_segment *p, const fw_segment *q, const fw_chord *chord, crossing *x) {
+    fw_vec2 c = vec_sub(chord->at_q, chord->at_p);
+    double length = vec_length(c);
+    if (length <= FW_COINCIDENT_M) return false;
+    fw_vec2 np = outward(p, chord->at_p), nq = outward(q, chord->at_q);
+    if (!(vec_dot(np, nq) < FACING)) return false;
+    double leaves = vec_dot(c, np) / length, arrives = -vec_dot(c, nq) / length;
+    if (!(leaves > 1e-9 && arrives > 1e-9) && !(leaves < -1e-9 && arrives < -1e-9)) return false;
+    *x = (crossing){leaves > 0 ? FW_RULE_SPACE : FW_RULE_WIDTH, length,
+                    fabs(vec_cross(c, np)) / length, fabs(vec_cross(c, nq)) / length};
+    return true;
+}
+
+static bool at_corner(const fw_rule_edge *e, double t) {
+    return (t <= 0 && e->corner_a) || (t >= 1 && e->corner_b);
+}
+
+static void measure_chord(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q,
+                          const fw_chord *chord) {
+    crossing x;
+    if (!crosses(&p->s, &q->s, chord, &x)) return;
+    if ((x.slant_p < SQUARE || at_corner(p, chord->tp)) &&
+        (x.slant_q < SQUARE || at_corner(q, chord->tq)))
+        measured(in, x.kind, x.length_m);
+}
+
+/* from the corners of p to the farther foot on an arc: the nearer one is among the chords */
+static void measure_far_feet(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q) {
+    if (q->s.kind != FW_ARC) return;
+    for (int end = 0; end < 2; end++) {
+        if (!(end ? p->corner_b : p->corner_a)) continue;
+        fw_chord chord = {.tp = end, .at_p = end ? p->s.b : p->s.a};
+        fw_vec2 ray = vec_unit(vec_sub(q->s.centre, chord.at_p));
+        if (!fw_segment_faces(&q->s, ray, &chord.tq)) continue;
+        chord.at_q = vec_along(q->s.centre, q->s.radius, ray);
+        measure_chord(in, p, q, &chord);
+    }
+}
+
+static void measure_pair(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q) {
+    fw_chord chord[FW_MOST_CHORDS];
+    int n = fw_segment_chords(&p->s, &q->s, chord);
+    for (int i = 0; i < n; i++)
+        measure_chord(in, p, q, &chord[i]);
+    measure_far_feet(in, p, q);
+    measure_far_feet(in, q, p);
+}
+
+/* ---- the rule ---- */
+
+static void judge_parts(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q,
+                        const fw_segment *s, const fw_segment *t) {
+    fw_chord chord[FW_MOST_CHORDS];
+    crossing x;
+    int n = fw_segment_chords(s, t, chord);
+    for (int i = 0; i < n; i++)
+        if (crosses(s, t, &chord[i], &x))
+            judged(in, x.kind, p, q, x.length_m,
+                   vec_scale(0.5, vec_add(chord[i].at_p, chord[i].at_q)));
+}
+
+/* can any two points of parts of at most 7.5 degrees face each other? By the normals of their
+   middles, off by 3.75 degrees at most each: cosine of 90 - 7.5 degrees */
+static bool may_face(const fw_segment *s, const fw_segment *t) {
+    static const double limit = 0.1306;
+    fw_vec2 u = vec_sub(s->b, s->a), v = vec_sub(t->b, t->a);
+    return vec_dot(u, v) < limit * sqrt(vec_dot(u, u) * vec_dot(v, v));
+}
+
+static void judge_pair(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q) {
+    double needed = fmax(fw_rule_needed(in, FW_RULE_WIDTH, p->slack_m + q->slack_m),
+                         fw_rule_needed(in, FW_RULE_SPACE, p->slack_m + q->slack_m));
+    if (!(fw_box_gap(p->box, q->box) < needed) && !in->everything) return;
+    if (!fw_rule_parts(in, p) || !fw_rule_parts(in, q)) return;
+    for (int i = 0; i < p->nparts; i++) {
+        if (fw_box_gap(p->part_box[i], q->box) >= needed && !in->everything) continue;
+        for (int j = 0; j < q->nparts; j++)
+            if (in->everything || (fw_box_gap(p->part_box[i], q->part_box[j]) < needed &&
+                                   may_face(&p->part[i], &q->part[j])))
+                judge_parts(in, p, q, &p->part[i], &q->part[j]);
+    }
+}
+
+/* concentric arcs that face each other: R1 - R2 is square on both and the least chord of the pair.
+   True: that was all there is to say. */
+static bool concentric(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q) {
+    fw_vec2 along;
+    double gap = in->everything ? HUGE_VAL : fw_concentric_gap(&p->s, &q->s, &along);
+    if (isinf(gap)) return false;
+    bool material = (p->s.radius > q->s.radius) == (p->s.sweep_rad > 0);
+    fw_rule_kind kind = material ? FW_RULE_WIDTH : FW_RULE_SPACE;
+    measured(in, kind, gap);
+    judged(in, kind, p, q, gap, vec_along(p->s.centre, 0.5 * (p->s.radius + q->s.radius), along));
+    return true;
+}
+
+void fw_rule_own(fw_rule_search *in, fw_rule_edge *e) {
+    static const double half_turn = FW_PI * (1 - 1e-12);
+    double sweep = fabs(e->s.sweep_rad);
+    if (e->s.kind != FW_ARC || sweep <= FW_PI / 2) return;
+    fw_rule_kind kind = e->s.sweep_rad > 0 ? FW_RULE_WIDTH : FW_RULE_SPACE;
+    fw_vec2 middle = fw_segment_point(&e->s, 0.5);
+    judged(in, kind, e, e, sqrt(2) * e->s.radius, middle);
+    if (sweep >= half_turn) measured(in, kind, 2 * e->s.radius);
+    if (e->corner_a && e->corner_b) measured(in, kind, vec_distance(e->s.a, e->s.b));
+}
+
+/* ---- contacts ---- */
+
+/* p ends where q begins: a corner of the union. Sharper than 90 degrees it is a width or a space
+   that goes to nothing. */
+static void look_at_corner(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q) {
+    fw_vec2 before = fw_segment_tangent(&p->s, 1), after = fw_segment_tangent(&q->s, 0);
+    if (vec_dot(before, after) < FACING)
+        judged(in, vec_cross(before, after) > 0 ? FW_RULE_WIDTH : FW_RULE_SPACE, p, q, 0, p->s.b);
+}
+
+static void look_at_contacts(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q) {
+    bool p_then_q = vec_same(p->s.b, q->s.a), q_then_p = vec_same(q->s.b, p->s.a);
+    if (p_then_q) look_at_corner(in, p, q);
+    if (q_then_p) look_at_corner(in, q, p);
+    fw_hit hit[FW_MOST_HITS];
+    int n = fw_segment_intersect(&p->s, &q->s, hit);
+    for (int i = 0; i < n; i++) {
+        bool corner = (p_then_q && vec_distance(hit[i].at, p->s.b) < NEAR_CORNER_M) ||
+                      (q_then_p && vec_distance(hit[i].at, q->s.b) < NEAR_CORNER_M);
+        if (!corner)
+            fw_rule_report(in, (fw_finding){FW_RULE_OVERLAP,
+                                            {p->shape, q->shape},
+                                            {p->segment, q->segment},
+                                            0,
+                                            0,
+                                            hit[i].at});
+    }
+}
+
+void fw_rule_pair(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q) {
+    if (concentric(in, p, q)) return; /* they cannot meet either */
+    if (fw_box_gap(p->box, q->box) <= FW_COINCIDENT_M) look_at_contacts(in, p, q);
+    measure_pair(in, p, q);
+    judge_pair(in, p, q);
+}

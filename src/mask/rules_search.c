@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which pairs of edges are looked at: shapes whose boxes are near enough, by a sweep along x, and
+   of those the edges whose boxes are. Cost O(n log n + pairs of neighbours). Test:
+   test_rules_search.c. */
+#include "mask/rules_search.h"
+
+double fw_rule_needed(const fw_rule_search *in, fw_rule_kind kind, double slack_m) {
+    double rule = kind == FW_RULE_WIDTH ? in->layer->min_width_m : in->layer->min_space_m;
+    return rule > 0 ? rule + slack_m : 0;
+}
+
+double fw_rule_bound(const fw_rule_search *in, fw_rule_kind kind) {
+    double least = kind == FW_RULE_WIDTH ? in->measure->width_m : in->measure->space_m;
+    if (in->everything) return HUGE_VAL;
+    return fmax(fw_rule_needed(in, kind, 2 * in->slack_m), fmin(least, FW_MASK_LOOK_M));
+}
+
+static double reach(const fw_rule_search *in) {
+    return fmax(fw_rule_bound(in, FW_RULE_WIDTH), fw_rule_bound(in, FW_RULE_SPACE));
+}
+
+static void look_inside(fw_rule_search *in, const fw_rule_range *r) {
+    fw_rule_edge *e = in->edge + r->first;
+    for (int i = 0; i < r->count; i++) {
+        fw_rule_own(in, &e[i]);
+        for (int j = i + 1; j < r->count; j++) {
+            double far = reach(in);
+            if (e[j].box.x0 - e[i].box.x1 > far) break;
+            if (fw_box_gap(e[i].box, e[j].box) <= far) fw_rule_pair(in, &e[i], &e[j]);
+        }
+    }
+}
+
+static void look_between(fw_rule_search *in, const fw_rule_range *r, const fw_rule_range *s) {
+    for (int i = 0; i < r->count; i++) {
+        fw_rule_edge *p = &in->edge[r->first + i];
+        if (fw_box_gap(p->box, s->box) > reach(in)) continue;
+        for (int j = 0; j < s->count; j++) {
+            fw_rule_edge *q = &in->edge[s->first + j];
+            double far = reach(in);
+            if (q->box.x0 - p->box.x1 > far) break;
+            if (fw_box_gap(p->box, q->box) <= far) fw_rule_pair(in, p, q);
+        }
+    }
+}
+
+void fw_rule_look(fw_rule_search *in) {
+    for (int i = 0; i < in->nrange; i++) /* first: what a shape measures bounds the rest */
+        look_inside(in, &in->range[i]);
+    for (int i = 0; i < in->nrange; i++)
+        for (int j = i + 1; j < in->nrange; j++) {
+            const fw_rule_range *r = &in->range[i], *s = &in->range[j];
+            double far = reach(in);
+            if (s->box.x0 - r->box.x1 > far) break;
+            if (fw_box_gap(r->box, s->box) <= far) look_between(in, r, s);
+        }
+}

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rules with pairs passed over, and concentric arcs in closed form, against every pair of parts:
+   the same findings and measures on random layers of bars, discs, hinges and sharp corners. */
+#include "mask/rules_search.h"
+#include "scene.h"
+
+static void bar(scene *s, uint64_t *seed, fw_vec2 at) {
+    double angle = random01(seed) < 0.5 ? 0 : 6 * random01(seed);
+    double l = (3 + 40 * random01(seed)) * UM, w = (2 + 12 * random01(seed)) * UM;
+    fw_vec2 u = {cos(angle) * l, sin(angle) * l};
+    fw_contour c;
+    assert_int_equal(fw_contour_bar(s->arena, at, vec_add(at, u), w, &c), FW_OK);
+    scene_add(s, FW_ROLE_STRUCTURE, "bar", c);
+}
+
+static void disc(scene *s, uint64_t *seed, fw_vec2 at) {
+    fw_contour c;
+    assert_int_equal(fw_contour_disc(s->arena, at, (1 + 12 * random01(seed)) * UM, &c), FW_OK);
+    scene_add(s, FW_ROLE_STRUCTURE, "disc", c);
+}
+
+/* two concentric arcs with flat or round ends */
+static void bend(scene *s, uint64_t *seed, fw_vec2 c) {
+    double r = (6 + 30 * random01(seed)) * UM, w = (2 + 6 * random01(seed)) * UM;
+    double from = 6 * random01(seed), sweep = 0.3 + 5.4 * random01(seed);
+    fw_contour out;
+    if (random01(seed) < 0.5) {
+        assert_int_equal(fw_contour_ring_sector(s->arena, c, r, r + w, from, sweep, &out), FW_OK);
+    } else {
+        fw_vec2 ends[2] = {
+            {c.x + (r + w / 2) * cos(from), c.y + (r + w / 2) * sin(from)},
+            {c.x + (r + w / 2) * cos(from + sweep), c.y + (r + w / 2) * sin(from + sweep)}};
+        fw_vec2 at = {c.x + (r + w) * cos(from), c.y + (r + w) * sin(from)};
+        fw_outline o = fw_outline_start(s->arena, at);
+        fw_outline_arc(&o, c, sweep, 0);
+        fw_outline_arc(&o, ends[1], FW_PI, 0);
+        fw_outline_arc(&o, c, -sweep, 0);
+        fw_outline_arc_to(&o, ends[0], FW_PI, at, 0);
+        assert_int_equal(fw_outline_close(&o, &out), FW_OK);
+    }
+    scene_add(s, FW_ROLE_STRUCTURE, "bend", out);
+}
+
+static void wedge(scene *s, uint64_t *seed, fw_vec2 at) {
+    double p[3][2];
+    for (int i = 0; i < 3; i++) {
+        double angle = 2 * PI * (i + 0.6 * random01(seed)) / 3;
+        p[i][0] = at.x / UM + 15 * cos(angle);
+        p[i][1] = at.y / UM + 15 * sin(angle);
+    }
+    scene_add(s, FW_ROLE_STRUCTURE, "wedge", polygon(s->arena, (const double(*)[2])p, 3));
+}
+
+static scene *random_layer(uint64_t seed) {
+    static void (*const kind[])(scene *, uint64_t *, fw_vec2) = {bar, disc, bend, wedge, bend};
+    scene *s = scene_new(4 * UM, 4 * UM);
+    double side = (random01(&seed) < 0.3 ? 1500 : 60 + 400 * random01(&seed)) * UM;
+    int n = 2 + (int)(14 * random01(&seed));
+    for (int i = 0; i < n; i++) {
+        fw_vec2 at = {side * random01(&seed), side * random01(&seed)};
+        kind[(int)(5 * random01(&seed))](s, &seed, at);
+    }
+    return s;
+}
+
+typedef struct answer {
+    fw_rule_search in;
+    fw_mask_measure measure;
+} answer;
+
+static void ask(scene *s, bool everything, answer *a) {
+    int n = s->layout.npiece;
+    fw_mask_shape *shape = fw_arena_array(s->arena, fw_mask_shape, (size_t)n);
+    for (int i = 0; i < n; i++)
+        shape[i] = (fw_mask_shape){.piece = &s->piece[i], .contour = s->piece[i].contour};
+    *a = (answer){.measure = {.width_m = HUGE_VAL, .space_m = HUGE_VAL}};
+    a->in = (fw_rule_search){.arena = s->arena,
+                             .layer = &s->layer[0],
+                             .shape = shape,
+                             .measure = &a->measure,
+                             .everything = everything};
+    assert_int_equal(fw_rule_edges(&a->in, n, 5e-9), FW_OK);
+    fw_rule_look(&a->in);
+    fw_rule_tidy(&a->in);
+    assert_false(a->in.no_memory);
+}
+
+static double looked_at(double least) {
+    return fmin(least, FW_MASK_LOOK_M);
+}
+
+static void nothing_is_passed_over(void **state) {
+    (void)state;
+    int kinds[3] = {0}, clean = 0, measured = 0;
+    for (uint64_t seed = 1; seed <= 80; seed++) {
+        scene *s = random_layer(seed);
+        answer few, all;
+        ask(s, false, &few);
+        ask(s, true, &all);
+        if (few.in.nfound != all.in.nfound)
+            fail_msg("layer %d: %d findings, %d of all pairs", (int)seed, few.in.nfound,
+                     all.in.nfound);
+        for (int i = 0; i < few.in.nfound; i++) {
+            const fw_finding *f = &few.in.found[i], *g = &all.in.found[i];
+            kinds[f->kind]++;
+            assert_int_equal(f->kind, g->kind);
+            assert_int_equal(f->shape[0], g->shape[0]);
+            assert_int_equal(f->shape[1], g->shape[1]);
+            assert_near(f->value_m, g->value_m, 1e-15);
+        }
+        assert_near(looked_at(few.measure.width_m), looked_at(all.measure.width_m), 1e-15);
+        assert_near(looked_at(few.measure.space_m), looked_at(all.measure.space_m), 1e-15);
+        clean += few.in.nfound == 0;
+        measured += few.measure.space_m < FW_MASK_LOOK_M;
+        scene_free(s);
+    }
+    print_message("%d widths, %d spaces, %d overlaps; %d layers clean, %d with a space\n", kinds[0],
+                  kinds[1], kinds[2], clean, measured);
+    assert_true(kinds[0] > 50 && kinds[1] > 50 && kinds[2] > 50 && clean > 2 && measured > 40);
+}
+
+/* all of very many are told, not the first ones */
+static void every_violation_is_told(void **state) {
+    (void)state;
+    scene *s = scene_new(4 * UM, 4 * UM);
+    for (int i = 0; i < 200; i++)
+        scene_box(s, "bar", 20 * i, 0, 20 * i + 3.5, 50);
+    answer a;
+    ask(s, false, &a);
+    assert_int_equal(a.in.nfound, 200);
+    assert_near(a.measure.space_m, 16.5 * UM, 1e-15);
+    scene_free(s);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_is_passed_over),
+                                       cmocka_unit_test(every_violation_is_told)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
