@@ -2,6 +2,7 @@
 #include "base/text.h"
 #include <locale.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -98,8 +99,35 @@ void fw_text_number(fw_text *text, double value, int digits) {
     fw_text_add(text, fw_number_text(buffer, sizeof buffer, value, digits));
 }
 
+/* what printf would round it to, by integers: false where the product with a power of ten is too
+   large or so near half a unit that its own rounding may decide */
+static bool fixed_by_integers(fw_text *text, double value, int decimals) {
+    static const double power[] = {1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
+    if (decimals < 0 || decimals > 9) return false;
+    double scaled = fabs(value) * power[decimals];
+    if (!(scaled < 1e14)) return false;
+    int64_t n = (int64_t)scaled;
+    double rest = scaled - (double)n;
+    if (fabs(rest - 0.5) < 0.02 + 4e-16 * scaled) return false;
+    n += rest > 0.5;
+    int left = decimals;
+    for (; left > 0 && n % 10 == 0; left--)
+        n /= 10;
+    char digit[32], *at = digit + sizeof digit;
+    bool minus = value < 0 && n > 0;
+    for (int k = 0; n > 0 || k <= left; k++) {
+        if (k == left && left > 0) *--at = '.';
+        *--at = (char)('0' + n % 10);
+        n /= 10;
+    }
+    if (minus) *--at = '-';
+    fw_text_bytes(text, at, (size_t)(digit + sizeof digit - at));
+    return true;
+}
+
 void fw_text_fixed(fw_text *text, double value, int decimals) {
     char buffer[400];
+    if (fixed_by_integers(text, value, decimals)) return;
     snprintf(buffer, sizeof buffer, "%.*f", decimals, value);
     force_point(buffer);
     char *end = buffer + strlen(buffer);

@@ -43,6 +43,35 @@ static void percents_keep_three_digits(void **state) {
         assert_string_equal(fw_percent_text(buffer, sizeof buffer, row[i].part), row[i].shown);
 }
 
+/* by integers or by printf: the same digits, near half a unit too */
+static void fixed_is_what_printf_says(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    uint64_t seed = 3;
+    for (int i = 0; i < 200000; i++) {
+        seed = seed * 6364136223846793005u + 1442695040888963407u;
+        int decimals = (int)(seed >> 20) & 7, half = (int)(seed >> 30) & 1;
+        double value = ((double)(seed >> 11) / 9007199254740992.0 - 0.5) *
+                       pow(10, (double)((seed >> 35) % 12));
+        double unit = pow(10, decimals);
+        if (half) value = (floor(value * unit) + 0.5) / unit;
+        char want[64];
+        snprintf(want, sizeof want, "%.*f", decimals, value);
+        if (strchr(want, '.')) {
+            size_t n = strlen(want);
+            while (want[n - 1] == '0')
+                want[--n] = '\0';
+            if (want[n - 1] == '.') want[n - 1] = '\0';
+        }
+        fw_mark mark = fw_arena_mark(arena);
+        fw_text t = fw_text_new(arena);
+        fw_text_fixed(&t, value, decimals);
+        assert_string_equal(t.data, strcmp(want, "-0") == 0 ? "0" : want);
+        fw_arena_rewind(arena, mark);
+    }
+    fw_arena_free(arena);
+}
+
 static void fixed_and_escaped(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
@@ -103,9 +132,13 @@ static void zero_has_no_sign(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(zero_has_no_sign),           cmocka_unit_test(numbers_round_trip),
-        cmocka_unit_test(numbers_are_strict),         cmocka_unit_test(fixed_and_escaped),
-        cmocka_unit_test(short_memory_sticks),        cmocka_unit_test(spelling),
+        cmocka_unit_test(zero_has_no_sign),
+        cmocka_unit_test(numbers_round_trip),
+        cmocka_unit_test(numbers_are_strict),
+        cmocka_unit_test(fixed_and_escaped),
+        cmocka_unit_test(fixed_is_what_printf_says),
+        cmocka_unit_test(short_memory_sticks),
+        cmocka_unit_test(spelling),
         cmocka_unit_test(percents_keep_three_digits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
