@@ -77,6 +77,18 @@ fw_status fw_mask_build(fw_arena *arena, const fw_layout *layout, const fw_mask_
 fw_status fw_mask_write_gds(const fw_mask *mask, fw_text *out);
 fw_status fw_mask_write_svg(const fw_mask *mask, fw_text *out);
 fw_status fw_mask_write_lyp(const fw_mask *mask, fw_text *out);
+fw_status fw_mask_write_oasis(const fw_mask *mask, fw_text *out);
+
+typedef struct fw_mask_format { /* a row of format.c */
+    const char *name, *ending;  /* as the user says it; of the file */
+    fw_status (*write)(const fw_mask *mask, fw_text *out);
+    bool always, usual; /* whatever is asked for; when nothing is asked for */
+} fw_mask_format;
+const fw_mask_format *fw_mask_format_at(size_t i); /* NULL behind the last row */
+/* bit i for row i. list: names with commas between, "all", or NULL for the usual ones; false: a
+   name is not known */
+bool fw_mask_formats(const char *list, unsigned *set);
+
 /* certificate: counts, areas, minimum edge, angle, hash; JSON */
 fw_status fw_mask_write_certificate(const fw_mask *mask, const char *gds_sha256, fw_text *out);
 

@@ -20,15 +20,15 @@ static fw_status put(writer *w, const char *folder, const char *name, const char
 }
 
 static fw_status write_mask(writer *w, const fw_plan_flow *pf) {
-    static const struct {
-        const char *ending;
-        fw_status (*write)(const fw_mask *mask, fw_text *out);
-    } format[] = {{".svg", fw_mask_write_svg}, {".lyp", fw_mask_write_lyp}};
-    FW_TRY(put(w, "masks/", pf->use->ref, ".gds", &pf->gds));
-    for (size_t i = 0; i < sizeof format / sizeof format[0]; i++) {
-        fw_text text = fw_text_new(w->scratch);
-        FW_TRY(format[i].write(pf->mask, &text));
-        FW_TRY(put(w, "masks/", pf->use->ref, format[i].ending, &text));
+    unsigned set;
+    if (!fw_mask_formats(w->plan->options.mask_formats, &set)) return FW_USAGE;
+    const fw_mask_format *format;
+    for (size_t i = 0; (format = fw_mask_format_at(i)); i++) {
+        if (!(set & 1u << i)) continue;
+        bool composed = format->write == fw_mask_write_gds; /* for its hash */
+        fw_text text = composed ? pf->gds : fw_text_new(w->scratch);
+        if (!composed) FW_TRY(format->write(pf->mask, &text));
+        FW_TRY(put(w, "masks/", pf->use->ref, format->ending, &text));
     }
     fw_text text = fw_text_new(w->scratch);
     FW_TRY(fw_mask_write_certificate(pf->mask, pf->mask_sha256, &text));
