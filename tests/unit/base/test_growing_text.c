@@ -59,6 +59,30 @@ static void fixed_and_escaped(void **state) {
     fw_arena_free(arena);
 }
 
+/* the digits of printf without its trailing zeros, for every size, and next to halves */
+static void fixed_as_printf(void **state) {
+    (void)state;
+    uint64_t seed = 3;
+    for (int i = 0; i < 300000; i++) {
+        seed = seed * 6364136223846793005ull + 1442695040888963407ull;
+        int decimals = (int)(seed >> 60) % 12;
+        double value = ldexp((double)(int64_t)seed, -(int)(seed >> 20 & 127));
+        if (i % 4 == 1) value = (double)(int32_t)(seed >> 16) / 2000;     /* halves in decimal */
+        if (i % 4 == 2) value = (double)(int32_t)(seed >> 30) / 128;      /* exact halves */
+        if (i % 4 == 3) value = nextafter(value, seed >> 33 & 1 ? 0 : 9); /* just beside */
+        char got[FW_FIXED_BYTES], want[FW_FIXED_BYTES];
+        char *end = fw_fixed_text(got, value, decimals);
+        snprintf(want, sizeof want, "%.*f", decimals, value);
+        for (size_t n = strlen(want); strchr(want, '.') && strspn(want + n - 1, "0.") == 1; n--) {
+            int point = want[n - 1] == '.';
+            want[n - 1] = '\0';
+            if (point) break;
+        }
+        assert_string_equal(got, strcmp(want, "-0") == 0 ? "0" : want);
+        assert_ptr_equal(end, got + strlen(got));
+    }
+}
+
 static void short_memory_sticks(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
@@ -103,10 +127,10 @@ static void zero_has_no_sign(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(zero_has_no_sign),           cmocka_unit_test(numbers_round_trip),
-        cmocka_unit_test(numbers_are_strict),         cmocka_unit_test(fixed_and_escaped),
-        cmocka_unit_test(short_memory_sticks),        cmocka_unit_test(spelling),
-        cmocka_unit_test(percents_keep_three_digits),
+        cmocka_unit_test(zero_has_no_sign),   cmocka_unit_test(numbers_round_trip),
+        cmocka_unit_test(numbers_are_strict), cmocka_unit_test(fixed_and_escaped),
+        cmocka_unit_test(fixed_as_printf),    cmocka_unit_test(short_memory_sticks),
+        cmocka_unit_test(spelling),           cmocka_unit_test(percents_keep_three_digits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
