@@ -3,6 +3,7 @@
 #ifndef FW_MASK_MASK_H
 #define FW_MASK_MASK_H
 #include "base/diag.h"
+#include "base/output.h"
 #include "geometry/contour.h"
 #include "geometry/tessellate.h"
 #include "layout/layout.h"
@@ -23,6 +24,7 @@ typedef struct fw_mask_table {
     fw_mask_layer *layer;
     int nlayer;
     const char *order; /* what is on the plate, for the mask shop; may be NULL */
+    const char *plate; /* the same as an expression, "1/0 NOT 2/0"; NULL: not said */
 } fw_mask_table;
 
 typedef struct fw_mask_shape {
@@ -40,6 +42,7 @@ typedef struct fw_mask_measure { /* per layer */
     double perimeter_m;                        /* of the union: joints are not counted */
     double width_m, space_m;              /* least exact ones, square on edges or at corners, below
                                              FW_MASK_LOOK_M; INFINITY beyond */
+    fw_vec2 width_at[2], space_at[2];     /* ends of these chords */
     double shortest_edge_m, sharpest_rad; /* of the polygons; INFINITY without any */
 } fw_mask_measure;
 #define FW_MASK_LOOK_M 100e-6
@@ -91,5 +94,10 @@ bool fw_mask_formats(const char *list, unsigned *set);
 
 /* certificate: counts, areas, minimum edge, angle, hash; JSON */
 fw_status fw_mask_write_certificate(const fw_mask *mask, const char *gds_sha256, fw_text *out);
+/* order sheet for the mask shop, as JSON and for people, with the files that go with it */
+fw_status fw_mask_write_order(const fw_mask *mask, const fw_output_file *file, int nfile,
+                              fw_text *out);
+fw_status fw_mask_write_order_text(const fw_mask *mask, const fw_output_file *file, int nfile,
+                                   fw_text *out);
 
 #endif

@@ -133,9 +133,13 @@ static bool counts(const edge *e, double t, fw_vec2 unit_chord) {
     return fabs(vec_dot(fw_segment_tangent(&e->s, t), unit_chord)) < 1e-5;
 }
 
-static void measured(search *in, kind what, double length) {
+static void measured(search *in, kind what, double length, const fw_chord *chord) {
     double *least = what == WIDTH ? &in->measure->width_m : &in->measure->space_m;
-    if (length < *least) *least = length;
+    fw_vec2 *at = what == WIDTH ? in->measure->width_at : in->measure->space_at;
+    if (length >= *least) return;
+    *least = length;
+    at[0] = chord->at_p;
+    at[1] = chord->at_q;
 }
 
 static void judged(search *in, kind what, const edge *p, const edge *q, double length, fw_vec2 at) {
@@ -196,7 +200,7 @@ static void look_at_pair(search *in, const edge *p, const edge *q) {
         kind what = leaves > 0 ? SPACE : WIDTH;
         fw_vec2 unit = vec_scale(1 / length, c);
         if (counts(p, chord[i].tp, unit) && counts(q, chord[i].tq, unit))
-            measured(in, what, length);
+            measured(in, what, length, &chord[i]);
         judged(in, what, p, q, length, vec_along(chord[i].at_p, 0.5, c));
     }
 }
