@@ -6,8 +6,10 @@
 static const fw_mask_format table[] = {
     {"gds", ".gds", fw_mask_write_gds, .always = true, .usual = true},
     {"lyp", ".lyp", fw_mask_write_lyp, .always = true, .usual = true},
+    {"lyt", ".lyt", fw_mask_write_lyt, .always = true, .usual = true},
     {"svg", ".svg", fw_mask_write_svg, .usual = true},
     {"oasis", ".oas", fw_mask_write_oasis, .usual = false},
+    {"dxf", ".dxf", fw_mask_write_dxf, .usual = false},
 };
 enum { NFORMAT = sizeof table / sizeof table[0] };
 

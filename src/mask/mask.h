@@ -81,6 +81,10 @@ fw_status fw_mask_write_gds(const fw_mask *mask, fw_text *out);
 fw_status fw_mask_write_svg(const fw_mask *mask, fw_text *out);
 fw_status fw_mask_write_lyp(const fw_mask *mask, fw_text *out);
 fw_status fw_mask_write_oasis(const fw_mask *mask, fw_text *out);
+/* name of layer k in DXF; NULL: out of memory */
+const char *fw_mask_dxf_layer(fw_arena *arena, const fw_mask *mask, int k);
+fw_status fw_mask_write_dxf(const fw_mask *mask, fw_text *out);
+fw_status fw_mask_write_lyt(const fw_mask *mask, fw_text *out);
 
 typedef struct fw_mask_format { /* a row of format.c */
     const char *name, *ending;  /* as the user says it; of the file */

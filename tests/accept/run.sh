@@ -68,6 +68,10 @@ for gds in "$1"/*.gds; do
         judge "$flow: OASIS equal to GDSII" \
             klayout -b -r "$here/kl_xor.py" -rd "a=$gds" -rd "b=$stem.oas"
     fi
+    if [ -f "$stem.dxf" ]; then
+        judge "$flow: DXF with its technology file, arcs against GDSII" \
+            klayout -b -r "$here/kl_dxf.py" -rd "gds=$gds" -rd "dxf=$stem.dxf" -rd "lyt=$stem.lyt"
+    fi
     if [ -n "$2" ]; then
         judge "$flow: equal to the reference" \
             klayout -b -r "$here/kl_xor.py" -rd "a=$gds" -rd "b=$2/$flow.gds"
