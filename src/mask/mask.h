@@ -30,8 +30,10 @@ typedef struct fw_mask_table {
 typedef struct fw_mask_shape {
     int layer; /* index into table->layer */
     const fw_piece *piece;
-    fw_contour contour;       /* biased, exact */
-    fw_polygon polygon;       /* flattened */
+    fw_contour contour; /* biased, exact */
+    fw_polygon polygon; /* flattened */
+    fw_polygon *part;   /* (npart) the same, cut to the vertex limit of GDSII */
+    int npart;
     fw_polygon_report report; /* of the polygon, exact integers */
     double area_m2, bound_m2; /* of the contour; what flattening may change */
 } fw_mask_shape;
@@ -54,6 +56,7 @@ typedef struct fw_mask {
     int nshape;
     double bias_m, tolerance_m;
     fw_box box;
+    int vertex_limit;  /* of one GDSII boundary */
     bool rejected;     /* every file says REJECTED */
     const char **note; /* (nnote) lines written on the documentation layer */
     int nnote;
@@ -65,6 +68,7 @@ fw_status fw_mask_table_read(fw_arena *arena, const char *file, const char *xml,
                              fw_diags *diags, fw_mask_table *table);
 typedef struct fw_mask_options {
     double bias_m, tolerance_m; /* 0 tolerance: 5 nm */
+    int vertex_limit;           /* 0: 4094; else 8 to 8190 */
     bool rejected;
     const char *title;
     const char **note;

@@ -9,8 +9,9 @@ void fw_order_count(const fw_mask *mask, int layer, int *polygons, int *vertices
     *polygons = *vertices = 0;
     for (int i = 0; i < mask->nshape; i++) {
         if (mask->shape[i].layer != layer) continue;
-        ++*polygons;
-        *vertices += mask->shape[i].polygon.count;
+        *polygons += mask->shape[i].npart;
+        for (int k = 0; k < mask->shape[i].npart; k++)
+            *vertices += mask->shape[i].part[k].count;
     }
 }
 

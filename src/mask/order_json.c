@@ -66,7 +66,8 @@ static void sizes(const fw_mask *mask, const fw_order *order, fw_text *out) {
         fw_text_add(out, i ? ", " : "");
         fw_text_number(out, side[i] * 1e6, 12);
     }
-    fw_text_printf(out, "],\n  \"polygons\": %d, \"vertices\": %d,\n", order->polygons,
+    fw_text_printf(out, "],\n  \"vertex_limit\": %d,", mask->vertex_limit);
+    fw_text_printf(out, "\n  \"polygons\": %d, \"vertices\": %d,\n", order->polygons,
                    order->vertices);
 }
 

@@ -96,8 +96,8 @@ fw_status fw_mask_write_order_text(const fw_mask *mask, const fw_output_file *fi
     FW_TRY(fw_order_gather(out->arena, mask, &order));
     head(mask, &order, out);
     box(mask, out);
-    fw_text_printf(out, "%-22s %d, %d vertices\n", "polygons on the plate", order.polygons,
-                   order.vertices);
+    fw_text_printf(out, "%-22s %d, %d vertices, at most %d each\n", "polygons on the plate",
+                   order.polygons, order.vertices, mask->vertex_limit);
     layers(mask, &order, out);
     sites(mask, &order, out);
     fw_text_add(out, "\nfiles: sha256, bytes, name\n");

@@ -74,7 +74,8 @@ static int build(fw_arena *arena, fw_mask_shape *shape, bool arcs) {
     for (int k = 0; k < HINGES; k++) {
         double radius, start, sweep;
         form(k, &radius, &start, &sweep);
-        shape[k] = (fw_mask_shape){.piece = &piece, .polygon = flat(arena, k)};
+        shape[k] = (fw_mask_shape){.piece = &piece, .polygon = flat(arena, k), .npart = 1};
+        shape[k].part = &shape[k].polygon;
         if (!shape[k].polygon.vertex) return 0;
         if (!arcs)
             shape[k].contour = chords(arena, &shape[k].polygon);
