@@ -194,7 +194,8 @@ FW_API int fw_design_workspace(fw_design *design);
 
 enum {                        /* what fw_design_write writes, added up, with a manifest.json */
        FW_DESIGN_VERDICT = 1, /* verdict.json */
-       FW_DESIGN_MASKS = 2,   /* masks/FLOW.gds, .svg, .lyp, .json */
+       FW_DESIGN_MASKS = 2,   /* masks/FLOW.gds, .svg, .lyp, .lyt, .json, .order.json, .order.txt,
+                                 and options.mask_formats */
        FW_DESIGN_RECIPES = 4, /* recipes/FLOW.html, .csv, .ics, .json */
        FW_DESIGN_MOTION = 8,  /* motion/SCENE.csv, .svg */
        FW_DESIGN_REPORT = 16, /* report.html, device.svg, device.png */

@@ -131,7 +131,7 @@ static int places_of(uint64_t n) {
 /* value 10^d as an integer, rounded as printf does, a hundred times faster. In: any value and
    number of decimals d. Below 2^40 the product's own error is less than 2^-13, so the nearest
    integer is known unless the product lies within 2^-12 of halfway: that, and all that is larger,
-   goes to the library. So the digits are those of printf always. Test: test_text.c. */
+   goes to the library. So the digits are those of printf always. Test: test_growing_text.c. */
 char *fw_fixed_text(char *buffer, double value, int decimals) {
     static const double ten[] = {1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
     double product = decimals >= 0 && decimals <= 9 ? fabs(value) * ten[decimals] : HUGE_VAL;

@@ -78,11 +78,11 @@ static fw_status head(const fw_mask *mask, fw_text *out) {
     group(out, 9, "$INSUNITS");
     whole(out, 70, UM);
     group(out, 9, "$EXTMIN");
-    real(out, 10, mask->box.x0 * 1e6, 9);
-    real(out, 20, mask->box.y0 * 1e6, 9);
+    real(out, 10, mask->box.x0 * 1e6, 6);
+    real(out, 20, mask->box.y0 * 1e6, 6);
     group(out, 9, "$EXTMAX");
-    real(out, 10, mask->box.x1 * 1e6, 9);
-    real(out, 20, mask->box.y1 * 1e6, 9);
+    real(out, 10, mask->box.x1 * 1e6, 6);
+    real(out, 20, mask->box.y1 * 1e6, 6);
     group(out, 0, "ENDSEC");
     return FW_OK;
 }
@@ -119,9 +119,9 @@ static void tables(const fw_mask *mask, const char **name, fw_text *out) {
 static void vertex(const char *layer, fw_vec2 at, double bulge, fw_text *out) {
     group(out, 0, "VERTEX");
     group(out, 8, layer);
-    real(out, 10, at.x * 1e6, 9);
-    real(out, 20, at.y * 1e6, 9);
-    if (bulge != 0) real(out, 42, bulge, 15);
+    real(out, 10, at.x * 1e6, 6);
+    real(out, 20, at.y * 1e6, 6);
+    if (bulge != 0) real(out, 42, bulge, 12);
 }
 
 /* A segment as vertices with bulge = tan(sweep / 4), > 0 counter-clockwise; arcs in parts of at

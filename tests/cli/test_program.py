@@ -40,7 +40,8 @@ class Plan(InTemporary):
         for name in ("verdict.json", "report.html", "manifest.json"):
             self.assertTrue((out / name).stat().st_size > 100, name)
         for flow in FLOWS:
-            for name in ("masks/{}.gds", "masks/{}.svg", "masks/{}.lyp", "recipes/{}.html",
+            for name in ("masks/{}.gds", "masks/{}.svg", "masks/{}.lyp", "masks/{}.lyt", "masks/{}.order.json",
+                         "masks/{}.order.txt", "recipes/{}.html",
                          "recipes/{}.csv", "recipes/{}.ics"):
                 self.assertTrue((out / name.format(flow)).stat().st_size > 100, name.format(flow))
         for scene in ("step-load", "gentle-step"):
