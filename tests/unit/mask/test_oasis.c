@@ -203,7 +203,7 @@ static void whole_mask(void **state) {
         for (int i = 0; i < r->ntext; i++) {
             assert_int_equal(r->used[i], i);
             assert_int_equal(r->text_x[i], lround(mask->box.x0 * 1e9));
-            assert_true(r->text_y[i] > mask->box.y1 * 1e9);
+            assert_true(r->text_y[i] > lround(mask->box.y1 * 1e9));
             if (i) assert_int_equal(r->text_y[i - 1] - r->text_y[i], 60000);
         }
         assert_string_equal(r->text[0], rejected ? "status=REJECTED" : "device=test device");
