@@ -6,6 +6,7 @@ pkg_check_modules(XML2 REQUIRED IMPORTED_TARGET libxml-2.0)
 pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo)
 pkg_check_modules(GSL REQUIRED IMPORTED_TARGET gsl)
 pkg_check_modules(JANSSON REQUIRED IMPORTED_TARGET jansson)
+pkg_check_modules(ZLIB REQUIRED IMPORTED_TARGET zlib)
 find_library(LAPACKE_LIBRARY lapacke REQUIRED)
 find_library(LAPACK_LIBRARY lapack REQUIRED)
 
@@ -15,6 +16,7 @@ set(FW_ROOMS base maths geometry quantity device flexure layout mechanism effect
 set(FW_EXTERN_maths PkgConfig::GSL ${LAPACKE_LIBRARY} ${LAPACK_LIBRARY} m)
 set(FW_EXTERN_device PkgConfig::XML2)
 set(FW_EXTERN_process PkgConfig::XML2)
+set(FW_EXTERN_mask PkgConfig::ZLIB)
 set(FW_EXTERN_report PkgConfig::CAIRO)
 set(FW_EXTERN_base PkgConfig::JANSSON m)
 

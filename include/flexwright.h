@@ -94,8 +94,12 @@ typedef struct fw_design_options {
     const char *independent, *rates, *accelerations;
     const char *corners; /* "auto" (default): the verdict holds at the corners of each flow, too;
                             "none": for the drawn geometry only */
-    const char *hinge_model; /* how flexures enter the mechanism: "auto" (default, by accuracy),
-                                "revolute", "compliance" or "elastica" */
+    const char *hinge_model;  /* how flexures enter the mechanism: "auto" (default, by accuracy),
+                                 "revolute", "compliance" or "elastica" */
+    const char *mask_formats; /* "gds,svg" (default), with oasis and dxf where named, or "all";
+                                 GDSII and KLayout's files are always written */
+    int32_t mask_vertices;    /* most of one GDSII boundary: 199, 4094 (default) or 8190; larger
+                                 outlines are cut at vertices */
 } fw_design_options;
 
 /* Fills `size` bytes (as the caller's header defines the struct) with the defaults. NULL options:
@@ -190,7 +194,8 @@ FW_API int fw_design_workspace(fw_design *design);
 
 enum {                        /* what fw_design_write writes, added up, with a manifest.json */
        FW_DESIGN_VERDICT = 1, /* verdict.json */
-       FW_DESIGN_MASKS = 2,   /* masks/FLOW.gds, .svg, .lyp, .json */
+       FW_DESIGN_MASKS = 2,   /* masks/FLOW.gds, .svg, .lyp, .lyt, .json, .order.json, .order.txt,
+                                 and options.mask_formats */
        FW_DESIGN_RECIPES = 4, /* recipes/FLOW.html, .csv, .ics, .json */
        FW_DESIGN_MOTION = 8,  /* motion/SCENE.csv, .svg */
        FW_DESIGN_REPORT = 16, /* report.html, device.svg, device.png */

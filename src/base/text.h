@@ -15,6 +15,8 @@ typedef struct fw_text {
 
 fw_text fw_text_new(fw_arena *arena);
 void fw_text_add(fw_text *text, const char *string);
+/* room for so many bytes more at once, where a large text's size is known before */
+void fw_text_reserve(fw_text *text, size_t more);
 void fw_text_bytes(fw_text *text, const void *data, size_t n);
 /* room for n bytes more at once; nothing is added */
 void fw_text_reserve(fw_text *text, size_t n);
@@ -32,6 +34,10 @@ void fw_text_real(fw_text *text, const char *conversion, double value);
 void fw_text_escaped(fw_text *text, const char *string);
 fw_status fw_text_end(const fw_text *text); /* FW_OK or FW_NOMEM */
 
+/* the same fixed decimals (at most 17) into a buffer of FW_FIXED_BYTES; returns the end, where a
+   NUL is: for writers of millions of numbers */
+enum { FW_FIXED_BYTES = 352 };
+char *fw_fixed_text(char *buffer, double value, int decimals);
 /* the same into a caller's buffer of n bytes; returns buffer */
 char *fw_number_text(char *buffer, size_t n, double value, int digits);
 /* 100 times `part` to three digits, below a million without an exponent: "0.364", "11100" */

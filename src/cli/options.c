@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/options.h"
 #include "dynamics/dynamics.h"
+#include "mask/mask.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -123,6 +124,24 @@ static const char *take_tolerance(fw_cli_options *o, const char *v) {
                "wrong way) and 1000";
     o->design.mask_tolerance_m = nm * 1e-9;
     return NULL;
+}
+
+static const char *take_mask_format(fw_cli_options *o, const char *v) {
+    unsigned set;
+    o->design.mask_formats = v;
+    return fw_mask_formats(v, &set) ? NULL
+                                    : "needs gds, svg, oasis, dxf with commas between, or all";
+}
+
+static const char *take_mask_vertices(fw_cli_options *o, const char *v) {
+    static const char *const word[] = {"199", "4094", "8190"};
+    static const int32_t most[] = {199, 4094, 8190};
+    for (int i = 0; i < 3; i++)
+        if (strcmp(v, word[i]) == 0) {
+            o->design.mask_vertices = most[i];
+            return NULL;
+        }
+    return "needs 199, 4094 or 8190";
 }
 
 static const char *take_at(fw_cli_options *o, const char *v) {
@@ -276,6 +295,14 @@ static const option_row table[] = {
      FW_OPT_FABRICATE, take_force},
     {"mask-tolerance", 0, "NM", "largest distance between an arc and its polygon, in nm; default 5",
      FW_OPT_FABRICATE, take_tolerance},
+    {"mask-format", 0, "LIST",
+     "gds, svg, oasis, dxf with commas between, or all; default gds,svg (GDSII is always written)",
+     FW_OPT_FABRICATE, take_mask_format},
+    {"mask-vertices", 0, "N",
+     "most vertices of one GDSII boundary: 199, 4094 or 8190; default 4094; larger outlines are "
+     "cut "
+     "at vertices",
+     FW_OPT_FABRICATE, take_mask_vertices},
     {"scene", 0, "NAME", "the scene; default the first",
      FW_OPT_SIMULATE | FW_OPT_MODES | FW_OPT_STATICS | FW_OPT_ASSEMBLE, take_scene},
     {"at", 0, "POSE",

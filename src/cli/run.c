@@ -58,7 +58,7 @@ static const fw_command table[] = {
      "unstable\n"
      "are named. -o DIR writes modes.json and modes.svg, in which the mechanism moves.",
      FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_MODES, fw_command_modes},
-    {"mask", "DEVICE.xml", "only the masks (GDSII, SVG, layer properties, certificate)",
+    {"mask", "DEVICE.xml", "only the masks (GDSII, SVG, OASIS, DXF, KLayout files, certificate, order sheet)",
      "flexwright mask device.xml --flow al-masked-rie -o masks-out",
      "Judges the device first: a rejected design gets no mask unless --force.",
      FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_FABRICATE, fw_command_mask},

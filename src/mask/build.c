@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "mask/cut.h"
 #include "mask/rules.h"
 #include <math.h>
 #include <string.h>
@@ -6,7 +7,7 @@
 static const double GRID_M = 1e-9;
 static const double DEFAULT_TOLERANCE_M = 5e-9;
 static const int32_t FARTHEST_DBU = 1 << 30;
-enum { MOST_VERTICES = 4094, LONGEST_NAME = 32 };
+enum { DEFAULT_VERTICES = 4094, LONGEST_NAME = 32 };
 static const fw_place nowhere;
 
 /* A-Za-z0-9_?$ and at most 32 characters: what every GDSII reader takes as a cell name */
@@ -85,18 +86,29 @@ static fw_status check_range(const fw_mask_shape *shape, fw_diags *diags) {
                          shape->piece->label, fw_number_text(number, sizeof number, far, 6));
 }
 
+/* parts that GDSII readers take; each is certified like the whole */
+static fw_status cut(fw_arena *arena, fw_mask_shape *shape, int most, fw_diags *diags) {
+    fw_status status = fw_polygon_cut(arena, &shape->polygon, most, &shape->part, &shape->npart);
+    bool simple = status == FW_OK;
+    for (int i = 0; simple && shape->npart > 1 && i < shape->npart; i++) {
+        fw_polygon_report report;
+        FW_TRY(fw_polygon_check(arena, &shape->part[i], &report));
+        simple = report.simple;
+    }
+    if (simple || (status != FW_OK && status != FW_GEOMETRY)) return status;
+    return fw_diag_error(diags, 148, nowhere,
+                         "%s has %d vertices, and no cut was found that leaves parts of at most "
+                         "%d; choose a larger tolerance or divide the part",
+                         shape->piece->label, shape->polygon.count, most);
+}
+
 /* one shape: polygon, exact integer certificate, area against the exact outline */
-static fw_status flatten(fw_arena *arena, fw_mask_shape *shape, double tolerance_m,
+static fw_status flatten(fw_arena *arena, fw_mask_shape *shape, double tolerance_m, int most,
                          fw_diags *diags) {
     FW_TRY(check_range(shape, diags));
     FW_TRY(fw_tessellate(arena, &shape->contour, tolerance_m, &shape->polygon));
     const char *name = shape->piece->label;
     const fw_polygon *p = &shape->polygon;
-    if (p->count > MOST_VERTICES)
-        return fw_diag_error(diags, 148, nowhere,
-                             "%s has %d vertices; GDSII readers take %d; choose a larger tolerance "
-                             "or divide the part",
-                             name, p->count, MOST_VERTICES);
     FW_TRY(fw_polygon_check(arena, p, &shape->report));
     if (!shape->report.simple) {
         fw_point v = p->vertex[shape->report.bad_i >= 0 ? shape->report.bad_i % p->count : 0];
@@ -107,6 +119,7 @@ static fw_status flatten(fw_arena *arena, fw_mask_shape *shape, double tolerance
                              "smaller tolerance or a larger feature",
                              name, shape->report.bad_i, shape->report.bad_j, at);
     }
+    FW_TRY(cut(arena, shape, most, diags));
     shape->area_m2 = fw_contour_area(&shape->contour);
     double flat = 0.5 * (double)fw_polygon_area2(p) * GRID_M * GRID_M;
     shape->bound_m2 =
@@ -121,10 +134,10 @@ static fw_status flatten(fw_arena *arena, fw_mask_shape *shape, double tolerance
 }
 
 static fw_status flatten_all(fw_arena *arena, fw_mask_shape *shape, int nshape, double tolerance_m,
-                             fw_diags *diags) {
+                             int most, fw_diags *diags) {
     bool wrong = false;
     for (int k = 0; k < nshape; k++) {
-        fw_status status = flatten(arena, &shape[k], tolerance_m, diags);
+        fw_status status = flatten(arena, &shape[k], tolerance_m, most, diags);
         if (status != FW_OK && status != FW_INPUT) return status;
         wrong = wrong || status == FW_INPUT;
     }
@@ -185,6 +198,7 @@ fw_status fw_mask_build(fw_arena *arena, const fw_layout *layout, const fw_mask_
     m->title = options->title ? options->title : device_name;
     m->bias_m = options->bias_m;
     m->tolerance_m = tolerance_m;
+    m->vertex_limit = options->vertex_limit ? options->vertex_limit : DEFAULT_VERTICES;
     m->rejected = options->rejected;
     m->note = options->note;
     m->nnote = options->nnote;
@@ -195,7 +209,7 @@ fw_status fw_mask_build(fw_arena *arena, const fw_layout *layout, const fw_mask_
     FW_TRY(bias_shapes(arena, table, m->shape, m->nshape, options->bias_m, diags));
     FW_TRY(fw_mask_join(arena, m->shape, m->nshape, diags));
     FW_TRY(fw_mask_check_rules(arena, table, m->shape, m->nshape, tolerance_m, measure, diags));
-    FW_TRY(flatten_all(arena, m->shape, m->nshape, tolerance_m, diags));
+    FW_TRY(flatten_all(arena, m->shape, m->nshape, tolerance_m, m->vertex_limit, diags));
     FW_TRY(fw_mask_check_joints(arena, m->shape, m->nshape, diags));
     fw_mask_check_corners(m->shape, m->nshape, diags);
     if (diags->failed) return FW_NOMEM;

@@ -1,92 +1,65 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What was proven about the file, as JSON; docs/theory/masks.md explains every member. */
+#include "mask/json.h"
 #include "mask/notes.h"
 #include <math.h>
 
-static void string(fw_text *out, const char *s) {
-    fw_text_add(out, "\"");
-    for (; s && *s; s++) {
-        unsigned char c = (unsigned char)*s;
-        if (c == '"' || c == '\\')
-            fw_text_printf(out, "\\%c", c);
-        else if (c < 0x20)
-            fw_text_printf(out, "\\u%04x", c);
-        else
-            fw_text_bytes(out, s, 1);
-    }
-    fw_text_add(out, "\"");
-}
-
-static void text_member(fw_text *out, const char *key, const char *value) {
-    fw_text_printf(out, "\"%s\": ", key);
-    string(out, value);
-}
-
-/* not finite means that nothing was found: null */
-static void number_member(fw_text *out, const char *key, double value, int digits) {
-    fw_text_printf(out, "\"%s\": ", key);
-    if (isfinite(value))
-        fw_text_number(out, value, digits);
-    else
-        fw_text_add(out, "null");
-}
-
 static void layer(fw_text *out, const fw_mask_layer *y, const fw_mask_measure *m) {
     fw_text_printf(out, "    {\"gds\": \"%d/%d\", ", y->layer, y->datatype);
-    text_member(out, "id", y->id);
+    fw_mask_json_text(out, "id", y->id);
     fw_text_add(out, ", ");
-    text_member(out, "name", y->name);
+    fw_mask_json_text(out, "name", y->name);
     fw_text_add(out, ", ");
-    text_member(out, "purpose", y->purpose);
+    fw_mask_json_text(out, "purpose", y->purpose);
     fw_text_add(out, ", ");
-    text_member(out, "tone", y->tone);
+    fw_mask_json_text(out, "tone", y->tone);
     fw_text_printf(out, ",\n     \"biased\": %s, \"polygons\": %d, \"vertices\": %d,\n     ",
                    y->biased ? "true" : "false", m->shapes, m->vertices);
-    number_member(out, "area_um2", m->area_m2 * 1e12, 17);
+    fw_mask_json_number(out, "area_um2", m->area_m2 * 1e12, 17);
     fw_text_add(out, ", ");
-    number_member(out, "polygon_area_um2", m->polygon_area_m2 * 1e12, 17);
+    fw_mask_json_number(out, "polygon_area_um2", m->polygon_area_m2 * 1e12, 17);
     fw_text_add(out, ", ");
-    number_member(out, "area_bound_um2", m->bound_m2 * 1e12, 6);
+    fw_mask_json_number(out, "area_bound_um2", m->bound_m2 * 1e12, 6);
     fw_text_add(out, ",\n     ");
-    number_member(out, "perimeter_um", m->perimeter_m * 1e6, 12);
+    fw_mask_json_number(out, "perimeter_um", m->perimeter_m * 1e6, 12);
     fw_text_add(out, ", ");
-    number_member(out, "min_width_um", m->width_m * 1e6, 9);
+    fw_mask_json_number(out, "min_width_um", m->width_m * 1e6, 9);
     fw_text_add(out, ", ");
-    number_member(out, "min_space_um", m->space_m * 1e6, 9);
+    fw_mask_json_number(out, "min_space_um", m->space_m * 1e6, 9);
     fw_text_add(out, ",\n     ");
-    number_member(out, "rule_width_um", y->min_width_m * 1e6, 9);
+    fw_mask_json_number(out, "rule_width_um", y->min_width_m * 1e6, 9);
     fw_text_add(out, ", ");
-    number_member(out, "rule_space_um", y->min_space_m * 1e6, 9);
+    fw_mask_json_number(out, "rule_space_um", y->min_space_m * 1e6, 9);
     fw_text_add(out, ", ");
-    text_member(out, "rule_source", y->rule_source);
+    fw_mask_json_text(out, "rule_source", y->rule_source ? y->rule_source : "");
     fw_text_add(out, ",\n     ");
-    number_member(out, "shortest_edge_nm", m->shortest_edge_m * 1e9, 6);
+    fw_mask_json_number(out, "shortest_edge_nm", m->shortest_edge_m * 1e9, 6);
     fw_text_add(out, ", ");
-    number_member(out, "sharpest_corner_deg", m->sharpest_rad * (180 / acos(-1.0)), 6);
+    fw_mask_json_number(out, "sharpest_corner_deg", m->sharpest_rad * (180 / acos(-1.0)), 6);
     fw_text_add(out, "}");
 }
 
 static void head(const fw_mask *mask, const char *gds_sha256, fw_text *out) {
     fw_text_add(out, "{\n  \"schema\": \"flexwright.mask/1\",\n  ");
-    text_member(out, "device", mask->device);
+    fw_mask_json_text(out, "device", mask->device);
     fw_text_add(out, ",\n  ");
-    text_member(out, "flow", mask->flow);
+    fw_mask_json_text(out, "flow", mask->flow);
     fw_text_add(out, ",\n  ");
-    text_member(out, "cell", mask->cell);
+    fw_mask_json_text(out, "cell", mask->cell);
     fw_text_add(out, ",\n  ");
-    text_member(out, "version", FW_VERSION);
+    fw_mask_json_text(out, "version", FW_VERSION);
     fw_text_printf(out, ",\n  \"rejected\": %s,\n  ", mask->rejected ? "true" : "false");
-    text_member(out, "gds_sha256", gds_sha256 ? gds_sha256 : "");
+    fw_mask_json_text(out, "gds_sha256", gds_sha256 ? gds_sha256 : "");
     fw_text_add(out, ",\n  ");
-    text_member(out, "reading", mask->table->reading);
+    fw_mask_json_text(out, "reading", mask->table->reading);
     fw_text_add(out, ",\n  \"grid_nm\": 1, ");
-    number_member(out, "tolerance_nm", mask->tolerance_m * 1e9, 9);
+    fw_mask_json_number(out, "tolerance_nm", mask->tolerance_m * 1e9, 9);
     fw_text_add(out, ", ");
-    number_member(out, "edge_error_nm", mask->tolerance_m * 1e9 + 0.70710678118654752, 9);
+    fw_mask_json_number(out, "edge_error_nm", mask->tolerance_m * 1e9 + 0.70710678118654752, 9);
     fw_text_add(out, ",\n  ");
-    number_member(out, "bias_um_per_edge", mask->bias_m * 1e6, 9);
+    fw_mask_json_number(out, "bias_um_per_edge", mask->bias_m * 1e6, 9);
     fw_text_add(out, ", ");
-    text_member(out, "bias", "process bias included, mask CD bias 0");
+    fw_mask_json_text(out, "bias", "process bias included, mask CD bias 0");
     fw_text_add(out, ",\n  \"extent_um\": [");
     const double side[] = {mask->box.x0, mask->box.y0, mask->box.x1, mask->box.y1};
     for (int i = 0; i < 4; i++) {
@@ -112,7 +85,7 @@ fw_status fw_mask_write_certificate(const fw_mask *mask, const char *gds_sha256,
     fw_text_add(out, "  ],\n  \"notes\": [");
     for (int i = 0; i < n; i++) {
         fw_text_add(out, i ? ",\n    " : "\n    ");
-        string(out, line[i]);
+        fw_mask_json_string(out, line[i]);
     }
     fw_text_add(out, "\n  ]\n}\n");
     return fw_text_end(out);

@@ -134,7 +134,8 @@ fw_status fw_mask_write_gds(const fw_mask *mask, fw_text *out) {
     zero_dates(out, BGNSTR);
     string(out, STRNAME, mask->cell);
     for (int i = 0; i < mask->nshape; i++)
-        boundary(out, &mask->table->layer[mask->shape[i].layer], &mask->shape[i].polygon);
+        for (int k = 0; k < mask->shape[i].npart; k++)
+            boundary(out, &mask->table->layer[mask->shape[i].layer], &mask->shape[i].part[k]);
     FW_TRY(texts(mask, out));
     record(out, ENDSTR, 0);
     record(out, ENDLIB, 0);

@@ -3,6 +3,7 @@
 #ifndef FW_MASK_MASK_H
 #define FW_MASK_MASK_H
 #include "base/diag.h"
+#include "base/output.h"
 #include "geometry/contour.h"
 #include "geometry/tessellate.h"
 #include "layout/layout.h"
@@ -23,13 +24,16 @@ typedef struct fw_mask_table {
     fw_mask_layer *layer;
     int nlayer;
     const char *order; /* what is on the plate, for the mask shop; may be NULL */
+    const char *plate; /* the same as an expression, "1/0 NOT 2/0"; NULL: not said */
 } fw_mask_table;
 
 typedef struct fw_mask_shape {
     int layer; /* index into table->layer */
     const fw_piece *piece;
-    fw_contour contour;       /* biased, exact */
-    fw_polygon polygon;       /* flattened */
+    fw_contour contour; /* biased, exact */
+    fw_polygon polygon; /* flattened */
+    fw_polygon *part;   /* (npart) the same, cut to the vertex limit of GDSII */
+    int npart;
     fw_polygon_report report; /* of the polygon, exact integers */
     double area_m2, bound_m2; /* of the contour; what flattening may change */
 } fw_mask_shape;
@@ -40,6 +44,7 @@ typedef struct fw_mask_measure { /* per layer */
     double perimeter_m;                        /* of the union: joints are not counted */
     double width_m, space_m;              /* least exact ones, square on edges or at corners, below
                                              FW_MASK_LOOK_M; INFINITY beyond */
+    fw_vec2 width_at[2], space_at[2];     /* ends of these chords */
     double shortest_edge_m, sharpest_rad; /* of the polygons; INFINITY without any */
 } fw_mask_measure;
 #define FW_MASK_LOOK_M 100e-6
@@ -51,6 +56,7 @@ typedef struct fw_mask {
     int nshape;
     double bias_m, tolerance_m;
     fw_box box;
+    int vertex_limit;  /* of one GDSII boundary */
     bool rejected;     /* every file says REJECTED */
     const char **note; /* (nnote) lines written on the documentation layer */
     int nnote;
@@ -62,6 +68,7 @@ fw_status fw_mask_table_read(fw_arena *arena, const char *file, const char *xml,
                              fw_diags *diags, fw_mask_table *table);
 typedef struct fw_mask_options {
     double bias_m, tolerance_m; /* 0 tolerance: 5 nm */
+    int vertex_limit;           /* 0: 4094; else 8 to 8190 */
     bool rejected;
     const char *title;
     const char **note;
@@ -77,7 +84,28 @@ fw_status fw_mask_build(fw_arena *arena, const fw_layout *layout, const fw_mask_
 fw_status fw_mask_write_gds(const fw_mask *mask, fw_text *out);
 fw_status fw_mask_write_svg(const fw_mask *mask, fw_text *out);
 fw_status fw_mask_write_lyp(const fw_mask *mask, fw_text *out);
+fw_status fw_mask_write_oasis(const fw_mask *mask, fw_text *out);
+/* name of layer k in DXF; NULL: out of memory */
+const char *fw_mask_dxf_layer(fw_arena *arena, const fw_mask *mask, int k);
+fw_status fw_mask_write_dxf(const fw_mask *mask, fw_text *out);
+fw_status fw_mask_write_lyt(const fw_mask *mask, fw_text *out);
+
+typedef struct fw_mask_format { /* a row of format.c */
+    const char *name, *ending;  /* as the user says it; of the file */
+    fw_status (*write)(const fw_mask *mask, fw_text *out);
+    bool always, usual; /* whatever is asked for; when nothing is asked for */
+} fw_mask_format;
+const fw_mask_format *fw_mask_format_at(size_t i); /* NULL behind the last row */
+/* bit i for row i. list: names with commas between, "all", or NULL for the usual ones; false: a
+   name is not known */
+bool fw_mask_formats(const char *list, unsigned *set);
+
 /* certificate: counts, areas, minimum edge, angle, hash; JSON */
 fw_status fw_mask_write_certificate(const fw_mask *mask, const char *gds_sha256, fw_text *out);
+/* order sheet for the mask shop, as JSON and for people, with the files that go with it */
+fw_status fw_mask_write_order(const fw_mask *mask, const fw_output_file *file, int nfile,
+                              fw_text *out);
+fw_status fw_mask_write_order_text(const fw_mask *mask, const fw_output_file *file, int nfile,
+                                   fw_text *out);
 
 #endif

@@ -74,9 +74,14 @@ static void judged(fw_rule_search *in, fw_rule_kind what, const fw_rule_edge *p,
             (fw_finding){what, {p->shape, q->shape}, {p->segment, q->segment}, length, needed, at});
 }
 
-static void measured(fw_rule_search *in, fw_rule_kind what, double length) {
+static void measured(fw_rule_search *in, fw_rule_kind what, fw_vec2 from, fw_vec2 to,
+                     double length) {
     double *least = what == FW_RULE_WIDTH ? &in->measure->width_m : &in->measure->space_m;
-    if (length < *least) *least = length;
+    fw_vec2 *at = what == FW_RULE_WIDTH ? in->measure->width_at : in->measure->space_at;
+    if (length >= *least) return;
+    *least = length;
+    at[0] = from;
+    at[1] = to;
 }
 
 /* ---- chords ---- */
@@ -119,7 +124,7 @@ static void measure_chord(fw_rule_search *in, const fw_rule_edge *p, const fw_ru
     if (!crosses(&p->s, &q->s, chord, &x)) return;
     if ((x.slant_p < SQUARE || at_corner(p, chord->tp)) &&
         (x.slant_q < SQUARE || at_corner(q, chord->tq)))
-        measured(in, x.kind, x.length_m);
+        measured(in, x.kind, chord->at_p, chord->at_q, x.length_m);
 }
 
 /* from the corners of p to the farther foot on an arc: the nearer one is among the chords */
@@ -187,7 +192,8 @@ static bool concentric(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_
     if (isinf(gap)) return false;
     bool material = (p->s.radius > q->s.radius) == (p->s.sweep_rad > 0);
     fw_rule_kind kind = material ? FW_RULE_WIDTH : FW_RULE_SPACE;
-    measured(in, kind, gap);
+    measured(in, kind, vec_along(p->s.centre, p->s.radius, along),
+             vec_along(p->s.centre, q->s.radius, along), gap);
     judged(in, kind, p, q, gap, vec_along(p->s.centre, 0.5 * (p->s.radius + q->s.radius), along));
     return true;
 }
@@ -199,8 +205,12 @@ void fw_rule_own(fw_rule_search *in, fw_rule_edge *e) {
     fw_rule_kind kind = e->s.sweep_rad > 0 ? FW_RULE_WIDTH : FW_RULE_SPACE;
     fw_vec2 middle = fw_segment_point(&e->s, 0.5);
     judged(in, kind, e, e, sqrt(2) * e->s.radius, middle);
-    if (sweep >= half_turn) measured(in, kind, 2 * e->s.radius);
-    if (e->corner_a && e->corner_b) measured(in, kind, vec_distance(e->s.a, e->s.b));
+    if (sweep >= half_turn) { /* from the middle of the first quarter and across */
+        fw_vec2 from = fw_segment_point(&e->s, 0.5 * fmax(0, 1 - FW_PI / sweep));
+        measured(in, kind, from, vec_sub(vec_scale(2, e->s.centre), from), 2 * e->s.radius);
+    }
+    if (e->corner_a && e->corner_b)
+        measured(in, kind, e->s.a, e->s.b, vec_distance(e->s.a, e->s.b));
 }
 
 /* ---- contacts ---- */

@@ -12,10 +12,14 @@ typedef struct page {
     double width, height; /* um */
 } page;
 
-static void coordinate(const page *p, fw_vec2 at) {
-    fw_text_fixed(p->out, (at.x - p->x0) * 1e6, 6);
-    fw_text_add(p->out, " ");
-    fw_text_fixed(p->out, (p->y1 - at.y) * 1e6, 6);
+/* `letter` and the place: most of the file, hence in one piece */
+static void coordinate(const page *p, char letter, fw_vec2 at) {
+    char text[2 * FW_FIXED_BYTES + 2], *end = text;
+    *end++ = letter;
+    end = fw_fixed_text(end, (at.x - p->x0) * 1e6, 6);
+    *end++ = ' ';
+    end = fw_fixed_text(end, (p->y1 - at.y) * 1e6, 6);
+    fw_text_bytes(p->out, text, (size_t)(end - text));
 }
 
 /* parts of at most a third of a turn: a reader finds the centre from the end points, which fails
@@ -32,8 +36,8 @@ static void arc(const page *p, const fw_segment *s) {
         fw_text_fixed(p->out, s->radius * 1e6, 6);
         fw_text_add(p->out, " ");
         fw_text_fixed(p->out, s->radius * 1e6, 6);
-        fw_text_printf(p->out, " 0 0 %d ", s->sweep_rad < 0);
-        coordinate(p, i < parts ? to : s->b);
+        fw_text_add(p->out, s->sweep_rad < 0 ? " 0 0 1" : " 0 0 0");
+        coordinate(p, ' ', i < parts ? to : s->b);
     }
 }
 
@@ -42,13 +46,12 @@ static void segment(const page *p, const fw_segment *s) {
         arc(p, s);
         return;
     }
-    fw_text_add(p->out, "L");
-    coordinate(p, s->b);
+    coordinate(p, 'L', s->b);
 }
 
 static void shape(const page *p, const fw_mask_shape *s) {
-    fw_text_add(p->out, "<path d=\"M");
-    coordinate(p, s->contour.segment[0].a);
+    fw_text_add(p->out, "<path d=\"");
+    coordinate(p, 'M', s->contour.segment[0].a);
     for (int i = 0; i < s->contour.count; i++)
         segment(p, &s->contour.segment[i]);
     fw_text_add(p->out, "Z\"><title>");
@@ -118,11 +121,25 @@ static void head(const page *p, const fw_mask *mask) {
     fw_text_add(p->out, " um, included; flexwright " FW_VERSION "</desc>\n");
 }
 
+/* about what the outlines take, so that the text is not copied while it grows */
+static size_t expected_bytes(const fw_mask *mask) {
+    enum { HEAD = 4096, SHAPE = 100, LINE = 20, ARC = 90 };
+    size_t n = HEAD;
+    for (int k = 0; k < mask->nshape; k++) {
+        const fw_contour *c = &mask->shape[k].contour;
+        n += SHAPE;
+        for (int i = 0; i < c->count; i++)
+            n += c->segment[i].kind == FW_ARC ? ARC : LINE;
+    }
+    return n;
+}
+
 fw_status fw_mask_write_svg(const fw_mask *mask, fw_text *out) {
     double width = (mask->box.x1 - mask->box.x0) * 1e6,
            height = (mask->box.y1 - mask->box.y0) * 1e6;
     page p = {out, mask->box.x0 - MARGIN_UM * 1e-6, mask->box.y1 + MARGIN_UM * 1e-6,
               width + 2 * MARGIN_UM, height + 2 * MARGIN_UM + LEGEND_UM};
+    fw_text_reserve(out, expected_bytes(mask));
     head(&p, mask);
     for (int k = 0; k < mask->table->nlayer; k++)
         if (mask->table->layer[k].roles) layer(&p, mask, k);

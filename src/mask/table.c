@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "device/xml.h"
-#include "mask/mask.h"
+#include "mask/order.h"
 #include "quantity/expression.h"
 #include <stdlib.h>
 #include <string.h>
@@ -203,6 +203,16 @@ static fw_status read_layer(reader *r, const fw_element *e) {
     return FW_OK;
 }
 
+static void check_plate(const fw_mask_table *table, const fw_element *root, fw_diags *diags) {
+    int first;
+    const char *wrong;
+    if (fw_plate_layers(table, NULL, &first, &wrong)) return;
+    fw_diag_error(diags, 133, fw_xml_attribute(root, "plate")->place,
+                  "plate=\"%s\" cannot be read at \"%s\"; write layers of this table with AND, OR, "
+                  "NOT or XOR between, for example \"1/0 NOT 2/0\"",
+                  table->plate, wrong);
+}
+
 /* same id, same GDSII pair, a role on two layers, two documentation layers */
 static void check_collisions(const fw_mask_table *table, fw_diags *diags) {
     for (int j = 1; j < table->nlayer; j++)
@@ -237,6 +247,8 @@ static void read_root(reader *r, const fw_element *root, fw_mask_table *table) {
             read_text(r, a, &table->reading);
         else if (strcmp(a->name, "order") == 0)
             read_text(r, a, &table->order);
+        else if (strcmp(a->name, "plate") == 0)
+            read_text(r, a, &table->plate);
         else
             fw_diag_error(r->diags, 140, a->place, "<mask-table> has no attribute \"%s\"", a->name);
     }
@@ -277,6 +289,7 @@ fw_status fw_mask_table_read(fw_arena *arena, const char *file, const char *xml,
     }
     if (table->nlayer == 0) fw_diag_error(diags, 140, root->place, "<mask-table> has no <layer>");
     check_collisions(table, diags);
+    check_plate(table, root, diags);
     if (diags->failed) return FW_NOMEM;
     return diags->errors > errors ? FW_INPUT : FW_OK;
 }

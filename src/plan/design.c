@@ -79,6 +79,12 @@ static const char *wrong_option(const fw_design_options *o) {
         return "mask_tolerance_m must be 0 (default) or between 1.42e-9 and 1e-6";
     if (hinge_model_of(o->hinge_model) < 0)
         return "hinge_model must be \"auto\", \"revolute\", \"compliance\" or \"elastica\"";
+    unsigned formats;
+    if (!fw_mask_formats(o->mask_formats, &formats))
+        return "mask_formats must name some of gds, svg, oasis and dxf, with commas, or be \"all\"";
+    if (o->mask_vertices != 0 && o->mask_vertices != 199 && o->mask_vertices != 4094 &&
+        o->mask_vertices != 8190)
+        return "mask_vertices must be 0 (default), 199, 4094 or 8190";
     if (!known(o->method, fw_method_at)) return "method is not known in this version";
     if (!known(o->integrator, fw_integrator_at)) return "integrator is not known in this version";
     if (!known(o->stabilise, fw_stabilisation_at)) return "there is no such stabilisation";
@@ -121,10 +127,10 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     if (d->wrong_option) return FW_OK;
     if (given) memcpy(&o, given, given->size < sizeof o ? given->size : sizeof o);
     fw_arena *arena = d->plan->arena;
-    const char **text[] = {&o.data_directory, &o.flow,       &o.scene,         &o.effects,
-                           &o.method,         &o.integrator, &o.stabilise,     &o.at,
-                           &o.independent,    &o.rates,      &o.accelerations, &o.corners,
-                           &o.hinge_model};
+    const char **text[] = {&o.data_directory, &o.flow,        &o.scene,         &o.effects,
+                           &o.method,         &o.integrator,  &o.stabilise,     &o.at,
+                           &o.independent,    &o.rates,       &o.accelerations, &o.corners,
+                           &o.hinge_model,    &o.mask_formats};
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
         FW_TRY(keep(arena, text[i]));
     d->wrong_option = wrong_option(&o);
@@ -134,6 +140,8 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     p->flow = o.flow;
     p->scene = o.scene;
     p->mask_tolerance_m = o.mask_tolerance_m;
+    p->mask_formats = o.mask_formats;
+    p->mask_vertices = o.mask_vertices;
     p->force = o.force != 0;
     p->path = o.path != 0;
     p->at_equilibrium = o.at && strcmp(o.at, "equilibrium") == 0;

@@ -86,6 +86,7 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     }
     fw_mask_options options = {.bias_m = pf->flow->bias_m,
                                .tolerance_m = plan->options.mask_tolerance_m,
+                               .vertex_limit = plan->options.mask_vertices,
                                .rejected = rejected,
                                .title = plan->device->die.title};
     FW_TRY(notes_of(plan, pf, &options));

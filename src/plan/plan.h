@@ -18,6 +18,8 @@ typedef struct fw_plan_options {
     const char *scene;          /* for simulate; NULL: the first */
     fw_verdict_options verdict; /* motion, accuracy, effects */
     double mask_tolerance_m;    /* 0: 5 nm */
+    const char *mask_formats;   /* fw_mask_formats; NULL: the usual ones */
+    int mask_vertices;          /* most of one GDSII boundary; 0: 4094 */
     const fw_set *set;          /* (nset) */
     int nset;
     bool force;          /* masks and recipes of a rejected design too */

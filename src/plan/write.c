@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "plan/stages.h"
 #include "recipe/recipe.h"
+#include <string.h>
 
 typedef struct writer {
     fw_plan *plan;
@@ -19,20 +20,43 @@ static fw_status put(writer *w, const char *folder, const char *name, const char
     return FW_OK;
 }
 
+/* the order sheets name what was written of this flow before them, without the folder */
+static fw_status write_order(writer *w, const fw_plan_flow *pf) {
+    const char *start = fw_arena_printf(w->plan->arena, "masks/%s.", pf->use->ref);
+    FW_NEED(start);
+    size_t count;
+    const fw_output_file *all = fw_output_files(w->output, &count);
+    fw_output_file *own = fw_arena_array(w->plan->arena, fw_output_file, count);
+    FW_NEED(own);
+    int n = 0;
+    for (size_t i = 0; i < count; i++)
+        if (strncmp(all[i].name, start, strlen(start)) == 0) {
+            own[n] = all[i];
+            own[n++].name = all[i].name + strlen("masks/");
+        }
+    fw_text json = fw_text_new(w->scratch);
+    FW_TRY(fw_mask_write_order(pf->mask, own, n, &json));
+    FW_TRY(put(w, "masks/", pf->use->ref, ".order.json", &json));
+    fw_text text = fw_text_new(w->scratch);
+    FW_TRY(fw_mask_write_order_text(pf->mask, own, n, &text));
+    return put(w, "masks/", pf->use->ref, ".order.txt", &text);
+}
+
 static fw_status write_mask(writer *w, const fw_plan_flow *pf) {
-    static const struct {
-        const char *ending;
-        fw_status (*write)(const fw_mask *mask, fw_text *out);
-    } format[] = {{".svg", fw_mask_write_svg}, {".lyp", fw_mask_write_lyp}};
-    FW_TRY(put(w, "masks/", pf->use->ref, ".gds", &pf->gds));
-    for (size_t i = 0; i < sizeof format / sizeof format[0]; i++) {
-        fw_text text = fw_text_new(w->scratch);
-        FW_TRY(format[i].write(pf->mask, &text));
-        FW_TRY(put(w, "masks/", pf->use->ref, format[i].ending, &text));
+    unsigned set;
+    if (!fw_mask_formats(w->plan->options.mask_formats, &set)) return FW_USAGE;
+    const fw_mask_format *format;
+    for (size_t i = 0; (format = fw_mask_format_at(i)); i++) {
+        if (!(set & 1u << i)) continue;
+        bool composed = format->write == fw_mask_write_gds; /* for its hash */
+        fw_text text = composed ? pf->gds : fw_text_new(w->scratch);
+        if (!composed) FW_TRY(format->write(pf->mask, &text));
+        FW_TRY(put(w, "masks/", pf->use->ref, format->ending, &text));
     }
     fw_text text = fw_text_new(w->scratch);
     FW_TRY(fw_mask_write_certificate(pf->mask, pf->mask_sha256, &text));
-    return put(w, "masks/", pf->use->ref, ".json", &text);
+    FW_TRY(put(w, "masks/", pf->use->ref, ".json", &text));
+    return write_order(w, pf);
 }
 
 static fw_status write_recipe(writer *w, const fw_plan_flow *pf) {

@@ -1,9 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# kl_nowarn.sh FILE : load with KLayout strictly (no big records, no multi-XY, BOX = error); any Warning/ERROR line on stdout/stderr fails
+# kl_nowarn.sh FILE : load with KLayout strictly (no big records, no multi-XY, BOX = error; OASIS: strict mode); any Warning/ERROR line on stdout/stderr fails
 T=$(mktemp --suffix=.py); cat > "$T" <<'PY'
 import pya,sys
 o=pya.LoadLayoutOptions(); o.gds2_allow_big_records=False; o.gds2_allow_multi_xy_records=False; o.gds2_box_mode=3
+o.oasis_expect_strict_mode=1
 o.warn_level=2
 ly=pya.Layout(); ly.read(f,o)
 ghost=[c.name for c in ly.each_cell() if c.is_ghost_cell()]

@@ -63,6 +63,15 @@ for gds in "$1"/*.gds; do
     judge "$flow: picture${lyp:+ with its layer properties}" \
         klayout -b -r "$here/kl_png.py" -rd "f=$gds" "${lyp[@]}" -rd "png=$work/$flow.png" \
         -rd w=400 -rd h=400
+    if [ -f "$stem.oas" ]; then
+        judge "$flow: OASIS, strict reading without warnings" "$here/kl_nowarn.sh" "$stem.oas"
+        judge "$flow: OASIS equal to GDSII" \
+            klayout -b -r "$here/kl_xor.py" -rd "a=$gds" -rd "b=$stem.oas"
+    fi
+    if [ -f "$stem.dxf" ]; then
+        judge "$flow: DXF with its technology file, arcs against GDSII" \
+            klayout -b -r "$here/kl_dxf.py" -rd "gds=$gds" -rd "dxf=$stem.dxf" -rd "lyt=$stem.lyt"
+    fi
     if [ -n "$2" ]; then
         judge "$flow: equal to the reference" \
             klayout -b -r "$here/kl_xor.py" -rd "a=$gds" -rd "b=$2/$flow.gds"

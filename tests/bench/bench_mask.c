@@ -1,210 +1,124 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What masks cost: exact bias, flattening, the integer certificate, rules and the writers, on
-   hinges (two concentric arcs of 120 to 300 degrees about 80 um with round ends) that all differ.
-   Thread CPU time, median and least of rounds. Flattening and writing: until there are as many
-   vertices as asked for (default 1e6; `bench_mask 1e7`).
+/* Writing masks: 1000 arc hinges of 1000 vertices, all different (1e6 vertices on the 1 nm grid),
+   in every format. Units of the rows: CPU ms, bytes. `hinges` are outlines of 2 arcs and 2 lines
+   each, `chords` outlines of 1000 lines each: what a format makes of arcs, and its speed per
+   vertex. */
+#include "mask/mask.h"
+#include "measure.h"
 
-   cmake --build DIR --target bench_mask && DIR/tests/bench/bench_mask [vertices] */
-#include "geometry/segment.h"
-#include "mask/rules.h"
-#include <stdio.h>
-#include <stdlib.h>
-#include <time.h>
+enum { HINGES = 1000, VERTICES = 1000, ROW = 40 };
+static const double pitch_m = 400e-6, half_width_m = 5e-6;
 
-enum { ROUNDS = 7, HINGES = 1000, MOST = 100000 };
-static const double tolerance_m = 5e-9, bias_m = 1.5e-6;
-
-static double now_ms(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
+static fw_vec2 place(int k) {
+    return (fw_vec2){(k % ROW) * pitch_m, (k / ROW) * pitch_m};
 }
 
-static double uniform(uint64_t *seed) {
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*seed >> 11) / 9007199254740992.0;
+static fw_point rounded(fw_vec2 p) {
+    return (fw_point){(int32_t)floor(p.x * 1e9 + .5), (int32_t)floor(p.y * 1e9 + .5)};
 }
 
-static void must(bool fine, const char *what) {
-    if (fine) return;
-    fprintf(stderr, "%s failed\n", what);
-    exit(1);
+/* radius, start and sweep of hinge k: none like another */
+static void form(int k, double *radius_m, double *start_rad, double *sweep_rad) {
+    *radius_m = 60e-6 + 40e-9 * k;
+    *start_rad = .37 * k;
+    *sweep_rad = 3 + .002 * k;
 }
 
-/* the k-th of a square field, 300 um apart */
-static void hinge(fw_arena *arena, int k, uint64_t *seed, fw_contour *out) {
-    double r = 1e-6 * (70 + 20 * uniform(seed)), w = 1e-6 * (6 + 4 * uniform(seed));
-    double from = 6 * uniform(seed), sweep = 2.1 + 3.1 * uniform(seed);
-    fw_vec2 c = {3e-4 * (k % 316), 3e-4 * (k / 316)}; /* whole rows */
-    fw_vec2 at = {c.x + (r + w / 2) * cos(from), c.y + (r + w / 2) * sin(from)};
-    fw_vec2 a = {c.x + r * cos(from), c.y + r * sin(from)};
-    fw_vec2 b = {c.x + r * cos(from + sweep), c.y + r * sin(from + sweep)};
-    fw_outline o = fw_outline_start(arena, at);
-    fw_outline_arc(&o, c, sweep, 0);
-    fw_outline_arc(&o, b, FW_PI, 0);
-    fw_outline_arc(&o, c, -sweep, 0);
-    fw_outline_arc_to(&o, a, FW_PI, at, 0);
-    must(fw_outline_close(&o, out) == FW_OK, "a hinge");
+static fw_polygon flat(fw_arena *arena, int k) {
+    fw_polygon p = {fw_arena_array(arena, fw_point, VERTICES), VERTICES};
+    double radius, start, sweep;
+    fw_vec2 o = place(k);
+    form(k, &radius, &start, &sweep);
+    for (int i = 0; p.vertex && i < VERTICES; i++) {
+        int outer = i < VERTICES / 2, j = outer ? i : VERTICES - 1 - i;
+        double r = radius + (outer ? half_width_m : -half_width_m);
+        double angle = start + sweep * j / (VERTICES / 2 - 1);
+        p.vertex[i] = rounded((fw_vec2){o.x + r * cos(angle), o.y + r * sin(angle)});
+    }
+    return p;
 }
 
-typedef struct times {
-    double ms[ROUNDS];
-    int n;
-} times;
-
-static int by_size(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
+static fw_contour chords(fw_arena *arena, const fw_polygon *p) {
+    fw_contour c = {fw_arena_array(arena, fw_segment, (size_t)p->count), p->count};
+    for (int i = 0; c.segment && i < p->count; i++) {
+        fw_point a = p->vertex[i], b = p->vertex[(i + 1) % p->count];
+        c.segment[i] = (fw_segment){.kind = FW_LINE,
+                                    .a = {a.x_dbu * 1e-9, a.y_dbu * 1e-9},
+                                    .b = {b.x_dbu * 1e-9, b.y_dbu * 1e-9}};
+    }
+    return c;
 }
 
-static void print(const char *what, times *t, const char *of) {
-    qsort(t->ms, (size_t)t->n, sizeof *t->ms, by_size);
-    printf("%-34s %10.3f ms, least %10.3f   %s\n", what, t->ms[t->n / 2], t->ms[0], of);
-}
-
-typedef struct field {
+typedef struct job {
+    fw_mask mask;
     fw_arena *arena;
-    fw_contour *drawn;
-    fw_mask_shape *shape;
-    fw_piece *piece;
-    int n;
-} field;
+    const fw_mask_format *format;
+    size_t bytes;
+} job;
 
-static field new_field(int n) {
-    field f = {.arena = fw_arena_new(0), .n = n};
-    uint64_t seed = 1;
-    must(f.arena, "memory");
-    f.drawn = fw_arena_array(f.arena, fw_contour, (size_t)n);
-    f.shape = fw_arena_array(f.arena, fw_mask_shape, (size_t)n);
-    f.piece = fw_arena_array(f.arena, fw_piece, (size_t)n);
-    must(f.drawn && f.shape && f.piece, "memory");
-    for (int k = 0; k < n; k++) {
-        hinge(f.arena, k, &seed, &f.drawn[k]);
-        f.piece[k] = (fw_piece){.contour = f.drawn[k], .label = "hinge"};
-        f.shape[k] = (fw_mask_shape){.piece = &f.piece[k], .contour = f.drawn[k]};
+static outcome write_once(void *context) {
+    job *j = context;
+    fw_mark before = fw_arena_mark(j->arena);
+    double start = cpu_seconds();
+    fw_text out = fw_text_new(j->arena);
+    fw_status status = j->format->write(&j->mask, &out);
+    outcome o = {.error = 0, .cpu_s = cpu_seconds() - start};
+    if (status != FW_OK) o.failed = fw_status_text(status);
+    j->bytes = out.length;
+    fw_arena_rewind(j->arena, before);
+    return o;
+}
+
+static int build(fw_arena *arena, fw_mask_shape *shape, bool arcs) {
+    static const fw_piece piece = {.label = "hinge"};
+    for (int k = 0; k < HINGES; k++) {
+        double radius, start, sweep;
+        form(k, &radius, &start, &sweep);
+        shape[k] = (fw_mask_shape){.piece = &piece, .polygon = flat(arena, k), .npart = 1};
+        shape[k].part = &shape[k].polygon;
+        if (!shape[k].polygon.vertex) return 0;
+        if (!arcs)
+            shape[k].contour = chords(arena, &shape[k].polygon);
+        else if (fw_contour_ring_sector(arena, place(k), radius - half_width_m,
+                                        radius + half_width_m, start, sweep, &shape[k].contour))
+            return 0;
+        if (!shape[k].contour.segment) return 0;
     }
-    return f;
+    return 1;
 }
 
-static void bias(field *f) {
-    int i, j;
-    for (int k = 0; k < f->n; k++)
-        must(fw_contour_offset(f->arena, &f->drawn[k], bias_m, &f->shape[k].contour, &i, &j) ==
-                 FW_OK,
-             "bias");
-}
-
-static void bench_bias(field *f) {
-    times t = {0};
-    for (int r = 0; r < ROUNDS; r++) {
-        fw_mark mark = fw_arena_mark(f->arena);
-        double from = now_ms();
-        bias(f);
-        t.ms[t.n++] = now_ms() - from;
-        if (r + 1 < ROUNDS) fw_arena_rewind(f->arena, mark);
+static int run(bool arcs) {
+    static fw_mask_layer layer = {.layer = 1,
+                                  .id = "device",
+                                  .name = "DEVICE",
+                                  .purpose = "hinges",
+                                  .tone = "data dark",
+                                  .colour = "#3d6aa8",
+                                  .roles = 1};
+    static const fw_mask_table table = {
+        .flow = "bench", .reading = "chrome down", .layer = &layer, .nlayer = 1};
+    fw_arena *arena = fw_arena_new((size_t)2 << 30);
+    fw_mask_shape *shape = arena ? fw_arena_array(arena, fw_mask_shape, HINGES) : NULL;
+    if (!shape || !build(arena, shape, arcs)) return 1;
+    job j = {.arena = arena,
+             .mask = {.table = &table,
+                      .cell = "bench",
+                      .flow = "bench",
+                      .device = "bench",
+                      .title = "bench",
+                      .shape = shape,
+                      .nshape = HINGES,
+                      .box = {-1e-4, -1e-4, ROW * pitch_m, ROW * pitch_m}}};
+    for (size_t i = 0; (j.format = fw_mask_format_at(i)); i++) {
+        outcome o = measure(write_once, &j);
+        printf("%s,%s,%.4g,%zu%s%s\n", j.format->name, arcs ? "hinges" : "chords", 1e3 * o.cpu_s,
+               j.bytes, o.failed ? "," : "", o.failed ? o.failed : "");
     }
-    print("bias of 1000 hinges", &t, "");
-}
-
-static void bench_rules(field *f, const fw_mask_table *table) {
-    times t = {0};
-    char found[80];
-    fw_mask_measure measure;
-    for (int r = 0; r < ROUNDS; r++) {
-        fw_diags diags = fw_diags_new(f->arena);
-        fw_mark mark = fw_arena_mark(f->arena);
-        double from = now_ms();
-        must(fw_mask_join(f->arena, f->shape, f->n, &diags) == FW_OK, "joints");
-        must(fw_mask_check_rules(f->arena, table, f->shape, f->n, tolerance_m, &measure, &diags) ==
-                 FW_OK,
-             "rules");
-        t.ms[t.n++] = now_ms() - from;
-        snprintf(found, sizeof found, "least width %.4f um", 1e6 * measure.width_m);
-        fw_arena_rewind(f->arena, mark);
-    }
-    print("rules of 1000 hinges", &t, found);
-}
-
-static void flatten(field *f, int n) {
-    for (int k = 0; k < n; k++)
-        must(fw_tessellate(f->arena, &f->shape[k].contour, tolerance_m, &f->shape[k].polygon) ==
-                 FW_OK,
-             "flattening");
-}
-
-static void bench_certificate(field *f) {
-    times t = {0};
-    flatten(f, f->n);
-    for (int r = 0; r < ROUNDS; r++) {
-        fw_mark mark = fw_arena_mark(f->arena);
-        double from = now_ms();
-        for (int k = 0; k < f->n; k++) {
-            fw_mask_shape *s = &f->shape[k];
-            must(fw_polygon_check(f->arena, &s->polygon, &s->report) == FW_OK && s->report.simple,
-                 "certificate");
-        }
-        t.ms[t.n++] = now_ms() - from;
-        fw_arena_rewind(f->arena, mark);
-    }
-    print("certificate of 1000 polygons", &t, "");
-}
-
-/* biased, flattened and written, all in one */
-static void bench_whole(double vertices, const fw_mask_table *table) {
-    times all = {0}, gds = {0}, svg = {0};
-    char size[80];
-    int n = (int)fmin(fmax(vertices / 390, 1), MOST);
-    for (int r = 0; r < (vertices > 3e6 ? 3 : ROUNDS); r++) {
-        field f = new_field(n);
-        fw_text out = fw_text_new(f.arena), picture = fw_text_new(f.arena);
-        double from = now_ms();
-        bias(&f);
-        flatten(&f, n);
-        double between = now_ms();
-        const fw_mask mask = {.table = table,
-                              .cell = "FIELD",
-                              .box = {0, 0, 95e-3, 95e-3},
-                              .flow = "bench",
-                              .device = "field",
-                              .title = "field",
-                              .shape = f.shape,
-                              .nshape = n};
-        must(fw_mask_write_gds(&mask, &out) == FW_OK, "GDSII");
-        double end = now_ms();
-        must(fw_mask_write_svg(&mask, &picture) == FW_OK, "SVG");
-        svg.ms[svg.n++] = now_ms() - end;
-        all.ms[all.n++] = end - from;
-        gds.ms[gds.n++] = end - between;
-        long count = 0;
-        for (int k = 0; k < n; k++)
-            count += f.shape[k].polygon.count;
-        snprintf(size, sizeof size, "%ld vertices, %.1f MB, SVG %.1f MB", count,
-                 1e-6 * (double)out.length, 1e-6 * (double)picture.length);
-        fw_arena_free(f.arena);
-    }
-    print("bias, flattening and GDSII", &all, size);
-    print("  of which GDSII", &gds, "");
-    print("SVG of the same, true arcs", &svg, "");
-}
-
-int main(int argc, char **argv) {
-    fw_mask_layer layer = {.layer = 1,
-                           .id = "device",
-                           .name = "device",
-                           .purpose = "",
-                           .tone = "data dark",
-                           .colour = "#000000",
-                           .biased = true,
-                           .roles = 1,
-                           .min_width_m = 4e-6,
-                           .min_space_m = 4e-6,
-                           .rule_source = ""};
-    const fw_mask_table table = {.flow = "bench", .reading = "", .layer = &layer, .nlayer = 1};
-    field f = new_field(HINGES);
-    bench_bias(&f);
-    bench_rules(&f, &table);
-    bench_certificate(&f);
-    fw_arena_free(f.arena);
-    bench_whole(argc > 1 ? strtod(argv[1], NULL) : 1e6, &table);
+    fw_arena_free(arena);
     return 0;
+}
+
+int main(void) {
+    printf("format,outlines,cpu_ms,bytes\n");
+    return run(true) || run(false);
 }

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The program as a user meets it: commands, exit statuses, files, JSON, advice that works."""
 import csv
+import hashlib
 import io
 import json
 import math
@@ -40,7 +41,8 @@ class Plan(InTemporary):
         for name in ("verdict.json", "report.html", "manifest.json"):
             self.assertTrue((out / name).stat().st_size > 100, name)
         for flow in FLOWS:
-            for name in ("masks/{}.gds", "masks/{}.svg", "masks/{}.lyp", "recipes/{}.html",
+            for name in ("masks/{}.gds", "masks/{}.svg", "masks/{}.lyp", "masks/{}.lyt", "masks/{}.order.json",
+                         "masks/{}.order.txt", "recipes/{}.html",
                          "recipes/{}.csv", "recipes/{}.ics"):
                 self.assertTrue((out / name.format(flow)).stat().st_size > 100, name.format(flow))
         for scene in ("step-load", "gentle-step"):
@@ -57,7 +59,6 @@ class Plan(InTemporary):
         self.assertIsNone(verdict["flows"][0]["manufacturable"])
         self.assertTrue(any("anisotropy" in r for r in verdict["flows"][0]["reasons"]))
         manifest = json.loads((out / "manifest.json").read_text())
-        import hashlib
         listed = {o["name"]: o["sha256"] for o in manifest["outputs"]}
         found = {p.relative_to(out).as_posix() for p in out.rglob("*") if p.is_file()}
         self.assertEqual(found, set(listed) | {"manifest.json"})
@@ -467,6 +468,27 @@ class Recipe(InTemporary):
         out = self.here / "out"
         self.expect(run("mask", GALLERY, "-o", out), 0)
         self.assertEqual(sorted(p.name for p in out.iterdir()), ["manifest.json", "masks"])
+        self.assertEqual({"".join(p.suffixes) for p in (out / "masks").iterdir()},
+                         {".gds", ".svg", ".json", ".lyp", ".lyt", ".order.json", ".order.txt"})
+
+    def test_formats_of_masks_and_what_the_order_sheet_says_of_them(self):
+        flow, always = FLOWS[0], {".gds", ".json", ".lyp", ".lyt"}
+        for formats, more in (("all", {".svg", ".oas", ".dxf"}), ("oasis", {".oas"}), ("dxf,svg", {".dxf", ".svg"})):
+            out = self.here / formats
+            self.expect(run("mask", GALLERY, "--flow", flow, "--mask-format", formats, "--mask-vertices", "199", "-o", out), 0)
+            order = json.loads((out / f"masks/{flow}.order.json").read_text())
+            self.assertEqual({f["name"] for f in order["files"]}, {flow + ending for ending in always | more})
+            self.assertEqual(len(list((out / "masks").iterdir())), len(order["files"]) + 2)
+            for f in order["files"]:
+                data = (out / "masks" / f["name"]).read_bytes()
+                self.assertEqual((len(data), hashlib.sha256(data).hexdigest()), (f["bytes"], f["sha256"]))
+            self.assertEqual((order["polygon_tone"], order["field"]), ("data dark", "clear"))
+            self.assertTrue(order["mirror_seen_chrome_up"])
+            self.assertEqual(order["vertex_limit"], 199)
+            self.assertGreater(order["polygons"], 100)
+            self.assertEqual(len([s for s in order["cd_sites"] if s["what"].startswith("flexure")]), 6)
+        for wrong in (("--mask-format", "gds,"), ("--mask-format", "tiff"), ("--mask-vertices", "200")):
+            self.expect(run("mask", GALLERY, *wrong), 2)
 
 
 class Usage(InTemporary):

@@ -20,7 +20,7 @@ class Reproducible(unittest.TestCase):
         directory.mkdir()
         device = directory / "device.xml"
         device.write_text(GALLERY.read_text())
-        result = run("plan", "device.xml", "-o", out, cwd=directory, env={**PLAIN, **environment})
+        result = run("plan", "device.xml", "--mask-format", "all", "-o", out, cwd=directory, env={**PLAIN, **environment})
         self.assertEqual(result.returncode, 0, result.stderr)
         return {p.relative_to(out).as_posix(): p.read_bytes() for p in sorted(out.rglob("*")) if p.is_file()}
 

@@ -85,6 +85,7 @@ with tempfile.TemporaryDirectory() as here:
     subprocess.run([program, "plan", COMB, "-q", "-o", f"{here}/o", "--set", "volts=49 V"], cwd=ROOT, capture_output=True,
                    timeout=120)
     walk(json.loads((pathlib.Path(here) / "o/manifest.json").read_text()), "manifest")
+    walk(json.loads((pathlib.Path(here) / "o/masks/al-masked-rie.order.json").read_text()), "order")
 
 print("\n".join(dict.fromkeys(problems)) or f"{documents} documents, {sum(map(len, seen.values()))} keys explained")
 sys.exit(1 if problems else 0)

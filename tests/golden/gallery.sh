@@ -30,7 +30,7 @@ for device in docs/gallery/*/device.xml; do
         "$program" simulate "$device" --scene "$scene" 2>/dev/null | sed -n '/^  effect  /,$p'
     done >"$work/$name.ledger"
     keep "$work/$name.ledger" "docs/gallery/$name/ledger.txt"
-    for file in "$work/$name"/masks/*.gds "$work/$name"/masks/*.svg "$work/$name"/masks/*.lyp; do
+    for file in "$work/$name"/masks/*.gds "$work/$name"/masks/*.svg "$work/$name"/masks/*.lyp "$work/$name"/masks/*.lyt; do
         [ -f "$file" ] && keep "$file" "masks/gallery/$name/$(basename "$file")"
     done
     for file in "$work/$name"/recipes/*.html "$work/$name"/recipes/*.csv; do

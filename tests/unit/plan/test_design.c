@@ -368,7 +368,7 @@ static void null_is_wrong_usage(void **state) {
 
 static void options_out_of_range(void **state) {
     (void)state;
-    for (int i = 0; i < 10; i++) {
+    for (int i = 0; i < 12; i++) {
         fw_design_options o = options();
         switch (i) {
         case 0:
@@ -397,6 +397,12 @@ static void options_out_of_range(void **state) {
             break;
         case 8:
             o.method = "magic";
+            break;
+        case 9:
+            o.mask_formats = "gds,tiff";
+            break;
+        case 10:
+            o.mask_vertices = 200;
             break;
         default:
             o.integrator = "";

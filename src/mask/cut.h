@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Polygons of more vertices than a reader takes. Private to the room. */
+#ifndef FW_MASK_CUT_H
+#define FW_MASK_CUT_H
+#include "geometry/tessellate.h"
+
+/* Cuts along straight lines between existing vertices until no part has more than `most` >= 8 of
+   them. The parts share their cut edges, point by point; nothing is moved or added. One part where
+   nothing is to be cut. FW_GEOMETRY: no cut was found. */
+fw_status fw_polygon_cut(fw_arena *arena, const fw_polygon *polygon, int most, fw_polygon **part,
+                         int *npart);
+
+#endif

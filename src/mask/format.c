@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The formats in which a mask is written: one row each. */
+#include "mask/mask.h"
+#include <string.h>
+
+static const fw_mask_format table[] = {
+    {"gds", ".gds", fw_mask_write_gds, .always = true, .usual = true},
+    {"lyp", ".lyp", fw_mask_write_lyp, .always = true, .usual = true},
+    {"lyt", ".lyt", fw_mask_write_lyt, .always = true, .usual = true},
+    {"svg", ".svg", fw_mask_write_svg, .usual = true},
+    {"oasis", ".oas", fw_mask_write_oasis, .usual = false},
+    {"dxf", ".dxf", fw_mask_write_dxf, .usual = false},
+};
+enum { NFORMAT = sizeof table / sizeof table[0] };
+
+const fw_mask_format *fw_mask_format_at(size_t i) {
+    return i < NFORMAT ? &table[i] : NULL;
+}
+
+static bool wanted(unsigned *set, const char *word, size_t n) {
+    bool all = n == 3 && memcmp(word, "all", 3) == 0, found = false;
+    for (unsigned i = 0; i < NFORMAT; i++)
+        if (all || (strlen(table[i].name) == n && memcmp(table[i].name, word, n) == 0)) {
+            *set |= 1u << i;
+            found = true;
+        }
+    return found;
+}
+
+bool fw_mask_formats(const char *list, unsigned *set) {
+    *set = 0;
+    for (unsigned i = 0; i < NFORMAT; i++)
+        if (table[i].always || (!list && table[i].usual)) *set |= 1u << i;
+    for (const char *s = list; s; s = strchr(s, ',') ? strchr(s, ',') + 1 : NULL)
+        if (!wanted(set, s, strcspn(s, ","))) return false;
+    return true;
+}

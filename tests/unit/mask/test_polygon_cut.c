@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "mask/cut.h"
+#include "scene.h"
+#include <stdlib.h>
+
+typedef struct edge {
+    fw_point a, b;
+} edge;
+
+static int by_ends(const void *left, const void *right) {
+    return memcmp(left, right, sizeof(edge));
+}
+
+/* Parts within the limit, simple, counter-clockwise; areas add up exactly; every edge of the
+   polygon is an edge of one part, and every other edge of a part is there once in either direction:
+   so the parts cover the polygon without gap or overlap. */
+static void assert_partition(fw_arena *arena, const fw_polygon *p, int most, const fw_polygon *part,
+                             int npart) {
+    int64_t area = 0;
+    int total = 0, n = 0;
+    for (int k = 0; k < npart; k++)
+        total += part[k].count;
+    edge *list = fw_arena_array(arena, edge, (size_t)(total + p->count));
+    for (int k = 0; k < npart; k++) {
+        fw_polygon_report report;
+        assert_true(part[k].count >= 3 && part[k].count <= most);
+        assert_int_equal(fw_polygon_check(arena, &part[k], &report), FW_OK);
+        assert_true(report.simple);
+        assert_true(fw_polygon_area2(&part[k]) > 0);
+        area += fw_polygon_area2(&part[k]);
+        for (int i = 0; i < part[k].count; i++)
+            list[n++] = (edge){part[k].vertex[i], part[k].vertex[(i + 1) % part[k].count]};
+    }
+    assert_true(area == fw_polygon_area2(p));
+    for (int i = 0; i < p->count; i++) /* the outline backwards: then all edges go both ways */
+        list[n++] = (edge){p->vertex[(i + 1) % p->count], p->vertex[i]};
+    qsort(list, (size_t)n, sizeof *list, by_ends);
+    for (int i = 0; i < n; i++) {
+        edge back = {list[i].b, list[i].a};
+        assert_non_null(bsearch(&back, list, (size_t)n, sizeof *list, by_ends));
+        assert_true(i == 0 || by_ends(&list[i], &list[i - 1]) != 0);
+    }
+    assert_int_equal(total, p->count + 2 * (npart - 1));
+}
+
+static void cut_and_check(fw_arena *arena, const fw_polygon *p, int most, int npart_most) {
+    fw_polygon *part;
+    int npart;
+    assert_int_equal(fw_polygon_cut(arena, p, most, &part, &npart), FW_OK);
+    assert_partition(arena, p, most, part, npart);
+    if (npart > npart_most) fail_msg("%d parts of %d vertices", npart, p->count);
+}
+
+static fw_polygon flat(fw_arena *arena, const fw_contour *c, double tolerance_m) {
+    fw_polygon p;
+    assert_int_equal(fw_tessellate(arena, c, tolerance_m, &p), FW_OK);
+    return p;
+}
+
+static void small_ones_stay(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_point v[4] = {{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+    fw_polygon p = {v, 4}, *part;
+    int npart;
+    assert_int_equal(fw_polygon_cut(arena, &p, 8, &part, &npart), FW_OK);
+    assert_int_equal(npart, 1);
+    assert_ptr_equal(part->vertex, v);
+    fw_arena_free(arena);
+}
+
+static void discs_and_rings(void **state) {
+    (void)state;
+    static const int limit[3] = {199, 4094, 8190};
+    fw_arena *arena = fw_arena_new(0);
+    fw_contour c;
+    for (int k = 0; k < 3; k++) {
+        assert_int_equal(fw_contour_disc(arena, (fw_vec2){1e-3, 0}, 20e-3, &c), FW_OK);
+        fw_polygon p = flat(arena, &c, 2e-9);
+        assert_true(p.count > 6900);
+        cut_and_check(arena, &p, limit[k], 4 * p.count / limit[k] + 1);
+        assert_int_equal(fw_contour_ring_sector(arena, (fw_vec2){0, 0}, 195e-6, 205e-6, 1, 6, &c),
+                         FW_OK);
+        p = flat(arena, &c, 1.5e-9);
+        cut_and_check(arena, &p, limit[k], 4 * p.count / limit[k] + 1);
+    }
+    fw_arena_free(arena);
+}
+
+/* a cut goes through the neck of a narrow ring, across it and not along it */
+static void necks_are_preferred(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_contour c;
+    assert_int_equal(fw_contour_ring_sector(arena, (fw_vec2){0, 0}, 195e-6, 205e-6, 0, 6, &c),
+                     FW_OK);
+    fw_polygon p = flat(arena, &c, 1.5e-9), *part;
+    int npart;
+    assert_int_equal(fw_polygon_cut(arena, &p, p.count - 1, &part, &npart), FW_OK);
+    assert_int_equal(npart, 2);
+    fw_point a = part[0].vertex[0], b = part[0].vertex[part[0].count - 1];
+    assert_near(hypot(a.x_dbu - b.x_dbu, a.y_dbu - b.y_dbu), 10000, 60);
+    fw_arena_free(arena);
+}
+
+/* star-shaped and spiral outlines with random radii: hollow corners everywhere, few clean cuts */
+static void random_outlines(void **state) {
+    (void)state;
+    uint64_t seed = 5;
+    for (int run = 0; run < 60; run++) {
+        fw_arena *arena = fw_arena_new(0);
+        int n = 20 + (int)(700 * random01(&seed)), size = run % 3 ? 100000 : 3000;
+        fw_point *v = fw_arena_array(arena, fw_point, (size_t)n);
+        for (int i = 0; i < n; i++) {
+            double r = size * (0.1 + random01(&seed)), angle = 2 * PI * i / n;
+            v[i] = (fw_point){(int32_t)lround(r * cos(angle)), (int32_t)lround(r * sin(angle))};
+        }
+        fw_polygon p = {v, n};
+        fw_polygon_report report;
+        assert_int_equal(fw_polygon_check(arena, &p, &report), FW_OK);
+        if (report.simple) cut_and_check(arena, &p, 8 + (int)(60 * random01(&seed)), n);
+        fw_arena_free(arena);
+    }
+}
+
+/* a staircase and a comb on the grid: cuts must not run over vertices or along edges */
+static void combs(void **state) {
+    (void)state;
+    enum { TEETH = 120 };
+    fw_arena *arena = fw_arena_new(0);
+    fw_point v[4 * TEETH];
+    int n = 0;
+    for (int i = 0; i < TEETH; i++) { /* teeth down, from left to right */
+        v[n++] = (fw_point){20 * i, 0};
+        v[n++] = (fw_point){20 * i + 10, 0};
+        v[n++] = (fw_point){20 * i + 10, 500};
+        v[n++] = (fw_point){20 * i + 20, 500};
+    }
+    v[n - 2] = (fw_point){20 * TEETH - 10, 600};
+    v[n - 1] = (fw_point){0, 600};
+    fw_polygon p = {v, n};
+    for (int most = 8; most < 200; most += 37)
+        cut_and_check(arena, &p, most, n);
+    fw_arena_free(arena);
+}
+
+/* through the whole room: the file has the same area, in parts within the limit */
+static void limits_of_a_mask(void **state) {
+    (void)state;
+    double area[2];
+    for (int k = 0; k < 2; k++) {
+        scene *s = scene_new(4 * UM, 4 * UM);
+        scene_arch(s, 500, 8, 20);
+        s->options.tolerance_m = 2e-9;
+        s->options.vertex_limit = k ? 199 : 8190;
+        const fw_mask *mask = NULL;
+        assert_int_equal(scene_build(s, &mask), FW_OK);
+        area[k] = 0;
+        for (int i = 0; i < mask->nshape; i++) {
+            const fw_mask_shape *shape = &mask->shape[i];
+            assert_int_equal(shape->npart > 1, k == 1 && shape->polygon.count > 199);
+            for (int j = 0; j < shape->npart; j++) {
+                assert_true(shape->part[j].count <= mask->vertex_limit);
+                area[k] += (double)fw_polygon_area2(&shape->part[j]);
+            }
+        }
+        scene_free(s);
+    }
+    assert_true(area[0] == area[1]);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(small_ones_stay),
+        cmocka_unit_test(discs_and_rings),
+        cmocka_unit_test(necks_are_preferred),
+        cmocka_unit_test(random_outlines),
+        cmocka_unit_test(combs),
+        cmocka_unit_test(limits_of_a_mask),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
