@@ -138,6 +138,19 @@ static void place_all(fw_drawing *d, int body) {
     }
 }
 
+/* every cut of `before` is one of `after`, bit for bit */
+static bool keeps_joints(const fw_contour *before, const fw_contour *after) {
+    for (int i = 0; i < before->count; i++) {
+        const fw_segment *s = &before->segment[i];
+        bool there = !(s->flags & FW_SEGMENT_JOINT);
+        for (int k = 0; k < after->count && !there; k++)
+            there = after->segment[k].flags & FW_SEGMENT_JOINT &&
+                    vec_same(after->segment[k].a, s->a) && vec_same(after->segment[k].b, s->b);
+        if (!there) return false;
+    }
+    return true;
+}
+
 /* a process moves the edges by about 1 um to either side */
 static fw_status takes_bias(fw_arena *arena, const fw_contour *c, bool *good) {
     static const double bias_m[] = {1.5e-6, -1.5e-6};
@@ -193,10 +206,11 @@ static fw_status add_rotor(fw_drawing *d, fw_comb_plan *p, fw_contour *raw, cons
                                    &what));
         if (what) break;
         fw_region way = {&stem, 1};
-        status = fw_region_boolean(d->arena, &both, &way, FW_UNION, &both);
+        fw_region parts = both;
+        status = fw_region_boolean(d->arena, &parts, &way, FW_UNION, &both);
         break;
     }
-    if (status == FW_OK && both.count == 1)
+    if (status == FW_OK && both.count == 1 && keeps_joints(raw, &both.contour[0]))
         *raw = both.contour[0];
     else if (status == FW_OK || status == FW_GEOMETRY)
         *why = "its rotor and its body do not make one outline, not even with a stem of up to 1 mm "
@@ -232,6 +246,8 @@ fw_status fw_eyelet_fit(fw_drawing *d, int slot, int body, fw_eyelet_plan *e, do
         ring.ring_m += wider_m[e->wider];
         FW_TRY(fw_eyelet_ring(d, &ring, body, raw, &ringed, why));
         if (!*why) FW_TRY(fw_eyelet_hole(d, e, &ringed, &open, &e->cap, why));
+        if (!*why && !keeps_joints(raw, &open))
+            *why = "its ring would cover the cut between two pieces";
         if (!*why && slot >= 0) FW_TRY(rounds(d, slot, body, &open, least, &good));
         if (!*why && slot < 0) {
             FW_TRY(fw_frame_soundness(d, &open, &sound));

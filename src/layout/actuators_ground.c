@@ -38,9 +38,16 @@ static int base_of(const fw_drawing *d, fw_vec2 at) {
     return best;
 }
 
-void fw_actuators_off_ground(fw_drawing *d) {
-    for (int i = 0; i < d->neyelet; i++)
-        if (d->eyelet[i].eyelet->body == FW_GROUND) d->eyelet[i].cap.count = 0;
+static const char across[] = "it lies across the cut between base and frame";
+
+/* does a ring on the frame reach a base? */
+static bool near_base(const fw_drawing *d, const fw_eyelet_plan *e) {
+    double reach = 0.5 * e->hole_m + e->ring_m + FW_LEAST_SPACE_M, t;
+    fw_vec2 on;
+    for (int s = d->device->nbody; s < d->nslot; s++)
+        for (int i = 0; i < d->plain[s].count; i++)
+            if (fw_segment_nearest(&d->plain[s].segment[i], e->at, &t, &on) < reach) return true;
+    return false;
 }
 
 fw_status fw_actuators_on_base(fw_drawing *d) {
@@ -53,6 +60,10 @@ fw_status fw_actuators_on_base(fw_drawing *d) {
         if (e->cap.count > 0) FW_TRY(avoid(d, &e->cap));
         int slot = e->eyelet->body == FW_GROUND ? base_of(d, e->at) : -1;
         e->on_frame = e->eyelet->body == FW_GROUND && slot < 0;
+        if (slot >= 0 && to_frame(d, e->at) < 0.5 * e->hole_m + e->ring_m + FW_LEAST_SPACE_M) {
+            fw_eyelet_off(d, e, across);
+            continue;
+        }
         if (slot >= 0) FW_TRY(fw_eyelet_add(d, slot, FW_GROUND, e, &d->raw[slot]));
     }
     for (int i = 0; i < d->ncomb; i++)
@@ -78,6 +89,10 @@ fw_status fw_actuators_on_frame(fw_drawing *d, fw_contour *raw) {
             continue;
         }
         if (e->at.y < half.y0 || e->at.y > half.y1) continue;
+        if (near_base(d, e)) {
+            fw_eyelet_off(d, e, across);
+            continue;
+        }
         fw_contour open = *raw;
         const char *why;
         double before;

@@ -257,7 +257,6 @@ bool fw_near_stator(const fw_drawing *d, const fw_contour *c, double space_m);
 /* all stators are given up, because of `why`; the bodies are to be drawn again */
 void fw_stators_drop(fw_drawing *d, const char *why);
 /* rings on the base; for the tethers to avoid: all rings and stators */
-void fw_actuators_off_ground(fw_drawing *d); /* before the base is drawn once more */
 fw_status fw_actuators_on_base(fw_drawing *d);
 fw_status fw_actuators_on_frame(fw_drawing *d, fw_contour *raw);
 fw_status fw_actuators_add(fw_drawing *d); /* pieces */
