@@ -13,10 +13,13 @@ static fw_status read_eyelets(fw_reader *r, int at, fw_tendon *t) {
     FW_NEED(t->eyelet = fw_arena_array(r->arena, fw_eyelet, (size_t)most));
     for (int i = at + 1; i < r->nrecord && r->record[i].parent >= at; i++)
         if (fw_is(&r->record[i], "eyelet"))
-            t->eyelet[t->neyelet++] = (fw_eyelet){.body = fw_reference(r, &r->record[i], "on"),
-                                                  .x_m = fw_number_or(&r->record[i], "x", 0.0),
-                                                  .y_m = fw_number_or(&r->record[i], "y", 0.0),
-                                                  .place = r->record[i].element->place};
+            t->eyelet[t->neyelet++] =
+                (fw_eyelet){.body = fw_reference(r, &r->record[i], "on"),
+                            .x_m = fw_number_or(&r->record[i], "x", 0.0),
+                            .y_m = fw_number_or(&r->record[i], "y", 0.0),
+                            .hole_m = fw_number_or(&r->record[i], "hole", FW_EYELET_HOLE_M),
+                            .ring_m = fw_number_or(&r->record[i], "ring", FW_EYELET_RING_M),
+                            .place = r->record[i].element->place};
     return FW_OK;
 }
 
@@ -133,7 +136,8 @@ fw_status fw_build_tendon(fw_scene_reader *s, int at) {
 /* ---- combs ---- */
 
 static void check_comb(fw_reader *r, const fw_record *record, const fw_comb *c) {
-    static const char *const of_comb[] = {"fingers", "overlap"}, *const of_plate[] = {"length"};
+    static const char *const of_comb[] = {"fingers", "overlap", "width"}, *const of_plate[] = {
+                                                                              "length"};
     const char *kind = fw_text_of(record, "kind");
     char label[FW_LABEL], a[FW_LABEL], b[FW_LABEL];
     fw_label(record, label);
@@ -151,7 +155,7 @@ static void check_comb(fw_reader *r, const fw_record *record, const fw_comb *c) 
                       label, fw_text_of(record, "on"));
     if (!kind) return;
     if (c->kind == FW_ELECTRODES_PLATE) {
-        fw_refused(r, record, 76, of_comb, 2,
+        fw_refused(r, record, 76, of_comb, 3,
                    "belongs to kind=\"comb\"; two plates have a length and a gap: remove it");
         fw_needed(r, record, 76, of_plate, 1, "how long the two faces are");
         return;
@@ -182,6 +186,7 @@ fw_status fw_build_comb(fw_scene_reader *s, int at) {
                  .overlap_m = fw_number_of(record, "overlap"),
                  .length_m = fw_number_of(record, "length"),
                  .depth_m = fw_number_of(record, "depth"),
+                 .width_m = fw_number_or(record, "width", FW_FINGER_WIDTH_M),
                  .voltage_V = fw_number_of(record, "voltage"),
                  .place = record->element->place};
     check_comb(s->r, record, &c);

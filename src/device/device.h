@@ -148,6 +148,7 @@ typedef struct fw_initial { /* <initial body vx vy omega/> */
 typedef struct fw_eyelet { /* point of a tendon: local to the body; of the ground: world */
     int body;
     double x_m, y_m;
+    double hole_m, ring_m; /* as drawn: diameter of the hole, width of the ring; 0: the defaults */
     fw_place place;
 } fw_eyelet;
 
@@ -183,10 +184,16 @@ typedef struct fw_comb {
     double gap_m, overlap_m,
         length_m;   /* length: of the fingers (NaN: twice the overlap), or plate */
     double depth_m; /* NaN: the device layer's thickness */
+    double width_m; /* of the fingers as drawn; 0: the default */
     double voltage_V;
     const fw_law *law;
     fw_place place;
 } fw_comb;
+
+/* what is drawn where the file says nothing */
+#define FW_EYELET_HOLE_M  80e-6
+#define FW_EYELET_RING_M  30e-6
+#define FW_FINGER_WIDTH_M 8e-6
 
 typedef struct fw_base_motion { /* <base-motion ax ay>: acceleration of the base times the law */
     double ax_m_per_s2, ay_m_per_s2;

@@ -40,6 +40,15 @@ static const fw_attribute_row eyelet_rows[] = {
      .sentence = "Body that carries it, or ground."},
     {"x", PLACE, .fallback = "0 mm", .sentence = BODY_POINT_X},
     {"y", PLACE, .fallback = "0 mm", .sentence = BODY_POINT_X},
+    {"hole", D_LENGTH, .unit = "um",
+     RANGE(16e-6, 2e-3, "the cut that opens it is 12 um wide; beyond 2 mm it is no eyelet"),
+     .fallback = "80 um", .sentence = "Diameter of its hole as drawn. Changes the mask only."},
+    {"ring", D_LENGTH, .unit = "um",
+     RANGE(5e-6, 2e-3,
+           "what is thinner than 5 um is near the rules of the masks; beyond 2 mm it is no eyelet"),
+     .fallback = "30 um",
+     .sentence = "Width of material around the hole, at least: what of it lies outside of the body "
+                 "is added to it, in the mask and in its mass."},
 };
 static const fw_attribute_row comb_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id of the drive, its own in this scene."},
@@ -70,6 +79,12 @@ static const fw_attribute_row comb_rows[] = {
     {"length", D_LENGTH, .unit = "um", ABOVE(0, 0.3, "a face needs a length; " WAFER),
      .fallback = "comb: twice the overlap",
      .sentence = "comb: of the fingers; plate: of the faces, along the wafer."},
+    {"width", D_LENGTH, .unit = "um",
+     RANGE(1e-6, 1e-3,
+           "contact lithography prints nothing below 1 um; beyond 1 mm it is no finger"),
+     .fallback = "8 um",
+     .sentence = "comb: of every finger, of rotor and stator. Changes the mask and the rotor's "
+                 "mass, not the force."},
     {"depth", THICKNESS, .fallback = "thickness of the device layer",
      .sentence = "Of the electrodes, across the wafer."},
     {"voltage", D_VOLTAGE, RANGE(-1e4, 1e4, "gaps of micrometres break down far below 10 kV"),

@@ -236,7 +236,7 @@ static double arc_limit(const fw_contour *c, int i) {
 
 /* How far an outline is from what a mask can show: the least of width, space and radius, each over
    its limit; >= 1 is good. */
-static double soundness(const fw_contour *c, fw_vec2 *where) {
+double fw_body_soundness(const fw_contour *c, fw_vec2 *where) {
     fw_vec2 slit = *where;
     double least = share(c, true, FW_OWN_WIDTH_M, where);
     double space = share(c, false, FW_OWN_SPACE_M, &slit);
@@ -280,7 +280,7 @@ static fw_status attempt(fw_drawing *d, const work *w, double *sound, fw_vec2 *w
     FW_TRY(unite_all(d, w));
     FW_TRY(fw_body_round(d, w->body, &d->raw[w->slot], &d->plain[w->slot], &d->corner_m[w->slot],
                          where));
-    *sound = soundness(&d->plain[w->slot], where);
+    *sound = fw_body_soundness(&d->plain[w->slot], where);
     return FW_OK;
 }
 

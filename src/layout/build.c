@@ -76,6 +76,41 @@ static void measure_free_rotation(fw_drawing *d) {
     }
 }
 
+/* window and base around what is there; *why set: stators are in the way of that */
+static fw_status try_ground(fw_drawing *d, fw_status *base, const char **why) {
+    fw_diags *said = d->diags, unsaid = fw_diags_new(d->arena);
+    bool stators = fw_stators_drawn(d);
+    *why = NULL;
+    if (stators) d->diags = &unsaid; /* it is tried again without them, and then said */
+    fw_status status = fw_window_choose(d);
+    if (status == FW_GEOMETRY && stators) *why = "the die is too small for its stator";
+    if (status == FW_OK) {
+        *base = fw_ground_draw(d);
+        if (*base != FW_OK && *base != FW_GEOMETRY) status = *base;
+        if (*base == FW_GEOMETRY && stators) *why = "its stator is in the way of the base";
+    }
+    for (int s = d->device->nbody; s < d->nslot && status == FW_OK && stators && !*why; s++)
+        if (d->plain[s].count > 0 && fw_near_stator(d, &d->plain[s], 20e-6))
+            *why = "its stator would cross or nearly touch the base";
+    d->diags = said;
+    return *why ? FW_OK : status;
+}
+
+/* actuators on all bodies, then the ground; once more without drives that stand in its way */
+static fw_status draw_ground(fw_drawing *d, fw_status *base) {
+    for (;;) {
+        const char *why;
+        *base = FW_OK;
+        d->nattachment = 0;
+        for (int s = d->device->nbody; s < d->nslot; s++)
+            d->plain[s].count = d->raw[s].count = 0;
+        FW_TRY(fw_actuators_draw(d));
+        FW_TRY(try_ground(d, base, &why));
+        if (!why) return FW_OK;
+        fw_stators_drop(d, why);
+    }
+}
+
 static fw_status draw(fw_drawing *d) {
     const fw_device *device = d->device;
     int nground = fw_body_joints(device, FW_GROUND, NULL, 0);
@@ -89,6 +124,7 @@ static fw_status draw(fw_drawing *d) {
     FW_NEED(d->held = fw_arena_array(d->arena, fw_contour, slots));
     FW_NEED(d->corner_m = fw_arena_array(d->arena, double, slots));
     FW_TRY(fw_hinges_plan(d));
+    FW_TRY(fw_actuators_plan(d));
     for (int b = 0; b < device->nbody; b++) { /* all refusals in one run */
         fw_status status = fw_body_draw(d, b, FW_NONE, NULL, 0);
         if (status == FW_GEOMETRY)
@@ -97,18 +133,20 @@ static fw_status draw(fw_drawing *d) {
             return status;
     }
     if (bad) return FW_GEOMETRY;
-    FW_TRY(fw_window_choose(d));
-    fw_status base = fw_ground_draw(d);
-    if (base != FW_OK && base != FW_GEOMETRY) return base;
+    fw_status base;
+    FW_TRY(draw_ground(d, &base));
+    FW_TRY(base == FW_OK ? fw_actuators_on_base(d) : FW_OK);
     FW_TRY(base == FW_OK ? fw_tethers_draw(d) : FW_OK);
     FW_TRY(fw_frame_draw(d));
     FW_TRY(fw_clearance_check(d));
     FW_TRY(base);
     measure_free_rotation(d);
     FW_TRY(add_bodies(d));
+    FW_TRY(fw_actuators_add(d));
     fw_layout *l = d->layout;
-    return fw_layout_annotate(d->arena, device, l->window, l->die, &l->piece, &l->npiece,
-                              &d->capacity);
+    FW_TRY(fw_layout_annotate(d->arena, device, l->window, l->die, &l->piece, &l->npiece,
+                              &d->capacity));
+    return fw_actuators_letters(d);
 }
 
 /* what the mechanism computes and the drawing cannot show: once per file */
@@ -127,31 +165,6 @@ static void say_ties(const fw_device *device, fw_diags *diags) {
                     device->ntie > 1 ? ", and so are the other joints that do not turn" : "");
 }
 
-static void say_actuator(fw_diags *diags, fw_place place, const char *kind, const char *id,
-                         const char *what) {
-    fw_diag_warning(
-        diags, 131, place,
-        "%s %s moves the device, but %s not drawn: add the layer's polygons to the mask "
-        "by hand before you order it; their mass is not in the motion either",
-        kind, id ? id : "(unnamed)", what);
-}
-
-/* the first of each kind, once per file */
-static void say_actuators(const fw_device *device, fw_diags *diags) {
-    for (size_t i = 0; i < diags->count; i++)
-        if (diags->item[i].number == 131) return;
-    const fw_comb *comb = NULL;
-    const fw_tendon *tendon = NULL;
-    for (int i = 0; i < device->nscene; i++) {
-        const fw_scene *s = &device->scene[i];
-        if (!comb && s->ncomb > 0) comb = &s->comb[0];
-        if (!tendon && s->ntendon > 0) tendon = &s->tendon[0];
-    }
-    if (comb)
-        say_actuator(diags, comb->place, "comb drive", comb->id, "its electrodes and leads are");
-    if (tendon) say_actuator(diags, tendon->place, "tendon", tendon->id, "its eyelets are");
-}
-
 fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *diags,
                           const fw_layout **layout) {
     fw_layout *l;
@@ -164,7 +177,9 @@ fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *di
     if (!l->why_not) {
         fw_drawing d = {.arena = arena, .device = device, .diags = diags, .layout = l};
         say_ties(device, diags);
-        say_actuators(device, diags);
+        for (size_t i = 0; i < diags->count; i++)
+            d.said = d.said || diags->item[i].number == 131 || diags->item[i].number == 255 ||
+                     diags->item[i].number == 258;
         FW_TRY(draw(&d));
         l->drawn = true;
     }

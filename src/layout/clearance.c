@@ -73,6 +73,11 @@ static double allowed(const fw_drawing *d, int a, int b) {
         bool these = (t->body_a == a && t->body_b == b) || (t->body_a == b && t->body_b == a);
         if (these && gap > 0.0) limit = fmin(limit, gap);
     }
+    for (int i = 0; i < d->ncomb; i++) {
+        const fw_comb *c = d->comb[i].comb;
+        bool these = (a == FW_ISLAND && c->body_b == b) || (b == FW_ISLAND && c->body_b == a);
+        if (these && !d->comb[i].off) limit = fmin(limit, c->gap_m * (1.0 - 1e-6));
+    }
     return limit;
 }
 
@@ -109,7 +114,7 @@ static fw_status check_pair(fw_drawing *d, const part *p, const part *q, bool *b
 /* every pair of parts that move apart, tethers not counted: they are broken first */
 fw_status fw_clearance_check(fw_drawing *d) {
     const fw_device *device = d->device;
-    int n = 0, most = d->nslot + device->njoint + d->layout->npiece;
+    int n = 0, most = d->nslot + device->njoint + d->layout->npiece + d->ncomb;
     part *all;
     bool bad = false;
     FW_NEED(all = fw_arena_array(d->arena, part, (size_t)most));
@@ -121,6 +126,9 @@ fw_status fw_clearance_check(fw_drawing *d) {
         all[n].body = body;
         all[n++].contour = fw_drawing_outline(d, s);
     }
+    for (int i = 0; i < d->ncomb; i++)
+        if (!d->comb[i].off)
+            all[n++] = (part){FW_ISLAND, "the stator of a comb drive", &d->comb[i].stator};
     for (int i = 0; i < d->layout->npiece; i++) {
         const fw_piece *piece = &d->layout->piece[i];
         if (piece->role == FW_ROLE_FRAME)

@@ -155,6 +155,28 @@ typedef struct fw_attachment { /* what meets the frame, from `low` to `high` alo
     fw_contour tether; /* from the neck to the frame; count 0 for the base */
 } fw_attachment;
 
+/* ---- what moves the device: actuators.c, comb.c, eyelet.c ---- */
+typedef struct fw_eyelet_plan { /* one ring; several tendons and scenes may use it */
+    const fw_tendon *tendon;
+    const fw_eyelet *eyelet;
+    fw_vec2 at; /* world */
+    double hole_m, ring_m;
+    int wider;      /* row of what is added to the ring; only ever grows */
+    bool off;       /* not drawn, and said why */
+    bool on_frame;  /* of those on the ground: not on a base */
+    fw_contour cap; /* the piece that closes its ring; count 0: not there yet */
+} fw_eyelet_plan;
+
+typedef struct fw_comb_plan { /* one drive; several scenes may use it */
+    const fw_comb *comb;
+    double width_m, length_m;
+    fw_local local; /* middle of the overlap, or of the rotor's face; x where the rotor is pulled */
+    bool off;
+    fw_contour rotor, stator; /* rotor: before it is united with its body; stator: with pad */
+    const char *letter;       /* on the pad */
+    fw_vec2 letter_at;
+} fw_comb_plan;
+
 typedef struct fw_drawing {
     fw_arena *arena;
     const fw_device *device;
@@ -172,6 +194,12 @@ typedef struct fw_drawing {
     int nslot;
     fw_contour *lug; /* (nlug) of the platforms, for the tethers to avoid */
     int nlug;
+    fw_contour *bare;       /* (nbody) as raw, before actuators; NULL: there are none */
+    fw_eyelet_plan *eyelet; /* (neyelet) */
+    int neyelet;
+    fw_comb_plan *comb; /* (ncomb) */
+    int ncomb;
+    bool said;                 /* a drawing of this device was commented before */
     fw_attachment *attachment; /* (nattachment) what meets the frame */
     int nattachment;
 } fw_drawing;
@@ -211,10 +239,55 @@ fw_status fw_head_draw(fw_drawing *d, int joint, int body, int choice);
 fw_status fw_body_draw(fw_drawing *d, int body, int joint, const fw_contour *extra, int nextra);
 fw_status fw_body_round(fw_drawing *d, int body, const fw_contour *in, fw_contour *out,
                         double *radius_m, fw_vec2 *where);
+/* how far an outline is from what a mask can show; >= 1 is good, else *where */
+double fw_body_soundness(const fw_contour *c, fw_vec2 *where);
 fw_status fw_body_unite(fw_drawing *d, int body, const fw_contour *part, int npart,
                         fw_contour *out);
 /* shift_m: of the places along their edges */
 fw_status fw_platform_lugs(fw_drawing *d, int body, double shift_m, fw_contour *lug, int *nlug);
+
+/* collects the eyelets and drives of all scenes, each place once */
+fw_status fw_actuators_plan(fw_drawing *d);
+bool fw_eyelets_on(const fw_drawing *d, int body);
+/* bodies with what of their actuators can be drawn, and the stators; after all bodies */
+fw_status fw_actuators_draw(fw_drawing *d);
+bool fw_stators_drawn(const fw_drawing *d);
+/* nearer than `space_m` to a stator? */
+bool fw_near_stator(const fw_drawing *d, const fw_contour *c, double space_m);
+/* all stators are given up, because of `why`; the bodies are to be drawn again */
+void fw_stators_drop(fw_drawing *d, const char *why);
+/* rings on the base; for the tethers to avoid: all rings and stators */
+fw_status fw_actuators_on_base(fw_drawing *d);
+fw_status fw_actuators_on_frame(fw_drawing *d, fw_contour *raw);
+fw_status fw_actuators_add(fw_drawing *d); /* pieces */
+/* lettering and marks where rings went give way */
+fw_status fw_actuators_letters(fw_drawing *d);
+
+/* rotor's and stator's electrodes alone: world outlines. docs/theory/layout.md, section 5 */
+fw_status fw_comb_rotor(fw_arena *arena, const fw_comb_plan *plan, fw_contour *rotor);
+fw_status fw_comb_stator(fw_arena *arena, const fw_comb_plan *plan, fw_contour *stator);
+/* the stator with lead and pad where nothing is in the way; else *why (then not drawn) */
+fw_status fw_stator_place(fw_drawing *d, fw_comb_plan *plan, const char **why);
+/* what a contour of `body` comes nearer to than `space_m`: of other bodies, hinges, drives before
+   `before`, and eyelets; NULL: nothing. Names thing and place. */
+fw_status fw_actuator_crosses(fw_drawing *d, const fw_contour *c, int body, double space_m,
+                              int before, const char **what);
+/* adds ring and stem to an outline; *why set: it cannot */
+fw_status fw_eyelet_ring(fw_drawing *d, const fw_eyelet_plan *e, int body, const fw_contour *raw,
+                         fw_contour *out, const char **why);
+/* opens the hole: `out` is cut from the hole to its edge, `cap` closes the cut again */
+fw_status fw_eyelet_hole(fw_drawing *d, const fw_eyelet_plan *e, const fw_contour *raw,
+                         fw_contour *out, fw_contour *cap, const char **why);
+/* Ring and hole on an outline; *why set: they cannot be there. Where a ring's edge nearly coincides
+   with another the outline would get a step that no mask can show; then the ring is made wider.
+   slot -1: a half of the frame. `least`: soundness of the outline before. */
+fw_status fw_eyelet_fit(fw_drawing *d, int slot, int body, fw_eyelet_plan *e, double least,
+                        fw_contour *raw, const char **why);
+/* the same; where it cannot be, the eyelet is given up and that is said */
+fw_status fw_eyelet_add(fw_drawing *d, int slot, int body, fw_eyelet_plan *e, fw_contour *raw);
+void fw_eyelet_off(fw_drawing *d, fw_eyelet_plan *e, const char *why);
+/* soundness of a half of the frame as it will be rounded; 0: it cannot be */
+fw_status fw_frame_soundness(fw_drawing *d, const fw_contour *raw, double *sound);
 fw_status fw_window_choose(fw_drawing *d);
 /* from the hinge of a base of its own straight to its cut at the frame */
 double fw_base_reach(const fw_drawing *d, int joint);

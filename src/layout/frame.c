@@ -86,7 +86,7 @@ static fw_status one_axis(fw_drawing *d, double low, double high, double die, co
     return FW_OK;
 }
 
-/* around all moving bodies and all hinges; from the die's size where it is given */
+/* around all moving bodies, stators and hinges; from the die's size where it is given */
 fw_status fw_window_choose(fw_drawing *d) {
     const fw_device *device = d->device;
     const fw_die *die = &device->die;
@@ -94,6 +94,8 @@ fw_status fw_window_choose(fw_drawing *d) {
     fw_box box = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (int b = 0; b < device->nbody; b++)
         enclose(&box, fw_contour_box(&d->plain[b]));
+    for (int i = 0; i < d->ncomb; i++)
+        if (!d->comb[i].off) enclose(&box, fw_contour_box(&d->comb[i].stator));
     for (int j = 0; j < device->njoint; j++) {
         const fw_hinge_layout *h = &l->hinge[j];
         double q = h->keep_out_m;
@@ -153,6 +155,10 @@ static double cut_height(const fw_drawing *d, fw_window_side side) {
                 if (d->attachment[i].side == side && y > d->attachment[i].low_m - 80e-6 &&
                     y < d->attachment[i].high_m + 80e-6)
                     clear = false;
+            for (int i = 0; i < d->neyelet && clear; i++) {
+                const fw_eyelet_plan *e = &d->eyelet[i];
+                clear = e->off || fabs(y - e->at.y) > 0.5 * e->hole_m + e->ring_m + 80e-6;
+            }
             if (clear) return fw_layout_to_grid(y);
         }
     return middle;
@@ -181,6 +187,7 @@ fw_status fw_frame_draw(fw_drawing *d) {
         fw_contour raw, round;
         fw_vec2 where;
         FW_TRY(fw_outline_close(&o, &raw));
+        FW_TRY(fw_actuators_on_frame(d, &raw));
         FW_TRY(fw_contour_round(d->arena, &raw, 0.0, FW_CORNER_M, &round, &where));
         FW_TRY(fw_drawing_add(d, FW_ROLE_FRAME, FW_GROUND, FW_NONE,
                               low ? "frame, lower half" : "frame, upper half", &round));

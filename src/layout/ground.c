@@ -7,6 +7,7 @@ static fw_status clear_of_all(const fw_drawing *d, const fw_contour *strip, bool
     *clear = false;
     for (int b = 0; b < d->device->nbody; b++)
         if (fw_contour_distance(strip, &d->plain[b], NULL, NULL) < 20e-6) return FW_OK;
+    if (fw_near_stator(d, strip, 20e-6)) return FW_OK;
     for (int j = 0; j < d->device->njoint; j++) {
         const fw_hinge_layout *h = &d->layout->hinge[j];
         fw_contour disc;

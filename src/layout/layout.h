@@ -20,9 +20,14 @@ typedef enum fw_role {                    /* what a piece is; masks/ maps roles 
                        FW_ROLE_COUNT
 } fw_role;
 
+/* body of a piece that stands on the carrier by itself, insulated from the rest: stators with their
+   leads, pads and lettering. In a flow without an insulating carrier it would fall out, and is left
+   out of the mask. */
+enum { FW_ISLAND = FW_NONE - 2 };
+
 typedef struct fw_piece {
     fw_role role;
-    int body;          /* index, FW_GROUND, or FW_NONE - 1 for marks and text */
+    int body;          /* index, FW_GROUND, FW_ISLAND, or FW_NONE - 1 for marks and text */
     int joint;         /* of a flexure piece, else FW_NONE */
     const char *label; /* for messages: "link AB", "flexure of hinge C" */
     fw_contour contour;

@@ -31,13 +31,14 @@ static bool has_room(const fw_drawing *d, fw_vec2 centre) {
     return true;
 }
 
-/* In pairs, as far as there is room beside the hinges, at most four: two on the edge that faces
-   away from the mechanism, two on the opposite edge, two on the short edges. Mirrored places, so
-   that two tendons of a pair pull evenly. */
+/* None where tendons of the file say where the platform's eyelets are (eyelet.c). In pairs, as far
+   as there is room beside the hinges, at most four: two on the edge that faces away from the
+   mechanism, two on the opposite edge, two on the short edges. Mirrored places, so that two tendons
+   of a pair pull evenly. */
 fw_status fw_platform_lugs(fw_drawing *d, int body, double shift_m, fw_contour *lug, int *nlug) {
     const fw_body *b = &d->device->body[body];
     *nlug = 0;
-    if (isnan(b->plate_width_m)) return FW_OK;
+    if (isnan(b->plate_width_m) || fw_eyelets_on(d, body)) return FW_OK;
     double w = 0.5 * b->plate_width_m, h = 0.5 * b->plate_height_m;
     fw_vec2 middle = fw_v(b->plate_x_m, b->plate_y_m);
     fw_vec2 x = fw_polar(b->plate_angle_rad), y = fw_left(x);

@@ -23,14 +23,15 @@ static const char *cell_name(fw_arena *arena, const char *name, bool rejected) {
 }
 
 static fw_status pick_shapes(fw_arena *arena, const fw_layout *layout, const fw_mask_table *table,
-                             fw_mask_shape **out, int *count) {
+                             bool no_islands, fw_mask_shape **out, int *count) {
     size_t most = (size_t)layout->npiece * (size_t)table->nlayer;
     fw_mask_shape *shape = fw_arena_array(arena, fw_mask_shape, most);
     FW_NEED(shape);
     *count = 0;
     for (int k = 0; k < table->nlayer; k++)
         for (int i = 0; i < layout->npiece; i++)
-            if (table->layer[k].roles & 1u << layout->piece[i].role)
+            if (table->layer[k].roles & 1u << layout->piece[i].role &&
+                !(no_islands && layout->piece[i].body == FW_ISLAND))
                 shape[(*count)++] = (fw_mask_shape){
                     .layer = k, .piece = &layout->piece[i], .contour = layout->piece[i].contour};
     *out = shape;
@@ -202,7 +203,7 @@ fw_status fw_mask_build(fw_arena *arena, const fw_layout *layout, const fw_mask_
     m->rejected = options->rejected;
     m->note = options->note;
     m->nnote = options->nnote;
-    FW_TRY(pick_shapes(arena, layout, table, &m->shape, &m->nshape));
+    FW_TRY(pick_shapes(arena, layout, table, options->no_islands, &m->shape, &m->nshape));
     if (m->nshape == 0)
         return fw_diag_error(diags, 151, nowhere, "no layer of flow %s draws any of the %d pieces",
                              table->flow, layout->npiece);

@@ -73,6 +73,7 @@ typedef struct fw_mask_options {
     const char *title;
     const char **note;
     int nnote;
+    bool no_islands; /* the flow has no insulating carrier: what is not joined would fall out */
 } fw_mask_options;
 /* biases, checks the rules, flattens, certifies. A rule that is broken is an error naming both
    places (FW-D140..). */

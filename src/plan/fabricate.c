@@ -21,12 +21,19 @@ static double free_perimeter(const fw_contour *contour) {
     return length;
 }
 
+/* does what is not joined in the layer stay where it is, and insulated? */
+static bool insulated(const fw_plan_flow *pf) {
+    return (pf->use && pf->use->insulating_carrier) || (pf->flow && pf->flow->insulating);
+}
+
 /* what the process needs to know of the mask of one die, from the exact outlines */
-static fw_mask_facts facts_of(const fw_device *device, const fw_layout *layout) {
+static fw_mask_facts facts_of(const fw_device *device, const fw_layout *layout, bool islands) {
     fw_mask_facts facts = {.dies = 1};
     if (!layout || !layout->drawn) return facts;
     for (int i = 0; i < layout->npiece; i++)
-        if (is_structure(layout->piece[i].role)) {
+        if (layout->piece[i].body == FW_ISLAND && !islands) {
+            continue;
+        } else if (is_structure(layout->piece[i].role)) {
             facts.structure_area_m2 += fw_contour_area(&layout->piece[i].contour);
             facts.perimeter_m += free_perimeter(&layout->piece[i].contour);
         } else if (layout->piece[i].role == FW_ROLE_TEXT || layout->piece[i].role == FW_ROLE_MARK) {
@@ -88,6 +95,7 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
                                .tolerance_m = plan->options.mask_tolerance_m,
                                .vertex_limit = plan->options.mask_vertices,
                                .rejected = rejected,
+                               .no_islands = !insulated(pf),
                                .title = plan->device->die.title};
     FW_TRY(notes_of(plan, pf, &options));
     fw_status status = fw_mask_build(plan->arena, plan->layout, pf->table, plan->device->name,
@@ -124,10 +132,10 @@ static fw_status drives_of(fw_plan *plan, const char *flow, fw_drive_facts **dri
 
 fw_status fw_plan_compute_flows(fw_plan *plan) {
     bool drawn = plan->layout && plan->layout->drawn;
-    fw_mask_facts facts = facts_of(plan->device, plan->layout);
     for (int i = 0; i < plan->nflow; i++) {
         fw_plan_flow *pf = &plan->flow[i];
         if (!pf->flow) continue;
+        fw_mask_facts facts = facts_of(plan->device, plan->layout, insulated(pf));
         facts.device_thickness_m = pf->variant.thickness_m;
         FW_TRY(fw_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, &plan->diags));
         fw_drive_facts *drive;

@@ -169,10 +169,29 @@ static void plates(const pen *p, const fw_comb *c, const frame *f) {
     label(p, point(f, gap + thick + 18 * px, 0), c->id);
 }
 
-/* The file does not say how wide fingers are: they are shown as wide as the gap, at least two
-   pixels, and at most FINGERS_SHOWN of them. The rotor is filled, the stator is not. */
+/* are its electrodes part of the drawing? */
+static bool is_drawn(const pen *p, const fw_comb *c) {
+    static const char start[] = "stator of comb drive ";
+    for (int i = 0; p->layout && c->id && i < p->layout->npiece; i++) {
+        const fw_piece *piece = &p->layout->piece[i];
+        if (piece->body == FW_ISLAND && strncmp(piece->label, start, sizeof start - 1) == 0 &&
+            strcmp(piece->label + sizeof start - 1, c->id) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* Electrodes that the drawing has get their name only, beside the fingers. Of others a comb is
+   shown with fingers as wide as the gap, at least two pixels, and at most FINGERS_SHOWN of them;
+   the rotor is filled, the stator is not. */
 static void comb(const pen *p, const fw_comb *c) {
     frame f = frame_of(p, c);
+    if (is_drawn(p, c)) {
+        double half = c->kind == FW_ELECTRODES_COMB ? c->fingers * (c->width_m + c->gap_m)
+                                                    : 0.5 * c->length_m;
+        label(p, point(&f, 0, (f.across.y < 0 ? -1 : 1) * (half + 10 * px_of(p))), c->id);
+        return;
+    }
     if (c->kind == FW_ELECTRODES_PLATE) {
         plates(p, c, &f);
         return;

@@ -26,7 +26,8 @@ static void fixed_parts(const fw_layout *layout, const fw_report_view *view, boo
                      ids ? " id=\"fw-fixed\"" : "");
     for (int i = 0; i < layout->npiece; i++) {
         const fw_piece *p = &layout->piece[i];
-        if (p->role == FW_ROLE_FRAME || (p->body == FW_GROUND && p->role == FW_ROLE_STRUCTURE))
+        if (p->role == FW_ROLE_FRAME ||
+            ((p->body == FW_GROUND || p->body == FW_ISLAND) && p->role == FW_ROLE_STRUCTURE))
             fw_report_path(out, view, &p->contour);
     }
     fw_text_add(out, "\"/></g>\n");

@@ -176,7 +176,8 @@ static void still_parts(const film *f) {
     fw_text_add(f->out, "<path fill=\"#eceff2\" stroke=\"#b6bec7\" stroke-width=\"0.7\" d=\"");
     for (int i = 0; i < f->layout->npiece; i++) {
         const fw_piece *p = &f->layout->piece[i];
-        if (p->role == FW_ROLE_FRAME || (p->body == FW_GROUND && p->role == FW_ROLE_STRUCTURE))
+        if (p->role == FW_ROLE_FRAME ||
+            ((p->body == FW_GROUND || p->body == FW_ISLAND) && p->role == FW_ROLE_STRUCTURE))
             fw_report_path(f->out, f->view, &p->contour);
     }
     fw_text_add(f->out, "\"/>\n");

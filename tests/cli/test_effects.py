@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every scene of tests/data/effects runs in simulate and statics, with the effects that it is about."""
 import json
+import pathlib
 import re
+import tempfile
 import unittest
 
 from common import ROOT, run
@@ -49,6 +51,31 @@ class Effects(unittest.TestCase):
                 self.assertEqual(len(ledger), 18)
                 self.assertEqual({i for i in about if ledger[i]["active"] and ledger[i]["called_for"]}, about)
                 self.assertTrue(any(p["angle_rad"] != 0 for p in r["peaks"]))
+
+    def drawn(self, name, old="", new=""):
+        """what the program says of a gallery device with one change, and its mask"""
+        text = (ROOT / "docs/gallery" / name / "device.xml").read_text()
+        self.assertTrue(not old or old in text)
+        with tempfile.TemporaryDirectory() as here:
+            device = pathlib.Path(here) / "device.xml"
+            device.write_text(text.replace(old, new) if old else text)
+            done = run("mask", device, "-o", pathlib.Path(here) / "out")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return done.stderr, (pathlib.Path(here) / "out/masks/al-masked-rie.svg").read_text()
+
+    def test_what_moves_a_device_is_in_its_mask(self):
+        said, whole = self.drawn("comb-stage")
+        self.assertNotIn("FW-D131", said)
+        # fingers in the midst of another link: named with the place, and the stage is judged without
+        said, less = self.drawn("comb-stage", 'x="0.43 mm" y="0.44 mm"', 'x="0.75 mm" y="0.1 mm"')
+        self.assertRegex(said, r"comb drive upper .* not drawn: .*link right at \([-0-9.]+, [-0-9.]+\) um.*FW-D131")
+        self.assertEqual(len(re.findall("FW-D131", said)), 1)
+        self.assertLess(len(less), len(whole))
+        said, whole = self.drawn("four-tendons")
+        self.assertNotIn("FW-D131", said)
+        said, less = self.drawn("four-tendons", 'x="0.6 mm" y="0.12 mm"', 'x="0.65 mm" y="0.12 mm"')
+        self.assertRegex(said, r"tendon T2 .* eyelet at .* not drawn: .*hinge D at \([-0-9.]+, [-0-9.]+\) um")
+        self.assertLess(len(less), len(whole))
 
     def test_explicit_steps_are_given_up(self):
         """not stiff at its start, later explicit steps would never end"""

@@ -110,8 +110,9 @@ static void some_tendons(fw_arena *arena, rig *r) {
                          .law = any_law(arena, s->duration_s, chance(0.5))};
         for (int i = 0; i < t->neyelet; i++) {
             int b = i == 0 ? FW_GROUND : body_of(r);
-            t->eyelet[i] = (fw_eyelet){
-                b, b == FW_GROUND ? lot(-2e-3, -1e-3) : lot(-4e-4, 4e-4), lot(-4e-4, 4e-4), {0}};
+            t->eyelet[i] = (fw_eyelet){.body = b,
+                                       .x_m = b == FW_GROUND ? lot(-2e-3, -1e-3) : lot(-4e-4, 4e-4),
+                                       .y_m = lot(-4e-4, 4e-4)};
         }
     }
 }

@@ -227,6 +227,24 @@ static void short_memory(void **state) {
     assert_int_equal(status, FW_OK);
 }
 
+/* what stands on an insulating carrier by itself is left out where there is none */
+static void islands_need_a_carrier(void **state) {
+    (void)state;
+    static const double p[4][2] = {{0, 0}, {80, 0}, {80, 80}, {0, 80}},
+                        q[4][2] = {{200, 0}, {250, 0}, {250, 50}, {200, 50}};
+    for (int without = 0; without < 2; without++) {
+        scene *s = scene_new(4 * UM, 4 * UM);
+        scene_add(s, FW_ROLE_STRUCTURE, "body", polygon(s->arena, p, 4));
+        scene_add(s, FW_ROLE_STRUCTURE, "stator", polygon(s->arena, q, 4));
+        s->piece[1].body = FW_ISLAND;
+        s->options.no_islands = without;
+        const fw_mask *mask = built(s);
+        assert_int_equal(mask->nshape, without ? 1 : 2);
+        assert_near(mask->measure[0].area_m2, (without ? 6400 : 8900) * UM * UM, 1e-22);
+        scene_free(s);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bias_has_the_closed_form),
@@ -239,6 +257,7 @@ int main(void) {
         cmocka_unit_test(limits),
         cmocka_unit_test(more_vertices_than_a_boundary_takes),
         cmocka_unit_test(short_memory),
+        cmocka_unit_test(islands_need_a_carrier),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
