@@ -36,7 +36,10 @@ enum { PLACES = 5, COARSE = 3, FINE = 32, MOST_TRIES = 12 };
 /* ends first, so that the places of the parabola are the first ones */
 static const double fw_along[PLACES] = {0, 1, 0.5, 0.25, 0.75};
 /* in tolerances: accepted, and aimed at */
-static const double fw_accepted = 1, fw_aimed = 0.25;
+static const double fw_accepted = 0.4, fw_aimed = 0.1;
+/* scaled times for which an error of a velocity grows: some swings of most of what is slow. What
+   becomes of it later shows in the difference of two runs */
+static const double fw_swing = 10;
 
 struct fw_kinks {
     int n;
@@ -45,7 +48,9 @@ struct fw_kinks {
     double *weight;                 /* (n) tolerances per unit of the integral of |F| */
     double *centre, *width, *speed; /* (n) t0, w, c of the branch points next to the last step */
     double *found;                  /* (3 n) those inside it */
-    bool known;                     /* `last` is that of the state at hand */
+    double *most;                   /* (n) largest acceleration per unit of force */
+    double now, sum; /* what the last step may be off by, and all so far: scaled displacement */
+    bool known;      /* `last` is that of the state at hand */
     int tries;
 };
 
@@ -58,12 +63,22 @@ fw_status fw_kinks_new(fw_run *r) {
     FW_NEED(k->force = fw_arena_array(r->arena, double, PLACES * 2 * n));
     FW_NEED(k->last = fw_arena_array(r->arena, double, 2 * n));
     FW_NEED(k->weight = fw_arena_array(r->arena, double, n));
+    FW_NEED(k->most = fw_arena_array(r->arena, double, n));
     FW_NEED(k->centre = fw_arena_array(r->arena, double, n));
     FW_NEED(k->width = fw_arena_array(r->arena, double, n));
     FW_NEED(k->speed = fw_arena_array(r->arena, double, n));
     FW_NEED(k->found = fw_arena_array(r->arena, double, 3 * n));
     r->kinks = k;
     return FW_OK;
+}
+
+void fw_kinks_begin(fw_run *r) {
+    fw_kinks_forget(r);
+    if (r->kinks) r->kinks->sum = 0;
+}
+
+double fw_kinks_doubt(const fw_run *r) {
+    return r->kinks ? r->kinks->sum : 0;
 }
 
 void fw_kinks_forget(fw_run *r) {
@@ -192,20 +207,22 @@ static bool far(const struct fw_kinks *k, const fw_stepper *s, int i) {
     double at[3], how = nearest(k, i, COARSE, at);
     if (!(how < HUGE_VAL)) return true;
     double error = fw_kink_error(-0.5, 0.5, 0, how / 3, s->row->order);
-    return k->weight[i] * at[2] * s->h * error <= 0.1 * fw_accepted;
+    return k->weight[i] * at[2] * s->h * error <= 0.01 * fw_accepted;
 }
 
-/* accelerations of a unit force that presses joint i, by the norm of fw_ode_norm: in tolerances per
-   unit of time */
-static double weight(fw_run *r, const fw_stepper *s, int i) {
+/* accelerations of a unit force that presses joint i: the largest, and by the norm of fw_ode_norm,
+   in tolerances per unit of time */
+static void weigh(fw_run *r, const fw_stepper *s, int i) {
     const int nq = r->model->nq;
     double sum = 0;
+    r->kinks->most[i] = 0;
     fw_friction_drags(r->model, i, r->rate);
     for (int c = 0; c < nq; c++) {
         double x = r->rate[c] / (s->atol[nq + c] + s->rtol * fabs(s->y[nq + c]));
         sum += x * x;
+        r->kinks->most[i] = fmax(r->kinks->most[i], fabs(r->rate[c]));
     }
-    return sqrt(sum / s->ode.controlled);
+    r->kinks->weight[i] = sqrt(sum / s->ode.controlled);
 }
 
 /* looks at the last step; the branch points that its end points to stay for the next one. True:
@@ -213,9 +230,10 @@ static double weight(fw_run *r, const fw_stepper *s, int i) {
 static bool unsafe(fw_run *r, fw_stepper *s) {
     struct fw_kinks *k = r->kinks;
     bool all_far = true, bad = false;
+    k->now = 0;
     sample(r, s, 0, COARSE);
     for (int i = 0; i < k->n; i++) {
-        k->weight[i] = weight(r, s, i);
+        weigh(r, s, i);
         all_far = all_far && far(k, s, i);
     }
     int count = all_far ? COARSE : PLACES;
@@ -223,7 +241,9 @@ static bool unsafe(fw_run *r, fw_stepper *s) {
     for (int i = 0; i < k->n && !all_far; i++) {
         nearest(k, i, count, k->found + 3 * i);
         take(k, i, s, k->found + 3 * i);
-        bad = bad || doubt(k, s, i, s->t_old, s->h) > fw_accepted;
+        double off = doubt(k, s, i, s->t_old, s->h);
+        bad = bad || off > fw_accepted;
+        if (off > 0) k->now += off * k->most[i] / k->weight[i];
     }
     for (int i = 0; i < k->n && !bad; i++) {
         double at[3];
@@ -241,6 +261,7 @@ bool fw_kinks_again(fw_run *r, fw_stepper *s) {
     k->known = true;
     if (!again) {
         k->tries = 0;
+        k->sum += k->now * fmin(fw_swing, r->end[r->npiece - 1] - s->t_old);
         return false;
     }
     memcpy(k->last, k->force, 2 * (size_t)k->n * sizeof *k->last); /* at its start */

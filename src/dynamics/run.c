@@ -280,7 +280,7 @@ static fw_status begin(fw_run *r, fw_stepper *s) {
     fw_model_at(m, 0);
     fw_model_set_switches(m, 0, r->start);
     fw_friction_begin(m);
-    fw_kinks_forget(r);
+    fw_kinks_begin(r);
     if (!fw_friction_decide(m, 0, r->start)) return stopped(r, s, FW_ODE_SMALL);
     fw_run_start(r, s, 0, r->start, r->end[0]);
     if (!r->full) return FW_OK;

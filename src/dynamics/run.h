@@ -132,7 +132,8 @@ fw_status fw_run_extremes_new(fw_run *r); /* work, and the peaks of the motion *
 /* the last step up to theta_end */
 void fw_run_extremes(fw_run *r, fw_stepper *s, double theta_end);
 /* peaks of the motion with errors from the looser pass */
-void fw_run_take_extremes(fw_run *r, const fw_extreme *fine, const fw_extreme *coarse, long steps);
+void fw_run_take_extremes(fw_run *r, const fw_extreme *fine, const fw_extreme *coarse, double doubt,
+                          long steps);
 /* all of them within the accuracy of the largest of their kind? */
 bool fw_run_extremes_good(const fw_run *r, double accuracy);
 
@@ -146,9 +147,12 @@ void fw_run_start(const fw_run *r, fw_stepper *s, double t, const double *y, dou
 
 /* kink.c: steps beside places where a joint that slips is hardly pressed */
 fw_status fw_kinks_new(fw_run *r);
+void fw_kinks_begin(fw_run *r);                      /* a pass */
 void fw_kinks_forget(fw_run *r);                     /* forces may have jumped */
 void fw_kinks_limit(const fw_run *r, fw_stepper *s); /* the next step */
 bool fw_kinks_again(fw_run *r, fw_stepper *s); /* the last step is made again, a shorter one */
+/* what all of them may have moved anything by in this pass, scaled */
+double fw_kinks_doubt(const fw_run *r);
 /* |error| of the integral of hypot(t - centre, width) from start to end by a rule of that order */
 double fw_kink_error(double start, double end, double centre, double width, int order);
 

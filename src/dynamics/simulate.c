@@ -43,6 +43,7 @@ typedef struct pass {
     fw_stepper *stepper;
     fw_peaks peaks;
     fw_extreme *extreme; /* (channels) or NULL */
+    double doubt;        /* fw_kinks_doubt */
 } pass;
 
 /* other: the run that this one is compared with, NULL: it is the first. full: the answer. A fixed
@@ -73,6 +74,7 @@ static fw_status run_once(fw_run *r, double rtol, const pass *other, bool full, 
     p->extreme = r->extreme;
     r->full = full;
     fw_status status = fw_run_pass(r, p->stepper, &p->peaks);
+    p->doubt = fw_kinks_doubt(r);
     fw_stepper_free(p->stepper); /* what a library holds for it; its results stay */
     return status;
 }
@@ -151,9 +153,11 @@ static void estimate_errors(fw_run *r, const pass *fine, const pass *coarse) {
             fw_run_margin(r) *
                 fmax(own, worst[fw_peaks_first_mark(&fine->peaks, &coarse->peaks, late)]) +
             DBL_EPSILON * (double)(8 + s->steps) * (1 + fabs(p->angle_rad)) +
-            r->motion->stats.energy_error * fabs(p->angle_rad); /* never below the books */
+            r->motion->stats.energy_error * fabs(p->angle_rad) + /* never below the books */
+            fine->doubt;
     }
-    if (fine->extreme) fw_run_take_extremes(r, fine->extreme, coarse->extreme, s->steps);
+    if (fine->extreme)
+        fw_run_take_extremes(r, fine->extreme, coarse->extreme, fine->doubt, s->steps);
 }
 
 typedef struct reached { /* largest values and errors of any pin; force 0 when not asked for */
