@@ -52,8 +52,9 @@ struct fw_kinks {
     double *centre, *width, *speed; /* (n) t0, w, c of the branch points next to the last step */
     double *found;                  /* (3 n) those inside it */
     double *most;                   /* (n) largest acceleration per unit of force */
-    double now, sum; /* what the last step may be off by, and all so far: scaled displacement */
-    bool known;      /* `last` is that of the state at hand */
+    double now;                     /* what the last step may move anything by: scaled velocity */
+    double sum[FW_MARKS]; /* displacements by steps that begin in each part of the scene */
+    bool known;           /* `last` is that of the state at hand */
     int tries;
 };
 
@@ -77,11 +78,13 @@ fw_status fw_kinks_new(fw_run *r) {
 
 void fw_kinks_begin(fw_run *r) {
     fw_kinks_forget(r);
-    if (r->kinks) r->kinks->sum = 0;
+    if (r->kinks) memset(r->kinks->sum, 0, sizeof r->kinks->sum);
 }
 
-double fw_kinks_doubt(const fw_run *r) {
-    return r->kinks ? r->kinks->sum : 0;
+void fw_kinks_doubt(const fw_run *r, double up_to[FW_MARKS + 1]) {
+    up_to[0] = 0;
+    for (int k = 0; k < FW_MARKS; k++)
+        up_to[k + 1] = up_to[k] + (r->kinks ? r->kinks->sum[k] : 0);
 }
 
 void fw_kinks_forget(fw_run *r) {
@@ -256,6 +259,13 @@ static bool unsafe(fw_run *r, fw_stepper *s) {
     return bad;
 }
 
+static void add(fw_run *r, double t) {
+    struct fw_kinks *k = r->kinks;
+    double final = r->end[r->npiece - 1];
+    int part = (int)(FW_MARKS * t / final);
+    k->sum[part < FW_MARKS ? part : FW_MARKS - 1] += k->now * fmin(fw_swing, final - t);
+}
+
 bool fw_kinks_again(fw_run *r, fw_stepper *s) {
     struct fw_kinks *k = r->kinks;
     if (idle(r, s) || !fw_friction_slips(r->model)) return false;
@@ -264,7 +274,7 @@ bool fw_kinks_again(fw_run *r, fw_stepper *s) {
     k->known = true;
     if (!again) {
         k->tries = 0;
-        k->sum += k->now * fmin(fw_swing, r->end[r->npiece - 1] - s->t_old);
+        add(r, s->t_old);
         return false;
     }
     memcpy(k->last, k->force, 2 * (size_t)k->n * sizeof *k->last); /* at its start */

@@ -151,8 +151,8 @@ void fw_kinks_begin(fw_run *r);                      /* a pass */
 void fw_kinks_forget(fw_run *r);                     /* forces may have jumped */
 void fw_kinks_limit(const fw_run *r, fw_stepper *s); /* the next step */
 bool fw_kinks_again(fw_run *r, fw_stepper *s); /* the last step is made again, a shorter one */
-/* what all of them may have moved anything by in this pass, scaled */
-double fw_kinks_doubt(const fw_run *r);
+/* what all of them may have moved anything by in this pass, scaled, up to k parts of the scene */
+void fw_kinks_doubt(const fw_run *r, double up_to[FW_MARKS + 1]);
 /* |error| of the integral of hypot(t - centre, width) from start to end by a rule of that order */
 double fw_kink_error(double start, double end, double centre, double width, int order);
 

@@ -271,23 +271,23 @@ static void by_lot(const char *name, family *one, const char *integrator, int co
 
 static void turning_loads(void **state) {
     (void)state;
-    by_lot("disc", disc, "dop853", 200, 100);
-    by_lot("disc", disc, "dopri5", 40, 100);
-    by_lot("disc", disc, "radau5", 40, 100);
+    by_lot("disc", disc, "dop853", 100, 100);
+    by_lot("disc", disc, "dopri5", 10, 100);
+    by_lot("disc", disc, "radau5", 10, 100);
 }
 
 static void changing_sides(void **state) {
     (void)state;
-    by_lot("block", block, "dop853", 200, 100);
-    by_lot("block", block, "dopri5", 40, 100);
-    by_lot("block", block, "radau5", 40, 100);
+    by_lot("block", block, "dop853", 100, 100);
+    by_lot("block", block, "dopri5", 10, 100);
+    by_lot("block", block, "radau5", 10, 100);
 }
 
 static void weightless(void **state) {
     (void)state;
-    by_lot("pendulum", over_the_top, "dop853", 60, 100);
-    by_lot("pendulum", over_the_top, "dopri5", 20, 100);
-    by_lot("pendulum", over_the_top, "radau5", 20, 100);
+    by_lot("pendulum", over_the_top, "dop853", 40, 100);
+    by_lot("pendulum", over_the_top, "dopri5", 10, 100);
+    by_lot("pendulum", over_the_top, "radau5", 10, 100);
 }
 
 int main(void) {
