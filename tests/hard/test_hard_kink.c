@@ -9,6 +9,10 @@
 
 static const double NOT = (double)NAN;
 
+static long double wide(double x) {
+    return (long double)x;
+}
+
 typedef struct tally {
     int runs;
     double worst; /* true error over the stated one */
@@ -43,7 +47,7 @@ typedef struct load { /* |(a sin(w t + p) + c, d)| */
 } load;
 
 static long double size_at(const load *l, long double t) {
-    return hypotl(l->a * sinl(l->w * t + l->p) + l->c, l->d);
+    return hypotl(wide(l->a) * sinl(wide(l->w) * t + wide(l->p)) + wide(l->c), wide(l->d));
 }
 
 static void gauss(long double x[NODES], long double weight[NODES]) {
@@ -85,16 +89,16 @@ static long double twice_integrated(const load *l, double end) {
         double angle = k * HARD_PI + (k % 2 ? -first : first), t = (angle - l->p) / l->w;
         if (t > 0 && t < end) {
             assert_true(n < 2 * MOST);
-            at[n++] = t;
+            at[n++] = wide(t);
         }
     }
-    at[n] = end;
+    at[n] = wide(end);
     for (int k = 0; k < n; k++) {
         long double span = (at[k + 1] - at[k]) / 2, part = 1;
         for (int j = 0; j < 60; j++, part /= 2) {
             long double in = j < 59 ? part / 2 : 0;
-            sum += panel(l, end, at[k] + in * span, at[k] + part * span);
-            sum += panel(l, end, at[k + 1] - part * span, at[k + 1] - in * span);
+            sum += panel(l, wide(end), at[k] + in * span, at[k] + part * span);
+            sum += panel(l, wide(end), at[k + 1] - part * span, at[k + 1] - in * span);
         }
     }
     return sum;
@@ -144,7 +148,7 @@ static void disc(uint64_t seed, double rtol, const char *integrator, tally *t) {
     r.scene.duration_s = end;
     const fw_motion *m =
         hard_run(arena, &r, (fw_motion_options){.rtol = rtol, .integrator = integrator});
-    long double want = (long double)omega * end - drag / inertia * twice_integrated(&l, end);
+    long double want = wide(omega) * wide(end) - wide(drag / inertia) * twice_integrated(&l, end);
     judge(t, "disc", l.d, rtol, (double)want, m->peak[0].angle_rad, m->peak[0].error_rad,
           omega * end, m->stats.steps);
     fw_arena_free(arena);
@@ -166,7 +170,7 @@ static void block(uint64_t seed, double rtol, const char *integrator, tally *t) 
     r.scene.duration_s = end;
     const fw_motion *m = hard_run(
         arena, &r, (fw_motion_options){.rtol = rtol, .integrator = integrator, .reactions = true});
-    long double want = (long double)speed * end - drag / mass * twice_integrated(&l, end);
+    long double want = wide(speed) * wide(end) - wide(drag / mass) * twice_integrated(&l, end);
     judge(t, "block", l.c, rtol, (double)want, m->travel_peak[0].travel_m,
           m->travel_peak[0].error_m, speed * end, m->stats.steps);
     fw_arena_free(arena);
@@ -220,15 +224,15 @@ static void over_the_top(uint64_t seed, double rtol, const char *integrator, tal
     const double m = 0.5 + rig_random(&seed), l = 0.3 + rig_random(&seed);
     const double own = m * l * l * (0.1 + rig_random(&seed)), end = 0.8;
     double near = pow(10, -8 * rig_random(&seed)) * (rig_random(&seed) < 0.5 ? 1 : -0.5);
-    thrown p = {.m = m, .l = l, .j = own + m * l * l};
-    p.drag = 0.05L + 0.4L * (long double)rig_random(&seed);
-    p.drag *= p.j / (m * l);
-    p.phi = 3.14159265358979323846L, p.omega = sqrtl(G / l * (1 + near));
+    thrown p = {.m = wide(m), .l = wide(l), .j = wide(own + m * l * l)};
+    p.drag = 0.05L + 0.4L * wide(rig_random(&seed));
+    p.drag *= p.j / (p.m * p.l);
+    p.phi = 3.14159265358979323846L, p.omega = sqrtl(G / p.l * (1 + wide(near)));
     const double drag = (double)p.drag;
-    p.drag = drag;
+    p.drag = wide(drag);
     fly(&p, -0.3L, 0.01L, 0.1L);
-    p.phi = (double)p.phi, p.omega = (double)p.omega; /* what is thrown, whatever becomes of it */
     const double phi = (double)p.phi, omega = (double)p.omega;
+    p.phi = wide(phi), p.omega = wide(omega); /* what is thrown, whatever becomes of it */
     rig r = rig_new(arena, 1, 1, 0);
     rig_body(&r, "bob", m, own, l * sin(phi), -l * cos(phi), phi);
     rig_pin_local(&r, "O", FW_GROUND, 0, 0, 0, 0, l);
@@ -243,8 +247,8 @@ static void over_the_top(uint64_t seed, double rtol, const char *integrator, tal
     double *truth = &known[seed_given % 4096];
     if (*truth == 0) {
         thrown rough = p;
-        fly(&p, end, 0.004L, 0.1L * fabsl((long double)near));
-        fly(&rough, end, 0.008L, 0.1L * fabsl((long double)near));
+        fly(&p, wide(end), 0.004L, 0.1L * fabsl(wide(near)));
+        fly(&rough, wide(end), 0.008L, 0.1L * fabsl(wide(near)));
         assert_true(fabsl(p.phi - rough.phi) < 5e-12L); /* 15 times what p is off by */
         *truth = (double)p.phi;
     }

@@ -32,8 +32,8 @@ static double one_step(const char *name, kink k) {
     s->h_next = 1;
     assert_int_equal(fw_stepper_step(s), FW_ODE_STEP);
     assert_true(s->t == 1);
-    long double truth =
-        integral(1 - (long double)k.centre, k.width) + integral((long double)k.centre, k.width);
+    const long double centre = (long double)k.centre, width = (long double)k.width;
+    const long double truth = integral(1 - centre, width) + integral(centre, width);
     double off = (double)fabsl((long double)s->y[0] - truth);
     fw_stepper_free(s);
     fw_arena_free(arena);
