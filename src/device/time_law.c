@@ -231,6 +231,28 @@ static void check_start(fw_reader *r, const fw_record *record, const fw_law *law
                     fw_label(record, label), fw_in_unit(end, end_s, "ms"));
 }
 
+/* Every period takes some ten steps, and a run 10 million of them at most (FW-D108). Of what a mean
+   would leave out no bound is known. */
+static const double fw_most_periods = 1e6;
+
+static void check_periods(fw_reader *r, const fw_record *record, const fw_law *law) {
+    const bool noise = law->kind == FW_LAW_RANDOM;
+    const char *name = noise ? "frequency-most" : "frequency";
+    double duration_s = fw_number_of(&r->record[record->parent], "duration");
+    bool swings = noise || law->kind == FW_LAW_SINE;
+    double rate_Hz = noise ? law->frequency_most_Hz : law->frequency_Hz;
+    double periods = rate_Hz * (fmin(law->end_s, duration_s) - law->start_s);
+    char label[FW_LABEL], rate[FW_LABEL], end[FW_LABEL];
+    if (!(swings && isfinite(duration_s) && periods > fw_most_periods)) return;
+    fw_diag_error(
+        r->diags, 250, fw_place_of(record, name),
+        "%s: %s %s makes more than a million periods in this scene, and each of them would be "
+        "followed; make the scene no longer than %s, or, where the mechanism cannot follow, give "
+        "the mean of the load without a law and judge what that leaves out",
+        fw_label(record, label), name, fw_in_unit(rate, rate_Hz, "Hz"),
+        fw_in_unit(end, fw_most_periods / rate_Hz, "ms"));
+}
+
 fw_status fw_time_law(fw_reader *r, const fw_record *record, const fw_law **law) {
     const char *name = fw_text_of(record, "law");
     bool ok = true;
@@ -247,5 +269,6 @@ fw_status fw_time_law(fw_reader *r, const fw_record *record, const fw_law **law)
     FW_TRY(read_law(r, record, row, own, &ok));
     if (ok && !fw_law_is_constant(own)) *law = own;
     if (ok) check_start(r, record, own);
+    if (ok) check_periods(r, record, own);
     return r->diags->failed ? FW_NOMEM : FW_OK;
 }

@@ -181,9 +181,12 @@ static void put_force(fw_force_peak *to, const fw_extreme *from, measure kind, d
 /* error of each: the largest change of any of its kind from the looser run, at the end too, since
    one number may agree by chance; what the energy balance is off by; and round-off. As for the
    angles in simulate.c. */
-void fw_run_take_extremes(fw_run *r, const fw_extreme *fine, const fw_extreme *coarse, long steps) {
+void fw_run_take_extremes(fw_run *r, const fw_extreme *fine, const fw_extreme *coarse, double doubt,
+                          long steps) {
     const fw_mechanism *m = r->mechanism;
     fw_motion *out = r->motion;
+    const double length = r->model->scale.length_m, newton = fw_newton(r->model);
+    const double unit_of[3] = {newton, newton * length, length}; /* FORCE, TORQUE, TRAVEL */
     double change[3] = {0}, unit = r->model->scale.time_s;
     for (int i = 0; i < fw_run_channels(r); i++) {
         double *most = &change[measure_of(m, i)];
@@ -193,7 +196,8 @@ void fw_run_take_extremes(fw_run *r, const fw_extreme *fine, const fw_extreme *c
     for (int i = 0; i < fw_run_channels(r); i++) {
         measure kind = measure_of(m, i);
         double books = out->stats.energy_error + DBL_EPSILON * (double)(8 + steps);
-        double error = fw_run_margin(r) * change[kind] + books * fabs(fine[i].value);
+        double error =
+            fw_run_margin(r) * change[kind] + books * fabs(fine[i].value) + doubt * unit_of[kind];
         if (i < m->npin)
             put_force(&out->force_peak[i], &fine[i], kind, unit, error);
         else if (i >= m->npin + 3 * m->ntie)

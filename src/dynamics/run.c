@@ -108,7 +108,7 @@ static void limit_step(const fw_run *r, fw_stepper *s, double t) {
                                   : fw_run_stride(r, r->full ? 1 : 1.5, t);
 }
 
-static void start_stepper(const fw_run *r, fw_stepper *s, double t, const double *y, double end) {
+void fw_run_start(const fw_run *r, fw_stepper *s, double t, const double *y, double end) {
     limit_step(r, s, t);
     fw_stepper_start(s, t, y, end);
 }
@@ -147,7 +147,7 @@ static bool aim(fw_run *r, fw_stepper *s, double theta) {
     if (s->row->variable_order || theta < fw_near || theta > 1 - fw_near) return false;
     if (++r->aims > MOST_AIMS) return false; /* it comes and goes with the step */
     memcpy(r->moved, s->y_old, (size_t)r->model->ny * sizeof *r->moved);
-    start_stepper(r, s, s->t_old, r->moved, fmin(target, end));
+    fw_run_start(r, s, s->t_old, r->moved, fmin(target, end));
     s->h_next = fmin(h, s->t_end - s->t); /* has been accepted already */
     return true;
 }
@@ -170,8 +170,9 @@ static bool pass_event(fw_run *r, fw_stepper *s, int which, double theta, double
             return false;
     }
     if (!fw_friction_decide(m, t, r->moved)) return false;
+    fw_kinks_forget(r);
     r->fresh = true;
-    start_stepper(r, s, t, r->moved, end);
+    fw_run_start(r, s, t, r->moved, end);
     return true;
 }
 
@@ -192,7 +193,7 @@ static void mind_idle(fw_run *r, fw_stepper *s, int which, long before, double e
     if (went_on || r->model->events > before) r->idle = 0, r->nudge = 0;
     if (which < 0 || r->model->events > before || ++r->idle < PATIENT) return;
     r->nudge = fmin(1e-6 * final, fmax(2 * r->nudge, 32 * DBL_EPSILON * final));
-    if (s->t + r->nudge < end) start_stepper(r, s, s->t, r->moved, s->t + r->nudge);
+    if (s->t + r->nudge < end) fw_run_start(r, s, s->t, r->moved, s->t + r->nudge);
 }
 
 /* ---- pieces ---- */
@@ -242,8 +243,9 @@ static fw_status next_piece(fw_run *r, fw_stepper *s, int piece) {
     }
     if (m->nelement > 0) jump_of_elements(r, t, y, stored);
     if (!fw_friction_decide(m, t, y)) return stopped(r, s, FW_ODE_SMALL);
+    fw_kinks_forget(r);
     r->fresh = true;
-    start_stepper(r, s, t, y, r->end[piece]);
+    fw_run_start(r, s, t, y, r->end[piece]);
     return FW_OK;
 }
 
@@ -278,8 +280,9 @@ static fw_status begin(fw_run *r, fw_stepper *s) {
     fw_model_at(m, 0);
     fw_model_set_switches(m, 0, r->start);
     fw_friction_begin(m);
+    fw_kinks_begin(r);
     if (!fw_friction_decide(m, 0, r->start)) return stopped(r, s, FW_ODE_SMALL);
-    start_stepper(r, s, 0, r->start, r->end[0]);
+    fw_run_start(r, s, 0, r->start, r->end[0]);
     if (!r->full) return FW_OK;
     first_energy(r, s->y);
     fw_run_first_sample(r, s->y);
@@ -297,8 +300,9 @@ fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks) {
         const double end = r->end[piece];
         while (s->t < end && !ended) {
             if (fw_cancel_requested()) return FW_CANCELLED;
-            if (s->t >= s->t_end) start_stepper(r, s, s->t, s->y, end); /* no event after all */
+            if (s->t >= s->t_end) fw_run_start(r, s, s->t, s->y, end); /* no event after all */
             limit_step(r, s, s->t);
+            fw_kinks_limit(r, s);
             fw_ode_result result = fw_stepper_step(s);
             if (result != FW_ODE_STEP) return stopped(r, s, result);
             int which;
@@ -316,6 +320,7 @@ fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks) {
             if (which >= 0 && left_alone(r, s)) which = -1, theta = 1;
             if (which >= 0 && aim(r, s, theta)) continue;
             r->aims = 0;
+            if (fw_kinks_again(r, s)) continue;
             if (!look(r, s, peaks, theta)) return stopped(r, s, FW_ODE_SMALL);
             long before = m->events;
             double met = s->t_old + theta * s->h;

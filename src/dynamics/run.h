@@ -87,7 +87,8 @@ typedef struct fw_run {
     double *channel_now;  /* (channels) */
     double *channel_grid; /* (9 channels) along a step */
     double *pin_now, *tie_now;
-    double *friction_fit; /* (friction) */
+    double *friction_fit;   /* (friction) */
+    struct fw_kinks *kinks; /* kink.c; NULL: no friction */
 } fw_run;
 
 /* start.c: pieces, assembled state with fitting velocities, size of the motion, output arrays */
@@ -131,7 +132,8 @@ fw_status fw_run_extremes_new(fw_run *r); /* work, and the peaks of the motion *
 /* the last step up to theta_end */
 void fw_run_extremes(fw_run *r, fw_stepper *s, double theta_end);
 /* peaks of the motion with errors from the looser pass */
-void fw_run_take_extremes(fw_run *r, const fw_extreme *fine, const fw_extreme *coarse, long steps);
+void fw_run_take_extremes(fw_run *r, const fw_extreme *fine, const fw_extreme *coarse, double doubt,
+                          long steps);
 /* all of them within the accuracy of the largest of their kind? */
 bool fw_run_extremes_good(const fw_run *r, double accuracy);
 
@@ -140,6 +142,20 @@ fw_status fw_run_jammed(const fw_run *r, double t);
 /* event.c: the earliest event of the last step: its theta, and which entry; 1 and -1: there is none
  */
 double fw_run_event(fw_run *r, fw_stepper *s, int *which);
+/* the stepper from t on, with the longest step that laws allow */
+void fw_run_start(const fw_run *r, fw_stepper *s, double t, const double *y, double end);
+
+/* kink.c: steps beside places where a joint that slips is hardly pressed */
+fw_status fw_kinks_new(fw_run *r);
+void fw_kinks_begin(fw_run *r);                      /* a pass */
+void fw_kinks_forget(fw_run *r);                     /* forces may have jumped */
+void fw_kinks_limit(const fw_run *r, fw_stepper *s); /* the next step */
+bool fw_kinks_again(fw_run *r, fw_stepper *s); /* the last step is made again, a shorter one */
+/* what all of them may have moved anything by in this pass, scaled, up to k parts of the scene */
+void fw_kinks_doubt(const fw_run *r, double up_to[FW_MARKS + 1]);
+/* |error| of the integral of hypot(t - centre, width) from start to end by a rule of that order */
+double fw_kink_error(double start, double end, double centre, double width, int order);
+
 /* from start to end with one stepper; counts and norms are in model and stepper */
 fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks);
 

@@ -42,7 +42,8 @@ static double chosen_rtol(const fw_motion_options *o, const fw_run *r) {
 typedef struct pass {
     fw_stepper *stepper;
     fw_peaks peaks;
-    fw_extreme *extreme; /* (channels) or NULL */
+    fw_extreme *extreme;        /* (channels) or NULL */
+    double doubt[FW_MARKS + 1]; /* fw_kinks_doubt */
 } pass;
 
 /* other: the run that this one is compared with, NULL: it is the first. full: the answer. A fixed
@@ -73,6 +74,7 @@ static fw_status run_once(fw_run *r, double rtol, const pass *other, bool full, 
     p->extreme = r->extreme;
     r->full = full;
     fw_status status = fw_run_pass(r, p->stepper, &p->peaks);
+    fw_kinks_doubt(r, p->doubt);
     fw_stepper_free(p->stepper); /* what a library holds for it; its results stay */
     return status;
 }
@@ -145,15 +147,18 @@ static void estimate_errors(fw_run *r, const pass *fine, const pass *coarse) {
         fw_peak *p = &r->motion->peak[i];
         *p = fine->peaks.peak[i];
         double late = 1.25 * p->t_s + eighth;
+        int kinks = (int)fmin(FW_MARKS, 1 + late * FW_MARKS / (8 * eighth));
         double own = fabs(fabs(p->angle_rad) - fabs(other->angle_rad));
         p->t_s *= unit;
         p->error_rad =
             fw_run_margin(r) *
                 fmax(own, worst[fw_peaks_first_mark(&fine->peaks, &coarse->peaks, late)]) +
             DBL_EPSILON * (double)(8 + s->steps) * (1 + fabs(p->angle_rad)) +
-            r->motion->stats.energy_error * fabs(p->angle_rad); /* never below the books */
+            r->motion->stats.energy_error * fabs(p->angle_rad) + /* never below the books */
+            fine->doubt[kinks];
     }
-    if (fine->extreme) fw_run_take_extremes(r, fine->extreme, coarse->extreme, s->steps);
+    if (fine->extreme)
+        fw_run_take_extremes(r, fine->extreme, coarse->extreme, fine->doubt[FW_MARKS], s->steps);
 }
 
 typedef struct reached { /* largest values and errors of any pin; force 0 when not asked for */

@@ -291,6 +291,7 @@ fw_status fw_run_arrays(fw_run *r) {
     if (r->options->reactions) FW_TRY(fw_run_extremes_new(r));
     size_t friction = (size_t)fw_friction_count(r->model);
     FW_NEED(r->friction_fit = fw_arena_array(r->arena, double, friction));
+    FW_TRY(fw_kinks_new(r));
     size_t ny = (size_t)r->model->ny;
     FW_NEED(r->start = fw_arena_array(r->arena, double, ny));
     FW_NEED(r->state = fw_arena_array(r->arena, double, ny));

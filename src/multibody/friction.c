@@ -205,13 +205,18 @@ static void presses(const fw_model *m, int i, const double *lambda, double rho[2
     rho[1] = own ? lambda[2 * f->block + 1] : 0;
 }
 
-double fw_friction_press(const fw_model *m, int i) {
+void fw_friction_force(const fw_model *m, int i, double force[2]) {
     const struct fw_frictions *s = m->friction;
     const double *turn = s->turn + 2 * i * s->n;
-    double x = s->base[2 * i], y = s->base[2 * i + 1];
+    force[0] = s->base[2 * i], force[1] = s->base[2 * i + 1];
     for (int j = 0; j < s->n; j++)
-        x += turn[2 * j] * s->torque[j], y += turn[2 * j + 1] * s->torque[j];
-    return s->push[i] + hypot(x, y);
+        force[0] += turn[2 * j] * s->torque[j], force[1] += turn[2 * j + 1] * s->torque[j];
+}
+
+double fw_friction_press(const fw_model *m, int i) {
+    double force[2];
+    fw_friction_force(m, i, force);
+    return m->friction->push[i] + hypot(force[0], force[1]);
 }
 
 void fw_friction_look(fw_model *m, double t, const double *y) {

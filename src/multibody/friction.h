@@ -61,7 +61,8 @@ void fw_friction_respond(fw_model *m, const double *y);
 void fw_friction_look(fw_model *m, double t, const double *y);
 /* torques for the present flags; false: there is none, or perhaps more than one */
 bool fw_friction_solve(fw_model *m);
-/* pressing force of entry i at the torques found */
+/* the joint's own force that presses entry i, and all that does, at the torques found */
+void fw_friction_force(const fw_model *m, int i, double force[2]);
 double fw_friction_press(const fw_model *m, int i);
 /* x of least norm with gain x = right among the `count` entries of `which` (both in that order) */
 bool fw_friction_hold(struct fw_frictions *s, int count, const int *which);

@@ -346,6 +346,11 @@ void fw_friction_watch(fw_model *m, const double *y); /* velocities that occur *
 /* all flags anew, and velocities of what came to rest to 0; false: none fit, see below */
 bool fw_friction_decide(fw_model *m, double t, double *y);
 void fw_friction_fits(fw_model *m, double t, const double *y, double *fit); /* (count) >= 0: fits */
+bool fw_friction_slips(const fw_model *m); /* any of them, or yields */
+/* (2 count) the joint's force that presses, at (t, y); 0 where it sticks or nothing is known */
+void fw_friction_pressing(fw_model *m, double t, const double *y, double *force);
+/* (nq) accelerations of entry i per unit of that force, at the last evaluation */
+void fw_friction_drags(const fw_model *m, int i, double *accel);
 void fw_friction_meet(fw_model *m, int i); /* its flag fits no longer; decide follows */
 /* the joint whose friction has no torque, or more than one, and when (scaled) */
 bool fw_friction_jammed(const fw_model *m, double *t, const char **id, fw_place *place);

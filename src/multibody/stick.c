@@ -62,6 +62,31 @@ void fw_friction_fits(fw_model *m, double t, const double *y, double *fit) {
     }
 }
 
+bool fw_friction_slips(const fw_model *m) {
+    for (int i = 0; i < fw_friction_count(m); i++)
+        if (m->friction->item[i].slip) return true;
+    return false;
+}
+
+void fw_friction_pressing(fw_model *m, double t, const double *y, double *force) {
+    struct fw_frictions *s = m->friction;
+    fw_model_lean_rhs(m, t, y, s->state);
+    for (int i = 0; i < s->n; i++) {
+        bool slips = s->item[i].slip && !m->broken;
+        force[2 * i] = force[2 * i + 1] = 0;
+        if (slips) fw_friction_force(m, i, force + 2 * i);
+    }
+}
+
+void fw_friction_drags(const fw_model *m, int i, double *accel) {
+    const struct fw_frictions *s = m->friction;
+    const fw_model_friction *f = &s->item[i];
+    double coefficient = f->yields ? f->rest : f->slide;
+    const double *a = s->response + (size_t)i * (size_t)(m->nq + 3);
+    for (int c = 0; c < m->nq; c++)
+        accel[c] = coefficient * a[c];
+}
+
 static int goes(const fw_model_friction *f) {
     return f->yields ? 0 : f->slip;
 }
