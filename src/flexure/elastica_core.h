@@ -82,7 +82,7 @@ double fw_mesh_update(fw_elastica *e, int level, const double *dp, double *span)
 void fw_elastica_begin(const fw_elastica *e, fw_carried *carried);
 
 /* solves a x = x for the first `columns` columns of x, rows exchanged for size; false: singular.
-   *det: its determinant */
+ *det: its determinant */
 bool fw_solve3(const double a[3][3], int columns, double x[3][3], double *det);
 
 typedef struct fw_goal { /* what is given, without units */

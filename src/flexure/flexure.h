@@ -55,30 +55,23 @@ typedef struct fw_flexure_result {
 /* relative standard uncertainty of the peak strain inside the fitted range: half of the 2.9 % by
    which held-out finite elements were off. The verdict's model error holds it already. */
 #define FW_FLEXURE_STRAIN_UNCERTAINTY 0.015
-/* int m(b) {1, cos b, sin b, cos^2 b, sin b cos b, sin^2 b} db over the arc */
-typedef struct fw_arc_sums {
-    double w, x, y, xx, xy, yy;
-} fw_arc_sums;
-
 /* What follows from the outline alone: worked out once where material, depth or load vary */
 typedef struct fw_flexure_shape {
     fw_flexure_kind kind;
     double length_m, radius_m, width_m, fillet_m, half_angle_rad;
-    double sine, cosine;             /* of the half-angle */
-    double cos4, sin4;               /* of four times the half-angle */
-    fw_arc_sums even, along, across; /* m = 1, cos 4b, -sin 4b */
-    double neutral_m, eccentric_m;   /* rn, e = r - rn */
-    double golovin;                  /* exact over thin bending stiffness */
-    double root_length_m, whole_m;   /* dL, L + 2 dL */
-    double root_block_m;         /* of dL what the block adds; the rest, below 0, is the fillet */
-    double fillet_concentration; /* Kt */
-    double centre_m;             /* W of a uniform modulus */
-    double curved, per_root_rt, per_golovin;                  /* t/3r, 1/sqrt(r t) */
+    double sine, cosine;           /* of the half-angle */
+    double neutral_m, eccentric_m; /* rn, e = r - rn */
+    double golovin;                /* exact over thin bending stiffness */
+    double root_length_m, whole_m; /* dL, L + 2 dL */
+    double root_block_m;           /* of dL what the block adds; the rest, below 0, is the fillet */
+    double fillet_concentration;   /* Kt */
+    double centre_m;               /* W of a uniform modulus */
+    double curved, per_root_rt;    /* t/3r, 1/sqrt(r t) */
     double per_length, per_whole, per_eccentric, per_section; /* 1/L, 1/(L + 2 dL), 1/e, 12/t^2 */
-    double widening; /* of the errors: 1 inside of what was compared */
-    double safe;     /* strain_bound_per_rad over strain_per_rad */
-    bool sharp;      /* fillet below t/4 */
-    bool beyond_fit; /* of the root's concentration */
+    double widening;        /* of the errors: 1 inside of what was compared */
+    double safe;            /* strain_bound_per_rad over strain_per_rad */
+    bool sharp;             /* fillet below t/4 */
+    bool beyond_fit;        /* of the root's concentration */
     fw_flexure_error error; /* of a path, isotropic and not too deep */
     fw_pose start;          /* of a path: first end and its tangent */
 } fw_flexure_shape;
@@ -90,10 +83,13 @@ typedef struct fw_flexure_model { /* one row per kind: adding a hinge kind is on
     void (*shape)(const fw_flexure_input *in, fw_flexure_shape *shape);
     void (*closed_form)(const fw_flexure_shape *shape, const fw_flexure_input *in,
                         fw_flexure_result *out);
+    void (*at_once)(const fw_flexure_input *in,
+                    fw_flexure_result *out); /* both, isotropic; or NULL */
 } fw_flexure_model;
 const fw_flexure_model *fw_flexure_models(size_t *count);
+/* 50 ns, of a crystal 120; errors included (tests/bench/bench_hinge_closed.c) */
 void fw_flexure_closed_form(const fw_flexure_input *in, fw_flexure_result *out);
-/* the same in two steps: outline (70 ns), then everything else (65 ns) */
+/* the same in two steps: outline once, then everything else (45 ns) */
 void fw_flexure_shape_of(const fw_flexure_input *in, fw_flexure_shape *shape);
 void fw_flexure_closed_form_at(const fw_flexure_shape *shape, const fw_flexure_input *in,
                                fw_flexure_result *out);

@@ -7,21 +7,27 @@
 void fw_csfh_shape(const fw_flexure_input *in, fw_flexure_shape *shape);
 void fw_flexure_csfh(const fw_flexure_shape *shape, const fw_flexure_input *in,
                      fw_flexure_result *out);
+/* both at once, of an isotropic material; the same bits */
+void fw_csfh_at_once(const fw_flexure_input *in, fw_flexure_result *out);
 void fw_leaf_shape(const fw_flexure_input *in, fw_flexure_shape *shape);
 void fw_flexure_leaf(const fw_flexure_shape *shape, const fw_flexure_input *in,
                      fw_flexure_result *out);
 
-/* error.c: factor by which a shape outside of those compared widens its errors; the errors */
-double fw_flexure_widening(const fw_flexure_shape *shape);
-/* what lifts the peak strain above all continuum figures: they are up to 1.9 % (leaf 2.7 %) higher
-   than the closed form, 4.3 % (8.3 %) with fillets below t/4 */
-double fw_flexure_safe(const fw_flexure_shape *shape);
-fw_flexure_error fw_flexure_errors(const fw_flexure_shape *shape, const fw_flexure_input *in,
-                                   const fw_flexure_result *result);
+/* of all kinds and materials; error.c */
+void fw_flexure_errors(const fw_flexure_shape *shape, const fw_flexure_input *in,
+                       const fw_flexure_result *result, fw_flexure_error *out);
 void fw_path_shape(const fw_flexure_input *in, fw_flexure_shape *shape);
 void fw_flexure_path(const fw_flexure_shape *shape, const fw_flexure_input *in,
                      fw_flexure_result *out);
 fw_flexure_error fw_path_errors(const fw_flexure_shape *shape, const fw_flexure_input *in);
+
+/* int m(b) {1, cos b, sin b, cos^2 b, sin b cos b, sin^2 b} db over the arc -a .. a */
+typedef struct fw_arc_sums {
+    double w, x, y, xx, xy, yy;
+} fw_arc_sums;
+/* m = 1, cos 4b and -sin 4b; sin a, cos a */
+void fw_arc_sums_of(double half_angle_rad, double sine, double cosine, fw_arc_sums *even,
+                    fw_arc_sums *along, fw_arc_sums *across);
 
 /* dL/E of a root whose tangent has cos 4 psi, psi from [100]; section.c */
 double fw_root_m_per_Pa(const fw_flexure_shape *shape, const fw_crystal *crystal, double cos4);

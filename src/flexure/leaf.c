@@ -5,16 +5,19 @@
 
 void fw_leaf_shape(const fw_flexure_input *in, fw_flexure_shape *f) {
     double t = in->width_m, dL = fw_root_length_m(t, in->fillet_m);
+    double whole = in->length_m + 2.0 * dL;
     *f = (fw_flexure_shape){.kind = in->kind,
                             .length_m = in->length_m,
                             .width_m = t,
                             .fillet_m = in->fillet_m,
                             .cosine = 1,
-                            .cos4 = 1,
                             .golovin = 1,
                             .root_length_m = dL,
                             .root_block_m = fw_root_block_m(t, in->fillet_m),
-                            .whole_m = in->length_m + 2.0 * dL,
+                            .whole_m = whole,
+                            .per_length = 1 / in->length_m,
+                            .per_whole = 1 / whole,
+                            .per_section = 12 / (t * t),
                             .fillet_concentration = fw_fillet_concentration(t, in->fillet_m)};
 }
 

@@ -23,7 +23,7 @@ void fw_path_section_at(const fw_course *p, const fw_path_stuff *m, int i, doubl
     double R = 1 / fabs(k), u = 0.5 * t * fabs(k), h = m->depth_m > 0 ? m->depth_m : 1;
     *out = (fw_path_section){.pose = fw_strip_along(p->start[i], k, s_m),
                              .width_m = t,
-                             .depth = {1, 1, 1},
+                             .depth = {1, 1, 1, 1},
                              .golovin = 1};
     double psi = out->pose.angle_rad, per_E = per_youngs(m, psi), per_A = 1 / (h * t);
     double e = 0, bend = 12 * per_E * per_A / (t * t), force = bend, share = 1;

@@ -14,10 +14,12 @@ double fw_fillet_concentration(double width_m, double fillet_m);
 /* e = R - rn of a strip of width t bent to radius R, u = t/2R; exact stiffness of it over the thin
    one (Golovin) */
 double fw_neutral_offset(double radius_m, double u);
+double fw_neutral_thick(double u); /* e/(R u^2), u >= 0.1 */
 double fw_golovin(double u);
 
 typedef struct fw_depth {
     double stiffness; /* EI_eff / EI: 1 plane stress .. 1/(1-nu^2) plane strain */
+    double softness;  /* 1 over that */
     double inner,
         outer; /* hoop strain over the beam's: inner fibre at mid-depth, outer at the edge */
 } fw_depth;

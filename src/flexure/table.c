@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flexure/finish.h"
 #include "flexure/kinds.h"
 #include <math.h>
 
 static const fw_flexure_model table[] = {
     {FW_FLEXURE_CSFH, "csfh", "circular arc with a pair of conjugate surfaces", fw_csfh_shape,
-     fw_flexure_csfh},
-    {FW_FLEXURE_LEAF, "leaf", "straight leaf", fw_leaf_shape, fw_flexure_leaf},
+     fw_flexure_csfh, fw_csfh_at_once},
+    {FW_FLEXURE_LEAF, "leaf", "straight leaf", fw_leaf_shape, fw_flexure_leaf, NULL},
     {FW_FLEXURE_PATH, "path", "lines and arcs of any width, one after the other", fw_path_shape,
-     fw_flexure_path},
+     fw_flexure_path, NULL},
 };
 
 const fw_flexure_model *fw_flexure_models(size_t *count) {
@@ -22,10 +23,6 @@ static const fw_flexure_model *model_of(fw_flexure_kind kind) {
     return &table[i];
 }
 
-/* limit angle = strength / safety factor / (E eps/rad); its relative uncertainty is that of the
-   strain formula: half of the 2.9 % by which held-out finite elements were off (crystal: of 6 %),
-   and 2 % more (leaf 4 %) for fillets below t/4, 5 % more where the fillet lies outside the fitted
-   range or the arc is thick (t/r > 0.3) */
 void fw_flexure_closed_form_at(const fw_flexure_shape *f, const fw_flexure_input *in,
                                fw_flexure_result *out) {
     /* every member is set here or by the kind: clearing them all first would cost a fifth */
@@ -33,17 +30,8 @@ void fw_flexure_closed_form_at(const fw_flexure_shape *f, const fw_flexure_input
     out->root_length_m = f->root_length_m;
     out->offset_m[0] = out->offset_m[1] = out->uneven_x = out->uneven_y = 0;
     model_of(f->kind)->closed_form(f, in, out);
-    double along = out->compliance[1][1], across = out->compliance[2][2];
-    double both = 1 / (along * across);
-    out->kx_N_per_m = across * both, out->ky_N_per_m = along * both;
-    out->strain_bound_per_rad = f->safe * out->strain_per_rad;
-    out->stress_per_rad_Pa = in->youngs_Pa * out->strain_per_rad;
-    out->limit_angle_rad = in->strength_Pa / (in->safety_factor * out->stress_per_rad_Pa);
-    out->error = fw_flexure_errors(f, in, out);
-    out->limit_uncertainty = (in->crystal.known ? 0.03 : FW_FLEXURE_STRAIN_UNCERTAINTY) +
-                             (f->beyond_fit ? 0.065 - FW_FLEXURE_STRAIN_UNCERTAINTY
-                              : f->sharp    ? (f->kind == FW_FLEXURE_LEAF ? 0.04 : 0.02)
-                                            : 0);
+    fw_stiffness_and_limit(f, in, out);
+    fw_flexure_errors(f, in, out, &out->error);
 }
 
 bool fw_flexure_input_varies(const fw_flexure_input *in) {
@@ -65,19 +53,18 @@ fw_flexure_input fw_flexure_input_of(const fw_flexure *f, double fillet_m) {
 
 void fw_flexure_shape_of(const fw_flexure_input *in, fw_flexure_shape *f) {
     model_of(fw_flexure_input_varies(in) ? FW_FLEXURE_PATH : in->kind)->shape(in, f);
-    f->per_length = 1 / f->length_m;
-    f->per_whole = 1 / f->whole_m;
-    f->per_section = 12 / (f->width_m * f->width_m);
-    f->widening = f->kind == FW_FLEXURE_PATH ? 1 : fw_flexure_widening(f);
+    /* before the marks: a path goes by the fillets of its ends, marks by its narrowest width */
     if (f->kind == FW_FLEXURE_PATH) f->error = fw_path_errors(f, in);
-    double x = f->fillet_m / f->width_m;
-    f->sharp = x >= 0 && x < 0.25;
-    f->safe = fw_flexure_safe(f);
-    f->beyond_fit = (x >= 0 && x < 0.05) || x > 1.0 + 1e-9 ||
-                    (f->kind == FW_FLEXURE_CSFH && f->width_m > 0.3 * f->radius_m);
+    fw_shape_marks(f);
 }
 
 void fw_flexure_closed_form(const fw_flexure_input *in, fw_flexure_result *out) {
+    bool varies = fw_flexure_input_varies(in);
+    const fw_flexure_model *model = model_of(varies ? FW_FLEXURE_PATH : in->kind);
+    if (model->at_once && !in->crystal.known) {
+        model->at_once(in, out);
+        return;
+    }
     fw_flexure_shape f;
     fw_flexure_shape_of(in, &f);
     fw_flexure_closed_form_at(&f, in, out);

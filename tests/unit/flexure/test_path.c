@@ -342,6 +342,14 @@ static void errors_are_stated(void **state) {
     assert_true(b.error.outside);
     assert_true(b.error.stiffness > 1.9 * a.error.stiffness);
     assert_true(b.error.centre_m > a.error.centre_m && b.limit_uncertainty >= a.limit_uncertainty);
+
+    /* a fillet as wide as the ends is inside of what was compared, however thin the middle */
+    const fw_strip_piece waist = {400e-6, 1 / 100e-6, {8e-6, 7e-6, 8e-6}};
+    other = made_of(&waist, 1);
+    other.fillet_m = 8e-6;
+    fw_flexure_closed_form(&other, &b);
+    assert_true(b.error.stiffness > 1.9 * a.error.stiffness);
+    assert_true(b.error.stiffness < 2.5 * a.error.stiffness);
 }
 
 int main(void) {

@@ -1,0 +1,244 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The closed form of arcs against its formulas written down plainly in long double and by the
+   library's functions: what stands in line for speed is the same to rounding. */
+#include "flexure/finish.h"
+#include "flexure/flexure.h"
+#include "flexure/section.h"
+#include "test.h"
+#include <stdlib.h>
+#include <string.h>
+
+static uint64_t seed = 88172645463325252u;
+
+static double uniform(double low, double high) { /* xorshift */
+    seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17;
+    return low + (high - low) * (double)(seed >> 11) * 0x1p-53;
+}
+
+static double spread(double low, double high) {
+    return low * pow(high / low, uniform(0, 1));
+}
+
+/* |a - b| below `part` of b, or below `least` */
+static void compare(const char *what, double is, long double plain, double part,
+                    long double least) {
+    long double off = fabsl((long double)is - plain);
+    if (off <= part * fabsl(plain) || off <= least) return;
+    fail_msg("%s = %.17g, plainly %.17Lg, off by %.2Lg of it", what, is, plain, off / fabsl(plain));
+}
+#define agrees(is, plain, part, least) compare(#is, is, plain, part, least)
+
+static void sine_and_cosine(void **state) {
+    (void)state;
+    for (int i = 0; i < 200000; i++) {
+        double x = i & 1 ? uniform(0, 64) : spread(1e-12, 64), s, c;
+        if (i % 5 == 0) x = 0.5 * M_PI * (int)uniform(0, 40) + spread(1e-17, 1e-3);
+        fw_quick_sincos(x, &s, &c);
+        agrees(s, sinl((long double)x), 3 * 0x1p-53, 4e-25L);
+        agrees(c, cosl((long double)x), 3 * 0x1p-53, 4e-25L);
+    }
+    for (int i = 0; i < 100; i++) { /* beyond: the library's own */
+        double x = uniform(-100, 0) + (i & 1 ? 0 : 164), s, c;
+        fw_quick_sincos(x, &s, &c);
+        agrees(s, sinl((long double)x), 0x1p-52, 0);
+        agrees(c, cosl((long double)x), 0x1p-52, 0);
+    }
+}
+
+static void exponential(void **state) {
+    (void)state;
+    for (int i = 0; i < 100000; i++) {
+        double x = i & 1 ? uniform(0, 64) : spread(1e-12, 64);
+        agrees(fw_quick_exp_minus(x), expl(-(long double)x), 3 * 0x1p-53, 0);
+    }
+    assert_near(fw_quick_exp_minus(0), 1, 0);
+}
+
+static void cube_roots(void **state) {
+    (void)state;
+    for (int i = 0; i < 100000; i++) {
+        double x = i & 1 ? uniform(0.05, 1) : spread(1e-150, 1e150);
+        agrees(fw_quick_per_cube_root(x), 1 / cbrtl((long double)x), 4 * 0x1p-53, 0);
+    }
+}
+
+typedef struct plain {
+    long double K, thin, D, Kt, strain, limit, W, dL;
+    long double C[3], terms[3]; /* of the sums: the absolute values of what is added */
+    long double error[4], centre_error;
+} plain;
+
+typedef struct plain_depth {
+    long double D, inner, outer;
+} plain_depth;
+
+/* theory, eq. 8 to 10, with the hyperbolic functions */
+static plain_depth depth_of(long double deep, long double nu) {
+    long double root = sqrtl(3 * (1 - nu * nu)), x = deep * sqrtl(root), X = x / 2;
+    long double s = sinl(X), c = cosl(X), sh = sinhl(X), ch = coshl(X), N = s * c + sh * ch;
+    long double f = 2 / x * (coshl(x) - cosl(x)) / (sinhl(x) + sinl(x));
+    long double C1 = nu / root * (sh * c - ch * s) / N, C2 = nu / root * (ch * s + sh * c) / N;
+    return (plain_depth){(1 - nu * nu * f) / (1 - nu * nu), 1 - C1, 1 + C1 * ch * c + C2 * sh * s};
+}
+
+static long double larger(long double a, long double b) {
+    return a > b ? a : b;
+}
+
+/* 1 - u/atanh u, whose difference would cancel even here */
+static long double off_neutral(long double u) {
+    long double sum = 0;
+    for (int n = 40; n > 0; n--)
+        sum += powl(u, 2 * n) / (2 * n + 1);
+    return sum * u / atanhl(u);
+}
+
+/* theory, eq. 1 to 7 */
+static plain form_of(const fw_flexure_input *in) {
+    long double r = in->radius_m, a = (long double)in->angle_rad / 2, t = in->width_m;
+    long double h = in->depth_m, E = in->youngs_Pa, nu = in->poisson, L = 2 * a * r, u = t / 2 / r;
+    long double s = sinl(a), c = cosl(a), e = r * off_neutral(u), rn = r - e, A = h * t;
+    long double q = larger(0.05L, in->fillet_m / t);
+    if (q > 1) q = 1;
+    bool ideal = in->fillet_m < 0;
+    plain p = {.dL = ideal ? 0 : t * (0.4192L - 0.5972L * q - 0.1167L * q * q)};
+    long double whole = L + 2 * p.dL, I = h * t * t * t / 12;
+    plain_depth d = depth_of(h / sqrtl(r * t), nu);
+    long double kt = ideal ? 1 : 0.944L + 0.2113L * powl(q, -2 / 3.0L);
+    long double peak = larger((1 + t / 3 / r) * d.inner, (1 - t / 3 / r) * d.outer);
+    p.D = d.D, p.thin = E * I / L;
+    p.K = E * I * d.D * (1 - 2 * u * u / 15 - u * u * u * u / 21) / whole;
+    p.W = (L * rn * s / a + 2 * p.dL * r * c) / whole;
+    p.Kt = kt * peak, p.strain = t / 2 / whole * p.Kt;
+    p.limit = in->strength_Pa / in->safety_factor / (E * p.strain);
+    long double bend = 1 / (E * A * e * d.D), shear = 2.4L * (1 + nu) * r / (E * A);
+    long double end = 2 * p.dL / (E * I * d.D), x = r * c - p.W, y = r * s;
+    p.C[0] = 1 / p.K;
+    p.C[1] = bend * r * rn * (a - s * c) + end * y * y + shear * (a + s * c);
+    p.terms[1] = bend * r * rn * (a + fabsl(s * c)) + fabsl(end) * y * y + shear * 2 * a;
+    p.C[2] = bend * rn * (r * (a + s * c) - 4 * p.W * s + 2 * a * p.W * p.W / rn) + end * x * x +
+             shear * (a - s * c);
+    p.terms[2] = bend * rn * (r * 2 * a + 4 * fabsl(p.W * s) + 2 * a * p.W * p.W / rn) +
+                 fabsl(end) * (r * r + p.W * p.W) + shear * 2 * a;
+
+    /* error.c */
+    long double rho = larger(0, in->fillet_m < in->width_m ? in->fillet_m : in->width_m);
+    long double lost = 0.35L * h * larger(0, 1 - (1 - nu * nu) * d.D) + 0.006L * t +
+                       2.3L * (t / r) * (t / r) * rho * rho / t;
+    long double off = 2 * lost / L, place = 0.6L * rho * rho, EI = E * I * d.D;
+    long double give = ideal ? 0 : 3.2L * t * t * t / 12, X = fabsl(x), Y = fabsl(y);
+    p.error[0] = 0.001L + off;
+    p.error[1] = 0.002L + (off * L * Y * Y + place * Y * fabsl(c) + give * s * s) / (EI * p.C[1]);
+    p.error[2] = 0.002L + (off * L * X * X + place * X * fabsl(s) + give * c * c) / (EI * p.C[2]);
+    p.error[3] = 0.03L + larger(0, peak - (1 + t / 3 / r)) / 2 + (!ideal && q < 0.25L ? 0.03L : 0);
+    p.centre_error = off * X + place / L + 2e-4L * r;
+    return p;
+}
+
+static fw_flexure_input any(int i) {
+    double angle = uniform(0.35, 2 * M_PI), t = spread(1e-6, 30e-6), r = t / uniform(0.01, 0.29);
+    return (fw_flexure_input){.kind = FW_FLEXURE_CSFH,
+                              .length_m = r * angle,
+                              .angle_rad = angle,
+                              .radius_m = r,
+                              .width_m = t,
+                              .fillet_m = i % 7 == 0 ? -1 : t * uniform(0.02, 1.2),
+                              .depth_m = t * spread(0.01, 40),
+                              .youngs_Pa = spread(1e9, 5e11),
+                              .poisson = uniform(0, 0.45),
+                              .strength_Pa = spread(1e7, 1e10),
+                              .safety_factor = uniform(1, 4)};
+}
+
+/* 1e-14 of each figure; where a sum cancels (short arcs, W of a full turn) of what it adds; of the
+   errors, which hold small differences of D, x and 1, 1e-12 */
+static void random_hinges(void **state) {
+    (void)state;
+    for (int i = 0; i < 40000; i++) {
+        const fw_flexure_input in = any(i);
+        const plain p = form_of(&in);
+        fw_flexure_result out;
+        fw_flexure_closed_form(&in, &out);
+        agrees(out.stiffness_Nm_per_rad, p.K, 1e-14, 0);
+        agrees(out.stiffness_thin, p.thin, 1e-14, 0);
+        agrees(out.depth_factor, p.D, 1e-14, 0);
+        agrees(out.concentration, p.Kt, 1e-14, 0);
+        agrees(out.strain_per_rad, p.strain, 1e-14, 0);
+        agrees(out.limit_angle_rad, p.limit, 1e-14, 0);
+        agrees(out.root_length_m, p.dL, 1e-14, 1e-15L * in.width_m);
+        agrees(out.centre_m, p.W, 1e-14, 2e-15L * in.radius_m);
+        agrees(out.compliance[0][0], p.C[0], 1e-14, 0);
+        for (int k = 1; k < 3; k++)
+            agrees(out.compliance[k][k], p.C[k], 1e-14, 4e-15L * p.terms[k]);
+        agrees(out.kx_N_per_m * out.compliance[1][1], 1, 1e-15, 0);
+        agrees(out.ky_N_per_m * out.compliance[2][2], 1, 1e-15, 0);
+        double x = in.fillet_m / in.width_m, wide = in.length_m < 16 * in.width_m ? 2 : 1;
+        wide *= (x >= 0 && x < 0.05) || x > 1 ? 2 : 1;
+        wide *= (in.width_m > 0.15 * in.radius_m ? 2 : 1) * (in.depth_m > 10 * in.width_m ? 2 : 1);
+        const fw_flexure_error *e = &out.error;
+        agrees(e->stiffness, wide * p.error[0], 1e-12, 0);
+        agrees(e->kx, wide * p.error[1], 1e-12, 1e-14L * p.terms[1] / p.C[1]);
+        agrees(e->ky, wide * p.error[2], 1e-12, 1e-14L * p.terms[2] / p.C[2]);
+        agrees(e->strain, wide * p.error[3], 1e-14, 0);
+        agrees(e->centre_m, wide * p.centre_error, 1e-12, 0);
+        assert_int_equal(e->outside, wide > 1);
+    }
+}
+
+/* the depth factors from the thinnest strip to plane strain, over both seams of their formulas */
+static void depth_factors(void **state) {
+    (void)state;
+    for (int i = 0; i < 40000; i++) {
+        double nu = uniform(0, 0.49), deep = i % 3 ? spread(1e-4, 44) : spread(0.07, 0.09);
+        const fw_depth d = fw_depth_at(deep, nu);
+        if (deep < 1e-2) { /* here even long double cancels: plane stress */
+            assert_near(d.stiffness, 1, 1e-9);
+            continue;
+        }
+        const plain_depth p = depth_of(deep, nu);
+        agrees(d.stiffness, p.D, 3e-15, 0);
+        agrees(d.softness, 1 / p.D, 3e-15, 0);
+        agrees(d.inner, p.inner, 3e-15, 0);
+        agrees(d.outer, p.outer, 3e-15, 0);
+    }
+    for (double nu = 0; nu < 0.5; nu += 0.1) { /* and beyond: what is left is 2/x */
+        const fw_depth d = fw_depth_at(1e4, nu);
+        double x = 1e4 * sqrt(sqrt(3 * (1 - nu * nu)));
+        assert_relative(d.stiffness, (1 - nu * nu * 2 / x) / (1 - nu * nu), 1e-15);
+        assert_near(d.inner, 1, 1e-15);
+    }
+}
+
+/* outline first, or all at once; a crystal that has no direction */
+static void ways_agree(void **state) {
+    (void)state;
+    for (int i = 0; i < 5000; i++) {
+        fw_flexure_input in = any(i);
+        fw_flexure_result a, b, c;
+        fw_flexure_shape f;
+        memset(&f, 0xff, sizeof f), memset(&a, 0xff, sizeof a), memset(&b, 0xff, sizeof b);
+        fw_flexure_shape_of(&in, &f);
+        fw_flexure_closed_form(&in, &a);
+        fw_flexure_closed_form_at(&f, &in, &b);
+        double nu = in.poisson, E = in.youngs_Pa, lame = E * nu / (1 + nu) / (1 - 2 * nu);
+        double G = E / 2 / (1 + nu);
+        in.crystal = fw_crystal_cubic(lame + 2 * G, lame, G, 0.3);
+        fw_flexure_closed_form(&in, &c);
+        const double *x = &a.centre_m, *y = &b.centre_m;
+        for (size_t k = 0; k < offsetof(fw_flexure_result, error.outside) / sizeof(double); k++)
+            agrees(x[k], (long double)y[k], 4e-15, 0);
+        assert_int_equal(a.error.outside, b.error.outside);
+        assert_relative(c.stiffness_Nm_per_rad, a.stiffness_Nm_per_rad, 1e-12);
+        assert_relative(c.kx_N_per_m, a.kx_N_per_m, 1e-9);
+        assert_relative(c.ky_N_per_m, a.ky_N_per_m, 1e-7);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sine_and_cosine), cmocka_unit_test(exponential),
+        cmocka_unit_test(cube_roots),      cmocka_unit_test(depth_factors),
+        cmocka_unit_test(random_hinges),   cmocka_unit_test(ways_agree),
+    };
+    return cmocka_run_group_tests_name("quick", tests, NULL, NULL);
+}
