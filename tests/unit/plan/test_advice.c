@@ -16,12 +16,16 @@ static const char arm[] =
     "b-x=\"-0.5 mm\" hinge=\"f\" axis=\"180 deg\"/></mechanism><scene name=\"a\" duration=\"5 ms\">"
     "<torque on=\"arm\" value=\"%s\"/></scene></device>";
 
-static const char sizes[] = "<parameter name=\"r\" value=\"100 um\"/>"
-                            "<parameter name=\"w\" value=\"8 um\"/>";
+/* what a test does not ask about stays: no room, no looks */
+static const char radius[] =
+    "<parameter name=\"r\" value=\"100 um\" min=\"100 um\" max=\"100 um\"/>";
+static const char free_width[] = "<parameter name=\"w\" value=\"8 um\" max=\"16 um\"/>";
+static const char width[] = "<parameter name=\"w\" value=\"8 um\" min=\"8 um\" max=\"8 um\"/>";
 
-static const char *text_of(fw_arena *arena, const char *parameters, const char *flow,
+static const char *text_of(fw_arena *arena, const char *parameters, bool wider, const char *flow,
                            const char *torque) {
-    const char *all = fw_arena_printf(arena, "%s%s", sizes, parameters);
+    const char *all =
+        fw_arena_printf(arena, "%s%s%s", radius, wider ? free_width : width, parameters);
     const char *a = fw_arena_printf(arena, head, all ? all : "", flow);
     const char *b = fw_arena_printf(arena, arm, torque);
     const char *text = fw_arena_printf(arena, "%s%s", a ? a : "", b ? b : "");
@@ -88,7 +92,7 @@ static double random_part(uint64_t *seed) {
 static void of_random_arms(void **state) {
     (void)state;
     uint64_t seed = 77;
-    for (int k = 0; k < 5; k++) {
+    for (int k = 0; k < 3; k++) {
         fw_arena *arena = fw_arena_new(0);
         double torque = 0.13 + 0.07 * random_part(&seed), share = 1 + 5 * random_part(&seed);
         const char *parameters = fw_arena_printf(
@@ -96,7 +100,7 @@ static void of_random_arms(void **state) {
             "<parameter name=\"t\" value=\"%.3f uN m\"/><parameter name=\"many\" value=\"%.2f\"/>",
             torque * (k % 2 ? -1 : 1), share);
         const char *value = fw_arena_printf(arena, "t*many/%.2f", share);
-        const char *text = text_of(arena, parameters, "", value);
+        const char *text = text_of(arena, parameters, true, "", value);
         fw_plan *plan = judged(text, NULL, true);
         const fw_hinge_verdict *h = &plan->verdict.hinge[0];
         const fw_parameter_advice *t = of(plan, "t"), *s = of(plan, "many");
@@ -125,7 +129,7 @@ static void not_monotonous(void **state) {
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         const char *parameters = fw_arena_printf(
             arena, "<parameter name=\"a\" value=\"%g\" min=\"0\" max=\"6\"/>", row[i].now);
-        const char *text = text_of(arena, parameters, "", "0.3 uN m*(a - 1)*(a - 3)");
+        const char *text = text_of(arena, parameters, false, "", "0.3 uN m*(a - 1)*(a - 3)");
         fw_plan *plan = judged(text, NULL, true);
         const fw_parameter_advice *a = of(plan, "a");
         assert_int_equal(plan->verdict.decision, FW_REJECT);
@@ -145,7 +149,7 @@ static void none_is_found(void **state) {
                 "<parameter name=\"t\" value=\"2 uN m\" min=\"1.5 uN m\" max=\"3 uN m\"/>"
                 "<parameter name=\"nought\" value=\"0 N\"/>"
                 "<parameter name=\"fixed\" value=\"2\" min=\"2\" max=\"2\"/>",
-                "", "t");
+                false, "", "t");
     fw_plan *plan = judged(text, NULL, true);
     assert_int_equal(plan->verdict.decision, FW_REJECT);
     assert_int_equal(of(plan, "idle")->found, FW_PARAMETER_NONE);
@@ -166,8 +170,8 @@ static void none_is_found(void **state) {
 static void begins_at_what_is_set(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    const char *text =
-        text_of(arena, "<parameter name=\"t\" value=\"0.05 uN m\" max=\"4 uN m\"/>", "", "t");
+    const char *text = text_of(arena, "<parameter name=\"t\" value=\"0.05 uN m\" max=\"4 uN m\"/>",
+                               false, "", "t");
     fw_plan *plan = judged(text, NULL, true);
     assert_int_equal(plan->verdict.decision, FW_ACCEPT);
     assert_int_equal(plan->verdict.nparameter, 0);
@@ -178,7 +182,7 @@ static void begins_at_what_is_set(void **state) {
     assert_near(t->from, 3e-7, 1e-18);
     assert_near(t->low, 0.75e-7, 1e-18);
     assert_near(t->high, 4e-6, 1e-18);
-    check_smallest(text_of(arena, "<parameter name=\"t\" value=\"0.3 uN m\"/>", "", "t"), t,
+    check_smallest(text_of(arena, "<parameter name=\"t\" value=\"0.3 uN m\"/>", false, "", "t"), t,
                    " uN m", 1e-6);
     fw_plan_free(plan);
     fw_arena_free(arena);
@@ -193,7 +197,7 @@ static void as_made(void **state) {
                 "<parameter name=\"t\" value=\"0.09 uN m\" min=\"0 uN m\" "
                 "max=\"1 uN m\"/>"
                 "<parameter name=\"thick\" value=\"50 um\" min=\"20 um\" max=\"400 um\"/>",
-                "<flow ref=\"al-masked-rie\" thickness=\"thick\"/>", "t");
+                true, "<flow ref=\"al-masked-rie\" thickness=\"thick\"/>", "t");
     fw_plan *plan = judged(text, NULL, true);
     assert_int_not_equal(plan->verdict.decision, FW_ACCEPT);
     check_smallest(text, of(plan, "t"), " uN m", 1e-6);
