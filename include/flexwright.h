@@ -145,8 +145,8 @@ FW_API const char *fw_design_name(const fw_design *design);
    flow, with advice for a design that is not accepted; times and judgement of the flows. After
    reading. FW_STATUS_INPUT, FW_STATUS_USAGE (an effect that is not known), FW_STATUS_GEOMETRY,
    FW_STATUS_SOLVER, FW_STATUS_LIMIT, FW_STATUS_CANCELLED, FW_STATUS_NOMEM. Again after
-   FW_STATUS_OK: does nothing. Cost for a six-bar: about 20 ms, 50 and more when advice is sought.
- */
+   FW_STATUS_OK: does nothing. Cost for a six-bar: about 20 ms, 50 and more when advice is sought,
+   and as much as some twenty verdicts more for every parameter. */
 FW_API int fw_design_judge(fw_design *design);
 
 /* The answer, as the exit status of the program: 0 accepted, 1 rejected (also when a flow cannot

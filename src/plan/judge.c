@@ -8,10 +8,15 @@
 #include <string.h>
 
 /* the variant, and what its flow may make of it */
-static fw_status made_of(fw_plan *plan, const fw_plan_flow *pf, fw_variant_verdict *v) {
+fw_status fw_plan_made_of(fw_arena *arena, const fw_plan_flow *pf, fw_variant_verdict *v) {
     v->variant = &pf->variant;
     if (!pf->flow) return FW_OK;
-    return fw_flow_made(plan->arena, pf->flow, &pf->variant, &v->input, &v->ninput);
+    return fw_flow_made(arena, pf->flow, &pf->variant, &v->input, &v->ninput);
+}
+
+static fw_status restated(void *plan, fw_arena *arena, const fw_set *set, const fw_device **device,
+                          fw_variant_verdict *variant) {
+    return fw_plan_restated((const fw_plan *)plan, arena, set, device, variant);
 }
 
 fw_status fw_plan_judge(fw_plan *plan) {
@@ -21,9 +26,11 @@ fw_status fw_plan_judge(fw_plan *plan) {
     FW_NEED(verdict->variant =
                 fw_arena_array(plan->arena, fw_variant_verdict, (size_t)plan->nflow));
     for (int i = 0; i < plan->nflow; i++)
-        FW_TRY(made_of(plan, &plan->flow[i], &verdict->variant[i]));
-    FW_TRY(fw_verdict_run(plan->arena, plan->device, &plan->options.verdict, &plan->diags, verdict,
-                          &plan->layout));
+        FW_TRY(fw_plan_made_of(plan->arena, &plan->flow[i], &verdict->variant[i]));
+    fw_verdict_options options = plan->options.verdict;
+    options.restated = (fw_restated){restated, plan};
+    FW_TRY(
+        fw_verdict_run(plan->arena, plan->device, &options, &plan->diags, verdict, &plan->layout));
     return fw_plan_compute_flows(plan);
 }
 

@@ -245,6 +245,33 @@ static fw_status load_flows(fw_plan *plan) {
     return FW_OK;
 }
 
+/* a plan of its own for messages and memory, over the packs of this one */
+fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_set *set,
+                           const fw_device **device, fw_variant_verdict *variant) {
+    size_t n = (size_t)plan->options.nset;
+    fw_set *sets = fw_arena_array(arena, fw_set, n + 1);
+    fw_plan_flow *flow = fw_arena_array(arena, fw_plan_flow, (size_t)plan->nflow);
+    FW_NEED(sets && flow ? sets : NULL);
+    if (n > 0) memcpy(sets, plan->options.set, n * sizeof *sets);
+    sets[n] = *set; /* of two for one parameter the last holds */
+    fw_plan other = *plan;
+    other.arena = arena;
+    other.diags = fw_diags_new(arena);
+    other.flow = flow;
+    FW_TRY(fw_device_read(arena, plan->source_file, plan->source, plan->source_length, sets,
+                          plan->options.nset + 1, &other.diags, device));
+    other.device = *device;
+    fw_material own;
+    FW_TRY(own_material(&other, &own));
+    for (int i = 0; i < plan->nflow; i++) {
+        flow[i] = plan->flow[i];
+        if (flow[i].use) flow[i].use = &(*device)->flow[flow[i].use - plan->device->flow];
+        FW_TRY(make_variant(&other, &flow[i], &own));
+        FW_TRY(fw_plan_made_of(arena, &flow[i], &variant[i]));
+    }
+    return FW_OK;
+}
+
 fw_status fw_plan_load(fw_plan *plan, const char *path) {
     char *xml;
     size_t n;

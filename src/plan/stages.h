@@ -11,6 +11,12 @@ const char *fw_plan_material_names(fw_plan *plan);
 fw_status fw_plan_need_material(fw_plan *plan);
 fw_status fw_plan_assume(fw_plan *plan, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
+/* the description of a loaded plan read again with one more --set, and its variants, in `arena`;
+   what was read of packs is shared. FW_INPUT: that value is not allowed, and nothing says why */
+fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_set *set,
+                           const fw_device **device, fw_variant_verdict *variant);
+/* the variant of a flow, and what that may make of it */
+fw_status fw_plan_made_of(fw_arena *arena, const fw_plan_flow *flow, fw_variant_verdict *v);
 /* times, bias and judgement of every flow, from the exact outlines */
 fw_status fw_plan_compute_flows(fw_plan *plan);
 /* once per plan, after judging */

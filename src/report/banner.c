@@ -90,10 +90,26 @@ static void facts(fw_text *out, const fw_verdict *v) {
     fw_text_add(out, "</dl>\n");
 }
 
+static void set_this(fw_text *out, const char *path, const char *value) {
+    if (path && value) fw_report_markup(out, " <code>--set &#39;{s}={s}&#39;</code>", path, value);
+}
+
+static void parameters(fw_text *out, const fw_verdict *v) {
+    if (v->nparameter == 0) return;
+    fw_text_add(out, "<p>One parameter alone:</p>\n<ul>\n");
+    for (int i = 0; i < v->nparameter; i++) {
+        const fw_parameter_advice *p = &v->parameter[i];
+        fw_report_markup(out, "<li>{s}", p->text);
+        set_this(out, p->name, p->value_text);
+        fw_text_add(out, "</li>\n");
+    }
+    fw_text_add(out, "</ul>\n");
+}
+
 void fw_report_advice(fw_page *page) {
     const fw_verdict *v = page->in->verdict;
     fw_text *out = page->out;
-    if (v->nadvice == 0 && !v->advice_note) return;
+    if (v->nadvice == 0 && !v->advice_note && v->nparameter == 0) return;
     fw_report_markup(out, "<aside class=\"advice\"><h2>{r}</h2>\n",
                      v->nadvice ? "What would be accepted" : "Advice");
     if (v->nadvice) {
@@ -101,9 +117,7 @@ void fw_report_advice(fw_page *page) {
         for (int i = 0; i < v->nadvice; i++) {
             const fw_advice *a = &v->advice[i];
             fw_report_markup(out, "<li>{s}", a->text);
-            if (a->set_path && a->value_text)
-                fw_report_markup(out, " <code>--set &#39;{s}={s}&#39;</code>", a->set_path,
-                                 a->value_text);
+            set_this(out, a->set_path, a->value_text);
             fw_text_add(out, "</li>\n");
         }
         fw_text_add(out, "</ul>\n");
@@ -114,6 +128,7 @@ void fw_report_advice(fw_page *page) {
                                  : "These changes together were not confirmed by a run.");
     }
     if (v->advice_note) fw_report_markup(out, "<p>{s}</p>\n", v->advice_note);
+    parameters(out, v);
     fw_text_add(out, "</aside>\n");
 }
 

@@ -206,6 +206,26 @@ static json_t *advice(const fw_verdict *v, bool *failed) {
     return list;
 }
 
+static json_t *parameters(const fw_verdict *v, bool *failed) {
+    static const char *const found[] = {"accepts", "none", "not looked at"};
+    json_t *list = json_array();
+    for (int i = 0; i < v->nparameter; i++) {
+        const fw_parameter_advice *p = &v->parameter[i];
+        json_t *o = json_object();
+        fw_json_put(o, "set", fw_json_text(p->name), failed);
+        fw_json_put(o, "found", fw_json_text(found[p->found]), failed);
+        fw_json_put(o, "value", fw_json_text(p->value_text), failed);
+        fw_json_put(o, "value_SI", fw_json_real(p->to), failed);
+        fw_json_put(o, "now_SI", fw_json_real(p->from), failed);
+        fw_json_put(o, "change", fw_json_real(p->change), failed);
+        fw_json_put(o, "from_SI", fw_json_real(p->low), failed);
+        fw_json_put(o, "to_SI", fw_json_real(p->high), failed);
+        fw_json_put(o, "text", fw_json_text(p->text), failed);
+        fw_json_push(list, o, failed);
+    }
+    return list;
+}
+
 fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out) {
     const fw_verdict *v = input->verdict;
     bool failed = false;
@@ -242,5 +262,6 @@ fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out) {
     fw_json_put(root, "advice", advice(v, &failed), &failed);
     fw_json_put(root, "advice_verified", json_boolean(v->advice_verified), &failed);
     fw_json_put(root, "advice_note", fw_json_text(v->advice_note), &failed);
+    fw_json_put(root, "advice_parameters", parameters(v, &failed), &failed);
     return fw_json_write(root, failed, out);
 }

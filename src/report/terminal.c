@@ -129,6 +129,17 @@ static void reasons(fw_text *out, const fw_verdict *v) {
         }
 }
 
+static void parameters(fw_text *out, const fw_verdict *v) {
+    for (int i = 0; i < v->nparameter; i++) {
+        const fw_parameter_advice *p = &v->parameter[i];
+        if (i == 0) fw_text_add(out, "\none parameter alone:\n");
+        if (p->found == FW_PARAMETER_ACCEPTS)
+            fw_text_printf(out, "  %s\n    --set \"%s=%s\"\n", p->text, p->name, p->value_text);
+        else
+            fw_text_printf(out, "  %s\n", p->text);
+    }
+}
+
 static void advice(fw_text *out, const fw_verdict *v) {
     if (v->nadvice == 0 && !v->advice_note) return;
     fw_text_add(out, "\nwhat to change:\n");
@@ -153,6 +164,7 @@ fw_status fw_report_verdict_text(const fw_report_input *input, fw_terminal_style
     if (style.detail >= 0) pull_ins(out, input);
     if (style.detail >= 0) fw_report_made_text(out, v);
     advice(out, v);
+    parameters(out, v);
     for (int i = 0; style.detail >= 0 && v->decision != FW_REJECT && i < input->nflow; i++)
         if (input->flow[i].flow) flow(out, &input->flow[i], style.detail);
     return fw_text_end(out);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What to change, and by how much: longer flexures, else wider ones; and, beside either, how far
-   the loads or the required poses would have to come down. Every sentence has been run and
-   accepted. */
+   the loads or the required poses would have to come down; and every declared parameter alone.
+   Every sentence has been run and accepted. */
 #include "verdict/trial.h"
 #include <math.h>
 
@@ -44,6 +44,7 @@ static fw_status conclude(fw_arena *arena, fw_verdict *verdict, const char *load
 
 fw_status fw_verdict_advise(fw_arena *arena, const fw_device *device,
                             const fw_verdict_options *options, fw_verdict *verdict) {
+    FW_TRY(fw_change_parameters(arena, device, options, verdict));
     verdict->advice_note = hopeless(device, verdict);
     if (verdict->advice_note) return FW_OK;
     FW_NEED(verdict->advice = fw_arena_array(arena, fw_advice, 2 * (size_t)device->nflexure));

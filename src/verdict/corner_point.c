@@ -89,7 +89,8 @@ static fw_status judge_closely(const fw_search *s, fw_arena *scratch, const fw_m
         *now = (fw_variant_verdict){.variant = &device->variant};
         FW_TRY(
             fw_verdict_variant(scratch, &device->device, device->drawn, m, &options, diags, now));
-        if (look == 2 || fw_verdict_closer(now->hinge, now->nhinge) != FW_CLOSER_NUMBERS)
+        if (look == 2 || options.at_a_glance ||
+            fw_verdict_closer(now->hinge, now->nhinge) != FW_CLOSER_NUMBERS)
             return FW_OK;
         bool asked = look == 0 && motion->accuracy > s->options.motion.accuracy;
         options = asked ? s->options : fw_verdict_tighter(&s->options, FW_CLOSER_NUMBERS);
@@ -142,11 +143,21 @@ static fw_status run_point(fw_search *s, const double *x, fw_made_corner *corner
     return status;
 }
 
+static bool is_known(const fw_search *s, const double *x) {
+    return s->known && memcmp(s->known->x, x, (size_t)s->v->ninput * sizeof *x) == 0;
+}
+
 fw_status fw_search_run(fw_search *s, const double *x, unsigned bits) {
     fw_made_verdict *made = s->made;
     int point = made->ncorner;
     if (point >= FW_MOST_POINTS) return FW_OK;
-    FW_TRY(run_point(s, x, &made->corner[point], s->ln + (size_t)point * (size_t)s->nrow));
+    double *ln = s->ln + (size_t)point * (size_t)s->nrow;
+    if (is_known(s, x)) {
+        made->corner[point] = *s->known;
+        memcpy(ln, s->known_ln, (size_t)s->nrow * sizeof *ln);
+    } else {
+        FW_TRY(run_point(s, x, &made->corner[point], ln));
+    }
     s->bits[point] = bits;
     made->ncorner++;
     return FW_OK;

@@ -302,22 +302,33 @@ static fw_status new_search(fw_arena *arena, const fw_device *device, const fw_l
     return FW_OK;
 }
 
-/* a trial's suspect decides alone where it is not accepted */
+/* a trial's suspect decides alone where it is not accepted, or nothing else is asked for */
 static fw_status look_at_suspect(fw_search *s, bool *decided) {
     *decided = false;
-    if (!s->v->suspect || s->options.corners != FW_CORNERS_FIRST) return FW_OK;
+    bool alone = s->options.corners == FW_CORNERS_SUSPECT;
+    if (!s->v->suspect || !(alone || s->options.corners == FW_CORNERS_FIRST)) return FW_OK;
     FW_TRY(fw_search_run(s, s->v->suspect, FW_NO_CORNER));
-    *decided = s->made->corner[0].decision != FW_ACCEPT;
-    if (!*decided) s->made->ncorner = 0;
+    *decided = alone || s->made->corner[0].decision != FW_ACCEPT;
+    if (*decided) return FW_OK;
+    fw_made_corner *known = fw_arena_one(s->arena, fw_made_corner); /* the search may come to it */
+    double *ln = fw_arena_array(s->arena, double, (size_t)s->nrow);
+    FW_NEED(known && ln ? known : NULL);
+    *known = s->made->corner[0];
+    memcpy(ln, s->ln, (size_t)s->nrow * sizeof *ln);
+    s->known = known;
+    s->known_ln = ln;
+    s->made->ncorner = 0;
     return FW_OK;
 }
 
 fw_status fw_verdict_made(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                           const fw_verdict_options *options, fw_variant_verdict *v) {
     fw_search s;
-    bool decided, quick = options->corners == FW_CORNERS_FIRST;
+    bool decided, alone = options->corners == FW_CORNERS_SUSPECT;
+    bool quick = alone || options->corners == FW_CORNERS_FIRST;
     if (v->ninput == 0 || options->corners == FW_CORNERS_NONE || v->drawn != FW_ACCEPT)
         return FW_OK;
+    if (alone && !v->suspect) return FW_OK;
     FW_TRY(new_search(arena, device, layout, options, v, &s));
     FW_TRY(look_at_suspect(&s, &decided));
     if (!decided) FW_TRY(search(&s));

@@ -14,8 +14,10 @@ typedef struct fw_search {
     int nrow;   /* hinge k in scene i: k (nscene + 1) + i; then pull-in of every scene */
     double *ln; /* (points x nrow) ln of the utilisation at each point that was run; NaN: none */
     unsigned *bits; /* (points) of a corner, bit i: input i is high; FW_NO_CORNER: no corner */
-    int first;      /* how many points there were when the slopes were known */
-    double *slope;  /* (nrow x ninput) d ln U / dx about the nominal; NaN: none */
+    const fw_made_corner *known; /* a point that was run before the others, or NULL */
+    const double *known_ln;      /* (nrow) */
+    int first;                   /* how many points there were when the slopes were known */
+    double *slope;               /* (nrow x ninput) d ln U / dx about the nominal; NaN: none */
 } fw_search;
 
 enum { FW_MOST_POINTS = 2 + FW_MADE_INPUTS + (1 << FW_MADE_INPUTS) };

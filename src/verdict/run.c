@@ -139,7 +139,8 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
 
     /* a band that straddles 1 for want of computing: once more, closer. Numbers first: they cost
        less than better hinges, which then may not be needed */
-    for (fw_closer last = FW_CLOSER_NOTHING; verdict->decision == FW_INCONCLUSIVE;) {
+    for (fw_closer last = FW_CLOSER_NOTHING;
+         verdict->decision == FW_INCONCLUSIVE && !options->at_a_glance;) {
         fw_closer closer = fw_verdict_closer(verdict->hinge, verdict->nhinge);
         if (closer <= last) break;
         last = closer;

@@ -44,6 +44,7 @@ static void remember_made(const fw_variant_verdict *v, fw_trial_hinge *to,
             to->scene = h->scene;
             to->flow = v->variant->flow;
         }
+        to->likely = fmax(to->likely, h->utilisation_high - h->numeric);
         if (meet > 0.0) to->reach = fmax(to->reach, fabs(h->peak_angle_rad) / meet);
     }
 }
@@ -70,6 +71,7 @@ static void remember(fw_trial *trial, const fw_verdict *verdict, const fw_layout
         trial->hinge[k] = (fw_trial_hinge){h->joint,
                                            h->decision,
                                            h->utilisation_high,
+                                           h->utilisation_high - h->numeric,
                                            meet > 0.0 ? fabs(h->peak_angle_rad) / meet : 0.0,
                                            h->scene,
                                            h->flow};
@@ -84,6 +86,7 @@ static void remember(fw_trial *trial, const fw_verdict *verdict, const fw_layout
             trial->hinge[trial->nhinge++] = (fw_trial_hinge){.joint = FW_NONE,
                                                              .decision = r->decision,
                                                              .utilisation_high = 1 / r->keep,
+                                                             .likely = 1 / r->keep,
                                                              .scene = r->scene,
                                                              .flow = r->flow};
         }
@@ -96,6 +99,7 @@ static void remember(fw_trial *trial, const fw_verdict *verdict, const fw_layout
             (fw_trial_hinge){.joint = FW_NONE,
                              .decision = made->decision,
                              .utilisation_high = c->scene ? 1 / c->keep : 1.3,
+                             .likely = c->scene ? 1 / c->keep : 1.3,
                              .scene = c->scene ? c->scene : "as made",
                              .flow = verdict->variant[i].variant->flow};
     }
@@ -120,6 +124,107 @@ fw_status fw_trial_start(fw_arena *arena, const fw_device *device,
     return FW_OK;
 }
 
+static fw_verdict_options quiet(const fw_verdict_options *options) {
+    fw_verdict_options o = *options;
+    o.with_advice = false;
+    if (o.corners == FW_CORNERS_AUTO) o.corners = FW_CORNERS_FIRST;
+    o.motion.samples = 65; /* stability is looked at between them */
+    return o;
+}
+
+/* ---- the description read again ---- */
+
+/* a point of the ranges `from` at the same place of the ranges `to` */
+static double carried(const fw_made_input *from, const fw_made_input *to, double x) {
+    double wide = from->high - from->low;
+    return wide > 0 ? to->low + (x - from->low) / wide * (to->high - to->low) : to->nominal;
+}
+
+/* ranges follow what was changed (a thickness), and so does the corner that governed last */
+static fw_status take_suspect(const fw_trial *trial, fw_arena *scratch, int i,
+                              fw_variant_verdict *v) {
+    const fw_variant_verdict *was = &trial->verdict->variant[i];
+    if (!trial->suspected[i] || was->ninput != v->ninput) return FW_OK;
+    double *x = fw_arena_array(scratch, double, FW_MADE_INPUTS);
+    FW_NEED(x);
+    for (int k = 0; k < v->ninput; k++)
+        x[k] = carried(&was->input[k], &v->input[k], trial->suspect[i * FW_MADE_INPUTS + k]);
+    v->suspect = x;
+    return FW_OK;
+}
+
+static void keep_suspect(fw_trial *trial, const fw_variant_verdict *variant) {
+    for (int i = 0; i < trial->verdict->nvariant; i++) {
+        const fw_variant_verdict *v = &variant[i], *was = &trial->verdict->variant[i];
+        if (!v->made || was->ninput != v->ninput) continue; /* accepted: it is the tightest */
+        trial->suspected[i] = true;
+        for (int k = 0; k < v->ninput; k++)
+            trial->suspect[i * FW_MADE_INPUTS + k] =
+                carried(&v->input[k], &was->input[k], v->made->corner[v->made->at].x[k]);
+    }
+}
+
+/* accuracy of a glance: as of the first look at a corner */
+static const double glance_accuracy = 3e-2;
+
+static fw_status restate(fw_trial *trial, fw_arena *scratch, const fw_set *set,
+                         const fw_verdict_options *options) {
+    const fw_restated *r = &trial->options->restated;
+    int n = trial->verdict->nvariant;
+    const fw_device *device = NULL;
+    const fw_layout *layout = NULL;
+    fw_diags diags = fw_diags_new(scratch);
+    fw_verdict again = {.nvariant = n,
+                        .variant = fw_arena_array(scratch, fw_variant_verdict, (size_t)n)};
+    FW_NEED(again.variant);
+    FW_TRY(r->with(r->context, scratch, set, &device, again.variant));
+    for (int i = 0; i < n; i++)
+        FW_TRY(take_suspect(trial, scratch, i, &again.variant[i]));
+    FW_TRY(fw_verdict_run(scratch, device, options, &diags, &again, &layout));
+    remember(trial, &again, layout);
+    keep_suspect(trial, again.variant);
+    trial->drawn = layout && layout->drawn;
+    return FW_OK;
+}
+
+/* of a flow whose worst corner nothing is known of, all are looked at once */
+static bool unknown_corners(const fw_trial *trial) {
+    bool unknown = false;
+    for (int i = 0; i < trial->verdict->nvariant; i++)
+        unknown = unknown || (trial->verdict->variant[i].ninput > 0 && !trial->suspected[i]);
+    return unknown;
+}
+
+fw_status fw_trial_restate(fw_trial *trial, const fw_set *set, bool glance) {
+    fw_verdict_options o = quiet(trial->options);
+    if (glance) {
+        if (o.motion.rtol <= 0) o.motion.accuracy = fmax(o.motion.accuracy, glance_accuracy);
+        if (o.corners == FW_CORNERS_FIRST && !unknown_corners(trial))
+            o.corners = FW_CORNERS_SUSPECT;
+        o.at_a_glance = true;
+    }
+    fw_arena *scratch = fw_arena_new(0);
+    FW_NEED(scratch);
+    fw_status status = restate(trial, scratch, set, &o);
+    fw_arena_free(scratch);
+    for (int k = 0; k < trial->nhinge; k++) /* their names are gone */
+        trial->hinge[k].scene = trial->hinge[k].flow = NULL;
+    if (status == FW_OK) return FW_OK;
+    trial->nhinge = 0;
+    trial->decision = FW_REJECT;
+    trial->drawn = false;
+    return status == FW_NOMEM || status == FW_CANCELLED ? status : FW_OK;
+}
+
+double fw_trial_excess(const fw_trial *trial) {
+    double most = trial->nhinge > 0 ? 0.0 : (double)NAN;
+    for (int k = 0; k < trial->nhinge; k++)
+        most = fmax(most, fmax(trial->hinge[k].likely, trial->hinge[k].reach));
+    return most;
+}
+
+/* ---- a copy that was changed ---- */
+
 /* in an arena of its own, given back at once: a plan runs dozens of trials */
 fw_status fw_trial_run(fw_trial *trial) {
     int n = trial->verdict->nvariant;
@@ -127,10 +232,7 @@ fw_status fw_trial_run(fw_trial *trial) {
     FW_NEED(scratch);
     fw_diags diags = fw_diags_new(scratch);
     const fw_layout *layout = NULL;
-    fw_verdict_options quiet = *trial->options;
-    quiet.with_advice = false;
-    if (quiet.corners == FW_CORNERS_AUTO) quiet.corners = FW_CORNERS_FIRST;
-    quiet.motion.samples = 65; /* stability is looked at between them */
+    const fw_verdict_options o = quiet(trial->options);
     fw_verdict again = {.nvariant = n,
                         .variant = fw_arena_array(scratch, fw_variant_verdict, (size_t)n)};
     fw_status status = again.variant ? FW_OK : FW_NOMEM;
@@ -141,7 +243,7 @@ fw_status fw_trial_run(fw_trial *trial) {
             .ninput = trial->verdict->variant[i].ninput,
             .suspect = trial->suspected[i] ? trial->suspect + i * FW_MADE_INPUTS : NULL};
     if (status == FW_OK)
-        status = fw_verdict_run(scratch, trial->changed, &quiet, &diags, &again, &layout);
+        status = fw_verdict_run(scratch, trial->changed, &o, &diags, &again, &layout);
     trial->drawn = status == FW_OK && layout && layout->drawn;
     if (status == FW_OK) {
         remember(trial, &again, layout);

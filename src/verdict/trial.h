@@ -9,6 +9,7 @@ typedef struct fw_trial_hinge { /* what a change needs to know of a hinge's verd
                   the share of its loads that it may bear */
     fw_decision decision;
     double utilisation_high;
+    double likely;     /* the same without what closer numbers would take away */
     double reach;      /* peak angle / angle at which the drawn solids meet; 0: never */
     const char *scene; /* of the device, or "workspace" */
     const char *flow;
@@ -36,6 +37,16 @@ fw_status fw_trial_start(fw_arena *arena, const fw_device *device,
                          fw_trial *trial);
 /* judges `changed`; what could not be run is a rejection that is not drawn */
 fw_status fw_trial_run(fw_trial *trial);
+
+/* judges the description read again with `set` instead of `changed`. glance: coarsely, as drawn and
+   at the corners that were not accepted last; what that rejects is rejected */
+fw_status fw_trial_restate(fw_trial *trial, const fw_set *set, bool glance);
+/* the largest `likely` (or reach) of the last run; NaN: it was not run */
+double fw_trial_excess(const fw_trial *trial);
+
+/* parameters.c: every declared parameter alone */
+fw_status fw_change_parameters(fw_arena *arena, const fw_device *device,
+                               const fw_verdict_options *options, fw_verdict *out);
 
 /* changes.c: each tries to reach an accepted, drawn device by one kind of change. *done: it did,
    and wrote its advice (lines into verdict->advice, or a sentence). */

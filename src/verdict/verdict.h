@@ -107,6 +107,23 @@ typedef struct fw_advice {  /* one change that accepts, verified by running it *
     const char *value_text; /* "312 um" */
 } fw_advice;
 
+typedef enum fw_parameter_found {
+    FW_PARAMETER_ACCEPTS,
+    FW_PARAMETER_NONE,      /* no value that was tried is accepted */
+    FW_PARAMETER_NOT_LOOKED /* nothing says how far to look, or there are too many of them */
+} fw_parameter_found;
+
+typedef struct fw_parameter_advice { /* the smallest change of one parameter alone that accepts */
+    const char *name;                /* what --set takes */
+    fw_parameter_found found;
+    double from, to;        /* SI; to: NaN where there is none */
+    double low, high;       /* SI: where it was looked for; NaN: not looked */
+    double change;          /* |to - from| / |from|, infinite from 0; NaN: none */
+    const char *value_text; /* "12.4 um": the very text that was run and accepted; NULL: none */
+    const char *text;       /* "width: 12.4 um accepts; now 10 um (24 % more)" */
+    int trials;
+} fw_parameter_advice;
+
 typedef struct fw_verdict {
     fw_decision decision;        /* as drawn and as made */
     fw_decision drawn;           /* of the drawn geometry alone */
@@ -123,19 +140,34 @@ typedef struct fw_verdict {
     int nadvice;
     bool advice_verified; /* the advised values together were run and accepted */
     const char *advice_note;
+    fw_parameter_advice *parameter; /* (nparameter) the smallest change first; none for an accepted
+                                       design */
+    int nparameter;
     const fw_layout *layout; /* what was judged; NULL: it cannot be drawn */
 } fw_verdict;
 
 typedef enum fw_corners {
-    FW_CORNERS_AUTO, /* as drawn, then as made */
-    FW_CORNERS_NONE, /* as drawn only */
-    FW_CORNERS_FIRST /* stop at the first corner that is not accepted: for trials */
+    FW_CORNERS_AUTO,   /* as drawn, then as made */
+    FW_CORNERS_NONE,   /* as drawn only */
+    FW_CORNERS_FIRST,  /* stop at the first corner that is not accepted: for trials */
+    FW_CORNERS_SUSPECT /* only that of `suspect`, where there is one: for looking around */
 } fw_corners;
+
+/* The same description read again with one more --set, for advice on parameters; this room does not
+   read files. with: fills *device and the nvariant entries of `variant` (variant, input, ninput) in
+   `arena`; anything but FW_OK, FW_NOMEM and FW_CANCELLED: it cannot be read with that value. */
+typedef struct fw_restated {
+    fw_status (*with)(void *context, fw_arena *arena, const fw_set *set, const fw_device **device,
+                      fw_variant_verdict *variant);
+    void *context;
+} fw_restated;
 
 typedef struct fw_verdict_options {
     fw_motion_options motion;
     bool with_advice;
     fw_corners corners;
+    bool at_a_glance;     /* no closer look at what is undecided: for trials */
+    fw_restated restated; /* with NULL: no advice on parameters */
 } fw_verdict_options;
 
 /* what the model itself may be wrong by, relative, beside the numerical error
@@ -170,7 +202,7 @@ fw_status fw_verdict_made(fw_arena *arena, const fw_device *device, const fw_lay
 fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
                          const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict,
                          const fw_layout **layout);
-/* fills advice: which lengths accept, each one run */
+/* fills advice: which lengths accept, which value of each parameter, each one run */
 fw_status fw_verdict_advise(fw_arena *arena, const fw_device *device,
                             const fw_verdict_options *options, fw_verdict *verdict);
 

@@ -1,0 +1,421 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The smallest change of one parameter that is accepted.
+
+   In: a device that is not accepted, and a way to read it again with another value of a
+   parameter.
+
+   Out: of every parameter the value nearest to the present one that accepts, as a text for
+   --set, or that none was found.
+
+   Method: "the device with the value x is accepted" is true or false and need not be monotonous,
+   so nothing is concluded from a value about those beyond it. Looked at are, on both sides of
+   the present value and outward, values whose distances grow by a constant factor (1.5, or what
+   9 of them need) up to the bounds, where they are stated, else to a quarter and to four times
+   the value. These looks are glances: the drawn device, and the corner of its flow that is worst
+   so far, at coarse accuracy; what they reject is rejected. Between the first that may be
+   accepted and the one before it the limit is enclosed by glances: by the secant of
+   ln(utilisation), straight where that goes with a power of x, or by halving where the secant
+   gains less than half. There the whole verdict is asked, on both sides of the limit, and tells
+   what glances are off by; until a value that is accepted and one that is not are within 1 % of
+   the change, a thousandth of the value, or one unit of the last digit. All values are decimal
+   numbers in the unit as written; what is printed was judged as printed.
+
+   Validity: an interval that accepts and lies between two values looked at is missed, and so is
+   one nearer than the first value that accepts. What a glance puts more than 5 % beyond the
+   limit is not looked at more closely. Nothing below a ten-thousandth of the range is resolved.
+
+   Cost: at most MOST_TRIALS looks for a parameter and some MOST_IN_ALL for all; usually 15 to
+   25, of which two to four are whole verdicts.
+
+   Source: regula falsi with halving: Dekker, in Dejon & Henrici (eds), Constructive Aspects of
+   the Fundamental Theorem of Algebra, 1969.
+
+   Test: tests/unit/plan/test_advice.c, tests/cli/test_advice.py. */
+#include "verdict/trial.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_TRIALS = 40, MOST_IN_ALL = 600, FEWEST_RINGS = 4, MOST_RINGS = 9 };
+/* the change is known to this part of it */
+static const double known_to = 0.01;
+/* and the value to this part of it: of a small change nobody types all digits */
+static const double as_typed = 1e-3;
+/* a glance may be off by less than this: a closer look pays */
+static const double worth_a_look = 1.05;
+static const double least_step = 1e-4; /* of the range: nobody asks for a finer digit */
+static const double factor_without_bounds = 4.0;
+static const double ring_factor = 1.5;
+
+typedef struct look { /* at one value */
+    double at;        /* in the unit as written */
+    double coarse;    /* largest utilisation at a glance, numbers taken as they are; NaN: not run */
+    bool rejected;    /* for certain, at a glance */
+    bool judged, accepted; /* as closely as any verdict */
+} look;
+
+typedef struct hunt { /* for one parameter; values in the unit as written */
+    fw_trial *trial;
+    const fw_parameter *parameter;
+    fw_unit unit;
+    const char *unit_text;
+    double now, low, high, range;
+    double digit; /* no value is finer */
+    double bias;  /* close over coarse, where both were run last */
+    int trials;
+} hunt;
+
+/* ---- values ---- */
+
+/* of a dimension in SI: "kg m s-2"; a parameter computed from others has no unit of its own */
+static const char *si_unit(fw_arena *arena, fw_dimension d) {
+    const struct {
+        const char *symbol;
+        int power;
+    } part[] = {{"kg", d.kg}, {"m", d.m},     {"s", d.s},    {"A", d.A},
+                {"K", d.K},   {"mol", d.mol}, {"rad", d.rad}};
+    fw_text text = fw_text_new(arena);
+    fw_text_add(&text, "");
+    for (size_t i = 0; i < sizeof part / sizeof part[0]; i++) {
+        if (part[i].power == 0) continue;
+        fw_text_printf(&text, "%s%s", text.length ? " " : "", part[i].symbol);
+        if (part[i].power != 1) fw_text_printf(&text, "%d", part[i].power);
+    }
+    return text.failed ? NULL : text.data;
+}
+
+static const char *value_text(const hunt *h, double value, int digits) {
+    char number[40];
+    fw_number_text(number, sizeof number, value, digits);
+    return fw_arena_printf(h->trial->arena, "%s%s%s", number, h->unit_text[0] ? " " : "",
+                           h->unit_text);
+}
+
+/* the power of ten at or below x, not finer than the finest digit */
+static double step_below(const hunt *h, double x) {
+    double step = pow(10, floor(log10(x) + 1e-9));
+    return fmax(step, h->digit);
+}
+
+static double rounded(double x, double step) {
+    return step >= 1 ? nearbyint(x / step) * step : nearbyint(x / step) / nearbyint(1 / step);
+}
+
+static double distance(const hunt *h, const look *l) {
+    return fabs(l->at - h->now);
+}
+
+/* ---- trials ---- */
+
+static fw_status run(hunt *h, double at, bool glance) {
+    const char *value = value_text(h, at, 12);
+    FW_NEED(value);
+    const fw_set set = {h->parameter->name, value};
+    h->trials++;
+    return fw_trial_restate(h->trial, &set, glance);
+}
+
+static bool acceptable(const fw_trial *trial) {
+    return trial->decision == FW_ACCEPT && trial->drawn;
+}
+
+static fw_status glance(hunt *h, double at, look *out) {
+    FW_TRY(run(h, at, true));
+    *out = (look){.at = at,
+                  .coarse = fw_trial_excess(h->trial),
+                  .rejected = h->trial->decision == FW_REJECT || !h->trial->drawn};
+    return FW_OK;
+}
+
+/* judged as any device; then at a glance, at the corner that now governs: what glances are off by
+ */
+static fw_status judge(hunt *h, double at, look *out) {
+    FW_TRY(run(h, at, false));
+    bool accepted = acceptable(h->trial);
+    double excess = fw_trial_excess(h->trial);
+    FW_TRY(glance(h, at, out));
+    out->judged = true;
+    out->accepted = accepted;
+    double bias = excess / out->coarse;
+    if (bias > 0.5 && bias < 2) h->bias = bias; /* else they are about different things */
+    return FW_OK;
+}
+
+static double estimate(const hunt *h, const look *l) {
+    return l->coarse * h->bias;
+}
+
+/* ---- between a value that is not accepted and one that may be ---- */
+
+static double rest_of(const hunt *h, const look *far) {
+    return fmax(known_to * distance(h, far), as_typed * fabs(h->now));
+}
+
+/* nothing is left to look at between them */
+static bool close_by(const hunt *h, const look *near, const look *far) {
+    double gap = fabs(far->at - near->at), rest = rest_of(h, far);
+    return gap <= rest * (1 + 1e-9) || gap <= 1.01 * step_below(h, rest);
+}
+
+/* `at` as a decimal number strictly between; false: there is none */
+static bool between(const hunt *h, const look *near, const look *far, double *at) {
+    double step = step_below(h, rest_of(h, far));
+    double low = fmin(near->at, far->at), high = fmax(near->at, far->at);
+    *at = rounded(*at, step);
+    if (*at <= low + 1e-3 * step) *at = rounded(low + 0.6 * step, step);
+    if (*at >= high - 1e-3 * step) *at = rounded(high - 0.6 * step, step);
+    return *at > low + 1e-3 * step && *at < high - 1e-3 * step;
+}
+
+/* where the secant of ln(utilisation) meets 0; the middle where it does not, or that is asked for
+ */
+static double root(const hunt *h, const look *near, const look *far, bool halve, double beside) {
+    double gap = far->at - near->at, a = log(estimate(h, near)), b = log(estimate(h, far));
+    if (halve || !(b < 0) || isnan(a)) return near->at + 0.5 * gap;
+    if (a <= 0) return near->at + copysign(rest_of(h, far), gap); /* it was judged: only just not */
+    double t = a / (a - b) + beside * rest_of(h, far) / fabs(gap);
+    return near->at + fmin(fmax(t, 0.02), 0.98) * gap;
+}
+
+/* brings both together by glances */
+static fw_status approach(hunt *h, look *near, look *far) {
+    double beside = 0.4, before = HUGE_VAL;
+    while (h->trials < MOST_TRIALS && !close_by(h, near, far)) {
+        double gap = fabs(far->at - near->at);
+        double at = root(h, near, far, gap > 0.5 * before, beside);
+        look middle;
+        before = gap;
+        if (!between(h, near, far, &at)) return FW_OK;
+        FW_TRY(glance(h, at, &middle));
+        bool in = !middle.rejected && estimate(h, &middle) <= 1;
+        beside = in ? -0.4 : 0.4; /* the other side is to come closer */
+        *(in ? far : near) = middle;
+    }
+    return FW_OK;
+}
+
+/* from an accepted value inward until one is not, in growing steps; near: not accepted */
+static fw_status tighten(hunt *h, look near, look *far) {
+    double stride = 1;
+    while (h->trials < MOST_TRIALS) {
+        if (near.judged && close_by(h, &near, far)) return FW_OK;
+        double gap = far->at - near.at, step = step_below(h, rest_of(h, far));
+        double whole = step * floor(stride * rest_of(h, far) / step + 1e-9);
+        double at = far->at - copysign(fmin(fmax(whole, step), 0.5 * fabs(gap)), gap);
+        look inner;
+        if (!between(h, &near, far, &at)) return FW_OK;
+        FW_TRY(judge(h, at, &inner));
+        if (inner.accepted)
+            *far = inner, stride *= 2;
+        else
+            near = inner, stride = fmax(stride / 2, 1);
+    }
+    return FW_OK;
+}
+
+/* the limit between near (not accepted) and *far (may be). far->accepted says whether it was found
+ */
+static fw_status enclose(hunt *h, look near, look *far) {
+    const look outer = *far;
+    while (h->trials < MOST_TRIALS) {
+        look inner = near;
+        if (estimate(h, far) <= 1) FW_TRY(approach(h, &inner, far));
+        FW_TRY(judge(h, far->at, far));
+        if (far->accepted) return tighten(h, near, far);
+        if (far->at == outer.at) return FW_OK;
+        near = *far; /* glances were too kind: further out, by what is known now */
+        FW_TRY(glance(h, outer.at, far));
+        if (far->rejected) return FW_OK;
+    }
+    return FW_OK;
+}
+
+/* ---- outward ---- */
+
+/* the value at a distance on one side, at most the end of that side */
+static double on_side(const hunt *h, int side, double away) {
+    double at = rounded(h->now + side * away, step_below(h, 0.05 * away));
+    return fmin(fmax(at, h->low), h->high);
+}
+
+/* distances of the values looked at: the first a tenth of the value, or less of a small range */
+static int rings(const hunt *h, double *away) {
+    double first = fmin(h->range / 8, fmax(0.1 * fabs(h->now), 1e-3 * h->range));
+    first = fmax(first, h->digit);
+    int n = (int)ceil(log(h->range / first) / log(ring_factor) - 1e-9) + 1;
+    n = n < FEWEST_RINGS ? FEWEST_RINGS : n > MOST_RINGS ? MOST_RINGS : n;
+    for (int i = 0; i < n; i++)
+        away[i] = first * pow(h->range / first, i / (double)(n - 1));
+    return n;
+}
+
+/* one value further out; where it may be accepted, the limit before it. found->accepted: it was */
+static fw_status look_at(hunt *h, double at, const look *before, look *found) {
+    FW_TRY(glance(h, at, found));
+    if (found->rejected || estimate(h, found) > worth_a_look) return FW_OK;
+    return enclose(h, *before, found);
+}
+
+/* the other side, not yet looked at as far out as `best`: something there may be nearer */
+static fw_status look_across(hunt *h, int side, const look *before, look *best) {
+    double away = distance(h, best), at = on_side(h, side, away);
+    look there;
+    if (h->trials >= MOST_TRIALS || fabs(at - h->now) > away) return FW_OK;
+    if (fabs(at - before->at) < h->digit) return FW_OK;
+    FW_TRY(look_at(h, at, before, &there));
+    if (there.accepted && distance(h, &there) < away) *best = there;
+    return FW_OK;
+}
+
+static fw_status search(hunt *h, double excess, look *best) {
+    double away[MOST_RINGS];
+    int n = rings(h, away);
+    look last[2] = {{.at = h->now, .coarse = excess, .judged = true},
+                    {.at = h->now, .coarse = excess, .judged = true}};
+    for (int i = 0; i < n; i++) {
+        int first = last[0].coarse <= last[1].coarse ? 0 : 1; /* the side that got better */
+        for (int k = 0; k < 2; k++) {
+            int s = k == 0 ? first : !first;
+            double at = on_side(h, s == 0 ? 1 : -1, away[i]);
+            if (at == last[s].at || h->trials >= MOST_TRIALS) continue; /* at its end */
+            look now;
+            FW_TRY(look_at(h, at, &last[s], &now));
+            if (!now.accepted) {
+                last[s] = now;
+                continue;
+            }
+            *best = now;
+            return k == 1 ? FW_OK : look_across(h, s == 0 ? -1 : 1, &last[!s], best);
+        }
+    }
+    return FW_OK;
+}
+
+/* ---- one parameter ---- */
+
+/* is it a count? One that is written as a whole number, and cannot be read between two of them */
+static fw_status is_count(hunt *h, bool *count) {
+    *count = false;
+    if (h->unit_text[0] || h->now != nearbyint(h->now)) return FW_OK;
+    double between = h->now + (h->now + 0.5 <= h->high ? 0.5 : -0.5);
+    if (between < h->low) return FW_OK;
+    const char *value = value_text(h, between, 12);
+    FW_NEED(value);
+    fw_arena *scratch = fw_arena_new(0);
+    FW_NEED(scratch);
+    const fw_restated *r = &h->trial->options->restated;
+    const fw_device *device = NULL;
+    fw_variant_verdict *variant =
+        fw_arena_array(scratch, fw_variant_verdict, (size_t)h->trial->verdict->nvariant);
+    const fw_set set = {h->parameter->name, value};
+    fw_status status = variant ? r->with(r->context, scratch, &set, &device, variant) : FW_NOMEM;
+    fw_arena_free(scratch);
+    *count = status != FW_OK;
+    return status == FW_NOMEM || status == FW_CANCELLED ? status : FW_OK;
+}
+
+/* *ok false: nothing says how far to look */
+static fw_status begin(fw_trial *trial, const fw_parameter *p, hunt *h, bool *ok) {
+    *h = (hunt){.trial = trial, .parameter = p, .unit_text = p->unit, .bias = 1};
+    *ok = false;
+    if (!fw_unit_parse(p->unit, strlen(p->unit), &h->unit, NULL, NULL) ||
+        !fw_dimension_equal(h->unit.dimension, p->dimension)) {
+        FW_NEED(h->unit_text = si_unit(trial->arena, p->dimension));
+        h->unit = (fw_unit){.factor = 1, .dimension = p->dimension};
+    }
+    double ends[2] = {p->min, p->max}, v = h->now = fw_unit_from_si(&h->unit, p->value);
+    for (int i = 0; i < 2; i++) {
+        double away = (i == 0) == (v > 0) ? 1 / factor_without_bounds : factor_without_bounds;
+        ends[i] = isinf(ends[i]) ? v * away : fw_unit_from_si(&h->unit, ends[i]);
+    }
+    h->low = fmin(ends[0], v);
+    h->high = fmax(ends[1], v);
+    h->range = fmax(v - h->low, h->high - v);
+    if (!(h->range > 0)) return FW_OK;
+    bool count;
+    h->digit = pow(10, floor(log10(least_step * h->range)));
+    FW_TRY(is_count(h, &count));
+    if (count) h->digit = fmax(h->digit, 1);
+    *ok = true;
+    return FW_OK;
+}
+
+static fw_status say(const hunt *h, const look *best, fw_parameter_advice *out) {
+    fw_arena *arena = h->trial->arena;
+    const char *now = value_text(h, h->now, 6);
+    const char *low = value_text(h, h->low, 6), *high = value_text(h, h->high, 6);
+    FW_NEED(now && low && high ? now : NULL);
+    out->low = fw_unit_to_si(&h->unit, h->low);
+    out->high = fw_unit_to_si(&h->unit, h->high);
+    out->trials = h->trials;
+    if (!best->accepted) {
+        out->found = FW_PARAMETER_NONE;
+        FW_NEED(out->text =
+                    fw_arena_printf(arena, "%s: no value found from %s to %s that accepts; now %s",
+                                    out->name, low, high, now));
+        return FW_OK;
+    }
+    out->found = FW_PARAMETER_ACCEPTS;
+    out->to = fw_unit_to_si(&h->unit, best->at);
+    out->change = fabs(out->to - out->from) / fabs(out->from);
+    FW_NEED(out->value_text = value_text(h, best->at, 12));
+    char share[32] = "";
+    fw_percent_text(share, sizeof share, out->change);
+    bool known = out->from > 0;
+    FW_NEED(out->text = fw_arena_printf(arena, "%s: %s accepts; now %s%s%s%s", out->name,
+                                        out->value_text, now, known ? " (" : "", known ? share : "",
+                                        !known                ? ""
+                                        : out->to > out->from ? " % more)"
+                                                              : " % less)"));
+    return FW_OK;
+}
+
+static fw_status look_into(fw_trial *trial, const fw_parameter *p, double excess, int left,
+                           fw_parameter_advice *out) {
+    *out = (fw_parameter_advice){.name = p->name,
+                                 .found = FW_PARAMETER_NOT_LOOKED,
+                                 .from = p->value,
+                                 .to = (double)NAN,
+                                 .low = (double)NAN,
+                                 .high = (double)NAN,
+                                 .change = (double)NAN};
+    hunt h;
+    bool ok = false;
+    if (left > 0) FW_TRY(begin(trial, p, &h, &ok));
+    if (ok) {
+        look best = {0};
+        FW_TRY(search(&h, excess, &best));
+        return say(&h, &best, out);
+    }
+    const char *why = left > 0 ? "state its min and max to say how far it may go"
+                               : "there are too many parameters";
+    FW_NEED(out->text = fw_arena_printf(trial->arena, "%s: was not looked at: %s", p->name, why));
+    return FW_OK;
+}
+
+static int by_change(const void *a, const void *b) {
+    const fw_parameter_advice *p = (const fw_parameter_advice *)a,
+                              *q = (const fw_parameter_advice *)b;
+    if (p->found != q->found) return p->found < q->found ? -1 : 1;
+    if (p->found == FW_PARAMETER_ACCEPTS && p->change != q->change)
+        return p->change < q->change ? -1 : 1;
+    return strcmp(p->name, q->name);
+}
+
+fw_status fw_change_parameters(fw_arena *arena, const fw_device *device,
+                               const fw_verdict_options *options, fw_verdict *out) {
+    int left = MOST_IN_ALL, n = device->nparameter;
+    if (!options->restated.with || n == 0) return FW_OK;
+    FW_NEED(out->parameter = fw_arena_array(arena, fw_parameter_advice, (size_t)n));
+    fw_trial
+        trial; /* one for all: what one finds to be the worst corner, the next looks at first */
+    FW_TRY(fw_trial_start(arena, device, options, out, &trial));
+    double excess = fw_trial_excess(&trial);
+    for (int i = 0; i < n; i++) {
+        FW_TRY(look_into(&trial, &device->parameter[i], excess, left, &out->parameter[i]));
+        left -= out->parameter[i].trials;
+    }
+    out->nparameter = n;
+    qsort(out->parameter, (size_t)n, sizeof *out->parameter, by_change);
+    return FW_OK;
+}
