@@ -133,9 +133,12 @@ fw_status fw_mask_write_gds(const fw_mask *mask, fw_text *out) {
     real8(out, 1e-9);
     zero_dates(out, BGNSTR);
     string(out, STRNAME, mask->cell);
-    for (int i = 0; i < mask->nshape; i++)
-        for (int k = 0; k < mask->shape[i].npart; k++)
-            boundary(out, &mask->table->layer[mask->shape[i].layer], &mask->shape[i].part[k]);
+    for (int i = 0; i < mask->nshape; i++) {
+        const fw_mask_shape *s = &mask->shape[i];
+        if (s->npart == 0) boundary(out, &mask->table->layer[s->layer], &s->polygon);
+        for (int k = 0; k < s->npart; k++)
+            boundary(out, &mask->table->layer[s->layer], &s->part[k]);
+    }
     FW_TRY(texts(mask, out));
     record(out, ENDSTR, 0);
     record(out, ENDLIB, 0);

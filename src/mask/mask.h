@@ -30,10 +30,10 @@ typedef struct fw_mask_table {
 typedef struct fw_mask_shape {
     int layer; /* index into table->layer */
     const fw_piece *piece;
-    fw_contour contour; /* biased, exact */
-    fw_polygon polygon; /* flattened */
-    fw_polygon *part;   /* (npart) the same, cut to the vertex limit of GDSII */
-    int npart;
+    fw_contour contour;       /* biased, exact */
+    fw_polygon polygon;       /* flattened */
+    fw_polygon *part;         /* (npart) the same, cut to the vertex limit of GDSII */
+    int npart;                /* 0: not cut, `polygon` itself */
     fw_polygon_report report; /* of the polygon, exact integers */
     double area_m2, bound_m2; /* of the contour; what flattening may change */
 } fw_mask_shape;
