@@ -24,8 +24,9 @@
    one nearer than the first value that accepts. What a glance puts more than 5 % beyond the
    limit is not looked at more closely. Nothing below a ten-thousandth of the range is resolved.
 
-   Cost: at most MOST_TRIALS looks for a parameter and some MOST_IN_ALL for all; usually 15 to
-   25, of which two to four are whole verdicts.
+   Cost: at most MOST_TRIALS looks for a parameter, some MOST_IN_ALL for all, and most_work
+   evaluations of hinges, shared evenly; usually 15 to 25 looks, of which two to four are whole
+   verdicts. What was not settled by then is said to be so.
 
    Source: regula falsi with halving: Dekker, in Dejon & Henrici (eds), Constructive Aspects of
    the Fundamental Theorem of Algebra, 1969.
@@ -36,6 +37,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* evaluations of hinges of all looks: some seconds. A scene of many periods takes more for one */
+static const double most_work = 6e6;
 enum { MOST_TRIALS = 40, MOST_IN_ALL = 600, FEWEST_RINGS = 4, MOST_RINGS = 9 };
 /* the change is known to this part of it */
 static const double known_to = 0.01;
@@ -63,7 +66,12 @@ typedef struct hunt { /* for one parameter; values in the unit as written */
     double digit; /* no value is finer */
     double bias;  /* close over coarse, where both were run last */
     int trials;
+    double most_work; /* trial->work may come to */
 } hunt;
+
+static bool spent(const hunt *h) {
+    return h->trials >= MOST_TRIALS || h->trial->work >= h->most_work;
+}
 
 /* ---- values ---- */
 
@@ -180,7 +188,7 @@ static double root(const hunt *h, const look *near, const look *far, bool halve,
 /* brings both together by glances */
 static fw_status approach(hunt *h, look *near, look *far) {
     double beside = 0.4, before = HUGE_VAL;
-    while (h->trials < MOST_TRIALS && !close_by(h, near, far)) {
+    while (!spent(h) && !close_by(h, near, far)) {
         double gap = fabs(far->at - near->at);
         double at = root(h, near, far, gap > 0.5 * before, beside);
         look middle;
@@ -197,7 +205,7 @@ static fw_status approach(hunt *h, look *near, look *far) {
 /* from an accepted value inward until one is not, in growing steps; near: not accepted */
 static fw_status tighten(hunt *h, look near, look *far) {
     double stride = 1;
-    while (h->trials < MOST_TRIALS) {
+    while (!spent(h)) {
         if (near.judged && close_by(h, &near, far)) return FW_OK;
         double gap = far->at - near.at, step = step_below(h, rest_of(h, far));
         double whole = step * floor(stride * rest_of(h, far) / step + 1e-9);
@@ -217,7 +225,7 @@ static fw_status tighten(hunt *h, look near, look *far) {
  */
 static fw_status enclose(hunt *h, look near, look *far) {
     const look outer = *far;
-    while (h->trials < MOST_TRIALS) {
+    while (!spent(h)) {
         look inner = near;
         if (estimate(h, far) <= 1) FW_TRY(approach(h, &inner, far));
         FW_TRY(judge(h, far->at, far));
@@ -260,7 +268,7 @@ static fw_status look_at(hunt *h, double at, const look *before, look *found) {
 static fw_status look_across(hunt *h, int side, const look *before, look *best) {
     double away = distance(h, best), at = on_side(h, side, away);
     look there;
-    if (h->trials >= MOST_TRIALS || fabs(at - h->now) > away) return FW_OK;
+    if (spent(h) || fabs(at - h->now) > away) return FW_OK;
     if (fabs(at - before->at) < h->digit) return FW_OK;
     FW_TRY(look_at(h, at, before, &there));
     if (there.accepted && distance(h, &there) < away) *best = there;
@@ -277,7 +285,7 @@ static fw_status search(hunt *h, double excess, look *best) {
         for (int k = 0; k < 2; k++) {
             int s = k == 0 ? first : !first;
             double at = on_side(h, s == 0 ? 1 : -1, away[i]);
-            if (at == last[s].at || h->trials >= MOST_TRIALS) continue; /* at its end */
+            if (at == last[s].at || spent(h)) continue; /* at its end */
             look now;
             FW_TRY(look_at(h, at, &last[s], &now));
             if (!now.accepted) {
@@ -348,6 +356,13 @@ static fw_status say(const hunt *h, const look *best, fw_parameter_advice *out) 
     out->low = fw_unit_to_si(&h->unit, h->low);
     out->high = fw_unit_to_si(&h->unit, h->high);
     out->trials = h->trials;
+    if (!best->accepted && spent(h)) {
+        FW_NEED(out->text = fw_arena_printf(
+                    arena,
+                    "%s: nothing found in the time that a search is given, from %s to %s; now %s",
+                    out->name, low, high, now));
+        return FW_OK;
+    }
     if (!best->accepted) {
         out->found = FW_PARAMETER_NONE;
         FW_NEED(out->text =
@@ -370,8 +385,9 @@ static fw_status say(const hunt *h, const look *best, fw_parameter_advice *out) 
     return FW_OK;
 }
 
+/* share: of the work that is left, for this parameter */
 static fw_status look_into(fw_trial *trial, const fw_parameter *p, double excess, int left,
-                           fw_parameter_advice *out) {
+                           double share, fw_parameter_advice *out) {
     *out = (fw_parameter_advice){.name = p->name,
                                  .found = FW_PARAMETER_NOT_LOOKED,
                                  .from = p->value,
@@ -384,6 +400,7 @@ static fw_status look_into(fw_trial *trial, const fw_parameter *p, double excess
     if (left > 0) FW_TRY(begin(trial, p, &h, &ok));
     if (ok) {
         look best = {0};
+        h.most_work = trial->work + share * (most_work - trial->work);
         FW_TRY(search(&h, excess, &best));
         return say(&h, &best, out);
     }
@@ -412,7 +429,8 @@ fw_status fw_change_parameters(fw_arena *arena, const fw_device *device,
     FW_TRY(fw_trial_start(arena, device, options, out, &trial));
     double excess = fw_trial_excess(&trial);
     for (int i = 0; i < n; i++) {
-        FW_TRY(look_into(&trial, &device->parameter[i], excess, left, &out->parameter[i]));
+        FW_TRY(look_into(&trial, &device->parameter[i], excess, left, 1.0 / (n - i),
+                         &out->parameter[i]));
         left -= out->parameter[i].trials;
     }
     out->nparameter = n;

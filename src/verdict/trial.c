@@ -197,6 +197,7 @@ static bool unknown_corners(const fw_trial *trial) {
 
 fw_status fw_trial_restate(fw_trial *trial, const fw_set *set, bool glance) {
     fw_verdict_options o = quiet(trial->options);
+    o.work = &trial->work;
     if (glance) {
         if (o.motion.rtol <= 0) o.motion.accuracy = fmax(o.motion.accuracy, glance_accuracy);
         if (o.corners == FW_CORNERS_FIRST && !unknown_corners(trial))

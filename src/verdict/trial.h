@@ -16,6 +16,7 @@ typedef struct fw_trial_hinge { /* what a change needs to know of a hinge's verd
 } fw_trial_hinge;
 
 typedef struct fw_trial {
+    double work;             /* fw_verdict_options.work of the trials so far */
     fw_arena *arena;         /* of the plan: outlives the trial */
     const fw_device *device; /* as described */
     fw_device *changed;      /* a copy; flexures, loads and workspaces are its own */

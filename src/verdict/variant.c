@@ -204,6 +204,12 @@ static const double fw_hinges_good_enough = 0.03;
 /* and exact beams only where they take seconds; who wants to wait longer asks for them */
 static const long fw_most_beams = 100000;
 
+/* an exact beam counts for as many closed forms as it costs */
+static double work_of(const fw_mechanism *m, const fw_motion *motion) {
+    double each = motion->ledger.hinge.used == FW_HINGE_ELASTICA ? 30 : 1;
+    return each * (double)motion->stats.rhs * m->nhinge;
+}
+
 /* runs every scene of this variant; watch[i] and other[i] follow the strains of its two runs */
 static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                             const fw_mechanism *m, const fw_verdict_options *options,
@@ -230,6 +236,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         motion.other = &other[i];
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));
         if (watch[i].no_memory) return FW_NOMEM;
+        if (options->work && v->motion[i]) *options->work += work_of(m, v->motion[i]);
         if (v->motion[i]) FW_TRY(fw_level_strains(arena, m, v->motion[i]->level));
         if (v->motion[i] && v->motion[i]->ended) warn_ended(scene, v->motion[i], diags);
     }

@@ -110,7 +110,8 @@ typedef struct fw_advice {  /* one change that accepts, verified by running it *
 typedef enum fw_parameter_found {
     FW_PARAMETER_ACCEPTS,
     FW_PARAMETER_NONE,      /* no value that was tried is accepted */
-    FW_PARAMETER_NOT_LOOKED /* nothing says how far to look, or there are too many of them */
+    FW_PARAMETER_NOT_LOOKED /* nothing says how far to look, there are too many of them, or it took
+                               too long */
 } fw_parameter_found;
 
 typedef struct fw_parameter_advice { /* the smallest change of one parameter alone that accepts */
@@ -166,7 +167,8 @@ typedef struct fw_verdict_options {
     fw_motion_options motion;
     bool with_advice;
     fw_corners corners;
-    bool at_a_glance;     /* no closer look at what is undecided: for trials */
+    double *work;     /* evaluations of the forces of hinges are added to it; NULL: nobody counts */
+    bool at_a_glance; /* no closer look at what is undecided: for trials */
     fw_restated restated; /* with NULL: no advice on parameters */
 } fw_verdict_options;
 
