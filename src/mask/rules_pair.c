@@ -201,7 +201,7 @@ static bool concentric(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_
 void fw_rule_own(fw_rule_search *in, fw_rule_edge *e) {
     static const double half_turn = FW_PI * (1 - 1e-12);
     double sweep = fabs(e->s.sweep_rad);
-    if (e->s.kind != FW_ARC || sweep <= FW_PI / 2) return;
+    if (e->s.kind != FW_ARC || !(cos(fmin(sweep, FW_PI)) < FACING)) return; /* a rounded corner */
     fw_rule_kind kind = e->s.sweep_rad > 0 ? FW_RULE_WIDTH : FW_RULE_SPACE;
     fw_vec2 middle = fw_segment_point(&e->s, 0.5);
     judged(in, kind, e, e, sqrt(2) * e->s.radius, middle);

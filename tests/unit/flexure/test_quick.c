@@ -23,7 +23,7 @@ static double spread(double low, double high) {
 static void compare(const char *what, double is, long double plain, double part,
                     long double least) {
     long double off = fabsl((long double)is - plain);
-    if (off <= part * fabsl(plain) || off <= least) return;
+    if (off <= (long double)part * fabsl(plain) || off <= least) return;
     fail_msg("%s = %.17g, plainly %.17Lg, off by %.2Lg of it", what, is, plain, off / fabsl(plain));
 }
 #define agrees(is, plain, part, least) compare(#is, is, plain, part, least)
@@ -95,10 +95,12 @@ static long double off_neutral(long double u) {
 
 /* theory, eq. 1 to 7 */
 static plain form_of(const fw_flexure_input *in) {
-    long double r = in->radius_m, a = (long double)in->angle_rad / 2, t = in->width_m;
-    long double h = in->depth_m, E = in->youngs_Pa, nu = in->poisson, L = 2 * a * r, u = t / 2 / r;
+    long double r = (long double)in->radius_m, a = (long double)in->angle_rad / 2;
+    long double t = (long double)in->width_m;
+    long double h = (long double)in->depth_m, E = (long double)in->youngs_Pa;
+    long double nu = (long double)in->poisson, L = 2 * a * r, u = t / 2 / r;
     long double s = sinl(a), c = cosl(a), e = r * off_neutral(u), rn = r - e, A = h * t;
-    long double q = larger(0.05L, in->fillet_m / t);
+    long double q = larger(0.05L, (long double)in->fillet_m / t);
     if (q > 1) q = 1;
     bool ideal = in->fillet_m < 0;
     plain p = {.dL = ideal ? 0 : t * (0.4192L - 0.5972L * q - 0.1167L * q * q)};
@@ -110,7 +112,7 @@ static plain form_of(const fw_flexure_input *in) {
     p.K = E * I * d.D * (1 - 2 * u * u / 15 - u * u * u * u / 21) / whole;
     p.W = (L * rn * s / a + 2 * p.dL * r * c) / whole;
     p.Kt = kt * peak, p.strain = t / 2 / whole * p.Kt;
-    p.limit = in->strength_Pa / in->safety_factor / (E * p.strain);
+    p.limit = (long double)in->strength_Pa / (long double)in->safety_factor / (E * p.strain);
     long double bend = 1 / (E * A * e * d.D), shear = 2.4L * (1 + nu) * r / (E * A);
     long double end = 2 * p.dL / (E * I * d.D), x = r * c - p.W, y = r * s;
     p.C[0] = 1 / p.K;
@@ -122,7 +124,7 @@ static plain form_of(const fw_flexure_input *in) {
                  fabsl(end) * (r * r + p.W * p.W) + shear * 2 * a;
 
     /* error.c */
-    long double rho = larger(0, in->fillet_m < in->width_m ? in->fillet_m : in->width_m);
+    long double rho = larger(0, (long double)fmin(in->fillet_m, in->width_m));
     long double lost = 0.35L * h * larger(0, 1 - (1 - nu * nu) * d.D) + 0.006L * t +
                        2.3L * (t / r) * (t / r) * rho * rho / t;
     long double off = 2 * lost / L, place = 0.6L * rho * rho, EI = E * I * d.D;
@@ -165,8 +167,8 @@ static void random_hinges(void **state) {
         agrees(out.concentration, p.Kt, 1e-14, 0);
         agrees(out.strain_per_rad, p.strain, 1e-14, 0);
         agrees(out.limit_angle_rad, p.limit, 1e-14, 0);
-        agrees(out.root_length_m, p.dL, 1e-14, 1e-15L * in.width_m);
-        agrees(out.centre_m, p.W, 1e-14, 2e-15L * in.radius_m);
+        agrees(out.root_length_m, p.dL, 1e-14, 1e-15L * (long double)in.width_m);
+        agrees(out.centre_m, p.W, 1e-14, 2e-15L * (long double)in.radius_m);
         agrees(out.compliance[0][0], p.C[0], 1e-14, 0);
         for (int k = 1; k < 3; k++)
             agrees(out.compliance[k][k], p.C[k], 1e-14, 4e-15L * p.terms[k]);
@@ -176,11 +178,12 @@ static void random_hinges(void **state) {
         wide *= (x >= 0 && x < 0.05) || x > 1 ? 2 : 1;
         wide *= (in.width_m > 0.15 * in.radius_m ? 2 : 1) * (in.depth_m > 10 * in.width_m ? 2 : 1);
         const fw_flexure_error *e = &out.error;
-        agrees(e->stiffness, wide * p.error[0], 1e-12, 0);
-        agrees(e->kx, wide * p.error[1], 1e-12, 1e-14L * p.terms[1] / p.C[1]);
-        agrees(e->ky, wide * p.error[2], 1e-12, 1e-14L * p.terms[2] / p.C[2]);
-        agrees(e->strain, wide * p.error[3], 1e-14, 0);
-        agrees(e->centre_m, wide * p.centre_error, 1e-12, 0);
+        const long double doubled = (long double)wide;
+        agrees(e->stiffness, doubled * p.error[0], 1e-12, 0);
+        agrees(e->kx, doubled * p.error[1], 1e-12, 1e-14L * p.terms[1] / p.C[1]);
+        agrees(e->ky, doubled * p.error[2], 1e-12, 1e-14L * p.terms[2] / p.C[2]);
+        agrees(e->strain, doubled * p.error[3], 1e-14, 0);
+        agrees(e->centre_m, doubled * p.centre_error, 1e-12, 0);
         assert_int_equal(e->outside, wide > 1);
     }
 }
@@ -195,7 +198,7 @@ static void depth_factors(void **state) {
             assert_near(d.stiffness, 1, 1e-9);
             continue;
         }
-        const plain_depth p = depth_of(deep, nu);
+        const plain_depth p = depth_of((long double)deep, (long double)nu);
         agrees(d.stiffness, p.D, 3e-15, 0);
         agrees(d.softness, 1 / p.D, 3e-15, 0);
         agrees(d.inner, p.inner, 3e-15, 0);

@@ -132,8 +132,36 @@ static void every_violation_is_told(void **state) {
     scene_free(s);
 }
 
+/* the arc of a rounded right angle turns by 90 degrees and no more, whatever its last digits say:
+   no width, though its ends are nearer than the rule; one of 100 degrees is */
+static void a_rounded_corner_is_no_width(void **state) {
+    (void)state;
+    for (int i = 0; i < 50; i++) {
+        scene *s = scene_new(4 * UM, 4 * UM);
+        double angle = 0.13 * i, lean = i % 2 ? 0 : 0.18;
+        fw_vec2 u = {cos(angle), sin(angle)}, v = {-sin(angle + lean), cos(angle + lean)};
+        double p[4][2];
+        for (int k = 0; k < 4; k++) {
+            double a = k == 1 || k == 2 ? 40 : 0, b = k >= 2 ? 30 : 0;
+            p[k][0] = a * u.x + b * v.x;
+            p[k][1] = a * u.y + b * v.y;
+        }
+        fw_contour sharp = polygon(s->arena, (const double(*)[2])p, 4), round;
+        fw_vec2 where;
+        assert_int_equal(fw_contour_round(s->arena, &sharp, 2.4 * UM, 0, &round, &where), FW_OK);
+        scene_add(s, FW_ROLE_STRUCTURE, "rounded", round);
+        answer few, all;
+        ask(s, false, &few);
+        ask(s, true, &all);
+        assert_int_equal(few.in.nfound, lean > 0);
+        assert_int_equal(all.in.nfound, lean > 0);
+        scene_free(s);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_is_passed_over),
-                                       cmocka_unit_test(every_violation_is_told)};
+                                       cmocka_unit_test(every_violation_is_told),
+                                       cmocka_unit_test(a_rounded_corner_is_no_width)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
