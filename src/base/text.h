@@ -18,8 +18,6 @@ void fw_text_add(fw_text *text, const char *string);
 /* room for so many bytes more at once, where a large text's size is known before */
 void fw_text_reserve(fw_text *text, size_t more);
 void fw_text_bytes(fw_text *text, const void *data, size_t n);
-/* room for n bytes more at once; nothing is added */
-void fw_text_reserve(fw_text *text, size_t n);
 /* n bytes more, to be filled by the caller; NULL: no memory, and the text has failed */
 unsigned char *fw_text_room(fw_text *text, size_t n);
 /* printf without %f, %e, %g: those follow the locale; use fw_text_number */
