@@ -37,8 +37,9 @@ fw_status fw_sources_read(fw_arena *arena, const fw_element *parent, fw_diags *d
 }
 
 static void check_names(const fw_element *e, fw_diags *diags) {
-    static const char *const known[] = {"id",   "value",  "u",   "urel", "lo",     "hi",
-                                        "unit", "status", "src", "note", "unknown"};
+    static const char *const known[] = {"id",      "value", "u",      "urel", "lo",
+                                        "hi",      "unit",  "status", "src",  "note",
+                                        "unknown", "least", "most"};
     enum { COUNT = sizeof known / sizeof known[0] };
     for (int i = 0; i < e->nattribute; i++) {
         int found = 0;
@@ -50,7 +51,7 @@ static void check_names(const fw_element *e, fw_diags *diags) {
                       e->attribute[i].name, better ? "; did you mean '" : "", better ? better : "",
                       better ? "'?"
                              : "; known are id value u urel lo hi unit status src note "
-                               "unknown");
+                               "unknown least most");
     }
 }
 
@@ -193,6 +194,40 @@ static void read_value(const fw_element *e, fw_diags *diags, const fw_unit *unit
     read_uncertainty(e, diags, written, unit, q);
 }
 
+bool fw_quantity_check_range(const fw_quantity *q, const fw_quantity *range, fw_diags *diags) {
+    bool given = range->least != 0.0 || range->most != 0.0;
+    if (!given || q->unknown || (q->value >= range->least && q->value <= range->most)) return true;
+    char value[32], least[32], most[32];
+    fw_quantity bound = *range;
+    bound.value = range->least;
+    fw_number_text(least, sizeof least, fw_quantity_in_unit(&bound), 6);
+    bound.value = range->most;
+    fw_number_text(most, sizeof most, fw_quantity_in_unit(&bound), 6);
+    fw_number_text(value, sizeof value, fw_quantity_in_unit(q), 6);
+    fw_diag_error(
+        diags, 278, q->place,
+        "'%s' is %s %s, outside of %s to %s %s, where such a value makes sense; check its "
+        "unit (A is ampere, Ao angstrom)",
+        q->id ? q->id : "q", value, q->unit, least, most, range->unit);
+    return false;
+}
+
+/* least and most, both or none */
+static void read_range(const fw_element *e, fw_diags *diags, const fw_unit *unit, fw_quantity *q) {
+    double least, most;
+    size_t before = diags->errors;
+    int has_least = number(e, "least", diags, &least), has_most = number(e, "most", diags, &most);
+    if (diags->errors > before || has_least + has_most == 0) return;
+    if (has_least != has_most || !(least < most)) {
+        fw_diag_error(diags, 71, value_place(e, has_least ? "least" : "most"),
+                      "a plausible range needs least and most, the smaller one first");
+        return;
+    }
+    q->least = fw_unit_to_si(unit, least);
+    q->most = fw_unit_to_si(unit, most);
+    fw_quantity_check_range(q, q, diags);
+}
+
 fw_status fw_quantity_read(fw_arena *arena, const fw_element *element, const fw_source_text *source,
                            int nsource, fw_diags *diags, fw_quantity *q) {
     (void)arena;
@@ -211,6 +246,7 @@ fw_status fw_quantity_read(fw_arena *arena, const fw_element *element, const fw_
     read_status(element, diags, q);
     read_source(element, source, nsource, diags, q);
     read_value(element, diags, &unit, q);
+    read_range(element, diags, &unit, q);
     if (diags->failed) return FW_NOMEM;
     if (diags->errors == before) return FW_OK;
     q->unknown = true;

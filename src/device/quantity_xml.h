@@ -4,7 +4,8 @@
 
    <q id value unit status src note/> with exactly one of u (standard, in `unit`), urel (relative)
    or lo and hi (uniform between them: u = (hi - lo)/sqrt(12)); or unknown="true" instead of value.
- */
+   least and most, both or none, are the range in which a value makes sense at all: what replaces
+   this one must lie there too, which catches A for Ao and min for s. */
 #ifndef FW_DEVICE_QUANTITY_XML_H
 #define FW_DEVICE_QUANTITY_XML_H
 #include "device/xml.h"
@@ -17,6 +18,10 @@ typedef struct fw_source_text { /* <source id ...>text</source> */
 /* all <source> children of `parent`, in file order; duplicate or missing ids are errors */
 fw_status fw_sources_read(fw_arena *arena, const fw_element *parent, fw_diags *diags,
                           fw_source_text **source, int *nsource);
+
+/* false and FW-D278 when the value is outside the plausible range of `range`, which is q itself or
+   the one that q replaces */
+bool fw_quantity_check_range(const fw_quantity *q, const fw_quantity *range, fw_diags *diags);
 
 /* FW_INPUT when the element is wrong (all its mistakes are in diags); *q is then unknown. `src` is
    resolved among the sources; q->source is the source's text. Attributes that are not named above

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "process/judge.h"
 #include "process/law.h"
+#include "process/lint.h"
 #include <math.h>
 #include <string.h>
 
@@ -15,10 +16,15 @@ const fw_quantity *fw_flow_quantity(const fw_flow *flow, const char *id) {
     return find(flow, id);
 }
 
-const char *fw_flow_material_name(const fw_flow *flow, const char *id) {
+const fw_process_material *fw_flow_material(const fw_flow *flow, const char *id) {
     for (int i = flow->nprocess_material - 1; i >= 0; i--)
-        if (strcmp(flow->process_material[i].id, id) == 0) return flow->process_material[i].name;
-    return id;
+        if (strcmp(flow->process_material[i].id, id) == 0) return &flow->process_material[i];
+    return NULL;
+}
+
+const char *fw_flow_material_name(const fw_flow *flow, const char *id) {
+    const fw_process_material *m = fw_flow_material(flow, id);
+    return m ? m->name : id;
 }
 
 static bool usable(double x) {
@@ -265,6 +271,7 @@ fw_status fw_flow_compute(fw_arena *arena, fw_flow *flow, const fw_mask_facts *f
     }
     FW_TRY(count_quantities(arena, flow));
     FW_TRY(fw_flow_judge(arena, flow, facts));
+    FW_TRY(fw_lint_computed(arena, flow, diags));
     FW_TRY(tell(arena, flow, diags));
     return diags->failed ? FW_NOMEM : FW_OK;
 }

@@ -47,7 +47,5 @@ double fw_pack_number(fw_pack *pack, const fw_element *e, const char *name, doub
 fw_status fw_pack_steps(fw_pack *pack);
 /* <corner>s of the flow; mistakes are FW-D260 */
 void fw_pack_corners(fw_pack *pack);
-/* what a schema cannot see: layers that are not there, HF without a buddy, stated without source */
-fw_status fw_pack_lint(fw_pack *pack);
 
 #endif

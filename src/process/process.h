@@ -15,7 +15,8 @@ typedef struct fw_source {
 typedef struct fw_hazard {
     const char *id, *ghs, *ppe, *first_aid, *waste_stream, *waste;
     const char **incompatible; /* (nincompatible) */
-    int nincompatible;
+    const char **attacks;      /* (nattacks) materials that it dissolves or sputters */
+    int nincompatible, nattacks;
     bool buddy; /* never alone: a step with it needs a second signature and first aid */
     fw_place place;
 } fw_hazard;
@@ -23,11 +24,15 @@ typedef struct fw_hazard {
 typedef struct fw_equipment {
     const char *id, *class_, *text;
     int capacity;
+    const char *takes; /* groups of contaminants it may meet: "copper"; "" = none */
     fw_place place;
 } fw_equipment;
 
 typedef struct fw_process_material { /* for the wafer's layer stack */
     const char *id, *name;
+    const char *contaminates;     /* group, "copper"; "" = none */
+    bool holes;                   /* a film that does not protect what is below it */
+    const fw_quantity *highest_K; /* temperature that it bears; NULL: not said */
     fw_place place;
 } fw_process_material;
 
@@ -50,8 +55,17 @@ typedef struct fw_change {
     bool back;                     /* on the back of the wafer */
     bool isotropic;                /* undercuts the mask by thickness (1 + overrun) per edge */
     const fw_quantity *anisotropy; /* of a masked etch, A = 1 - lateral/vertical; may be NULL */
+    const fw_quantity *spread; /* of a plating, largest local thickness over mean; may be NULL */
     fw_place place;
 } fw_change;
+
+typedef struct fw_exposed { /* a material that the step's chemistry takes along, by either */
+    const char *material;
+    const fw_quantity *rate; /* m/s; may be unknown, NULL */
+    const fw_quantity
+        *selectivity; /* 1, of the etched material to this one; may be unknown, NULL */
+    fw_place place;
+} fw_exposed;
 
 typedef struct fw_accept {
     const char *measure, *low, *high, *unit;
@@ -93,6 +107,7 @@ typedef struct fw_step {
     bool in_source;
     int batch;
     fw_change *change;
+    fw_exposed *exposed;
     fw_setting *setting;
     const char *law, *expression;
     double overrun, k;
@@ -103,7 +118,7 @@ typedef struct fw_step {
     fw_on_fail *on_fail;
     fw_lag *lag;
     bool second_signature;
-    int nchange, nsetting, nargument, nendpoint, naccept, nhazard, non_fail, nlag;
+    int nchange, nexposed, nsetting, nargument, nendpoint, naccept, nhazard, non_fail, nlag;
     fw_time time; /* computed */
     const fw_quantity *
         *derived; /* (nderived) computed on the way: current, charge, mass, rpm ... */
@@ -191,6 +206,7 @@ fw_status fw_flow_compute(fw_arena *arena, fw_flow *flow, const fw_mask_facts *f
 fw_status fw_flow_judge_drives(fw_arena *arena, fw_flow *flow, bool insulating_carrier,
                                const fw_drive_facts *drive, int n, fw_diags *diags);
 const fw_quantity *fw_flow_quantity(const fw_flow *flow, const char *id);
+const fw_process_material *fw_flow_material(const fw_flow *flow, const char *id); /* or NULL */
 const char *fw_flow_material_name(const fw_flow *flow, const char *id); /* the id when unknown */
 
 #endif

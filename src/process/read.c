@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/hash.h"
-#include "process/pack.h"
+#include "process/lint.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -101,6 +101,8 @@ static fw_status read_hazard(fw_pack *pack, const fw_element *e, fw_hazard *h) {
                      .place = e->place};
     size_t most = (size_t)fw_pack_count(e, "incompatible");
     FW_NEED(h->incompatible = fw_arena_array(pack->arena, const char *, most));
+    most = (size_t)fw_pack_count(e, "attacks");
+    FW_NEED(h->attacks = fw_arena_array(pack->arena, const char *, most));
     for (const fw_element *c = e->first_child; c; c = c->next) {
         if (strcmp(c->name, "ppe") == 0)
             h->ppe = c->text;
@@ -111,6 +113,29 @@ static fw_status read_hazard(fw_pack *pack, const fw_element *e, fw_hazard *h) {
             h->waste_stream = fw_pack_text(c, "stream");
         } else if (strcmp(c->name, "incompatible") == 0)
             h->incompatible[h->nincompatible++] = fw_pack_text(c, "with");
+        else if (strcmp(c->name, "attacks") == 0)
+            h->attacks[h->nattacks++] = fw_pack_text(c, "material");
+    }
+    return FW_OK;
+}
+
+/* of a material's own quantities the process needs what it bears; the others are device/'s */
+static fw_status read_material(fw_pack *pack, const fw_element *e, fw_process_material *m) {
+    *m = (fw_process_material){.id = fw_pack_text(e, "id"),
+                               .name = fw_pack_text(e, "name"),
+                               .contaminates = fw_pack_text(e, "contaminates"),
+                               .holes = strcmp(fw_pack_text(e, "holes"), "yes") == 0,
+                               .place = e->place};
+    for (const fw_element *c = e->first_child; c; c = c->next) {
+        if (strcmp(fw_pack_text(c, "id"), "highest-temperature") != 0) continue;
+        fw_quantity *q = fw_arena_one(pack->arena, fw_quantity);
+        FW_NEED(q);
+        fw_status status =
+            fw_quantity_read(pack->arena, c, pack->source, pack->nsource, pack->diags, q);
+        if (status != FW_OK && status != FW_INPUT) return status;
+        if (!fw_dimension_equal(q->dimension, (fw_dimension){.K = 1}))
+            fw_diag_error(pack->diags, 169, c->place, "highest-temperature is not a temperature");
+        m->highest_K = q;
     }
     return FW_OK;
 }
@@ -131,12 +156,13 @@ static fw_status read_one(fw_pack *pack, const fw_element *e, bool base) {
         enter(pack, id->value, FW_ID_SOURCE, base, s, id->place);
     } else if (strcmp(e->name, "material") == 0) {
         fw_process_material *m = &f->process_material[f->nprocess_material++];
-        *m = (fw_process_material){id->value, fw_pack_text(e, "name"), e->place};
+        FW_TRY(read_material(pack, e, m));
         enter(pack, id->value, FW_ID_MATERIAL, base, m, id->place);
     } else if (strcmp(e->name, "equipment") == 0) {
         fw_equipment *q = &f->equipment[f->nequipment++];
         int capacity = (int)fw_pack_number(pack, e, "capacity", 1.0);
-        *q = (fw_equipment){id->value, fw_pack_text(e, "class"), e->text, capacity, e->place};
+        *q = (fw_equipment){id->value, fw_pack_text(e, "class"), e->text,
+                            capacity,  fw_pack_text(e, "takes"), e->place};
         enter(pack, id->value, FW_ID_EQUIPMENT, base, q, id->place);
     } else if (strcmp(e->name, "hazard") == 0) {
         fw_hazard *h = &f->hazard[f->nhazard++];

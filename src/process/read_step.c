@@ -175,6 +175,7 @@ static void read_change(fw_pack *pack, const fw_element *e, fw_change *c) {
                      .back = strcmp(fw_pack_text(e, "side"), "back") == 0,
                      .isotropic = strcmp(fw_pack_text(e, "profile"), "isotropic") == 0,
                      .anisotropy = quantity_of(pack, e, "anisotropy"),
+                     .spread = quantity_of(pack, e, "spread"),
                      .place = e->place};
     if (material) fw_pack_find(pack, material, FW_ID_MATERIAL);
     if (from)
@@ -185,6 +186,23 @@ static void read_change(fw_pack *pack, const fw_element *e, fw_change *c) {
         fw_diag_error(pack->diags, 169, e->place, "the thickness of <change> is not a length");
     if (c->isotropic && !c->thickness)
         fw_diag_error(pack->diags, 162, e->place, "profile='isotropic' needs a thickness");
+}
+
+static void read_exposed(fw_pack *pack, const fw_element *e, fw_exposed *x) {
+    const fw_attribute *material = fw_pack_get(e, "material");
+    *x = (fw_exposed){.material = fw_pack_text(e, "material"),
+                      .rate = quantity_of(pack, e, "rate"),
+                      .selectivity = quantity_of(pack, e, "selectivity"),
+                      .place = e->place};
+    if (material) fw_pack_find(pack, material, FW_ID_MATERIAL);
+    if (!fw_pack_get(e, "rate") == !fw_pack_get(e, "selectivity"))
+        fw_diag_error(
+            pack->diags, 162, e->place,
+            "<exposed> needs either 'rate' or 'selectivity'; the quantity may be unknown");
+    if (x->rate && !fw_dimension_equal(x->rate->dimension, (fw_dimension){.m = 1, .s = -1}))
+        fw_diag_error(pack->diags, 169, e->place, "the rate of <exposed> is not a length per time");
+    if (x->selectivity && !fw_dimension_equal(x->selectivity->dimension, (fw_dimension){0}))
+        fw_diag_error(pack->diags, 169, e->place, "the selectivity of <exposed> has a dimension");
 }
 
 static void read_lag(fw_pack *pack, const fw_element *e, fw_lag *lag) {
@@ -237,6 +255,8 @@ static fw_status read_child(fw_pack *pack, const fw_element *c, fw_step *s) {
         s->purpose = c->text;
     else if (strcmp(c->name, "change") == 0)
         read_change(pack, c, &s->change[s->nchange++]);
+    else if (strcmp(c->name, "exposed") == 0)
+        read_exposed(pack, c, &s->exposed[s->nexposed++]);
     else if (strcmp(c->name, "set") == 0)
         read_set(pack, c, s);
     else if (strcmp(c->name, "time") == 0)
@@ -260,6 +280,7 @@ static fw_status read_child(fw_pack *pack, const fw_element *c, fw_step *s) {
 
 static fw_status make_room(fw_arena *arena, const fw_element *e, fw_step *s) {
     FW_NEED(s->change = fw_arena_array(arena, fw_change, (size_t)fw_pack_count(e, "change")));
+    FW_NEED(s->exposed = fw_arena_array(arena, fw_exposed, (size_t)fw_pack_count(e, "exposed")));
     FW_NEED(s->setting = fw_arena_array(arena, fw_setting, (size_t)fw_pack_count(e, "set")));
     FW_NEED(s->derive = fw_arena_array(arena, fw_derive, (size_t)fw_pack_count(e, "derive")));
     FW_NEED(s->endpoint =

@@ -110,3 +110,18 @@ fw_status fw_flow_stack(fw_arena *arena, const fw_flow *flow, int index, fw_stac
                 *absent = &flow->step[i].change[j];
     return FW_OK;
 }
+
+bool fw_stack_open(const fw_flow *flow, const fw_stack *stack, const char *material) {
+    for (int column = 0; column < FW_STACK_COLUMNS; column++) {
+        double beside = top_of(stack, FW_STACK_COLUMNS - 1 - column);
+        bool covered = false;
+        for (int i = stack->n[column] - 1; i >= 0; i--) {
+            const fw_cell *c = &stack->cell[column][i];
+            bool side = c->bottom + c->height > beside + 1e-9;
+            if (strcmp(c->material, material) == 0 && (!covered || side)) return true;
+            const fw_process_material *m = fw_flow_material(flow, c->material);
+            covered = covered || !(m && m->holes);
+        }
+    }
+    return false;
+}

@@ -24,4 +24,8 @@ typedef struct fw_stack {
 fw_status fw_flow_stack(fw_arena *arena, const fw_flow *flow, int index, fw_stack *stack,
                         const fw_change **absent);
 
+/* does `material` lie open anywhere: on top of a column, below films that have holes, or at its
+   side, where it stands above the top of the other column */
+bool fw_stack_open(const fw_flow *flow, const fw_stack *stack, const char *material);
+
 #endif

@@ -57,6 +57,7 @@ typedef struct fw_quantity {
     double uncertainty; /* standard, absolute, SI; >= 0 */
     bool interval;      /* the uncertainty was given as a range: low to high, SI */
     double low, high;
+    double least, most; /* plausible range, SI; both 0: none was given */
     fw_dimension dimension;
     const char *unit; /* as written, for printing */
     fw_value_status status;

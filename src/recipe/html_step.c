@@ -214,6 +214,28 @@ static void holds(const fw_step *s, fw_text *out) {
     }
 }
 
+/* what the chemical takes along; how much of it the plan cannot say better than its quantity */
+static void exposures(const fw_flow *flow, const fw_step *s, fw_text *out) {
+    for (int i = 0; i < s->nexposed; i++) {
+        const fw_exposed *x = &s->exposed[i];
+        const fw_quantity *q = x->rate ? x->rate : x->selectivity;
+        fw_text_add(out, "<p class=\"note\"><b>Lies open:</b> ");
+        fw_text_escaped(out, fw_flow_material_name(flow, x->material));
+        if (q->unknown) {
+            fw_text_printf(out, ". This step takes some of it; the %s is not known (",
+                           x->rate ? "rate" : "selectivity");
+            fw_text_escaped(out, q->id);
+            fw_text_add(out, "): look at it.</p>\n");
+            continue;
+        }
+        fw_text_add(out, x->rate ? ", taken at " : ", at a selectivity of ");
+        fw_text_number(out, fw_quantity_in_unit(q), 4);
+        fw_text_add(out, x->rate ? " " : "");
+        if (x->rate) fw_put_unit(out, q->unit);
+        fw_text_printf(out, " (%s).</p>\n", fw_value_status_text(q->status));
+    }
+}
+
 static void hazards(const fw_step *s, fw_text *out) {
     for (int i = 0; i < s->nhazard; i++) {
         const fw_hazard *h = s->hazard[i];
@@ -255,6 +277,7 @@ void fw_html_step(const fw_flow *flow, int index, fw_text *out) {
     if (fw_recipe_section_svg(flow, index, out) != FW_OK) out->failed = 1;
     fw_text_add(out, "</div></div>\n");
     holds(s, out);
+    exposures(flow, s, out);
     if (quantities(flow, s, out) != FW_OK || time_box(s, out) != FW_OK) out->failed = 1;
     checks(s, out);
     failures(s, out);

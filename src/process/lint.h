@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a schema cannot see in a pack. Private to process/. A check is a function and a row in
+   lint.c; those that need times and the mask run after the flow was computed. */
+#ifndef FW_PROCESS_LINT_H
+#define FW_PROCESS_LINT_H
+#include "process/pack.h"
+
+fw_status fw_pack_lint(fw_pack *pack);
+
+/* people and chemicals (FW-D174, FW-D175) */
+fw_status fw_lint_people(fw_pack *pack);
+fw_status fw_lint_chemicals(fw_pack *pack);
+/* layers of the wafer, step by step (FW-D172, FW-D269, FW-D271 to FW-D275) */
+fw_status fw_lint_absent(fw_pack *pack);
+fw_status fw_lint_attacked(fw_pack *pack);
+fw_status fw_lint_heat(fw_pack *pack);
+fw_status fw_lint_contamination(fw_pack *pack);
+fw_status fw_lint_exposure(fw_pack *pack);
+fw_status fw_lint_masking(fw_pack *pack);
+
+/* after fw_flow_judge: adds to its reasons what the steps' times do to the layers (FW-D270,
+   FW-D273) */
+fw_status fw_lint_computed(fw_arena *arena, fw_flow *flow, fw_diags *diags);
+
+#endif

@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the computed times do to the layers: known only with the mask and the device's thickness. */
+#include "process/lint.h"
+#include "process/stack.h"
+#include <math.h>
+#include <string.h>
+
+static fw_status refuse(fw_arena *arena, fw_flow *flow, const char *why, int weight) {
+    const char **grown = fw_arena_grow(arena, flow->reason, (size_t)flow->nreason,
+                                       (size_t)flow->nreason + 1, sizeof *flow->reason);
+    FW_NEED(why);
+    FW_NEED(grown);
+    memmove(grown + 1, grown, (size_t)flow->nreason * sizeof *grown);
+    grown[0] = why;
+    flow->reason = grown;
+    flow->nreason++;
+    if (weight == 0 || flow->manufacturable != 0) flow->manufacturable = weight;
+    return FW_OK;
+}
+
+/* thickness of what lies on top of a column and is all of one material; NaN: a part is unknown */
+static double top_layer(const fw_stack *stack, int column, const char *material) {
+    double sum = 0.0;
+    for (int i = stack->n[column] - 1; i >= 0; i--) {
+        if (strcmp(stack->cell[column][i].material, material) != 0) break;
+        sum += stack->cell[column][i].thickness_m;
+    }
+    return sum;
+}
+
+/* Loss of an exposed material in a step, nominal and at two standard uncertainties:
+     by rate r:            l = r T (1 + overrun),     u/l = sqrt((u_r/r)^2 + u_T^2)
+     by selectivity S:     l = d (1 + overrun)/S,     u/l = u_S/S
+   r m/s, T the step's nominal time s, d m the depth that the step removes; l m. NaN when an input
+   is not known. Source: docs/theory/process.md, What a step takes along. Test: test_lint.c, loss.
+ */
+static double loss_of(const fw_step *s, const fw_exposed *x, double *most_m) {
+    double loss = (double)NAN, relative = 0.0;
+    if (x->rate && !x->rate->unknown && s->time.computable) {
+        loss = x->rate->value * s->time.nominal_s * (1.0 + s->overrun);
+        relative = hypot(x->rate->uncertainty / x->rate->value, s->time.relative_uncertainty);
+    } else if (x->selectivity && !x->selectivity->unknown) {
+        for (int i = 0; i < s->nchange; i++) {
+            const fw_quantity *d = s->change[i].thickness;
+            if (strcmp(s->change[i].kind, "remove") == 0 && d && !d->unknown)
+                loss = fmax(isnan(loss) ? 0.0 : loss,
+                            d->value * (1.0 + s->overrun) / x->selectivity->value);
+        }
+        relative = x->selectivity->uncertainty / x->selectivity->value;
+    }
+    /* a share that is off by 2u may be 1/(1 - 2u) times as large; beyond 2u = 0.9 take tenfold */
+    *most_m = loss / fmax(1.0 - 2.0 * relative, 0.1);
+    return loss;
+}
+
+static fw_status lint_loss(fw_arena *arena, fw_flow *flow, int index, const fw_exposed *x,
+                           fw_diags *diags) {
+    const fw_step *s = &flow->step[index];
+    double most, loss = loss_of(s, x, &most), least = (double)INFINITY;
+    if (isnan(loss)) return FW_OK;
+    for (int k = index - 1; k <= index; k++) { /* open from the start, or laid open by the step */
+        fw_stack stack;
+        FW_TRY(fw_flow_stack(arena, flow, k, &stack, NULL));
+        for (int column = 0; column < FW_STACK_COLUMNS; column++) {
+            double there = top_layer(&stack, column, x->material);
+            if (there > 0.0) least = fmin(least, there);
+        }
+    }
+    if (!(most >= least)) return FW_OK;
+    char lost[32], at_most[32], have[32];
+    const char *name = fw_flow_material_name(flow, x->material);
+    fw_number_text(lost, sizeof lost, loss * 1e6, 3);
+    fw_number_text(at_most, sizeof at_most, most * 1e6, 3);
+    fw_number_text(have, sizeof have, least * 1e6, 3);
+    if (loss >= least)
+        fw_diag_warning(diags, 270, x->place, "step %s takes %s um of %s, which is %s um thick",
+                        s->id, lost, name, have);
+    return refuse(arena, flow,
+                  fw_arena_printf(arena,
+                                  "step %s takes %s um of the open %s (at most %s um within two "
+                                  "standard uncertainties), which is %s um thick. Nearest change: "
+                                  "a layer above %s um, or a better selectivity",
+                                  s->id, lost, name, at_most, have, at_most),
+                  loss >= least ? 0 : -1);
+}
+
+/* Plating beyond the mould's top closes its gaps: d f <= h, with d m the mean thickness, f the
+   largest local thickness over the mean (spread, 1 when it is not given) and h m the mould, all of
+   one material on top of the field. Test: test_lint.c, mould. */
+static fw_status lint_mould(fw_arena *arena, fw_flow *flow, int index, const fw_change *c,
+                            fw_diags *diags) {
+    fw_stack stack;
+    double spread = c->spread && !c->spread->unknown ? c->spread->value : 1.0;
+    if (!c->thickness || c->thickness->unknown) return FW_OK;
+    FW_TRY(fw_flow_stack(arena, flow, index - 1, &stack, NULL));
+    int field = strcmp(c->where, "field") == 0 ? FW_STACK_STRUCTURE : FW_STACK_FIELD;
+    if (stack.n[field] == 0) return FW_OK;
+    const char *mould = stack.cell[field][stack.n[field] - 1].material;
+    double height = top_layer(&stack, field, mould), grown = c->thickness->value * spread;
+    if (isnan(height) || grown <= height) return FW_OK;
+    char up[32], high[32];
+    fw_number_text(up, sizeof up, grown * 1e6, 4);
+    fw_number_text(high, sizeof high, height * 1e6, 4);
+    fw_diag_warning(diags, 273, c->place, "step %s plates %s um into a mould of %s um",
+                    flow->step[index].id, up, high);
+    return refuse(arena, flow,
+                  fw_arena_printf(arena,
+                                  "step %s plates up to %s um where the mould of %s is %s um high: "
+                                  "the metal grows over it and closes the gaps. Nearest change: a "
+                                  "mould above %s um, or thinner plating",
+                                  flow->step[index].id, up, fw_flow_material_name(flow, mould),
+                                  high, up),
+                  0);
+}
+
+fw_status fw_lint_computed(fw_arena *arena, fw_flow *flow, fw_diags *diags) {
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_step *s = &flow->step[i];
+        for (int k = 0; k < s->nexposed; k++)
+            FW_TRY(lint_loss(arena, flow, i, &s->exposed[k], diags));
+        for (int k = 0; k < s->nchange && strcmp(s->op, "plate") == 0; k++)
+            if (strcmp(s->change[k].kind, "add") == 0 && strcmp(s->change[k].where, "all") != 0)
+                FW_TRY(lint_mould(arena, flow, i, &s->change[k], diags));
+    }
+    return FW_OK;
+}

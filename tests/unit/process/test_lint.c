@@ -1,0 +1,245 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Every check of process/lint*.c: a pack that is wrong in one place is told so at that place, and
+   the packs as they are pass (test_pack.c, packs_are_clean). */
+#include "packs.h"
+
+static fw_arena *arena;
+static fw_diags diags;
+
+static int setup(void **state) {
+    (void)state;
+    arena = fw_arena_new(0);
+    diags = fw_diags_new(arena);
+    return arena ? 0 : -1;
+}
+static int teardown(void **state) {
+    (void)state;
+    fw_arena_free(arena);
+    return 0;
+}
+
+static const fw_diag *found(int number, const char *says) {
+    for (size_t k = 0; k < diags.count; k++)
+        if (diags.item[k].number == number && strstr(diags.item[k].message, says))
+            return &diags.item[k];
+    return NULL;
+}
+
+static void expect(int number, const char *says) {
+    const fw_diag *d = found(number, says);
+    if (!d)
+        fail_msg("no FW-D%d with '%s', but '%s'", number, says,
+                 diags.count ? diags.item[0].message : "nothing");
+    assert_true(d->place.line > 0 && d->place.column > 0);
+}
+
+typedef struct change {
+    const char *flow, *from, *to;
+    int number;
+    const char *says;
+} change;
+
+/* each one is an error of the flow's own file, and the only kind of error there */
+static void mistakes_of_a_flow(void **state) {
+    (void)state;
+    static const change bad[] = {
+        /* the acid for the mask, with copper beside it */
+        {SILICON, "<exposed material=\"aluminium\" rate=\"develop.al\"/>", "", 269,
+         "'h.developer' attacks 'aluminium'"},
+        {SILICON, "<exposed material=\"aluminium\" selectivity=\"rie.selectivity\"/>", "", 269,
+         "step S18"},
+        {COPPER, "<exposed material=\"copper-plated\" rate=\"seed.R\"/>", "", 269,
+         "'copper-plated', which is open"},
+        /* below the displacement film, which has holes */
+        {COPPER, "<exposed material=\"porous-silicon\" rate=\"develop.R-porous\"/>", "", 269,
+         "'porous-silicon'"},
+        {SILICON, "<exposed material=\"carrier-wax\" rate=\"rie.R-wax\"/>",
+         "<exposed material=\"carrier-wax\" rate=\"rie.R-wax\"/>"
+         "<exposed material=\"resist\" rate=\"rie.R-wax\"/>",
+         269, "'resist' is not open at this step"},
+        {SILICON, "<exposed material=\"aluminium\" rate=\"develop.al\"/>",
+         "<exposed material=\"aluminium\"/>", 162, "either 'rate' or 'selectivity'"},
+        {SILICON, "<exposed material=\"aluminium\" rate=\"develop.al\"/>",
+         "<exposed material=\"aluminium\" rate=\"develop.t\"/>", 169, "length per time"},
+        {SILICON, "<exposed material=\"aluminium\" selectivity=\"rie.selectivity\"/>",
+         "<exposed material=\"aluminium\" selectivity=\"rie.R\"/>", 169, "has a dimension"},
+        /* resist that was not stripped meets the plasma */
+        {SILICON, "<change kind=\"remove\" material=\"resist\"/>", "", 269, "'resist'"},
+        {SILICON, "<q id=\"hard.T\" value=\"115\"", "<q id=\"hard.T\" value=\"131\"", 271,
+         "step S13"},
+        {COPPER,
+         "id=\"plater\" class=\"copper sulfate plating cell, galvanostat 0 to 2 A\" "
+         "capacity=\"1\" takes=\"copper\"",
+         "id=\"plater\" class=\"copper sulfate plating cell, galvanostat 0 to 2 A\" "
+         "capacity=\"1\" takes=\"gold coppery\"",
+         272, "step C21"},
+        {SILICON, "in-source=\"yes\" mask=\"M1\"", "in-source=\"yes\"", 274, "without naming"},
+        {SILICON, "<change kind=\"pattern\" material=\"resist\" where=\"field\"/>", "", 274,
+         "develops 'resist'"},
+        {SILICON, "<change kind=\"add\" material=\"resist\" thickness=\"litho.resist\"/>", "", 172,
+         "resist"},
+        {COPPER,
+         "<change kind=\"add\" material=\"copper-plated\" thickness=\"cu.d\" "
+         "where=\"structure\"/>",
+         "", 275, "lies open in the structure too"},
+        {SILICON, "<lag from=\"S02\"", "<lag from=\"S09\"", 276, "not before it"},
+        {SILICON, "<q id=\"pan.R\" least=\"1\" most=\"1000\" value=\"10\"",
+         "<q id=\"pan.R\" least=\"1\" most=\"1000\" value=\"0.1\"", 278, "'pan.R' is 0.1 Ao/s"},
+        {SILICON, "<q id=\"pan.R\" least=\"1\" most=\"1000\"",
+         "<q id=\"pan.R\" least=\"1000\" most=\"1\"", 71, "smaller one first"},
+        {SILICON, "<q id=\"pan.R\" least=\"1\" most=\"1000\"", "<q id=\"pan.R\" most=\"1000\"", 71,
+         "least and most"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        diags = fw_diags_new(arena);
+        assert_null(read_pack(arena, bad[i].flow, bad[i].from, bad[i].to, &diags));
+        expect(bad[i].number, bad[i].says);
+        assert_string_equal(found(bad[i].number, bad[i].says)->place.file, "flow.xml");
+    }
+}
+
+/* ampere for angstrom is another dimension, minutes for seconds another range */
+static void replaced_values_keep_their_range(void **state) {
+    (void)state;
+    static const char *const again[] = {
+        "<q id=\"h.x\" least=\"1\" most=\"9\" value=\"3\" u=\"0\" unit=\"um/min\" "
+        "status=\"assumed\" src=\"default\"/>",
+        "<q id=\"h.x\" value=\"3\" u=\"0\" unit=\"%s\" status=\"assumed\" src=\"guess\"/>"};
+    static const struct {
+        const char *unit;
+        int number; /* 0: fine */
+    } with[] = {{"um/min", 0}, {"Ao/s", 278}, {"um/s", 278}, {"A/s", 169}};
+    size_t nb = 0, n = 0;
+    const char *base = pack_text(arena, "base", &nb), *text = pack_text(arena, SILICON, &n);
+    base =
+        replaced(arena, base, "</process>", fw_arena_printf(arena, "%s</process>", again[0]), &nb);
+    for (size_t i = 0; i < sizeof with / sizeof with[0]; i++) {
+        fw_flow *flow = NULL;
+        size_t m = n;
+        const char *q = fw_arena_printf(
+            arena,
+            "<q id=\"h.x\" value=\"3\" u=\"0\" unit=\"%s\" status=\"assumed\" src=\"guess\"/>"
+            "<q id=\"pan.R\"",
+            with[i].unit);
+        const char *own = replaced(arena, text, "<q id=\"pan.R\"", q, &m);
+        diags = fw_diags_new(arena);
+        fw_status status =
+            fw_flow_read(arena, "base.xml", base, nb, "flow.xml", own, m, &diags, &flow);
+        assert_int_equal(status, with[i].number ? FW_INPUT : FW_OK);
+        if (with[i].number) expect(with[i].number, "h.x");
+    }
+}
+
+static void shared_hazards(void **state) {
+    (void)state;
+    static const struct {
+        const char *from, *to;
+        int number;
+        const char *says;
+    } bad[] = {
+        {"ghs=\"GHS02 GHS05 GHS06\" buddy=\"yes\"", "ghs=\"GHS02 GHS05 GHS06\"", 174, "say buddy"},
+        {"calcium gluconate gel until help arrives. Eyes: rinse 15 min or longer. Inhaled",
+         "cream until help arrives. Eyes: rinse 15 min or longer. Inhaled", 0, ""},
+        {"<waste stream=\"solvent\">solvent can", "<waste stream=\"acid-oxidiser\">solvent can",
+         175, "both go to the waste"},
+        {"<attacks material=\"aluminium\"/>", "<attacks material=\"aluminum\"/>", 165,
+         "did you mean 'aluminium'?"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        size_t nb = 0, n = 0;
+        fw_flow *flow = NULL;
+        const char *base = pack_text(arena, "base", &nb), *text = pack_text(arena, SILICON, &n);
+        base = replaced(arena, base, bad[i].from, bad[i].to, &nb);
+        diags = fw_diags_new(arena);
+        fw_status status =
+            fw_flow_read(arena, "base.xml", base, nb, "flow.xml", text, n, &diags, &flow);
+        assert_int_equal(status, bad[i].number ? FW_INPUT : FW_OK);
+        if (bad[i].number) expect(bad[i].number, bad[i].says);
+    }
+    /* the antidote is missing everywhere: said for both acids */
+    size_t nb = 0, n = 0;
+    fw_flow *flow = NULL;
+    const char *base = pack_text(arena, "base", &nb), *text = pack_text(arena, SILICON, &n);
+    while (strstr(base, "gluconate"))
+        base = replaced(arena, base, "gluconate", "chloride", &nb);
+    diags = fw_diags_new(arena);
+    assert_int_equal(fw_flow_read(arena, "base.xml", base, nb, "flow.xml", text, n, &diags, &flow),
+                     FW_INPUT);
+    expect(174, "'h.hf-organic' is hydrofluoric acid");
+    expect(174, "'h.hf-copper' is hydrofluoric acid");
+}
+
+static fw_flow *computed(const char *name, const char *from, const char *to) {
+    diags = fw_diags_new(arena);
+    fw_flow *f = read_pack(arena, name, from, to, &diags);
+    assert_non_null(f);
+    assert_int_equal(fw_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+    return f;
+}
+
+static int reasons(const fw_flow *f, const char *says) {
+    int n = 0;
+    for (int i = 0; i < f->nreason; i++)
+        n += strstr(f->reason[i], says) != NULL;
+    return n;
+}
+
+/* 1 um of aluminium for 50 um of silicon and 10 % over-etch: gone below S = 55 */
+static void loss(void **state) {
+    (void)state;
+    const char *from =
+        "<q id=\"rie.selectivity\" least=\"1\" most=\"100000\" value=\"100\" u=\"50\"";
+    static const struct {
+        double S, u;
+        int gone; /* 1 no, 0 perhaps, -1 not told */
+    } at[] = {{100, 50, 0}, {100, 10, -1}, {55.1, 0, -1},
+              {54.9, 0, 1}, {61, 2.9, -1}, {61, 3.1, 0}};
+    for (size_t i = 0; i < sizeof at / sizeof at[0]; i++) {
+        const char *to = fw_arena_printf(
+            arena, "<q id=\"rie.selectivity\" least=\"1\" most=\"100000\" value=\"%g\" u=\"%g\"",
+            at[i].S, at[i].u);
+        fw_flow *f = computed(SILICON, from, to);
+        assert_int_equal(reasons(f, "of the open"), at[i].gone >= 0);
+        assert_int_equal(found(270, "S18") != NULL, at[i].gone == 1);
+        assert_int_equal(f->manufacturable, at[i].gone == 1 ? 0 : -1); /* A is unknown anyway */
+    }
+    /* by rate: the developer takes 75 nm/min for 60 s and 20 % over: 90 nm */
+    fw_flow *f = computed(SILICON, "<q id=\"develop.al\" value=\"75\" u=\"15\"",
+                          "<q id=\"develop.al\" value=\"840\" u=\"0\"");
+    assert_int_equal(reasons(f, "step S11 takes 1.01 um of the open aluminium"), 1);
+    assert_non_null(found(270, "S11"));
+    f = computed(SILICON, "<q id=\"develop.al\" value=\"75\" u=\"15\"",
+                 "<q id=\"develop.al\" value=\"500\" u=\"0\"");
+    assert_int_equal(reasons(f, "step S11"), 0);
+}
+
+/* two coats of 8 um are the mould: 16 um */
+static void mould(void **state) {
+    (void)state;
+    fw_mask_facts facts = plain_facts;
+    static const double thick_um[] = {9.0, 15.99, 16.01, 30.0};
+    for (size_t i = 0; i < 4; i++) {
+        diags = fw_diags_new(arena);
+        fw_flow *f = read_pack(arena, COPPER, NULL, NULL, &diags);
+        facts.device_thickness_m = thick_um[i] * 1e-6;
+        assert_int_equal(fw_flow_compute(arena, f, &facts, &diags), FW_OK);
+        bool over = thick_um[i] > 16.0;
+        assert_int_equal(reasons(f, "grows over it"), over);
+        assert_int_equal(found(273, "C22") != NULL, over);
+        if (over) assert_int_equal(f->manufacturable, 0);
+    }
+    fw_flow *f = computed(COPPER, "thickness=\"cu.d\" where=\"structure\"/>",
+                          "thickness=\"cu.d\" where=\"structure\" spread=\"mould.spins\"/>");
+    assert_int_equal(reasons(f, "plates up to 18 um"), 1); /* twice the mean */
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(mistakes_of_a_flow, setup, teardown),
+        cmocka_unit_test_setup_teardown(replaced_values_keep_their_range, setup, teardown),
+        cmocka_unit_test_setup_teardown(shared_hazards, setup, teardown),
+        cmocka_unit_test_setup_teardown(loss, setup, teardown),
+        cmocka_unit_test_setup_teardown(mould, setup, teardown),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
