@@ -5,13 +5,14 @@
 #include <math.h>
 #include <string.h>
 
-static fw_status refuse(fw_arena *arena, fw_flow *flow, const char *why, int weight) {
+/* what refuses (weight 0) comes first, what is open (-1) last */
+static fw_status add_reason(fw_arena *arena, fw_flow *flow, const char *why, int weight) {
     const char **grown = fw_arena_grow(arena, flow->reason, (size_t)flow->nreason,
                                        (size_t)flow->nreason + 1, sizeof *flow->reason);
     FW_NEED(why);
     FW_NEED(grown);
-    memmove(grown + 1, grown, (size_t)flow->nreason * sizeof *grown);
-    grown[0] = why;
+    if (weight == 0) memmove(grown + 1, grown, (size_t)flow->nreason * sizeof *grown);
+    grown[weight == 0 ? 0 : flow->nreason] = why;
     flow->reason = grown;
     flow->nreason++;
     if (weight == 0 || flow->manufacturable != 0) flow->manufacturable = weight;
@@ -48,8 +49,7 @@ static double loss_of(const fw_step *s, const fw_exposed *x, double *most_m) {
         }
         relative = x->selectivity->uncertainty / x->selectivity->value;
     }
-    /* a share that is off by 2u may be 1/(1 - 2u) times as large; beyond 2u = 0.9 take tenfold */
-    *most_m = loss / fmax(1.0 - 2.0 * relative, 0.1);
+    *most_m = relative < 0.5 ? loss / (1.0 - 2.0 * relative) : (double)INFINITY;
     return loss;
 }
 
@@ -57,7 +57,6 @@ static fw_status lint_loss(fw_arena *arena, fw_flow *flow, int index, const fw_e
                            fw_diags *diags) {
     const fw_step *s = &flow->step[index];
     double most, loss = loss_of(s, x, &most), least = (double)INFINITY;
-    if (isnan(loss)) return FW_OK;
     for (int k = index - 1; k <= index; k++) { /* open from the start, or laid open by the step */
         fw_stack stack;
         FW_TRY(fw_flow_stack(arena, flow, k, &stack, NULL));
@@ -66,22 +65,29 @@ static fw_status lint_loss(fw_arena *arena, fw_flow *flow, int index, const fw_e
             if (there > 0.0) least = fmin(least, there);
         }
     }
-    if (!(most >= least)) return FW_OK;
-    char lost[32], at_most[32], have[32];
+    if (isnan(loss) || !(most >= least)) return FW_OK;
+    char lost[32], have[32], is[32], u[32], needed[32];
     const char *name = fw_flow_material_name(flow, x->material);
+    const fw_quantity *q = x->rate ? x->rate : x->selectivity;
+    double unit = fw_quantity_in_unit(q) / q->value, share = loss / least;
     fw_number_text(lost, sizeof lost, loss * 1e6, 3);
-    fw_number_text(at_most, sizeof at_most, most * 1e6, 3);
     fw_number_text(have, sizeof have, least * 1e6, 3);
+    fw_number_text(is, sizeof is, fw_quantity_in_unit(q), 4);
+    fw_number_text(u, sizeof u, q->uncertainty * unit, 3);
+    fw_number_text(needed, sizeof needed, q->value * unit * (x->rate ? 1.0 / share : share), 4);
     if (loss >= least)
         fw_diag_warning(diags, 270, x->place, "step %s takes %s um of %s, which is %s um thick",
                         s->id, lost, name, have);
-    return refuse(arena, flow,
-                  fw_arena_printf(arena,
-                                  "step %s takes %s um of the open %s (at most %s um within two "
-                                  "standard uncertainties), which is %s um thick. Nearest change: "
-                                  "a layer above %s um, or a better selectivity",
-                                  s->id, lost, name, at_most, have, at_most),
-                  loss >= least ? 0 : -1);
+    const char *of = x->rate ? "rate" : "selectivity", *gap = strcmp(q->unit, "1") ? " " : "";
+    const char *why = fw_arena_printf(
+        arena,
+        "step %s takes %s um of the open %s, %s um thick, at a %s of %s%s%s (u = %s): it lasts %s "
+        "%s%s%s. %s",
+        s->id, lost, name, have, of, is, gap, gap[0] ? q->unit : "", u, x->rate ? "below" : "above",
+        needed, gap, gap[0] ? q->unit : "",
+        loss >= least ? "Nearest change: a thicker layer, or another etch"
+                      : "Measure it before the first wafer");
+    return add_reason(arena, flow, why, loss >= least ? 0 : -1);
 }
 
 /* Plating beyond the mould's top closes its gaps: d f <= h, with d m the mean thickness, f the
@@ -103,14 +109,14 @@ static fw_status lint_mould(fw_arena *arena, fw_flow *flow, int index, const fw_
     fw_number_text(high, sizeof high, height * 1e6, 4);
     fw_diag_warning(diags, 273, c->place, "step %s plates %s um into a mould of %s um",
                     flow->step[index].id, up, high);
-    return refuse(arena, flow,
-                  fw_arena_printf(arena,
-                                  "step %s plates up to %s um where the mould of %s is %s um high: "
-                                  "the metal grows over it and closes the gaps. Nearest change: a "
-                                  "mould above %s um, or thinner plating",
-                                  flow->step[index].id, up, fw_flow_material_name(flow, mould),
-                                  high, up),
-                  0);
+    return add_reason(
+        arena, flow,
+        fw_arena_printf(arena,
+                        "step %s plates up to %s um where the mould of %s is %s um high: "
+                        "the metal grows over it and closes the gaps. Nearest change: a "
+                        "mould above %s um, or thinner plating",
+                        flow->step[index].id, up, fw_flow_material_name(flow, mould), high, up),
+        0);
 }
 
 fw_status fw_lint_computed(fw_arena *arena, fw_flow *flow, fw_diags *diags) {

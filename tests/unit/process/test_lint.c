@@ -206,7 +206,10 @@ static void loss(void **state) {
     /* by rate: the developer takes 75 nm/min for 60 s and 20 % over: 90 nm */
     fw_flow *f = computed(SILICON, "<q id=\"develop.al\" value=\"75\" u=\"15\"",
                           "<q id=\"develop.al\" value=\"840\" u=\"0\"");
-    assert_int_equal(reasons(f, "step S11 takes 1.01 um of the open aluminium"), 1);
+    assert_int_equal(reasons(f,
+                             "step S11 takes 1.01 um of the open aluminium, sputtered, 1 um thick, "
+                             "at a rate of 840 nm/min (u = 0): it lasts below 833.3 nm/min"),
+                     1);
     assert_non_null(found(270, "S11"));
     f = computed(SILICON, "<q id=\"develop.al\" value=\"75\" u=\"15\"",
                  "<q id=\"develop.al\" value=\"500\" u=\"0\"");
