@@ -84,6 +84,9 @@ typedef struct fw_process_law {
     /* quantities that come with the result, for the run sheet; may be NULL */
     fw_status (*derive)(fw_arena *arena, const fw_law_use *use, const fw_law_answer *answer,
                         fw_step *step);
+    /* what steps of the result within the inputs' uncertainties u add to its own: standard, to be
+       added as it is; NULL: the law has no steps */
+    double (*steps)(const double *x, const double *u);
 } fw_process_law;
 
 const fw_process_law *fw_law_row(int i);             /* i-th law, NULL after the last */

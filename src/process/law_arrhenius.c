@@ -24,4 +24,5 @@ static const fw_law_argument argument[] = {
     {"reference_temperature", FW_DIM_TEMPERATURE, FW_LAW_REQUIRED, false, NULL},
     {"temperature", FW_DIM_TEMPERATURE, FW_LAW_REQUIRED, false, NULL}};
 const fw_process_law fw_law_arrhenius = {
-    "arrhenius", "t = thickness/(rate exp(Ea/k (1/T0 - 1/T)))", argument, 5, evaluate, NULL, NULL};
+    "arrhenius", "t = thickness/(rate exp(Ea/k (1/T0 - 1/T)))", argument, 5, evaluate, NULL, NULL,
+    NULL};

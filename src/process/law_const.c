@@ -9,4 +9,4 @@ static fw_status evaluate(fw_law_call *call, const double *x, double *result) {
 }
 
 static const fw_law_argument argument[] = {{"time", FW_DIM_TIME, FW_LAW_REQUIRED, false, NULL}};
-const fw_process_law fw_law_const = {"const", "t = time", argument, 1, evaluate, NULL, NULL};
+const fw_process_law fw_law_const = {"const", "t = time", argument, 1, evaluate, NULL, NULL, NULL};

@@ -15,4 +15,4 @@ static const fw_law_argument argument[] = {
     {"reference_thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false, NULL},
     {"reference_time", FW_DIM_TIME, FW_LAW_REQUIRED, false, NULL}};
 const fw_process_law fw_law_diffusion = {
-    "diffusion", "t = t0 (d/d0)^2", argument, 3, evaluate, NULL, NULL};
+    "diffusion", "t = t0 (d/d0)^2", argument, 3, evaluate, NULL, NULL, NULL};

@@ -17,4 +17,4 @@ static const fw_law_argument argument[] = {{"volume", FW_DIM_VOLUME, FW_LAW_REQU
                                            {"flow", FW_DIM_FLOW, FW_LAW_REQUIRED, false, NULL},
                                            {"dilution", FW_DIM_NONE, FW_LAW_REQUIRED, false, NULL}};
 const fw_process_law fw_law_dilution = {
-    "dilution", "t = (volume/flow) ln(dilution)", argument, 3, evaluate, NULL, NULL};
+    "dilution", "t = (volume/flow) ln(dilution)", argument, 3, evaluate, NULL, NULL, NULL};

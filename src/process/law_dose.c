@@ -62,4 +62,5 @@ static const fw_law_argument argument[] = {
     PAIR(5),
     PAIR(6)};
 const fw_process_law fw_law_dose = {
-    "dose", "t = dose(thickness)/intensity", argument, FIRST + 2 * PAIRS, evaluate, slope, derive};
+    "dose", "t = dose(thickness)/intensity", argument, FIRST + 2 * PAIRS, evaluate, slope, derive,
+    NULL};

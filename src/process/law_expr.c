@@ -20,4 +20,4 @@ static fw_status evaluate(fw_law_call *call, const double *x, double *result) {
 }
 
 const fw_process_law fw_law_expr = {
-    "expr", "t = expression over the arguments", NULL, 0, evaluate, NULL, NULL};
+    "expr", "t = expression over the arguments", NULL, 0, evaluate, NULL, NULL, NULL};

@@ -72,4 +72,4 @@ static const fw_law_argument argument[] = {
     [POROSITY] = {"porosity", FW_DIM_NONE, FW_LAW_OPTIONAL, false, NULL},
     [AREA] = {"area", FW_DIM_AREA, FW_LAW_OPTIONAL, false, NULL}};
 const fw_process_law fw_law_faraday = {
-    "faraday", "t = d rho P n F/(eta J M)", argument, 8, evaluate, slope, derive};
+    "faraday", "t = d rho P n F/(eta J M)", argument, 8, evaluate, slope, derive, NULL};

@@ -56,4 +56,4 @@ const fw_process_law fw_law_lab_table = {
     "table",  "t between the laboratory's own pairs value_i, time_i",
     argument, FIRST + 2 * PAIRS,
     evaluate, NULL,
-    NULL};
+    NULL,     NULL};

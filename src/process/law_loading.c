@@ -21,5 +21,7 @@ static const fw_law_argument argument[] = {
     {"open_area", FW_DIM_AREA, FW_LAW_REQUIRED, false, NULL},
     {"reference_area", FW_DIM_AREA, FW_LAW_REQUIRED, false, NULL}};
 const fw_process_law fw_law_loading = {
-    "loading", "t = thickness/rate (1 + kappa A)/(1 + kappa A_ref)", argument, 5, evaluate, NULL,
-    NULL};
+    "loading", "t = thickness/rate (1 + kappa A)/(1 + kappa A_ref)",
+    argument,  5,
+    evaluate,  NULL,
+    NULL,      NULL};

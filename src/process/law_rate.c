@@ -17,5 +17,5 @@ static void slope(const double *x, double result, double *dx) {
 static const fw_law_argument argument[] = {
     {"thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false, NULL},
     {"rate", FW_DIM_SPEED, FW_LAW_REQUIRED, false, NULL}};
-const fw_process_law fw_law_rate = {"rate", "t = thickness/rate", argument, 2, evaluate, slope,
-                                    NULL};
+const fw_process_law fw_law_rate = {
+    "rate", "t = thickness/rate", argument, 2, evaluate, slope, NULL, NULL};

@@ -39,4 +39,4 @@ static const fw_law_argument argument[] = {
     [EXPONENT] = {"exponent", FW_DIM_NONE, FW_LAW_REQUIRED, false, NULL},
     [TIME] = {"time", FW_DIM_TIME, FW_LAW_REQUIRED, false, NULL}};
 const fw_process_law fw_law_spin = {
-    "spin", "speed = w0 (d0/d)^(1/a); t = time", argument, 5, evaluate, NULL, derive};
+    "spin", "speed = w0 (d0/d)^(1/a); t = time", argument, 5, evaluate, NULL, derive, NULL};

@@ -223,8 +223,9 @@ static void place_is_exact(void **state) {
 
 static void chemicals_must_not_meet(void **state) {
     (void)state;
-    fw_flow *f = read_pack(arena, SILICON, "<hazard-ref ref=\"h.pan\"/><hazard-ref ref=\"h.sharp\"/>",
-                           "<hazard-ref ref=\"h.pan\"/><hazard-ref ref=\"h.solvent\"/>", &diags);
+    fw_flow *f =
+        read_pack(arena, SILICON, "<hazard-ref ref=\"h.pan\"/><hazard-ref ref=\"h.sharp\"/>",
+                  "<hazard-ref ref=\"h.pan\"/><hazard-ref ref=\"h.solvent\"/>", &diags);
     assert_non_null(f);
     bool warned = false;
     for (size_t i = 0; i < diags.count; i++)
