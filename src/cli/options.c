@@ -264,6 +264,23 @@ static const char *take_deck(fw_cli_options *o, const char *v) {
     return *v ? NULL : "needs the name of a directory";
 }
 
+static const char *take_run(fw_cli_options *o, const char *v) {
+    o->run = v;
+    return *v ? NULL : "needs the name of a file";
+}
+
+static const char *take_entry(fw_cli_options *o, const char *v) {
+    o->entry = v;
+    return *v ? NULL : "needs the words of an entry, see flexwright log --help";
+}
+
+static const char *take_lot(fw_cli_options *o, const char *v) {
+    o->lot = v;
+    for (const char *c = v; *c; c++)
+        if ((unsigned char)*c < 0x20) return "has characters that cannot stand in a line";
+    return *v && strlen(v) <= 100 ? NULL : "needs 1 to 100 characters";
+}
+
 static const option_row table[] = {
     {"output", 'o', "DIR", "directory of the results; it appears whole or not at all",
      FW_OPT_OUTPUT, take_output},
@@ -356,6 +373,12 @@ static const option_row table[] = {
      "input decks of the solids for CalculiX: every hinge, linear and at finite rotation, and the "
      "mechanism under each scene; each file whole or not at all",
      FW_OPT_HINGE, take_deck},
+    {"run", 0, "FILE", "the log, which only grows; made by the first entry", FW_OPT_LOG, take_run},
+    {"entry", 0, "WORDS",
+     "one step as it was run: \"C22; start=2026-11-20T10:00; end=2026-11-20T10:21; by=AB; "
+     "thickness=9.1\", further second, tool, bath, note and what the step measures",
+     FW_OPT_LOG, take_entry},
+    {"lot", 0, "NAME", "name of the lot, for a log that begins", FW_OPT_LOG, take_lot},
     {"quiet", 'q', NULL, "no messages but errors", FW_OPT_COMMON, take_quiet},
     {"verbose", 'v', NULL, "a line per stage, and every note", FW_OPT_COMMON, take_verbose},
     {"color", 0, "WHEN", "auto, always or never", FW_OPT_COMMON, take_colour},

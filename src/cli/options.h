@@ -16,8 +16,9 @@ typedef struct fw_cli_options {
     const char *device; /* "-" = standard input; for explain: the code */
     const char *output; /* -o */
     const char *csv, *forces, *animate;
-    const char *svg;          /* of assemble and hinge */
-    const char *level, *deck; /* of hinge; NULL: by accuracy, none */
+    const char *svg;               /* of assemble and hinge */
+    const char *level, *deck;      /* of hinge; NULL: by accuracy, none */
+    const char *run, *entry, *lot; /* of log */
     bool json, quiet, verbose, no_progress, help, version;
     int colour; /* -1 auto, 0 never, 1 always */
 } fw_cli_options;
@@ -38,7 +39,8 @@ enum { /* option groups */
        FW_OPT_MODES = 32,
        FW_OPT_STATICS = 64,
        FW_OPT_ASSEMBLE = 128,
-       FW_OPT_HINGE = 256
+       FW_OPT_HINGE = 256,
+       FW_OPT_LOG = 4096
 };
 
 /* fills options from argv[2..]; false: wrong usage, said on stderr */

@@ -58,7 +58,8 @@ static const fw_command table[] = {
      "unstable\n"
      "are named. -o DIR writes modes.json and modes.svg, in which the mechanism moves.",
      FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_MODES, fw_command_modes},
-    {"mask", "DEVICE.xml", "only the masks (GDSII, SVG, OASIS, DXF, KLayout files, certificate, order sheet)",
+    {"mask", "DEVICE.xml",
+     "only the masks (GDSII, SVG, OASIS, DXF, KLayout files, certificate, order sheet)",
      "flexwright mask device.xml --flow al-masked-rie -o masks-out",
      "Judges the device first: a rejected design gets no mask unless --force.",
      FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_FABRICATE, fw_command_mask},
@@ -68,6 +69,18 @@ static const fw_command table[] = {
      "one\n"
      "flow the recipe is printed; with several, a document that holds them all.",
      FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_FABRICATE, fw_command_recipe},
+    {"log", "DEVICE.xml", "what was done, beside what was planned",
+     "flexwright log device.xml --flow copper-on-porous-silicon --run lot7.log",
+     "Keeps the as-run log of one flow: a text file that only grows, begun for the hash of its "
+     "recipe.\n"
+     "With --entry a step is added; what the step does not know, measures or allows is refused. "
+     "Without\n"
+     "--entry the log is verified and set beside the plan: times against their windows, holds "
+     "against\n"
+     "their limits, values against what is accepted. A line that was changed afterwards is seen; "
+     "whoever\n"
+     "rewrites the whole file is not.",
+     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_LOG, fw_command_log},
     {"hinge", "DEVICE.xml", "every flexure: elastic centre, stiffness, strain, limit angle",
      "flexwright hinge device.xml --svg hinges.svg",
      "Every flexure on a ladder of models, for every flow's material and thickness: elastic "

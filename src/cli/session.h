@@ -12,6 +12,7 @@ int fw_command_statics(fw_cli_options *options);
 int fw_command_assemble(fw_cli_options *options);
 int fw_command_mask(fw_cli_options *options);
 int fw_command_recipe(fw_cli_options *options);
+int fw_command_log(fw_cli_options *options);
 int fw_command_workspace(fw_cli_options *options);
 int fw_command_hinge(fw_cli_options *options);
 int fw_command_init(fw_cli_options *options);

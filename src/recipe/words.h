@@ -27,6 +27,8 @@ void fw_put_unit(fw_text *out, const char *unit);
 void fw_put_duration(fw_text *out, double seconds);
 const char *fw_missing_list(fw_arena *arena, const fw_time *time); /* NULL: no memory */
 
+void fw_put_json_string(fw_text *out, const char *text); /* with its quotes */
+
 /* one step of the run sheet */
 void fw_html_step(const fw_flow *flow, int index, fw_text *out);
 /* "[3]": number of the source in the list at the end; other text as it is */

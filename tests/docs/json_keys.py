@@ -82,6 +82,11 @@ for section, command in RUNS:
     walk(document, section)
     ledger(document, " ".join(command))
 with tempfile.TemporaryDirectory() as here:
+    log = ["log", SIX, "--flow", "copper-on-porous-silicon", "--run", f"{here}/run.log"]
+    for words in ("C20; start=2026-11-20T10:00; end=2026-11-20T10:09; by=AB; copper bright in the mould=yes",
+                  "C22; start=2026-11-20T10:30; end=2026-11-20T10:52; by=AB; second=CD; tool=p; bath=7; thickness=9; note=x"):
+        subprocess.run([program, *log, "--lot", "7", "--entry", words], cwd=ROOT, capture_output=True, timeout=120)
+    walk(json.loads(subprocess.run([program, *log, "--json"], cwd=ROOT, capture_output=True, timeout=120).stdout), "as-run")
     subprocess.run([program, "plan", COMB, "-q", "-o", f"{here}/o", "--set", "volts=49 V"], cwd=ROOT, capture_output=True,
                    timeout=120)
     walk(json.loads((pathlib.Path(here) / "o/manifest.json").read_text()), "manifest")

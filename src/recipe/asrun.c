@@ -1,0 +1,319 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "recipe/asrun.h"
+#include "base/hash.h"
+#include <math.h>
+#include <string.h>
+
+static const char first_words[] = "flexwright as-run 1";
+static const char chain_word[] = "\tchain=";
+enum { HASH = 64, LONGEST_WORDS = 4000 };
+
+typedef struct reader {
+    fw_arena *arena;
+    const fw_flow *flow;
+    fw_diags *diags;
+    fw_place place;
+} reader;
+
+static void link_of(fw_arena *arena, const char *before, const char *words, size_t n,
+                    char chain[65]) {
+    const char *both = fw_arena_printf(arena, "%s\n%.*s", before, (int)n, words);
+    if (both)
+        fw_sha256(both, strlen(both), chain);
+    else
+        chain[0] = '\0';
+}
+
+/* days since 1970-01-01 of a civil date: 365 a year, a day for every leap year before it, counted
+   from March so that February ends the year. Test: test_asrun.c, dates. */
+static double days_of(int year, int month, int day) {
+    int y = month <= 2 ? year - 1 : year, m = (month + 9) % 12;
+    return 365.0 * y + y / 4 - y / 100 + y / 400 + (m * 306 + 5) / 10 + day - 1 - 719468;
+}
+
+static bool digits(const char *s, int n, int *value) {
+    *value = 0;
+    for (int i = 0; i < n; i++) {
+        if (s[i] < '0' || s[i] > '9') return false;
+        *value = 10 * *value + (s[i] - '0');
+    }
+    return true;
+}
+
+/* YYYY-MM-DDTHH:MM or with :SS behind */
+static bool read_time(const char *s, double *time_s) {
+    static const int length[] = {31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+    int year, month, day, hour, minute, second = 0;
+    size_t n = strlen(s);
+    if ((n != 16 && n != 19) || s[4] != '-' || s[7] != '-' || s[10] != 'T' || s[13] != ':')
+        return false;
+    if (!digits(s, 4, &year) || !digits(s + 5, 2, &month) || !digits(s + 8, 2, &day) ||
+        !digits(s + 11, 2, &hour) || !digits(s + 14, 2, &minute))
+        return false;
+    if (n == 19 && (s[16] != ':' || !digits(s + 17, 2, &second))) return false;
+    bool leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    if (year < 1970 || month < 1 || month > 12 || day < 1 || day > length[month - 1] ||
+        (month == 2 && day == 29 && !leap) || hour > 23 || minute > 59 || second > 59)
+        return false;
+    *time_s = 86400.0 * days_of(year, month, day) + 3600.0 * hour + 60.0 * minute + second;
+    return true;
+}
+
+static const fw_step *step_of(const reader *r, const char *id) {
+    for (int i = 0; i < r->flow->nstep; i++)
+        if (strcmp(r->flow->step[i].id, id) == 0) return &r->flow->step[i];
+    const char *best = NULL;
+    for (int i = 0, least = 3; i < r->flow->nstep; i++) {
+        int d = fw_edit_distance(id, r->flow->step[i].id, 2);
+        if (d < least) {
+            least = d;
+            best = r->flow->step[i].id;
+        }
+    }
+    fw_diag_error(r->diags, 282, r->place, "flow %s has no step '%s'%s%s%s", r->flow->id, id,
+                  best ? "; did you mean '" : "", best ? best : "", best ? "'?" : "");
+    return NULL;
+}
+
+static fw_status read_measure(const reader *r, fw_run_entry *e, const char *name,
+                              const char *value) {
+    enum { MOST_NAMES = 40 };
+    const char *known[MOST_NAMES] = {"start", "end", "by", "second", "tool", "bath", "note"};
+    int n = 7;
+    fw_measured m = {name, value, (double)NAN};
+    bool of_step = false;
+    for (int i = 0; i < e->step->naccept && n < MOST_NAMES; i++) {
+        known[n++] = e->step->accept[i].measure;
+        of_step = of_step || strcmp(e->step->accept[i].measure, name) == 0;
+    }
+    if (!of_step) {
+        const char *meant = fw_did_you_mean(name, known, (size_t)n);
+        return fw_diag_error(r->diags, 282, r->place, "step %s measures no '%s'%s%s%s", e->step->id,
+                             name, meant ? "; did you mean '" : "", meant ? meant : "",
+                             meant ? "'?" : ", see <accept> of its pack");
+    }
+    bool word = strcmp(value, "yes") == 0 || strcmp(value, "no") == 0;
+    if (!word && !fw_number_parse(value, strlen(value), &m.number))
+        return fw_diag_error(r->diags, 282, r->place,
+                             "%s=%s: give a number in the unit of the run sheet, or yes or no",
+                             name, value);
+    e->measured[e->nmeasured++] = m;
+    return FW_OK;
+}
+
+static fw_status read_word(const reader *r, fw_run_entry *e, const char *name, const char *value) {
+    const struct {
+        const char *name;
+        const char **text;
+        double *time_s; /* NULL: a text */
+    } field[] = {
+        {"start", &e->start, &e->start_s}, {"end", &e->end, &e->end_s}, {"by", &e->by, NULL},
+        {"second", &e->second, NULL},      {"tool", &e->tool, NULL},    {"bath", &e->bath, NULL},
+        {"note", &e->note, NULL}};
+    for (size_t i = 0; i < sizeof field / sizeof field[0]; i++) {
+        if (strcmp(field[i].name, name) != 0) continue;
+        if (*field[i].text)
+            return fw_diag_error(r->diags, 282, r->place, "%s is given twice", name);
+        *field[i].text = value;
+        if (field[i].time_s && !read_time(value, field[i].time_s))
+            return fw_diag_error(r->diags, 282, r->place,
+                                 "%s=%s is not a time; write 2026-11-20T10:00, local time of the "
+                                 "laboratory",
+                                 name, value);
+        return FW_OK;
+    }
+    return read_measure(r, e, name, value);
+}
+
+/* what no entry may lack */
+static fw_status check_entry(const reader *r, const fw_run_entry *e) {
+    const char *lacks = !e->start ? "start" : !e->end ? "end" : !e->by ? "by" : NULL;
+    if (lacks)
+        return fw_diag_error(r->diags, 282, r->place, "the entry of step %s lacks %s=", e->step->id,
+                             lacks);
+    if (e->end_s < e->start_s)
+        return fw_diag_error(r->diags, 282, r->place, "step %s ends before it starts", e->step->id);
+    if (e->step->second_signature && (!e->second || strcmp(e->second, e->by) == 0))
+        return fw_diag_error(r->diags, 282, r->place,
+                             "step %s is never done alone: add second= with the initials of the "
+                             "other person",
+                             e->step->id);
+    return FW_OK;
+}
+
+/* cuts a copy of the words at `separator`; the first is the step, the others are name=value */
+static fw_status read_entry(const reader *r, const char *words, size_t n, char separator,
+                            fw_run_entry *e) {
+    char *copy = fw_arena_strndup(r->arena, words, n);
+    FW_NEED(copy);
+    *e = (fw_run_entry){.start_s = (double)NAN, .end_s = (double)NAN, .line = r->place.line};
+    size_t most = 1;
+    for (const char *s = copy; *s; s++)
+        most += *s == separator;
+    FW_NEED(e->measured = fw_arena_array(r->arena, fw_measured, most));
+    for (char *word = copy, *next; word; word = next) {
+        char *end = strchr(word, separator);
+        next = end ? end + 1 : NULL;
+        if (end) *end = '\0';
+        word += strspn(word, " ");
+        for (size_t length = strlen(word); length > 0 && word[length - 1] == ' ';)
+            word[--length] = '\0';
+        if (!word[0]) continue;
+        char *equal = strchr(word, '=');
+        if (!e->step) {
+            /* the step's id, alone or as step=ID */
+            const char *id = equal && strncmp(word, "step=", 5) == 0 ? equal + 1 : word;
+            if (!(e->step = step_of(r, id))) return FW_INPUT;
+            continue;
+        }
+        if (!equal || equal == word || !equal[1])
+            return fw_diag_error(r->diags, 282, r->place, "'%s' is not written as name=value",
+                                 word);
+        *equal = '\0';
+        FW_TRY(read_word(r, e, word, equal + 1));
+    }
+    if (!e->step) return fw_diag_error(r->diags, 282, r->place, "the entry names no step");
+    return check_entry(r, e);
+}
+
+/* ---- the log ---- */
+static fw_status damaged(const reader *r, const char *why) {
+    return fw_diag_error(r->diags, 280, r->place,
+                         "the log is not what was written: %s. Keep the file as it is, and begin a "
+                         "new log that says so in a note",
+                         why);
+}
+
+/* the words of a line without its chain, which must follow from `before` */
+static fw_status unchain(const reader *r, const char *line, size_t n, char chain[65],
+                         size_t *words) {
+    size_t tail = sizeof chain_word - 1 + HASH;
+    if (n <= tail || strncmp(line + n - tail, chain_word, sizeof chain_word - 1) != 0)
+        return damaged(r, "a line does not end with its chain");
+    char expected[65];
+    *words = n - tail;
+    link_of(r->arena, chain, line, *words, expected);
+    if (strncmp(line + n - HASH, expected, HASH) != 0)
+        return damaged(r, "this line, or one before it, was changed, removed or moved");
+    memcpy(chain, expected, sizeof expected);
+    return FW_OK;
+}
+
+/* value of name= in a line of tab-separated words; NULL when it is not there */
+static const char *value_of(fw_arena *arena, const char *line, size_t n, const char *name) {
+    const char *copy = fw_arena_strndup(arena, line, n);
+    const char *key = fw_arena_printf(arena, "\t%s=", name);
+    const char *at = copy && key ? strstr(copy, key) : NULL;
+    if (!at) return NULL;
+    at += strlen(key);
+    return fw_arena_strndup(arena, at, strcspn(at, "\t"));
+}
+
+static fw_status read_first(const reader *r, const char *plan, const char *line, size_t n,
+                            fw_run *run) {
+    size_t words;
+    if (n < sizeof first_words || strncmp(line, first_words, sizeof first_words - 1) != 0)
+        return damaged(r, "it does not begin with 'flexwright as-run 1'");
+    FW_TRY(unchain(r, line, n, run->chain, &words));
+    const char *flow = value_of(r->arena, line, words, "flow");
+    run->plan = value_of(r->arena, line, words, "plan");
+    run->lot = value_of(r->arena, line, words, "lot");
+    FW_NEED(flow && run->plan);
+    if (strcmp(flow, r->flow->id) != 0)
+        return fw_diag_error(r->diags, 281, r->place, "this is a log of flow %s, not of %s", flow,
+                             r->flow->id);
+    if (strcmp(run->plan, plan) != 0)
+        return fw_diag_error(r->diags, 281, r->place,
+                             "the log was begun for plan %.12s..., but this device and these packs "
+                             "now give %.12s...: use the files of that plan, or begin a new log",
+                             run->plan, plan);
+    return FW_OK;
+}
+
+fw_status fw_run_read(fw_arena *arena, const fw_flow *flow, const char *plan_sha256,
+                      const char *file, const char *text, size_t n, fw_diags *diags, fw_run *run) {
+    reader r = {arena, flow, diags, {file, 1, 1}};
+    size_t lines = 1;
+    *run = (fw_run){0};
+    for (size_t i = 0; i < n; i++)
+        lines += text[i] == '\n';
+    FW_NEED(run->entry = fw_arena_array(arena, fw_run_entry, lines));
+    if (n == 0 || text[n - 1] != '\n') return damaged(&r, "its last line is not complete");
+    if (memchr(text, '\0', n)) return damaged(&r, "it holds a NUL byte");
+    for (const char *line = text; line < text + n; r.place.line++) {
+        size_t length = strcspn(line, "\n"), words;
+        if (r.place.line == 1) {
+            FW_TRY(read_first(&r, plan_sha256, line, length, run));
+        } else {
+            FW_TRY(unchain(&r, line, length, run->chain, &words));
+            FW_TRY(read_entry(&r, line, words, '\t', &run->entry[run->nentry++]));
+        }
+        line += length + 1;
+    }
+    return FW_OK;
+}
+
+static bool writable(const char *s) {
+    for (; *s; s++)
+        if ((unsigned char)*s < 0x20) return false;
+    return true;
+}
+
+fw_status fw_run_begin(fw_arena *arena, const fw_flow *flow, const char *plan_sha256,
+                       const char *lot, const char **line) {
+    char chain[65];
+    const char *words = fw_arena_printf(arena, "%s\tflow=%s\tplan=%s%s%s", first_words, flow->id,
+                                        plan_sha256, lot ? "\tlot=" : "", lot ? lot : "");
+    FW_NEED(words);
+    link_of(arena, "", words, strlen(words), chain);
+    FW_NEED(*line = fw_arena_printf(arena, "%s%s%s\n", words, chain_word, chain));
+    return FW_OK;
+}
+
+/* what is odd, and may still be true */
+static void ask(const reader *r, const fw_run *run, const fw_run_entry *e) {
+    int index = (int)(e->step - r->flow->step);
+    const fw_run_entry *last = run->nentry > 0 ? &run->entry[run->nentry - 1] : NULL;
+    bool before = index == 0;
+    for (int i = 0; i < run->nentry && !before; i++)
+        before = run->entry[i].step == e->step - 1;
+    if (!before)
+        fw_diag_warning(r->diags, 283, r->place, "step %s before it is not in the log",
+                        r->flow->step[index - 1].id);
+    if (last && e->start_s < last->start_s)
+        fw_diag_warning(r->diags, 283, r->place,
+                        "step %s starts before step %s, which was entered before it", e->step->id,
+                        last->step->id);
+    if (e->nmeasured < e->step->naccept)
+        fw_diag_warning(r->diags, 283, r->place,
+                        "%d of the %d things that step %s measures are given", e->nmeasured,
+                        e->step->naccept, e->step->id);
+}
+
+fw_status fw_run_add(fw_arena *arena, const fw_flow *flow, const fw_run *run, const char *words,
+                     fw_diags *diags, const char **line) {
+    reader r = {arena, flow, diags, {"entry", 1, 1}};
+    fw_run_entry e;
+    char chain[65];
+    size_t n = strlen(words);
+    if (n > LONGEST_WORDS || !writable(words))
+        return fw_diag_error(diags, 282, r.place,
+                             "an entry has at most %d bytes and no tabs or line ends",
+                             LONGEST_WORDS);
+    FW_TRY(read_entry(&r, words, n, ';', &e));
+    ask(&r, run, &e);
+    fw_text out = fw_text_new(arena);
+    fw_text_printf(&out, "step=%s\tstart=%s\tend=%s\tby=%s", e.step->id, e.start, e.end, e.by);
+    const struct {
+        const char *name, *value;
+    } more[] = {{"second", e.second}, {"tool", e.tool}, {"bath", e.bath}, {"note", e.note}};
+    for (size_t i = 0; i < sizeof more / sizeof more[0]; i++)
+        if (more[i].value) fw_text_printf(&out, "\t%s=%s", more[i].name, more[i].value);
+    for (int i = 0; i < e.nmeasured; i++)
+        fw_text_printf(&out, "\t%s=%s", e.measured[i].measure, e.measured[i].value);
+    FW_TRY(fw_text_end(&out));
+    link_of(arena, run->chain, out.data, out.length, chain);
+    FW_NEED(chain[0]);
+    FW_NEED(*line = fw_arena_printf(arena, "%s%s%s\n", out.data, chain_word, chain));
+    return FW_OK;
+}

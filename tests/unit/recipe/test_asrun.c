@@ -1,0 +1,294 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* As-run logs: what is written is read back, every change of a written log is seen, and planned
+   against actual says what is out of its limits. */
+#include "../process/packs.h"
+#include "base/append.h"
+#include "recipe/asrun.h"
+#include <stdlib.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <signal.h>
+#include <unistd.h>
+
+static fw_arena *arena;
+static fw_diags diags;
+static fw_flow *flow;
+static const char plan[] = "00112233445566778899aabbccddeeff00112233445566778899aabbccddeeff";
+
+static int setup(void **state) {
+    (void)state;
+    arena = fw_arena_new(0);
+    diags = fw_diags_new(arena);
+    flow = read_pack(arena, COPPER, NULL, NULL, &diags);
+    return fw_flow_compute(arena, flow, &plain_facts, &diags) == FW_OK ? 0 : -1;
+}
+static int teardown(void **state) {
+    (void)state;
+    fw_arena_free(arena);
+    return 0;
+}
+
+static fw_status read_log(const char *text, size_t n, fw_run *run) {
+    diags = fw_diags_new(arena);
+    return fw_run_read(arena, flow, plan, "lot.log", text, n, &diags, run);
+}
+
+/* the log with one entry more; NULL: refused with `number` */
+static const char *with(const char *log, const char *words, int number) {
+    fw_run run;
+    const char *line = NULL;
+    assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+    fw_status status = fw_run_add(arena, flow, &run, words, &diags, &line);
+    if (number) {
+        assert_int_equal(status, FW_INPUT);
+        assert_int_equal(diags.item[diags.count - 1].number, number);
+        return NULL;
+    }
+    assert_int_equal(status, FW_OK);
+    return fw_arena_printf(arena, "%s%s", log, line);
+}
+
+static const char *begun(void) {
+    const char *line;
+    assert_int_equal(fw_run_begin(arena, flow, plan, "lot 7", &line), FW_OK);
+    return line;
+}
+
+static const char *three(void) {
+    const char *log = with(begun(), "C20; start=2026-11-20T10:00; end=2026-11-20T10:09; by=AB", 0);
+    log = with(log, "C21;start=2026-11-20T10:09;end=2026-11-20T10:14;by=AB;contact resistance=0.4",
+               0);
+    return with(log,
+                "C22; start=2026-11-20T10:30:00; end=2026-11-20T10:52:30; by=AB; second=CD; "
+                "thickness=7.9; tool=plater 2; bath=17; note=it was so",
+                0);
+}
+
+static void what_is_written_is_read(void **state) {
+    (void)state;
+    fw_run run;
+    const char *log = with(begun(), "C20; start=2026-11-20T10:00; end=2026-11-20T10:09; by=AB", 0);
+    log = with(log,
+               "C22; start=2026-11-20T10:30:05; end=2026-11-20T10:52:30; by=AB; second=C D; "
+               "thickness=7.9; tool=plater 2; bath=17; note=a = b",
+               0);
+    assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+    assert_string_equal(run.lot, "lot 7");
+    assert_string_equal(run.plan, plan);
+    assert_int_equal(run.nentry, 2);
+    const fw_run_entry *e = &run.entry[1];
+    assert_string_equal(e->step->id, "C22");
+    assert_near(e->end_s - e->start_s, 1345.0, 0.0);
+    assert_near(e->start_s - run.entry[0].end_s, 1265.0, 0.0);
+    assert_string_equal(e->second, "C D");
+    assert_string_equal(e->tool, "plater 2");
+    assert_string_equal(e->note, "a = b");
+    assert_int_equal(e->nmeasured, 1);
+    assert_string_equal(e->measured[0].measure, "thickness");
+    assert_near(e->measured[0].number, 7.9, 0.0);
+}
+
+static void dates(void **state) {
+    (void)state;
+    static const struct {
+        const char *time;
+        double days; /* since 1970-01-01, from any calendar */
+    } day[] = {{"1970-01-01T00:00", 0},     {"1972-02-29T00:00", 789},
+               {"1972-03-01T00:00", 790},   {"2000-02-29T00:00", 11016},
+               {"2000-12-31T00:00", 11322}, {"2026-11-20T00:00", 20777},
+               {"2100-03-01T00:00", 47541}};
+    for (size_t i = 0; i < sizeof day / sizeof day[0]; i++) {
+        fw_run run;
+        const char *words =
+            fw_arena_printf(arena, "C20; start=%s; end=%s; by=A", day[i].time, day[i].time);
+        const char *log = with(begun(), words, 0);
+        assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+        assert_near(run.entry[0].start_s, 86400.0 * day[i].days, 0.0);
+    }
+    static const char *const wrong[] = {"2026-11-31T00:00",  "2026-02-29T00:00", "2100-02-29T00:00",
+                                        "2026-13-01T00:00",  "2026-00-01T00:00", "2026-11-20T24:00",
+                                        "2026-11-20T10:60",  "2026-11-20 10:00", "20.11.2026",
+                                        "2026-11-20T10:00Z", "2026-11-20T10:0a"};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
+        with(begun(), fw_arena_printf(arena, "C20; start=%s; end=2026-11-21T00:00; by=A", wrong[i]),
+             282);
+}
+
+static void refused_entries(void **state) {
+    (void)state;
+    static const char *const bad[] = {
+        "",
+        "C99; start=2026-11-20T10:00; end=2026-11-20T10:09; by=AB",
+        "C20; end=2026-11-20T10:09; by=AB",
+        "C20; start=2026-11-20T10:00; by=AB",
+        "C20; start=2026-11-20T10:00; end=2026-11-20T10:09",
+        "C20; start=2026-11-20T10:10; end=2026-11-20T10:09; by=AB",
+        "C20; start=2026-11-20T10:00; end=2026-11-20T10:09; by=AB; by=CD",
+        "C20; start=2026-11-20T10:00; end=2026-11-20T10:09; by=AB; colour=red",
+        "C22; start=2026-11-20T10:00; end=2026-11-20T10:09; by=AB; thickness=thick",
+        "C20; start=2026-11-20T10:00; end=2026-11-20T10:09; by=AB; note",
+        "C20; start=2026-11-20T10:00; end=2026-11-20T10:09; by=A\tB",
+        "C20; start=2026-11-20T10:00; end=2026-11-20T10:09; by=A\nB",
+        /* hydrofluoric acid: two people, and two different ones */
+        "C05; start=2026-11-20T10:00; end=2026-11-20T10:09; by=AB",
+        "C05; start=2026-11-20T10:00; end=2026-11-20T10:09; by=AB; second=AB",
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
+        with(begun(), bad[i], 282);
+}
+
+/* every byte, every line */
+static void changes_are_seen(void **state) {
+    (void)state;
+    fw_run run;
+    const char *log = three();
+    size_t n = strlen(log);
+    char *copy = fw_arena_strndup(arena, log, n);
+    for (size_t i = 0; i < n; i++) {
+        char was = copy[i];
+        copy[i] = (char)(was == '0' ? '1' : '0');
+        assert_int_not_equal(read_log(copy, n, &run), FW_OK);
+        copy[i] = was;
+    }
+    for (size_t cut = 0; cut < n; cut++) { /* only whole lines are a log */
+        fw_status status = read_log(fw_arena_strndup(arena, log, cut), cut, &run);
+        assert_int_equal(status == FW_OK, cut > 0 && log[cut - 1] == '\n');
+    }
+    const char *second = strchr(log, '\n') + 1, *third = strchr(second, '\n') + 1;
+    const char *without = fw_arena_printf(arena, "%.*s%s", (int)(second - log), log, third);
+    assert_int_equal(read_log(without, strlen(without), &run), FW_INPUT);
+    assert_int_equal(diags.item[0].number, 280);
+    assert_int_equal(diags.item[0].place.line, 2);
+    const char *twice = fw_arena_printf(arena, "%s%s", log, third);
+    assert_int_equal(read_log(twice, strlen(twice), &run), FW_INPUT);
+}
+
+static void another_plan(void **state) {
+    (void)state;
+    fw_run run;
+    const char *log = three();
+    diags = fw_diags_new(arena);
+    const char *other = fw_arena_printf(arena, "f%s", plan + 1);
+    assert_int_equal(fw_run_read(arena, flow, other, "lot.log", log, strlen(log), &diags, &run),
+                     FW_INPUT);
+    assert_int_equal(diags.item[0].number, 281);
+    fw_flow *silicon = read_pack(arena, SILICON, NULL, NULL, &diags);
+    diags = fw_diags_new(arena);
+    assert_int_equal(fw_run_read(arena, silicon, plan, "lot.log", log, strlen(log), &diags, &run),
+                     FW_INPUT);
+    assert_int_equal(diags.item[0].number, 281);
+}
+
+static bool holds(const fw_text *text, const char *words) {
+    return strstr(text->data, words) != NULL;
+}
+
+static void planned_against_actual(void **state) {
+    (void)state;
+    fw_run run;
+    fw_text text = fw_text_new(arena), json = fw_text_new(arena);
+    const char *log = three();
+    log = with(log,
+               "C20; start=2026-11-20T11:00; end=2026-11-20T11:10; by=AB; "
+               "copper bright in the mould=no",
+               0);
+    assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+    assert_int_equal(fw_run_write_text(flow, &run, &text), FW_OK);
+    assert_int_equal(fw_run_write_json(flow, &run, &json), FW_OK);
+    assert_true(holds(&text, "thickness = 7.9 um: OUT of 8.1 to 9.9"));
+    assert_true(holds(&text, "copper bright in the mould = no: OUT of yes"));
+    assert_true(holds(&text, "contact resistance = 0.4 ohm: accepted"));
+    assert_true(holds(&text, "(run 2 times)"));
+    /* C21 took 5 min where 6 to 14 are planned; C22 started before the last C20 ended */
+    assert_true(holds(&text, "3 of 28 steps run, 1 repeated, 3 outside of their limits"));
+    assert_true(holds(&json, "\"actual_s\":1350,\"judged\":\"in window\""));
+    assert_true(holds(&json, "\"judged\":\"short\""));
+    assert_true(holds(&json, "\"measure\":\"thickness\",\"value\":7.9,\"unit\":\"um\","
+                             "\"accepted\":false"));
+    /* the same log without the repetition: 21 min after C20, and 15 are allowed */
+    text = fw_text_new(arena);
+    log = three();
+    assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+    assert_int_equal(fw_run_write_text(flow, &run, &text), FW_OK);
+    assert_true(holds(&text, "waited 21 min since C20: OUT of 0 s to 15 min"));
+}
+
+/* ---- the file ---- */
+static const char *temporary(void) {
+    const char *path = fw_arena_printf(
+        arena, "%s/asrun-%ld", getenv("TMPDIR") ? getenv("TMPDIR") : "/tmp", (long)getpid());
+    unlink(path);
+    return path;
+}
+
+/* eight writers at once: every line whole, none lost */
+static void writers_wait_for_each_other(void **state) {
+    (void)state;
+    enum { WRITERS = 8, LINES = 20 };
+    const char *path = temporary();
+    for (int w = 0; w < WRITERS; w++)
+        if (fork() == 0) {
+            for (int i = 0; i < LINES; i++) {
+                fw_append file;
+                if (fw_append_open(arena, path, 1u << 20, &diags, &file) != FW_OK) _exit(1);
+                size_t before = file.n; /* the line says how long the file was: 6 bytes each */
+                char line[16];
+                snprintf(line, sizeof line, "%5zu\n", before);
+                if (fw_append_text(&file, line, 6) != FW_OK) _exit(1);
+                fw_append_close(&file);
+            }
+            _exit(0);
+        }
+    for (int w = 0; w < WRITERS; w++) {
+        int status;
+        assert_true(wait(&status) > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    }
+    fw_append file;
+    assert_int_equal(fw_append_open(arena, path, 1u << 20, &diags, &file), FW_OK);
+    assert_int_equal(file.n, WRITERS * LINES * 6);
+    for (size_t i = 0; i < WRITERS * LINES; i++)
+        assert_int_equal((size_t)atol(file.text + 6 * i), 6 * i);
+    fw_append_close(&file);
+    unlink(path);
+}
+
+/* no room: the file is as it was; nothing written: no file */
+static void no_room(void **state) {
+    (void)state;
+    fw_append file;
+    const char *path = temporary();
+    assert_int_equal(fw_append_open(arena, path, 1u << 20, &diags, &file), FW_OK);
+    fw_append_close(&file);
+    assert_int_not_equal(access(path, F_OK), 0);
+    assert_int_equal(fw_append_open(arena, path, 1u << 20, &diags, &file), FW_OK);
+    assert_int_equal(fw_append_text(&file, "0123456789\n", 11), FW_OK);
+    struct rlimit before, small;
+    getrlimit(RLIMIT_FSIZE, &before);
+    small = before;
+    small.rlim_cur = 15;
+    signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &small);
+    assert_int_equal(fw_append_text(&file, "0123456789\n", 11), FW_IO);
+    setrlimit(RLIMIT_FSIZE, &before);
+    fw_append_close(&file);
+    assert_int_equal(fw_append_open(arena, path, 1u << 20, &diags, &file), FW_OK);
+    assert_int_equal(file.n, 11);
+    fw_append_close(&file);
+    assert_int_equal(fw_append_open(arena, path, 10, &diags, &file), FW_LIMIT);
+    unlink(path);
+    assert_int_equal(fw_append_open(arena, "/nonexistent/log", 10, &diags, &file), FW_IO);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(what_is_written_is_read, setup, teardown),
+        cmocka_unit_test_setup_teardown(dates, setup, teardown),
+        cmocka_unit_test_setup_teardown(refused_entries, setup, teardown),
+        cmocka_unit_test_setup_teardown(changes_are_seen, setup, teardown),
+        cmocka_unit_test_setup_teardown(another_plan, setup, teardown),
+        cmocka_unit_test_setup_teardown(planned_against_actual, setup, teardown),
+        cmocka_unit_test_setup_teardown(writers_wait_for_each_other, setup, teardown),
+        cmocka_unit_test_setup_teardown(no_room, setup, teardown),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
