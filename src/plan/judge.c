@@ -7,11 +7,30 @@
 #include <math.h>
 #include <string.h>
 
-/* the variant, and what its flow may make of it */
-fw_status fw_plan_made_of(fw_arena *arena, const fw_plan_flow *pf, fw_variant_verdict *v) {
+fw_status fw_plan_draw(fw_arena *arena, const fw_device *device, const fw_layout **layout) {
+    fw_diags drawing = fw_diags_new(arena);
+    *layout = NULL;
+    fw_status status = fw_layout_build(arena, device, &drawing, layout);
+    if (status != FW_OK && status != FW_GEOMETRY && status != FW_INPUT) return status;
+    if (status != FW_OK || (*layout && !(*layout)->drawn)) *layout = NULL;
+    return FW_OK;
+}
+
+/* the same facts as fw_plan_compute_flows has, hence the same edges */
+fw_status fw_plan_made_of(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                          const fw_plan_flow *pf, fw_variant_verdict *v) {
+    fw_mask_facts facts;
     v->variant = &pf->variant;
     if (!pf->flow) return FW_OK;
-    return fw_flow_made(arena, pf->flow, &pf->variant, &v->input, &v->ninput);
+    FW_TRY(fw_plan_mask_facts(arena, device, layout, pf, &facts));
+    return fw_flow_made(arena, pf->flow, layout ? &facts : NULL, &pf->variant, &v->input,
+                        &v->ninput);
+}
+
+static bool any_flow(const fw_plan *plan) {
+    for (int i = 0; i < plan->nflow; i++)
+        if (plan->flow[i].flow) return true;
+    return false;
 }
 
 static fw_status restated(void *plan, fw_arena *arena, const fw_set *set, const fw_device **device,
@@ -25,8 +44,11 @@ fw_status fw_plan_judge(fw_plan *plan) {
     *verdict = (fw_verdict){.nvariant = plan->nflow};
     FW_NEED(verdict->variant =
                 fw_arena_array(plan->arena, fw_variant_verdict, (size_t)plan->nflow));
+    const fw_layout *layout = NULL;
+    if (any_flow(plan)) FW_TRY(fw_plan_draw(plan->arena, plan->device, &layout));
     for (int i = 0; i < plan->nflow; i++)
-        FW_TRY(fw_plan_made_of(plan->arena, &plan->flow[i], &verdict->variant[i]));
+        FW_TRY(fw_plan_made_of(plan->arena, plan->device, layout, &plan->flow[i],
+                               &verdict->variant[i]));
     fw_verdict_options options = plan->options.verdict;
     options.restated = (fw_restated){restated, plan};
     FW_TRY(
