@@ -32,6 +32,57 @@ static fw_status not_manufacturable(fw_plan *plan, fw_flow *flow, const char *wh
     return FW_OK;
 }
 
+/* the pack's corners that move edges, in words */
+static fw_status range_of(fw_plan *plan, const fw_flow *flow, const char **out) {
+    fw_text range = fw_text_new(plan->arena);
+    for (int i = 0; i < flow->ncorner; i++) {
+        const fw_corner *c = &flow->corner[i];
+        const fw_quantity *q = c->q && c->q->unknown ? c->assumed : c->q;
+        if (c->of == FW_CORNER_THICKNESS || c->of == FW_CORNER_YOUNGS || !q || q->unknown) continue;
+        fw_quantity low = *q, high = *q;
+        char a[32], b[32];
+        fw_quantity_range(q, &low.value, &high.value);
+        fw_text_printf(&range, "%s%s %s to %s%s%s%s", range.length ? "; " : "", c->name,
+                       fw_number_text(a, sizeof a, fw_quantity_in_unit(&low), 4),
+                       fw_number_text(b, sizeof b, fw_quantity_in_unit(&high), 4),
+                       strcmp(q->unit, "1") == 0 ? "" : " ",
+                       strcmp(q->unit, "1") == 0 ? "" : q->unit,
+                       q != c->q                 ? " (assumed: it is not known)"
+                       : q->status == FW_ASSUMED ? " (assumed)"
+                                                 : "");
+    }
+    FW_TRY(fw_text_end(&range));
+    *out = range.length ? range.data : "";
+    return FW_OK;
+}
+
+/* what the flow leaves of the edges, for the picture of the outlines */
+static fw_status edges_of(fw_plan *plan, const fw_flow *flow, const fw_mask_edges **out) {
+    const fw_fixed_point *p = &flow->edges;
+    fw_mask_edges *e = fw_arena_one(plan->arena, fw_mask_edges);
+    FW_NEED(e);
+    *out = e;
+    *e = (fw_mask_edges){.least_m = (double)NAN, .most_m = (double)NAN, .range = ""};
+    if (p->ncls == 0) return FW_OK;
+    const fw_edge_class *field = &p->cls[p->field], *narrow = &p->cls[0];
+    e->top_m = field->edge.top_m;
+    e->bottom_m = field->edge.bottom_m;
+    e->least_m = field->low.top_m;
+    e->most_m = field->high.top_m;
+    e->known_part = p->open || p->wet_open;
+    FW_TRY(range_of(plan, flow, &e->range));
+    double more = narrow->low.bottom_m - field->low.bottom_m;
+    if (!(more > 1e-9)) return FW_OK;
+    char um[32];
+    FW_NEED(
+        e->note = fw_arena_printf(
+            plan->arena,
+            "Edges beside wide openings. In the narrowest slot the bottom edge loses up to %s um "
+            "less.",
+            fw_number_text(um, sizeof um, more * 1e6, 3)));
+    return FW_OK;
+}
+
 /* the mask of one flow; when rules or offsets refuse, the reason is kept and the plan goes on */
 static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     if (!plan->layout) { /* dimensions that do not fit: no flow can make it */
@@ -42,6 +93,10 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
         pf->mask_error = plan->layout->why_not ? plan->layout->why_not : "the device has no shapes";
         return FW_OK;
     }
+    if (!pf->flow->edges.solved) {
+        pf->mask_error = "no bias brings the edges to where they are drawn; see the flow's reasons";
+        return FW_OK; /* which say so already */
+    }
     fw_mask_options options = {.bias_m = pf->flow->bias_m,
                                .tolerance_m = plan->options.mask_tolerance_m,
                                .vertex_limit = plan->options.mask_vertices,
@@ -49,6 +104,7 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
                                .no_islands = !fw_plan_insulated(pf),
                                .title = plan->device->die.title};
     FW_TRY(notes_of(plan, pf, &options));
+    FW_TRY(edges_of(plan, pf->flow, &options.edges));
     fw_status status = fw_mask_build(plan->arena, plan->layout, pf->table, plan->device->name,
                                      &options, &plan->diags, &pf->mask);
     if (status == FW_OK) return FW_OK;

@@ -79,6 +79,26 @@ static void read_cut(const fw_flow *flow, const fw_step *s, const fw_change *c, 
     read_range(flow, c->anisotropy, cut);
 }
 
+/* where edges are known to come out, and the ranges of both edges and walls */
+static void read_corners(const fw_flow *flow, double thickness_m, fw_fixed_point *p) {
+    for (int i = 0; i < flow->ncorner; i++) {
+        const fw_corner *c = &flow->corner[i];
+        bool edge = c->of == FW_CORNER_EDGE, wall = c->of == FW_CORNER_TAPER;
+        const fw_quantity *q = c->q && c->q->unknown ? c->assumed : c->q;
+        if ((!edge && !wall) || !q || q->unknown || (wall && isnan(thickness_m))) continue;
+        double low, high, x = c->q->unknown ? 0.0 : q->value;
+        fw_quantity_range(q, &low, &high);
+        if (edge) {
+            p->printed_m -= x;
+            p->off_low_m += low - x;
+            p->off_high_m += high - x;
+        } else {
+            p->flare_m += thickness_m * x;
+            p->flare_off_m += thickness_m * fmax(x - low, high - x);
+        }
+    }
+}
+
 static void read_flow(const fw_flow *flow, double thickness_m, fw_fixed_point *p) {
     for (int i = 0; i < flow->nstep; i++) {
         const fw_step *s = &flow->step[i];
@@ -93,13 +113,7 @@ static void read_flow(const fw_flow *flow, double thickness_m, fw_fixed_point *p
                 read_cut(flow, s, c, depth, &p->cut[p->ncut++]);
         }
     }
-    double thick = thickness_m > 0.0 ? thickness_m : known(flow->thickness);
-    for (int i = 0; i < flow->ncorner; i++) {
-        double x = known(flow->corner[i].q);
-        if (isnan(x)) continue;
-        if (flow->corner[i].of == FW_CORNER_EDGE) p->printed_m -= x;
-        if (flow->corner[i].of == FW_CORNER_TAPER && !isnan(thick)) p->flare_m += thick * x;
-    }
+    read_corners(flow, thickness_m > 0.0 ? thickness_m : known(flow->thickness), p);
 }
 
 /* ---- openings ---- */
@@ -257,9 +271,8 @@ fw_edge fw_fixed_point_edge(const fw_fixed_point *p, double w_m, const double *A
     fw_edge e = {m - 0.5 * p->flare_m, 0.0, m + 0.5 * p->flare_m};
     for (int k = 0; k < p->ncut; k++) {
         const fw_cut *c = &p->cut[k];
-        if (isnan(A[k])) continue;
+        if (isnan(A[k]) || isnan(c->etched_m)) continue; /* its known part: nothing */
         double foot = fmax(0.0, c->etched_m - c->depth_m - fw_cut_lag(c, w_m, c->depth_m));
-        if (isnan(c->etched_m)) foot = (double)NAN;
         e.top_m -= (1.0 - A[k]) * (c->device ? c->etched_m : foot);
         e.bottom_m -= (1.0 - A[k]) * foot;
     }
@@ -279,8 +292,18 @@ static const fw_cut *device_cut(const fw_fixed_point *p) {
     return NULL;
 }
 
+/* the corners of edges and walls move a face besides */
+static fw_edge shifted(fw_edge e, double off_m, double wall_m) {
+    return (fw_edge){e.top_m + off_m + 0.5 * wall_m, e.middle_m + off_m,
+                     e.bottom_m + off_m + 0.5 * wall_m};
+}
+
 static void place_edges(fw_fixed_point *p, const double *A, const double *low, const double *high) {
     const fw_cut *cut = device_cut(p);
+    const fw_edge none = {(double)NAN, (double)NAN, (double)NAN};
+    bool ranged = true;
+    for (int k = 0; k < p->ncut; k++)
+        ranged = ranged && !isnan(low[k]) && !isnan(high[k]) && !isnan(p->cut[k].etched_m);
     for (int i = 0; i < p->ncls; i++) {
         fw_edge_class *c = &p->cls[i];
         c->plate_m = c->drawn_m - 2.0 * p->bias_m;
@@ -291,8 +314,11 @@ static void place_edges(fw_fixed_point *p, const double *A, const double *low, c
         c->through_s = (double)NAN;
         c->over_etch = cut ? cut->etched_m / reach - 1.0 : (double)NAN;
         c->edge = fw_fixed_point_edge(p, c->opening_m, A);
-        c->low = fw_fixed_point_edge(p, c->opening_m, low);
-        c->high = fw_fixed_point_edge(p, c->opening_m, high);
+        c->low = c->high = none;
+        if (!ranged) continue;
+        c->low = shifted(fw_fixed_point_edge(p, c->opening_m, low), p->off_low_m, -p->flare_off_m);
+        c->high =
+            shifted(fw_fixed_point_edge(p, c->opening_m, high), p->off_high_m, p->flare_off_m);
     }
 }
 

@@ -65,7 +65,7 @@ typedef struct fw_edge_class { /* one width of opening, in ascending order of `d
     double through_s;        /* the same as a time; NaN until steps are computed */
     double over_etch;        /* E/reach - 1; below 0: not through in the whole time. NaN */
     fw_edge edge;            /* where the edges of the material stand: the known part */
-    fw_edge low, high;       /* at the ends of what is assumed; NaN where nothing is assumed */
+    fw_edge low, high;       /* at the ends of all ranges of the pack's corners; NaN: A has none */
 } fw_edge_class;
 
 enum { FW_CUTS = 4 };
@@ -80,8 +80,10 @@ typedef struct fw_fixed_point {
     double low_m, high_m; /* bias that the ends of what is assumed would ask for; NaN: none */
     double slope;         /* F' at the solution: below 1, what a plain iteration contracts by */
     int iterations;       /* of Newton's method */
-    double flare_m;       /* known slope of the walls: bottom wider than top by twice this */
-    fw_cut cut[FW_CUTS];  /* (ncut) */
+    double off_low_m, off_high_m; /* range of the <corner>s of edges about what is known, <= 0 <= */
+    double flare_off_m;           /* the same of the walls: either way */
+    double flare_m;      /* known slope of the walls: bottom wider than top by twice this */
+    fw_cut cut[FW_CUTS]; /* (ncut) */
     int ncut;
     fw_edge_class *cls;      /* (ncls) narrowest first, the open field last */
     int ncls;                /* 0: nothing is drawn yet */

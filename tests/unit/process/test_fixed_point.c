@@ -260,8 +260,9 @@ static void unknown_stays_unknown(void **state) {
     assert_relative(p->bias_m, 1.1e-6, 1e-14);
     assert_near(p->cls[0].edge.top_m, 0, 0); /* the known part alone */
     /* the assumed range 0.99 to 1 is one of edges, and of the bias it would ask for */
-    assert_near(p->cls[0].high.top_m, 0, 1e-18);
-    assert_relative(p->cls[0].low.top_m, -0.01 * p->cut[0].etched_m, 1e-12);
+    /* with printed edges within 0.15 um and those of the aluminium within two times 0.11 um */
+    assert_near(p->cls[0].high.top_m, 0.37e-6, 1e-17);
+    assert_relative(p->cls[0].low.top_m, -0.01 * p->cut[0].etched_m - 0.37e-6, 1e-12);
     assert_relative(p->low_m, 1.1e-6, 1e-12);
     random_case r = {50e-6, 0.99, 0.1, 0.1, 10e-6, 575e-6, FW_FACE_MIDDLE, false};
     double m;
@@ -295,6 +296,23 @@ static void what_is_known_of_printing_is_taken_back(void **state) {
     assert_int_equal(fw_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
     assert_relative(f->bias_m, 0.9e-6, 1e-12);
     assert_non_null(strstr(f->bias_note, "0.2 um outside"));
+}
+
+/* copper: printed edges within 0.5 um, walls within a degree of upright over 9 um */
+static void copper_copies_its_mould(void **state) {
+    (void)state;
+    fw_flow *f = flow_of(COPPER);
+    const fw_fixed_point *p = solved(f, &plain_facts);
+    double wall = 9e-6 * acos(-1.0) / 180;
+    assert_true(p->solved && p->ncut == 0 && !p->open);
+    assert_near(p->bias_m, 0, 0);
+    assert_near(p->cls[0].edge.top_m, 0, 0);
+    assert_relative(p->cls[0].low.top_m, -0.5e-6 - wall / 2, 1e-12);
+    assert_relative(p->cls[0].high.bottom_m, 0.5e-6 + wall / 2, 1e-12);
+    set(f, "made.wall", acos(-1.0) / 180); /* a known slope: faces differ, the mean stays */
+    p = solved(f, &plain_facts);
+    assert_relative(p->cls[0].edge.bottom_m - p->cls[0].edge.top_m, wall, 1e-12);
+    assert_near(p->cls[0].edge.middle_m, 0, 1e-20);
 }
 
 /* ---- one struct for mask, recipe and verdict ---- */
@@ -536,6 +554,7 @@ int main(void) {
                                        TEST(the_fold_is_where_it_is_said_to_be),
                                        TEST(unknown_stays_unknown),
                                        TEST(what_is_known_of_printing_is_taken_back),
+                                       TEST(copper_copies_its_mould),
                                        TEST(perturb_one_and_look),
                                        TEST(no_solution_names_the_gap_and_a_change),
                                        TEST(lithography_cannot_open_what_is_left),

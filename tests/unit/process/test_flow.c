@@ -96,8 +96,9 @@ static void silicon(void **state) {
     assert_relative(shown(f, "S18", "narrowest slot"), 98.854173, 1e-7);
     assert_true(shown(f, "S18", "open field") > 90.0 && shown(f, "S18", "open field") < 90.3);
     assert_relative(shown(f, "S18", "share of O2"), 3.846153846, 1e-9);
-    assert_relative(shown(f, "S18", "SF6 used"), 29.32311857, 1e-6);
-    assert_relative(shown(f, "S18", "with breaks"), 110.0, 1e-9);
+    assert_relative(shown(f, "S18", "SF6 used"), 29.32311857 * 98.854173 / 90, 1e-6);
+    assert_relative(shown(f, "S18", "with breaks"), 98.854173 + 30, 1e-7);
+    assert_relative(shown(f, "S18", "aluminium lost"), 0.55 * 98.854173 / 90, 1e-7);
     assert_relative(shown(f, "S04", "bow"), 1666.666667, 1e-8);
     assert_relative(shown(f, "S14", "bath volume"), 95.0, 1e-12);
     assert_relative(shown(f, "S14", "27 Cel"), 720.737, 1e-6);
@@ -135,6 +136,8 @@ static void silicon_without_lag(void **state) {
     assert_true(
         reason(f, "A >= 0.993 (tapered wall, nominal time), 0.9942 (10 % over-etch), 0.9965"));
     assert_non_null(strstr(f->bias_note, "0.55, 2.75, 5.5 um"));
+    assert_relative(shown(f, "S18", "SF6 used"), 29.32311857, 1e-6);
+    assert_relative(shown(f, "S18", "with breaks"), 110.0, 1e-9);
 }
 
 static void missing_names(void **state) {
