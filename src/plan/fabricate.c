@@ -120,7 +120,8 @@ fw_status fw_plan_compute_flows(fw_plan *plan) {
         fw_plan_flow *pf = &plan->flow[i];
         if (!pf->flow) continue;
         fw_mask_facts facts;
-        FW_TRY(fw_plan_mask_facts(plan->arena, plan->device, plan->layout, pf, &facts));
+        FW_TRY(fw_plan_mask_facts(plan->arena, plan->device, plan->layout, &pf->variant,
+                                  fw_plan_insulated(pf), &facts));
         FW_TRY(fw_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, &plan->diags));
         fw_drive_facts *drive;
         int n;

@@ -76,12 +76,12 @@ static fw_status name_gaps(fw_arena *arena, const fw_device *device, const fw_la
 }
 
 fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_layout *layout,
-                             const fw_plan_flow *pf, fw_mask_facts *facts) {
-    *facts = (fw_mask_facts){.dies = 1, .device_thickness_m = pf->variant.thickness_m};
+                             const fw_variant *variant, bool insulated, fw_mask_facts *facts) {
+    *facts = (fw_mask_facts){.dies = 1, .device_thickness_m = variant->thickness_m};
     if (!layout || !layout->drawn) return FW_OK;
-    add_areas(layout, fw_plan_insulated(pf), facts);
+    add_areas(layout, insulated, facts);
     narrowest(device, layout, facts);
-    return name_gaps(arena, device, layout, pf->variant.flow, facts);
+    return name_gaps(arena, device, layout, variant->flow, facts);
 }
 
 fw_status fw_plan_drives(fw_arena *arena, const fw_device *d, const char *flow,

@@ -262,14 +262,12 @@ fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_set *s
                           plan->options.nset + 1, &other.diags, device));
     other.device = *device;
     fw_material own;
-    const fw_layout *layout = NULL;
     FW_TRY(own_material(&other, &own));
     for (int i = 0; i < plan->nflow; i++) {
         flow[i] = plan->flow[i];
         if (flow[i].use) flow[i].use = &(*device)->flow[flow[i].use - plan->device->flow];
         FW_TRY(make_variant(&other, &flow[i], &own));
-        if (flow[i].flow && !layout) FW_TRY(fw_plan_draw(arena, *device, &layout));
-        FW_TRY(fw_plan_made_of(arena, *device, layout, &flow[i], &variant[i]));
+        FW_TRY(fw_plan_made_of(arena, &flow[i], &variant[i]));
     }
     return FW_OK;
 }

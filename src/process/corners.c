@@ -84,8 +84,7 @@ static bool anisotropy(const fw_fixed_point *p, const fw_corner *c, fw_made_inpu
     const fw_cut *cut = fw_fixed_point_cut(p, c->q);
     if (!cut || isnan(cut->etched_m)) return false;
     double field = p->ncls ? p->cls[p->field].opening_m : (double)INFINITY;
-    double through = cut->depth_m + fw_cut_lag(cut, field, cut->depth_m);
-    double foot = fmax(0.0, cut->etched_m - through);
+    double foot = fw_cut_foot(cut, field);
     in->edge_m = cut->device ? 0.5 * (cut->etched_m + foot) : foot;
     in->flare_m = cut->device ? foot - cut->etched_m : 0.0;
     in->drawn = 1.0;

@@ -42,6 +42,7 @@ static void read_lag(const fw_step *s, fw_cut *cut) {
     cut->width_m = (double)INFINITY;
     if (!own && list == s->argument) return;
     bool linear = strcmp(shape, "linear") == 0;
+    cut->own = own;
     cut->lag = linear                           ? FW_LAG_LINEAR
                : strcmp(shape, "cylinder") == 0 ? FW_LAG_CYLINDER
                                                 : FW_LAG_SLOT;
@@ -155,11 +156,18 @@ static double reference_m(const fw_fixed_point *p) {
 /* ---- one etch ---- */
 
 /* S J(w, D) or c D^2/(2 w), from t = (D + lag)/R: see law_arde.c for formula, source and error.
-   w, D m, result m; 0 at w = INFINITY, NaN where S or c is not known. */
+   w, D m, result m; 0 at w = INFINITY, NaN where S or c is not known. Test: test_law.c, arde. */
 double fw_cut_lag(const fw_cut *cut, double w_m, double depth_m) {
-    if (cut->lag == FW_LAG_NONE || w_m == (double)INFINITY) return 0.0;
+    if (cut->lag == FW_LAG_NONE) return 0.0;
+    if (isnan(cut->lag_value)) return (double)NAN;
+    if (w_m == (double)INFINITY) return 0.0;
     if (cut->lag == FW_LAG_LINEAR) return cut->lag_value * depth_m * depth_m / (2.0 * w_m);
     return cut->lag_value * fw_arde_integral(w_m, depth_m, cut->lag == FW_LAG_CYLINDER);
+}
+
+double fw_cut_foot(const fw_cut *cut, double w_m) {
+    double lag = fw_cut_lag(cut, w_m, cut->depth_m), left = cut->etched_m - cut->depth_m;
+    return isnan(left) ? left : fmax(0.0, left - (isnan(lag) ? 0.0 : lag));
 }
 
 /* d(lag)/dw, 1: J = w j(D/w) with j' = 1/K - 1, hence dJ/dw = J/w - x (1/K(x) - 1), x = D/w */
@@ -175,14 +183,15 @@ static double lag_slope(const fw_cut *cut, double w_m, double lag_m) {
    the edge m of the masking layer: openings are gap - 2 m. `field` is the opening beside flexures,
    whose edges the mask brings to where they are drawn. */
 static void cut_at(fw_cut *c, double A, double narrow_m, double field_m, double *mask_slope) {
-    double w = c->follows ? narrow_m : c->width_m, lag = fw_cut_lag(c, w, c->depth_m);
+    double w = c->follows ? narrow_m : c->width_m;
+    double lag = c->own ? fw_cut_lag(c, w, c->depth_m) : 0.0;
     double wide = fw_cut_lag(c, field_m, c->depth_m), more = 1.0 + c->overrun;
     c->planned_m = c->depth_m + lag;
     c->etched_m = more * c->planned_m;
     c->reach_slope = c->follows ? -2.0 * more * lag_slope(c, w, lag) : 0.0;
-    double foot = c->etched_m - c->depth_m - wide;
-    double foot_slope = c->reach_slope + 2.0 * lag_slope(c, field_m, wide);
-    if (foot < 0.0) foot = foot_slope = 0.0;
+    double foot = fw_cut_foot(c, field_m);
+    double foot_slope =
+        foot > 0.0 ? c->reach_slope + (isnan(wide) ? 0.0 : 2.0 * lag_slope(c, field_m, wide)) : 0.0;
     double share = !c->device || c->compensate == FW_FACE_BOTTOM ? 1.0
                    : c->compensate == FW_FACE_TOP                ? 0.0
                                                                  : 0.5;
@@ -272,7 +281,7 @@ fw_edge fw_fixed_point_edge(const fw_fixed_point *p, double w_m, const double *A
     for (int k = 0; k < p->ncut; k++) {
         const fw_cut *c = &p->cut[k];
         if (isnan(A[k]) || isnan(c->etched_m)) continue; /* its known part: nothing */
-        double foot = fmax(0.0, c->etched_m - c->depth_m - fw_cut_lag(c, w_m, c->depth_m));
+        double foot = fw_cut_foot(c, w_m);
         e.top_m -= (1.0 - A[k]) * (c->device ? c->etched_m : foot);
         e.bottom_m -= (1.0 - A[k]) * foot;
     }

@@ -47,9 +47,10 @@ typedef struct fw_cut { /* a masked etch downward: a <change> with an anisotropy
     fw_lag_kind lag;   /* how narrow openings fall behind */
     double lag_value;  /* S, or c of the linear law; NaN: not known */
     const fw_quantity *lag_quantity; /* the same; NULL: no lag is stated */
-    bool follows;                    /* the time is that of the narrowest opening of the mask */
-    double width_m;                  /* else of this opening; INFINITY: of a wide one */
-    fw_face compensate;              /* the face whose edge the mask brings to where it is drawn */
+    bool own;           /* the lag is in the time of the step; else it is derived beside it */
+    bool follows;       /* the time is that of the narrowest opening of the mask */
+    double width_m;     /* else of this opening; INFINITY: of a wide one */
+    fw_face compensate; /* the face whose edge the mask brings to where it is drawn */
     double planned_m;   /* R T as planned, without overrun. NaN: the lag is not known */
     double etched_m;    /* E = R T with overrun: the floor of a wide opening would be so deep */
     double mask_m;      /* what the mask adds at every edge for this etch */
@@ -100,6 +101,9 @@ fw_status fw_fixed_point_solve(fw_arena *arena, const struct fw_flow *flow,
                                fw_fixed_point *out);
 /* extra depth R (t - D/R) that an opening of w_m needs until its floor is at depth_m; m */
 double fw_cut_lag(const fw_cut *cut, double w_m, double depth_m);
+/* E - D - lag, at least 0: what of the whole time is left when the floor is through; m. A lag that
+   is not known counts as none. */
+double fw_cut_foot(const fw_cut *cut, double w_m);
 /* where the edges beside an opening of w_m stand if the anisotropies of the cuts were A[i]
    (ncut); NaN counts as 1 */
 fw_edge fw_fixed_point_edge(const fw_fixed_point *p, double w_m, const double *A);

@@ -191,7 +191,7 @@ static void newton_finds_what_plain_iteration_finds(void **state) {
     (void)state;
     uint64_t seed = 20240601;
     int with = 0, without = 0;
-    for (int n = 0; n < 400; n++) {
+    for (int n = 0; n < 250; n++) {
         random_case r = {.D = (5 + 95 * random01(&seed)) * 1e-6,
                          .A = 1 - 0.15 * random01(&seed),
                          .S = random01(&seed),
@@ -218,7 +218,7 @@ static void newton_finds_what_plain_iteration_finds(void **state) {
         assert_near(off, 0, 1e-12 * r.D);
         assert_true(e.bottom_m >= e.top_m);
     }
-    assert_true(with > 100 && without > 20);
+    assert_true(with > 80 && without > 15);
 }
 
 /* just wide enough: there is a solution, and hardly one; a little less: none */
@@ -463,6 +463,13 @@ static void a_time_for_wide_openings_leaves_slots_closed(void **state) {
         assert_true(reason(f, "does not come through in step S18: it needs 1.098 times"));
         assert_int_equal(f->manufacturable, measured ? 0 : -1);
         assert_relative(step_of(f, "S18")->time.nominal_s, 5400, 1e-12);
+        /* the time does not need the lag, nor does what it undercuts; only slots are open */
+        set(f, "rie.S", (double)NAN);
+        set(f, "rie.A", 0.98);
+        const fw_fixed_point *p = solved(f, &plain_facts);
+        assert_true(p->solved && !p->open);
+        assert_relative(p->etch_m, 0.02 * (52.5e-6 + 2.5e-6) / 2, 1e-12);
+        assert_true(isnan(p->cls[0].over_etch));
     }
 }
 
