@@ -110,6 +110,7 @@ typedef struct fw_mask_format { /* a row of format.c */
     const char *name, *ending;  /* as the user says it; of the file */
     fw_status (*write)(const fw_mask *mask, fw_text *out);
     bool always, usual; /* whatever is asked for; when nothing is asked for */
+    bool picture;       /* to look at: the order sheet does not name it */
 } fw_mask_format;
 const fw_mask_format *fw_mask_format_at(size_t i); /* NULL behind the last row */
 /* bit i for row i. list: names with commas between, "all", or NULL for the usual ones; false: a
