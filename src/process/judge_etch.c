@@ -4,9 +4,6 @@
 #include "process/undercut.h"
 #include <math.h>
 
-#define um     fw_judge_um
-#define number fw_judge_number
-
 static bool has_flexure(const fw_judge *j) {
     return j->facts && j->facts->deepest_hinge_width_m > 0.0 &&
            isfinite(j->facts->deepest_hinge_width_m);
@@ -27,8 +24,8 @@ static fw_status isotropic_loss(fw_judge *j, const fw_step *s, const fw_change *
         &j->note,
         "%sstep %s etches %s um of %s isotropically with %s %% over-etch: %s um are lost "
         "at every edge and the mask adds them",
-        next(j), s->id, um(&t, depth), c->material, number(&t, 100.0 * s->overrun, 3),
-        um(&t, depth * (1.0 + s->overrun)));
+        next(j), s->id, fw_judge_um(&t, depth), c->material,
+        fw_judge_number(&t, 100.0 * s->overrun, 3), fw_judge_um(&t, depth * (1.0 + s->overrun)));
     return FW_OK;
 }
 
@@ -49,7 +46,8 @@ static void printed(fw_judge *j) {
     fw_text_printf(
         &j->note,
         "%sedges are known to come out %s um %s where they are drawn and the mask %s that", next(j),
-        um(&t, fabs(by)), by < 0.0 ? "outside" : "inside", by < 0.0 ? "takes back" : "adds");
+        fw_judge_um(&t, fabs(by)), by < 0.0 ? "outside" : "inside",
+        by < 0.0 ? "takes back" : "adds");
 }
 
 /* ---- an anisotropy that nobody knows ---- */
@@ -58,19 +56,20 @@ static void note_unknown(fw_judge *j, const fw_cut *c) {
     fw_numbers t = {0};
     double E = c->etched_m;
     const fw_fixed_point *p = &j->flow->edges;
-    const char *deep = um(&t, E);
+    const char *deep = fw_judge_um(&t, E);
     fw_text_printf(&j->note,
                    "%sthe lateral etch of step %s is NOT in the bias, because the anisotropy A is "
                    "not stated: in its whole time, over-etch included, the top edge loses (1 - A) "
                    "%s um per side; at A = 0.99, 0.95, 0.9 that is %s, %s, %s um",
-                   next(j), c->step->id, deep, um(&t, 0.01 * E), um(&t, 0.05 * E), um(&t, 0.1 * E));
+                   next(j), c->step->id, deep, fw_judge_um(&t, 0.01 * E), fw_judge_um(&t, 0.05 * E),
+                   fw_judge_um(&t, 0.1 * E));
     if (isnan(c->low) || isnan(p->low_m) || isnan(p->high_m)) return;
     fw_numbers r = {0};
     fw_text_printf(&j->note,
                    "; the range assumed for the verdict, A = %s to %s, would ask for a bias of %s "
                    "to %s um",
-                   number(&r, c->low, 4), number(&r, c->high, 4), um(&r, p->high_m),
-                   um(&r, p->low_m));
+                   fw_judge_number(&r, c->low, 4), fw_judge_number(&r, c->high, 4),
+                   fw_judge_um(&r, p->high_m), fw_judge_um(&r, p->low_m));
 }
 
 static fw_status anisotropy_unknown(fw_judge *j, const fw_cut *c) {
@@ -84,22 +83,22 @@ static fw_status anisotropy_unknown(fw_judge *j, const fw_cut *c) {
                             "names no flexure to judge",
                             id);
     double w = j->facts->deepest_hinge_width_m;
-    const char *width = um(&t, w), *deep = um(&t, depth);
+    const char *width = fw_judge_um(&t, w), *deep = fw_judge_um(&t, depth);
     FW_TRY(fw_judge_say(
         j, FW_ANSWER_OPEN,
         "not guaranteed until the anisotropy A of step %s is measured: the top edge of the "
         "narrowest flexure (%s um wide, %s um deep) is cut through at A = %s in the nominal "
         "time and at A = %s with 20 %% over-etch",
-        id, width, deep, number(&t, fw_undercut_cut(w, planned), 4),
-        number(&t, fw_undercut_cut(w, 1.2 * planned), 4)));
+        id, width, deep, fw_judge_number(&t, fw_undercut_cut(w, planned), 4),
+        fw_judge_number(&t, fw_undercut_cut(w, 1.2 * planned), 4)));
     fw_numbers n = {0};
     return fw_judge_say(
         j, FW_ANSWER_OPEN,
         "a stiffness within 10 %% of the drawn one needs A >= %s (tapered wall, nominal "
         "time), %s (10 %% over-etch), %s (straight wall, full undercut)",
-        number(&n, fw_undercut_needed(w, depth, planned, 0.1, 0), 4),
-        number(&n, fw_undercut_needed(w, depth, 1.1 * planned, 0.1, 0), 4),
-        number(&n, fw_undercut_needed(w, depth, planned, 0.1, 1), 4));
+        fw_judge_number(&n, fw_undercut_needed(w, depth, planned, 0.1, 0), 4),
+        fw_judge_number(&n, fw_undercut_needed(w, depth, 1.1 * planned, 0.1, 0), 4),
+        fw_judge_number(&n, fw_undercut_needed(w, depth, planned, 0.1, 1), 4));
 }
 
 /* ---- a known one ---- */
@@ -112,10 +111,10 @@ static void note_known(fw_judge *j, const fw_cut *c) {
     fw_text_printf(&j->note,
                    "%sstep %s undercuts by %s um %s (A = %s, whole time for %s um with %s %% "
                    "over-etch) and the mask adds that",
-                   next(j), c->step->id, um(&t, c->mask_m),
+                   next(j), c->step->id, fw_judge_um(&t, c->mask_m),
                    c->device ? face[c->compensate] : "at the foot of its layer",
-                   number(&t, c->anisotropy, 4), um(&t, c->planned_m),
-                   number(&t, 100.0 * c->overrun, 3));
+                   fw_judge_number(&t, c->anisotropy, 4), fw_judge_um(&t, c->planned_m),
+                   fw_judge_number(&t, 100.0 * c->overrun, 3));
 }
 
 static fw_status anisotropy_known(fw_judge *j, const fw_cut *c) {
@@ -134,13 +133,15 @@ static fw_status anisotropy_known(fw_judge *j, const fw_cut *c) {
             j->diags, 184, c->step->place,
             "in flow %s step %s takes the top edge of the narrowest flexure away: %s um "
             "drawn, %s um left at A = %s",
-            j->flow->id, c->step->id, um(&t, w), um(&t, top), number(&t, c->anisotropy, 4));
+            j->flow->id, c->step->id, fw_judge_um(&t, w), fw_judge_um(&t, top),
+            fw_judge_number(&t, c->anisotropy, 4));
     fw_numbers n = {0};
     return fw_judge_say(
         j, weight,
         "with A = %s and the biased mask the narrowest flexure is %s um wide at the top and "
         "%s um at the bottom: its stiffness is %s of the drawn one%s",
-        number(&n, c->anisotropy, 4), um(&n, top), um(&n, bottom), number(&n, ratio, 4),
+        fw_judge_number(&n, c->anisotropy, 4), fw_judge_um(&n, top), fw_judge_um(&n, bottom),
+        fw_judge_number(&n, ratio, 4),
         weight == FW_ANSWER_NO ? "; its edge is gone. Nearest change: a wider flexure, a thinner "
                                  "layer or a more anisotropic etch"
                                : "");
@@ -168,15 +169,15 @@ static fw_status not_through(fw_judge *j, const fw_cut *c, const fw_edge_class *
     fw_diag_warning(j->diags, 183, c->step->place,
                     "in flow %s the %s (%s um drawn, %s um in the masking layer) is not through in "
                     "the whole time of step %s: it needs %s times the planned time",
-                    j->flow->id, k->name, um(&t, k->drawn_m), um(&t, k->opening_m), c->step->id,
-                    number(&t, times, 4));
+                    j->flow->id, k->name, fw_judge_um(&t, k->drawn_m),
+                    fw_judge_um(&t, k->opening_m), c->step->id, fw_judge_number(&t, times, 4));
     return fw_judge_say(
         j, firm ? FW_ANSWER_NO : FW_ANSWER_OPEN,
         "the %s does not come through in step %s: it needs %s times the planned time, over-etch "
         "included %s. Nearest change: an over-etch of %s, or openings as wide as those that come "
         "through",
-        k->name, c->step->id, number(&t, times, 4), number(&t, 1.0 + c->overrun, 4),
-        number(&t, times - 1.0, 3));
+        k->name, c->step->id, fw_judge_number(&t, times, 4),
+        fw_judge_number(&t, 1.0 + c->overrun, 4), fw_judge_number(&t, times - 1.0, 3));
 }
 
 static fw_status lag(fw_judge *j, const fw_cut *c) {
@@ -188,14 +189,16 @@ static fw_status lag(fw_judge *j, const fw_cut *c) {
     bool firm = c->lag_quantity && c->lag_quantity->status <= FW_DERIVED;
     double deep = depth_in_wide_time(c, k->opening_m);
     const char *how = c->follows ? "is planned for" : "would need";
-    const char *opening = um(&t, k->opening_m), *got = um(&t, deep), *of = um(&t, c->depth_m);
+    const char *opening = fw_judge_um(&t, k->opening_m), *got = fw_judge_um(&t, deep),
+               *of = fw_judge_um(&t, c->depth_m);
     FW_TRY(fw_judge_say(
         j, firm ? FW_ANSWER_FINE : FW_ANSWER_OPEN,
         "the %s is %s um wide in the layer that masks step %s: in the time of wide openings it "
         "reaches %s of %s um, and the step %s %s times that time to bring it through (neutral "
         "transport, %s = %s %s%s)",
-        k->name, opening, c->step->id, got, of, how, number(&t, k->reach_m / c->depth_m, 4),
-        c->lag == FW_LAG_LINEAR ? "c" : "S", number(&t, c->lag_value, 3),
+        k->name, opening, c->step->id, got, of, how,
+        fw_judge_number(&t, k->reach_m / c->depth_m, 4), c->lag == FW_LAG_LINEAR ? "c" : "S",
+        fw_judge_number(&t, c->lag_value, 3),
         c->lag_quantity ? fw_value_status_text(c->lag_quantity->status) : "",
         firm ? "" : ": etch slots of several widths on a dummy wafer and measure their depths"));
     for (int i = 0; i < p->ncls; i++)
@@ -210,10 +213,10 @@ static fw_status nearest(const fw_judge *j, const char **text) {
     fw_numbers t = {0};
     fw_text list = fw_text_new(j->arena);
     if (isfinite(p->least_gap_m))
-        fw_text_printf(&list, "draw it at least %s um wide", um(&t, p->least_gap_m));
+        fw_text_printf(&list, "draw it at least %s um wide", fw_judge_um(&t, p->least_gap_m));
     if (isfinite(p->least_anisotropy))
         fw_text_printf(&list, "%san etch with an anisotropy of at least %s",
-                       list.length ? ", or " : "", number(&t, p->least_anisotropy, 5));
+                       list.length ? ", or " : "", fw_judge_number(&t, p->least_anisotropy, 5));
     if (!list.length) fw_text_add(&list, "a thinner layer");
     FW_TRY(fw_text_end(&list));
     *text = list.data;
@@ -226,7 +229,7 @@ static fw_status unsolved(fw_judge *j) {
     fw_numbers t = {0};
     const char *what = p->ncls ? p->cls[0].name : "opening", *change;
     double drawn = p->ncls ? p->cls[0].drawn_m : 0.0;
-    const char *wide = um(&t, drawn);
+    const char *wide = fw_judge_um(&t, drawn);
     FW_TRY(nearest(j, &change));
     fw_diag_warning(j->diags, 181, j->flow->place,
                     "in flow %s bias, etch time and gap have no common solution: the mask would "
@@ -246,7 +249,7 @@ static fw_status open_slot(fw_judge *j) {
     double bias = j->flow->bias_m;
     double left = j->facts ? j->facts->narrowest_slot_m - 2.0 * bias : 1.0;
     if (left > 0.0 || !j->flow->edges.solved) return FW_OK;
-    const char *by = um(&t, bias), *slot = um(&t, j->facts->narrowest_slot_m);
+    const char *by = fw_judge_um(&t, bias), *slot = fw_judge_um(&t, j->facts->narrowest_slot_m);
     fw_diag_warning(j->diags, 181, j->flow->place,
                     "in flow %s the compensation of %s um per edge closes the narrowest slot of %s "
                     "um on the mask",
@@ -255,7 +258,7 @@ static fw_status open_slot(fw_judge *j) {
         j, FW_ANSWER_NO,
         "the compensation of %s um per edge closes the narrowest slot of %s um on the mask. "
         "Nearest change: slots wider than %s um",
-        by, slot, um(&t, 2.0 * bias));
+        by, slot, fw_judge_um(&t, 2.0 * bias));
 }
 
 fw_status fw_judge_etching(fw_judge *j) {
