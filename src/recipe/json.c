@@ -16,6 +16,10 @@ static void string(fw_text *out, const char *text) {
     fw_text_add(out, "\"");
 }
 
+void fw_put_json(fw_text *out, const char *text) {
+    string(out, text);
+}
+
 static void key(fw_text *out, const char *name, bool first) {
     if (!first) fw_text_add(out, ",");
     string(out, name);
@@ -124,6 +128,7 @@ fw_status fw_recipe_write_json(const fw_flow *flow, const fw_recipe_header *head
     strings(out, "reasons", flow->reason, flow->nreason);
     number(out, "bias_m", flow->bias_m, false);
     named(out, "bias_note", flow->bias_note, false);
+    fw_recipe_edges_json(flow, out);
     fw_text_add(out, "}\n");
     return fw_text_end(out);
 }
