@@ -198,6 +198,7 @@ fw_status fw_mask_build(fw_arena *arena, const fw_layout *layout, const fw_mask_
     m->device = device_name;
     m->title = options->title ? options->title : device_name;
     m->bias_m = options->bias_m;
+    m->edges = options->edges;
     m->tolerance_m = tolerance_m;
     m->vertex_limit = options->vertex_limit ? options->vertex_limit : DEFAULT_VERTICES;
     m->rejected = options->rejected;

@@ -8,6 +8,7 @@ static const fw_mask_format table[] = {
     {"lyp", ".lyp", fw_mask_write_lyp, .always = true, .usual = true},
     {"lyt", ".lyt", fw_mask_write_lyt, .always = true, .usual = true},
     {"svg", ".svg", fw_mask_write_svg, .usual = true},
+    {"outlines", ".outlines.svg", fw_mask_write_outlines, .usual = true, .picture = true},
     {"oasis", ".oas", fw_mask_write_oasis, .usual = false},
     {"dxf", ".dxf", fw_mask_write_dxf, .usual = false},
 };

@@ -49,6 +49,17 @@ typedef struct fw_mask_measure { /* per layer */
 } fw_mask_measure;
 #define FW_MASK_LOOK_M 100e-6
 
+/* where the edges of biased layers stand in the end, m outside the drawn ones, beside the open
+ * field
+ */
+typedef struct fw_mask_edges {
+    double top_m, bottom_m; /* what is known of both faces */
+    double least_m, most_m; /* of the top face, at the ends of what is assumed; NaN: no range */
+    bool known_part;        /* something else is lost that nobody knows */
+    const char *range;      /* what the range is of; "" */
+    const char *note;       /* may be NULL */
+} fw_mask_edges;
+
 typedef struct fw_mask {
     const fw_mask_table *table;
     const char *cell, *flow;
@@ -62,6 +73,7 @@ typedef struct fw_mask {
     int nnote;
     const char *device, *title;
     const fw_mask_measure *measure; /* (table->nlayer) */
+    const fw_mask_edges *edges;     /* as fabricated; NULL: not known */
 } fw_mask;
 
 fw_status fw_mask_table_read(fw_arena *arena, const char *file, const char *xml, size_t n,
@@ -73,6 +85,7 @@ typedef struct fw_mask_options {
     const char *title;
     const char **note;
     int nnote;
+    const fw_mask_edges *edges; /* kept; may be NULL */
     bool no_islands; /* the flow has no insulating carrier: what is not joined would fall out */
 } fw_mask_options;
 /* biases, checks the rules, flattens, certifies. A rule that is broken is an error naming both
@@ -84,6 +97,8 @@ fw_status fw_mask_build(fw_arena *arena, const fw_layout *layout, const fw_mask_
 /* writers: same mask, same bytes */
 fw_status fw_mask_write_gds(const fw_mask *mask, fw_text *out);
 fw_status fw_mask_write_svg(const fw_mask *mask, fw_text *out);
+/* as drawn, mask, as fabricated over each other: a picture (outlines.h) */
+fw_status fw_mask_write_outlines(const fw_mask *mask, fw_text *out);
 fw_status fw_mask_write_lyp(const fw_mask *mask, fw_text *out);
 fw_status fw_mask_write_oasis(const fw_mask *mask, fw_text *out);
 /* name of layer k in DXF; NULL: out of memory */
@@ -95,6 +110,7 @@ typedef struct fw_mask_format { /* a row of format.c */
     const char *name, *ending;  /* as the user says it; of the file */
     fw_status (*write)(const fw_mask *mask, fw_text *out);
     bool always, usual; /* whatever is asked for; when nothing is asked for */
+    bool picture;       /* to look at: the order sheet does not name it */
 } fw_mask_format;
 const fw_mask_format *fw_mask_format_at(size_t i); /* NULL behind the last row */
 /* bit i for row i. list: names with commas between, "all", or NULL for the usual ones; false: a

@@ -4,55 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-static bool is_structure(fw_role role) {
-    return role == FW_ROLE_STRUCTURE || role == FW_ROLE_FLEXURE || role == FW_ROLE_FRAME ||
-           role == FW_ROLE_TETHER;
-}
-
-/* edges of the material: a joint is a cut between two pieces, not an edge */
-static double free_perimeter(const fw_contour *contour) {
-    double length = 0.0;
-    for (int i = 0; i < contour->count; i++) {
-        const fw_segment *s = &contour->segment[i];
-        if (s->flags & FW_SEGMENT_JOINT) continue;
-        length += s->kind == FW_ARC ? s->radius * fabs(s->sweep_rad)
-                                    : hypot(s->b.x - s->a.x, s->b.y - s->a.y);
-    }
-    return length;
-}
-
-/* does what is not joined in the layer stay where it is, and insulated? */
-static bool insulated(const fw_plan_flow *pf) {
-    return (pf->use && pf->use->insulating_carrier) || (pf->flow && pf->flow->insulating);
-}
-
-/* what the process needs to know of the mask of one die, from the exact outlines */
-static fw_mask_facts facts_of(const fw_device *device, const fw_layout *layout, bool islands) {
-    fw_mask_facts facts = {.dies = 1};
-    if (!layout || !layout->drawn) return facts;
-    for (int i = 0; i < layout->npiece; i++)
-        if (layout->piece[i].body == FW_ISLAND && !islands) {
-            continue;
-        } else if (is_structure(layout->piece[i].role)) {
-            facts.structure_area_m2 += fw_contour_area(&layout->piece[i].contour);
-            facts.perimeter_m += free_perimeter(&layout->piece[i].contour);
-        } else if (layout->piece[i].role == FW_ROLE_TEXT || layout->piece[i].role == FW_ROLE_MARK) {
-            /* lettering and marks lie in the frame and are taken out of it */
-            facts.structure_area_m2 -= fw_contour_area(&layout->piece[i].contour);
-            facts.perimeter_m += fw_contour_perimeter(&layout->piece[i].contour);
-        }
-    facts.die_area_m2 = (layout->die.x1 - layout->die.x0) * (layout->die.y1 - layout->die.y0);
-    facts.narrowest_slot_m = layout->narrowest_gap_m;
-    facts.narrowest_line_m = (double)INFINITY;
-    for (int j = 0; j < device->njoint; j++)
-        if (device->joint[j].flexure != FW_NONE)
-            facts.narrowest_line_m =
-                fmin(facts.narrowest_line_m,
-                     fw_flexure_narrowest_m(&device->flexure[device->joint[j].flexure]));
-    facts.deepest_hinge_width_m = facts.narrowest_line_m;
-    return facts;
-}
-
 /* what the mask room does not know itself */
 static fw_status notes_of(fw_plan *plan, const fw_plan_flow *pf, fw_mask_options *options) {
     char thickness[32];
@@ -81,6 +32,57 @@ static fw_status not_manufacturable(fw_plan *plan, fw_flow *flow, const char *wh
     return FW_OK;
 }
 
+/* the pack's corners that move edges, in words */
+static fw_status range_of(fw_plan *plan, const fw_flow *flow, const char **out) {
+    fw_text range = fw_text_new(plan->arena);
+    for (int i = 0; i < flow->ncorner; i++) {
+        const fw_corner *c = &flow->corner[i];
+        const fw_quantity *q = c->q && c->q->unknown ? c->assumed : c->q;
+        if (c->of == FW_CORNER_THICKNESS || c->of == FW_CORNER_YOUNGS || !q || q->unknown) continue;
+        fw_quantity low = *q, high = *q;
+        char a[32], b[32];
+        fw_quantity_range(q, &low.value, &high.value);
+        fw_text_printf(&range, "%s%s %s to %s%s%s%s", range.length ? "; " : "", c->name,
+                       fw_number_text(a, sizeof a, fw_quantity_in_unit(&low), 4),
+                       fw_number_text(b, sizeof b, fw_quantity_in_unit(&high), 4),
+                       strcmp(q->unit, "1") == 0 ? "" : " ",
+                       strcmp(q->unit, "1") == 0 ? "" : q->unit,
+                       q != c->q                 ? " (assumed: it is not known)"
+                       : q->status == FW_ASSUMED ? " (assumed)"
+                                                 : "");
+    }
+    FW_TRY(fw_text_end(&range));
+    *out = range.length ? range.data : "";
+    return FW_OK;
+}
+
+/* what the flow leaves of the edges, for the picture of the outlines */
+static fw_status edges_of(fw_plan *plan, const fw_flow *flow, const fw_mask_edges **out) {
+    const fw_fixed_point *p = &flow->edges;
+    fw_mask_edges *e = fw_arena_one(plan->arena, fw_mask_edges);
+    FW_NEED(e);
+    *out = e;
+    *e = (fw_mask_edges){.least_m = (double)NAN, .most_m = (double)NAN, .range = ""};
+    if (p->ncls == 0) return FW_OK;
+    const fw_edge_class *field = &p->cls[p->field], *narrow = &p->cls[0];
+    e->top_m = field->edge.top_m;
+    e->bottom_m = field->edge.bottom_m;
+    e->least_m = field->low.top_m;
+    e->most_m = field->high.top_m;
+    e->known_part = p->open || p->wet_open;
+    FW_TRY(range_of(plan, flow, &e->range));
+    double more = narrow->low.bottom_m - field->low.bottom_m;
+    if (!(more > 1e-9)) return FW_OK;
+    char um[32];
+    FW_NEED(
+        e->note = fw_arena_printf(
+            plan->arena,
+            "Edges beside wide openings. In the narrowest slot the bottom edge loses up to %s um "
+            "less.",
+            fw_number_text(um, sizeof um, more * 1e6, 3)));
+    return FW_OK;
+}
+
 /* the mask of one flow; when rules or offsets refuse, the reason is kept and the plan goes on */
 static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     if (!plan->layout) { /* dimensions that do not fit: no flow can make it */
@@ -91,13 +93,18 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
         pf->mask_error = plan->layout->why_not ? plan->layout->why_not : "the device has no shapes";
         return FW_OK;
     }
+    if (!pf->flow->edges.solved) {
+        pf->mask_error = "no bias brings the edges to where they are drawn; see the flow's reasons";
+        return FW_OK; /* which say so already */
+    }
     fw_mask_options options = {.bias_m = pf->flow->bias_m,
                                .tolerance_m = plan->options.mask_tolerance_m,
                                .vertex_limit = plan->options.mask_vertices,
                                .rejected = rejected,
-                               .no_islands = !insulated(pf),
+                               .no_islands = !fw_plan_insulated(pf),
                                .title = plan->device->die.title};
     FW_TRY(notes_of(plan, pf, &options));
+    FW_TRY(edges_of(plan, pf->flow, &options.edges));
     fw_status status = fw_mask_build(plan->arena, plan->layout, pf->table, plan->device->name,
                                      &options, &plan->diags, &pf->mask);
     if (status == FW_OK) return FW_OK;
@@ -107,40 +114,18 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     return not_manufacturable(plan, pf->flow, pf->mask_error);
 }
 
-/* comb drives of the scenes that hold in a flow, each once: scenes may name the same one */
-static fw_status drives_of(fw_plan *plan, const char *flow, fw_drive_facts **drive, int *n) {
-    const fw_device *d = plan->device;
-    size_t most = 0;
-    *n = 0;
-    for (int i = 0; i < d->nscene; i++)
-        most += (size_t)d->scene[i].ncomb;
-    FW_NEED(*drive = fw_arena_array(plan->arena, fw_drive_facts, most));
-    for (int i = 0; i < d->nscene; i++) {
-        const fw_scene *s = &d->scene[i];
-        if (!fw_device_in_flow(s->flow, flow)) continue;
-        for (int k = 0; k < s->ncomb; k++) {
-            const fw_comb *c = &s->comb[k];
-            bool there = false;
-            for (int l = 0; l < *n && !there; l++)
-                there = c->id && (*drive)[l].id && strcmp((*drive)[l].id, c->id) == 0 &&
-                        (*drive)[l].gap_m == c->gap_m;
-            if (!there) (*drive)[(*n)++] = (fw_drive_facts){c->id, c->gap_m, c->place};
-        }
-    }
-    return FW_OK;
-}
-
 fw_status fw_plan_compute_flows(fw_plan *plan) {
     bool drawn = plan->layout && plan->layout->drawn;
     for (int i = 0; i < plan->nflow; i++) {
         fw_plan_flow *pf = &plan->flow[i];
         if (!pf->flow) continue;
-        fw_mask_facts facts = facts_of(plan->device, plan->layout, insulated(pf));
-        facts.device_thickness_m = pf->variant.thickness_m;
+        fw_mask_facts facts;
+        FW_TRY(fw_plan_mask_facts(plan->arena, plan->device, plan->layout, &pf->variant,
+                                  fw_plan_insulated(pf), &facts));
         FW_TRY(fw_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, &plan->diags));
         fw_drive_facts *drive;
         int n;
-        FW_TRY(drives_of(plan, pf->variant.flow, &drive, &n));
+        FW_TRY(fw_plan_drives(plan->arena, plan->device, pf->variant.flow, &drive, &n));
         FW_TRY(fw_flow_judge_drives(plan->arena, pf->flow, pf->use && pf->use->insulating_carrier,
                                     drive, n, &plan->diags));
     }

@@ -7,11 +7,21 @@
 #include <math.h>
 #include <string.h>
 
-/* the variant, and what its flow may make of it */
 fw_status fw_plan_made_of(fw_arena *arena, const fw_plan_flow *pf, fw_variant_verdict *v) {
     v->variant = &pf->variant;
     if (!pf->flow) return FW_OK;
-    return fw_flow_made(arena, pf->flow, &pf->variant, &v->input, &v->ninput);
+    return fw_flow_made(arena, pf->flow, NULL, &pf->variant, &v->input, &v->ninput);
+}
+
+/* the same with the gaps of the drawing: the facts that fw_plan_compute_flows has, hence the same
+   edges as mask and recipe. The variant may be one of a description read again. */
+static fw_status made_of(void *context, fw_arena *arena, const fw_device *device,
+                         const fw_layout *layout, int i, fw_variant_verdict *v) {
+    const fw_plan_flow *pf = &((const fw_plan *)context)->flow[i];
+    fw_mask_facts facts;
+    if (!pf->flow || !layout || !layout->drawn) return FW_OK;
+    FW_TRY(fw_plan_mask_facts(arena, device, layout, v->variant, fw_plan_insulated(pf), &facts));
+    return fw_flow_made(arena, pf->flow, &facts, v->variant, &v->input, &v->ninput);
 }
 
 static fw_status restated(void *plan, fw_arena *arena, const fw_set *set, const fw_device **device,
@@ -29,6 +39,7 @@ fw_status fw_plan_judge(fw_plan *plan) {
         FW_TRY(fw_plan_made_of(plan->arena, &plan->flow[i], &verdict->variant[i]));
     fw_verdict_options options = plan->options.verdict;
     options.restated = (fw_restated){restated, plan};
+    options.made_of = (fw_made_of){made_of, plan};
     FW_TRY(
         fw_verdict_run(plan->arena, plan->device, &options, &plan->diags, verdict, &plan->layout));
     return fw_plan_compute_flows(plan);

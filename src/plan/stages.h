@@ -15,8 +15,15 @@ fw_status fw_plan_assume(fw_plan *plan, const char *format, ...)
    what was read of packs is shared. FW_INPUT: that value is not allowed, and nothing says why */
 fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_set *set,
                            const fw_device **device, fw_variant_verdict *variant);
-/* the variant of a flow, and what that may make of it */
+/* the variant of a flow, and what that may make of a device that is not drawn yet */
 fw_status fw_plan_made_of(fw_arena *arena, const fw_plan_flow *flow, fw_variant_verdict *v);
+bool fw_plan_insulated(const fw_plan_flow *pf);
+/* areas, edges and openings of one die, from the exact outlines; layout NULL or not drawn: zeros */
+fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                             const fw_variant *variant, bool insulated, fw_mask_facts *facts);
+/* comb drives of the scenes that hold in a flow, each once: scenes may name the same one */
+fw_status fw_plan_drives(fw_arena *arena, const fw_device *device, const char *flow,
+                         fw_drive_facts **drive, int *n);
 /* times, bias and judgement of every flow, from the exact outlines */
 fw_status fw_plan_compute_flows(fw_plan *plan);
 /* once per plan, after judging */

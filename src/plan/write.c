@@ -42,21 +42,28 @@ static fw_status write_order(writer *w, const fw_plan_flow *pf) {
     return put(w, "masks/", pf->use->ref, ".order.txt", &text);
 }
 
-static fw_status write_mask(writer *w, const fw_plan_flow *pf) {
-    unsigned set;
-    if (!fw_mask_formats(w->plan->options.mask_formats, &set)) return FW_USAGE;
+/* masks, or the pictures of them */
+static fw_status write_formats(writer *w, const fw_plan_flow *pf, unsigned set, bool pictures) {
     const fw_mask_format *format;
     for (size_t i = 0; (format = fw_mask_format_at(i)); i++) {
-        if (!(set & 1u << i)) continue;
+        if (!(set & 1u << i) || format->picture != pictures) continue;
         bool composed = format->write == fw_mask_write_gds; /* for its hash */
         fw_text text = composed ? pf->gds : fw_text_new(w->scratch);
         if (!composed) FW_TRY(format->write(pf->mask, &text));
         FW_TRY(put(w, "masks/", pf->use->ref, format->ending, &text));
     }
+    return FW_OK;
+}
+
+static fw_status write_mask(writer *w, const fw_plan_flow *pf) {
+    unsigned set;
+    if (!fw_mask_formats(w->plan->options.mask_formats, &set)) return FW_USAGE;
+    FW_TRY(write_formats(w, pf, set, false));
     fw_text text = fw_text_new(w->scratch);
     FW_TRY(fw_mask_write_certificate(pf->mask, pf->mask_sha256, &text));
     FW_TRY(put(w, "masks/", pf->use->ref, ".json", &text));
-    return write_order(w, pf);
+    FW_TRY(write_order(w, pf));
+    return write_formats(w, pf, set, true); /* behind the order sheets, which do not name them */
 }
 
 static fw_status write_recipe(writer *w, const fw_plan_flow *pf) {

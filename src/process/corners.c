@@ -58,42 +58,44 @@ void fw_pack_corners(fw_pack *pack) {
 
 /* ---- inputs of the verdict ---- */
 
-/* the range: lo to hi where the pack gives that, else two standard uncertainties either way */
+void fw_quantity_range(const fw_quantity *q, double *low, double *high) {
+    *low = q->interval ? q->low : q->value - 2.0 * q->uncertainty;
+    *high = q->interval ? q->high : q->value + 2.0 * q->uncertainty;
+}
+
 static void set_range(fw_made_input *in, const fw_quantity *q) {
     in->q = *q;
     in->nominal = q->value;
     in->sigma = q->uncertainty;
-    in->low = q->interval ? q->low : q->value - 2.0 * q->uncertainty;
-    in->high = q->interval ? q->high : q->value + 2.0 * q->uncertainty;
+    fw_quantity_range(q, &in->low, &in->high);
 }
 
 static void scale_range(fw_made_input *in, double by) {
     in->nominal *= by, in->low *= by, in->high *= by, in->sigma *= by;
 }
 
-/* the step that cuts the device layer */
-static const fw_step *cutting_step(const fw_flow *flow) {
-    for (int i = 0; i < flow->nstep; i++)
-        for (int k = 0; k < flow->step[i].nchange; k++)
-            if (flow->step[i].change[k].anisotropy) return &flow->step[i];
-    return NULL;
-}
-
-/* u(z) = (1 - A)(E - z) from every wall at depth z, E = D (1 + over-etch): at mid-depth the edge
-   goes back by (1 - A)(E - D/2), and one face is left 2 (1 - A) D wider than the other. D, E m;
-   A 1. A known A is in the bias of the mask, so that edges are even there. Source:
-   docs/theory/process.md; test_made.c against fw_undercut_widths. */
-static void anisotropy(const fw_step *step, double depth_m, bool known, fw_made_input *in) {
-    double etched = depth_m * (1.0 + step->overrun);
-    in->edge_m = etched - 0.5 * depth_m;
-    in->flare_m = -depth_m;
+/* u(z) = (1 - A)(E - z - lag(z)) from every wall at depth z: the edge goes back by the mean of both
+   faces, (1 - A)(E - (D + lag)/2), against the m that the mask adds, and one face is left
+   2 (1 - A)(D + lag) wider than the other; lag beside the open field, where flexures stand. E, D,
+   lag and m are those of the fixed point, so that mask, time and corner cannot differ. A masking
+   layer counts with its foot, E - D - lag. D, E m; A 1. Edges are even where (1 - A) edge_m = m.
+   Source: docs/theory/process.md; test_corners.c against fw_undercut_widths, test_fixed_point.c. */
+static bool anisotropy(const fw_fixed_point *p, const fw_corner *c, fw_made_input *in) {
+    const fw_cut *cut = fw_fixed_point_cut(p, c->q);
+    if (!cut || isnan(cut->etched_m)) return false;
+    double field = p->ncls ? p->cls[p->field].opening_m : (double)INFINITY;
+    double foot = fw_cut_foot(cut, field);
+    in->edge_m = cut->device ? 0.5 * (cut->etched_m + foot) : foot;
+    in->flare_m = cut->device ? foot - cut->etched_m : 0.0;
     in->drawn = 1.0;
-    in->even = known ? in->nominal : 1.0;
+    in->even = in->edge_m > 0.0 ? 1.0 - cut->mask_m / in->edge_m : 1.0;
     in->high = fmin(in->high, 1.0);
     in->nominal = fmin(in->nominal, 1.0);
+    return true;
 }
 
-static bool fill(const fw_flow *flow, const fw_corner *c, const fw_variant *v, fw_made_input *in) {
+static bool fill(const fw_fixed_point *p, const fw_corner *c, const fw_variant *v,
+                 fw_made_input *in) {
     bool unknown = c->q && c->q->unknown;
     const fw_quantity *q = c->of == FW_CORNER_YOUNGS ? &v->material.youngs
                            : unknown                 ? c->assumed
@@ -101,19 +103,17 @@ static bool fill(const fw_flow *flow, const fw_corner *c, const fw_variant *v, f
     if (!q || q->unknown) return false;
     *in = (fw_made_input){.name = c->name, .unknown = unknown ? c->q->id : NULL};
     set_range(in, q);
-    const fw_step *step;
     switch (c->of) {
     case FW_CORNER_EDGE: /* its known part is in the bias of the mask */
         in->edge_m = 1.0;
-        in->drawn = in->even = in->nominal;
+        in->drawn = in->nominal;
+        in->even = unknown ? 0.0 : in->nominal;
         break;
     case FW_CORNER_TAPER:
         in->flare_m = v->thickness_m;
         break;
     case FW_CORNER_ANISOTROPY:
-        step = cutting_step(flow);
-        if (!step) return false;
-        anisotropy(step, v->thickness_m, !unknown, in);
+        if (!anisotropy(p, c, in)) return false;
         break;
     case FW_CORNER_THICKNESS:
         scale_range(in, v->thickness_m / q->value); /* the device may ask for another one */
@@ -128,13 +128,15 @@ static bool fill(const fw_flow *flow, const fw_corner *c, const fw_variant *v, f
     return in->high > in->low;
 }
 
-fw_status fw_flow_made(fw_arena *arena, const fw_flow *flow, const fw_variant *variant,
-                       const fw_made_input **input, int *ninput) {
+fw_status fw_flow_made(fw_arena *arena, const fw_flow *flow, const fw_mask_facts *facts,
+                       const fw_variant *variant, const fw_made_input **input, int *ninput) {
     fw_made_input *list = fw_arena_array(arena, fw_made_input, FW_MADE_INPUTS);
-    FW_NEED(list);
+    fw_fixed_point *edges = fw_arena_one(arena, fw_fixed_point);
+    FW_NEED(list && edges ? list : NULL);
+    FW_TRY(fw_fixed_point_solve(arena, flow, facts, variant->thickness_m, edges));
     *ninput = 0;
     for (int i = 0; i < flow->ncorner && *ninput < FW_MADE_INPUTS; i++)
-        *ninput += fill(flow, &flow->corner[i], variant, &list[*ninput]);
+        *ninput += fill(edges, &flow->corner[i], variant, &list[*ninput]);
     *input = list;
     return FW_OK;
 }

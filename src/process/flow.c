@@ -173,7 +173,27 @@ static fw_status derive_all(fw_arena *arena, fw_step *s) {
     return FW_OK;
 }
 
+/* the arguments of an arde law whose lag is only assumed, without lag: the time of wide openings */
+static const fw_argument *without_guess(const fw_step *s, fw_argument *list, fw_quantity *none) {
+    bool guess = false;
+    if (strcmp(s->law, "arde") != 0 || s->nargument > FW_LAW_ARGUMENTS) return s->argument;
+    for (int i = 0; i < s->nargument; i++) {
+        const fw_argument *a = &s->argument[i];
+        bool lag = strcmp(a->name, "probability") == 0 || strcmp(a->name, "lag") == 0;
+        list[i] = *a;
+        if (!lag || !fw_lag_is_guess(a->q)) continue;
+        *none = *a->q;
+        none->value = none->uncertainty = 0.0;
+        none->status = FW_MEASURED; /* no part of the answer */
+        list[i].q = none;
+        guess = true;
+    }
+    return guess ? list : s->argument;
+}
+
 static fw_status compute_step(fw_arena *arena, fw_step *s) {
+    fw_argument list[FW_LAW_ARGUMENTS];
+    fw_quantity none;
     s->derived = NULL;
     s->nderived = 0;
     FW_TRY(derive_all(arena, s));
@@ -181,7 +201,7 @@ static fw_status compute_step(fw_arena *arena, fw_step *s) {
                       .shape = s->shape,
                       .expression = s->expression,
                       .wanted = FW_DIM_TIME,
-                      .argument = s->argument,
+                      .argument = without_guess(s, list, &none),
                       .nargument = s->nargument,
                       .need = s->need,
                       .nneed = s->nneed,
@@ -191,6 +211,48 @@ static fw_status compute_step(fw_arena *arena, fw_step *s) {
     FW_TRY(fw_law_evaluate(arena, &use, &answer));
     fw_law_window(&answer, s->k, s->overrun, &s->time);
     return use.law->derive ? use.law->derive(arena, &use, &answer, s) : FW_OK;
+}
+
+/* ---- edges ---- */
+
+/* edges, bias and gaps; the narrowest opening goes to the laws of the steps */
+static fw_status solve_edges(fw_arena *arena, fw_flow *flow, const fw_mask_facts *facts) {
+    fw_fixed_point *p = &flow->edges;
+    double thickness = facts ? facts->device_thickness_m : 0.0;
+    FW_TRY(fw_fixed_point_solve(arena, flow, facts, thickness, p));
+    flow->bias_m = p->bias_m;
+    const fw_quantity *edge = find(flow, "litho.edge");
+    double u = edge && !edge->unknown ? 2.0 * edge->uncertainty : 0.0;
+    double opening = p->ncls && p->solved ? p->cls[0].opening_m : (double)NAN;
+    if (p->ncls) fill(flow, FW_MASK_OPENING, opening, u);
+    return FW_OK;
+}
+
+static fw_status derive_class(fw_arena *arena, fw_step *s, const fw_edge_class *c) {
+    char width[32];
+    const char *name =
+        fw_arena_printf(arena, "floor through, %s, %s um wide under the mask", c->name,
+                        fw_number_text(width, sizeof width, c->opening_m * 1e6, 4));
+    FW_NEED(name);
+    return fw_step_derive(arena, s, name, c->through_s, 0.0, (fw_dimension)FW_DIM_TIME, "min",
+                          s->time.status, "computed with bias and gap of this mask");
+}
+
+/* when each width of opening is through, in the step that cuts the device layer */
+static fw_status show_edges(fw_arena *arena, fw_flow *flow) {
+    fw_fixed_point *p = &flow->edges;
+    for (int k = 0; k < p->ncut; k++) {
+        const fw_cut *cut = &p->cut[k];
+        fw_step *s = (fw_step *)cut->step;
+        if (!cut->device || !p->solved || !s->time.computable) continue;
+        for (int i = 0; i < p->ncls; i++) {
+            fw_edge_class *c = &p->cls[i];
+            c->through_s = s->time.nominal_s * c->reach_m / cut->planned_m;
+            if (cut->lag != FW_LAG_NONE) FW_TRY(derive_class(arena, s, c));
+        }
+        return FW_OK;
+    }
+    return FW_OK;
 }
 
 static void forget_derived(fw_flow *flow) {
@@ -260,6 +322,7 @@ fw_status fw_flow_compute(fw_arena *arena, fw_flow *flow, const fw_mask_facts *f
         FW_TRY(check_facts(flow, facts, diags));
         fill_mask(flow, facts);
     }
+    FW_TRY(solve_edges(arena, flow, facts));
     flow->total_s = 0.0;
     flow->not_computable = 0;
     for (int i = 0; i < flow->nstep; i++) {
@@ -269,8 +332,9 @@ fw_status fw_flow_compute(fw_arena *arena, fw_flow *flow, const fw_mask_facts *f
         else
             flow->not_computable++;
     }
+    FW_TRY(show_edges(arena, flow));
     FW_TRY(count_quantities(arena, flow));
-    FW_TRY(fw_flow_judge(arena, flow, facts));
+    FW_TRY(fw_flow_judge(arena, flow, facts, diags));
     FW_TRY(fw_lint_computed(arena, flow, diags));
     FW_TRY(tell(arena, flow, diags));
     return diags->failed ? FW_NOMEM : FW_OK;

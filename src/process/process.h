@@ -5,6 +5,7 @@
 #define FW_PROCESS_PROCESS_H
 #include "device/material.h"
 #include "device/xml.h"
+#include "process/fixed_point.h"
 #include "quantity/quantity.h"
 #include <stdbool.h>
 
@@ -56,6 +57,7 @@ typedef struct fw_change {
     bool isotropic;                /* undercuts the mask by thickness (1 + overrun) per edge */
     const fw_quantity *anisotropy; /* of a masked etch, A = 1 - lateral/vertical; may be NULL */
     const fw_quantity *spread; /* of a plating, largest local thickness over mean; may be NULL */
+    fw_face compensate;        /* the face that the mask brings to where it is drawn */
     fw_place place;
 } fw_change;
 
@@ -159,7 +161,8 @@ typedef struct fw_flow {
     int nsource, nhazard, nequipment, nquantity, nstep;
     double total_s;        /* sum over computable steps */
     int not_computable;    /* steps */
-    double bias_m;         /* per edge that the mask must add to the drawn outline, known part */
+    fw_fixed_point edges;  /* bias, time and gaps, solved together; computed */
+    double bias_m;         /* edges.bias_m: what the mask adds to every drawn edge, known part */
     const char *bias_note; /* what is in it, and what is not known */
     bool insulating;       /* carrier="insulating" of the pack: what is not joined in the layer is
                               insulated */
@@ -183,7 +186,14 @@ typedef struct fw_mask_facts { /* what the mask hands to the flow */
     double deepest_hinge_width_m;              /* narrowest flexure, as drawn; 0: none */
     int dies;                                  /* on the wafer or coupon */
     double device_thickness_m; /* as the device file wants it; 0 or NaN: the pack's own */
+    const fw_mask_gap *gap;    /* (ngap) openings by name, as drawn; the narrowest slot need not be
+                                  among them */
+    int ngap;
 } fw_mask_facts;
+
+/* id of the quantity that a pack leaves to the fixed point: the narrowest opening in the layer that
+   masks the etch, with the bias that the mask has */
+#define FW_MASK_OPENING "mask.narrowest-opening"
 
 typedef struct fw_drive_facts { /* a comb drive of a scene that holds in the flow */
     const char *id;
@@ -205,6 +215,9 @@ fw_status fw_flow_compute(fw_arena *arena, fw_flow *flow, const fw_mask_facts *f
    Warns with FW-D207 and FW-D208. */
 fw_status fw_flow_judge_drives(fw_arena *arena, fw_flow *flow, bool insulating_carrier,
                                const fw_drive_facts *drive, int n, fw_diags *diags);
+/* the range of a corner: lo to hi where the pack gives that, else two standard uncertainties either
+   way; SI */
+void fw_quantity_range(const fw_quantity *q, double *low, double *high);
 const fw_quantity *fw_flow_quantity(const fw_flow *flow, const char *id);
 const fw_process_material *fw_flow_material(const fw_flow *flow, const char *id); /* or NULL */
 const char *fw_flow_material_name(const fw_flow *flow, const char *id); /* the id when unknown */

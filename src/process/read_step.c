@@ -164,6 +164,12 @@ static fw_status read_derive(fw_pack *pack, const fw_element *e, fw_derive *d) {
     return read_expression(pack, e, law, d->argument, d->nargument, d->dimension, &d->expression);
 }
 
+static fw_face face_of(const char *word) {
+    return strcmp(word, "top") == 0      ? FW_FACE_TOP
+           : strcmp(word, "bottom") == 0 ? FW_FACE_BOTTOM
+                                         : FW_FACE_MIDDLE;
+}
+
 static void read_change(fw_pack *pack, const fw_element *e, fw_change *c) {
     const fw_attribute *material = fw_pack_get(e, "material"), *where = fw_pack_get(e, "where"),
                        *from = fw_pack_get(e, "from");
@@ -176,6 +182,7 @@ static void read_change(fw_pack *pack, const fw_element *e, fw_change *c) {
                      .isotropic = strcmp(fw_pack_text(e, "profile"), "isotropic") == 0,
                      .anisotropy = quantity_of(pack, e, "anisotropy"),
                      .spread = quantity_of(pack, e, "spread"),
+                     .compensate = face_of(fw_pack_text(e, "compensate")),
                      .place = e->place};
     if (material) fw_pack_find(pack, material, FW_ID_MATERIAL);
     if (from)

@@ -177,7 +177,7 @@ static void put_number(fw_text *out, const char *name, double value) {
 static void put_text(fw_text *out, const char *name, const char *value) {
     if (!value) return;
     fw_text_printf(out, ",\"%s\":", name);
-    fw_put_json_string(out, value);
+    fw_put_json(out, value);
 }
 
 static void entry_json(const fw_flow *flow, const fw_run *run, const fw_run_entry *e,
@@ -195,7 +195,7 @@ static void entry_json(const fw_flow *flow, const fw_run *run, const fw_run_entr
     for (int i = 0; i < e->nmeasured; i++) {
         const fw_measured *m = &e->measured[i];
         fw_text_add(out, i ? ",{\"measure\":" : "{\"measure\":");
-        fw_put_json_string(out, m->measure);
+        fw_put_json(out, m->measure);
         if (isnan(m->number))
             put_text(out, "value", m->value);
         else
@@ -209,7 +209,7 @@ static void entry_json(const fw_flow *flow, const fw_run *run, const fw_run_entr
         const fw_lag *l = &e->step->lag[i];
         double wait = waited(flow, run, l, e);
         fw_text_add(out, i ? ",{\"from\":" : "{\"from\":");
-        fw_put_json_string(out, l->from);
+        fw_put_json(out, l->from);
         put_number(out, "waited_s", wait);
         put_number(out, "min_s", l->min_s);
         put_number(out, "max_s", l->max_s);
@@ -234,7 +234,7 @@ fw_status fw_run_write_json(const fw_flow *flow, const fw_run *run, fw_text *out
         int times;
         const fw_run_entry *e = last_of(run, s, &times);
         fw_text_add(out, i ? ",\n{\"id\":" : "\n{\"id\":");
-        fw_put_json_string(out, s->id);
+        fw_put_json(out, s->id);
         put_number(out, "planned_s", p->computable ? p->nominal_s : (double)NAN);
         put_number(out, "first_look_s", p->computable ? p->first_look_s : (double)NAN);
         put_number(out, "stop_s", p->computable ? p->stop_s : (double)NAN);

@@ -2,7 +2,7 @@
 #include "recipe/words.h"
 #include <string.h>
 
-void fw_put_json_string(fw_text *out, const char *text) {
+void fw_put_json(fw_text *out, const char *text) {
     fw_text_add(out, "\"");
     for (const char *c = text; *c; c++) {
         unsigned char byte = (unsigned char)*c;
@@ -18,13 +18,13 @@ void fw_put_json_string(fw_text *out, const char *text) {
 
 static void key(fw_text *out, const char *name, bool first) {
     if (!first) fw_text_add(out, ",");
-    fw_put_json_string(out, name);
+    fw_put_json(out, name);
     fw_text_add(out, ":");
 }
 
 static void named(fw_text *out, const char *name, const char *value, bool first) {
     key(out, name, first);
-    fw_put_json_string(out, value ? value : "");
+    fw_put_json(out, value ? value : "");
 }
 
 static void number(fw_text *out, const char *name, double value, bool first) {
@@ -58,7 +58,7 @@ static void strings(fw_text *out, const char *name, const char **list, int n) {
     fw_text_add(out, "[");
     for (int i = 0; i < n; i++) {
         fw_text_add(out, i ? "," : "");
-        fw_put_json_string(out, list[i]);
+        fw_put_json(out, list[i]);
     }
     fw_text_add(out, "]");
 }
@@ -124,6 +124,7 @@ fw_status fw_recipe_write_json(const fw_flow *flow, const fw_recipe_header *head
     strings(out, "reasons", flow->reason, flow->nreason);
     number(out, "bias_m", flow->bias_m, false);
     named(out, "bias_note", flow->bias_note, false);
+    fw_recipe_edges_json(flow, out);
     fw_text_add(out, "}\n");
     return fw_text_end(out);
 }

@@ -27,7 +27,10 @@ void fw_put_unit(fw_text *out, const char *unit);
 void fw_put_duration(fw_text *out, double seconds);
 const char *fw_missing_list(fw_arena *arena, const fw_time *time); /* NULL: no memory */
 
-void fw_put_json_string(fw_text *out, const char *text); /* with its quotes */
+/* a JSON string with its quotes */
+void fw_put_json(fw_text *out, const char *text);
+/* ,"edges":{...} of the recipe's JSON: bias, gaps and edges */
+void fw_recipe_edges_json(const fw_flow *flow, fw_text *out);
 
 /* one step of the run sheet */
 void fw_html_step(const fw_flow *flow, int index, fw_text *out);

@@ -1,15 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "mask/outlines.h"
 #include "report/page.h"
 #include <math.h>
 
 enum { THUMBNAIL = 520, SCALE_STRIP = 24, MOST_SEGMENTS = 12000 };
 
-/* one path per layer, from the exact outlines; text goes first when there is too much */
-static void thumbnail(fw_text *out, const fw_mask *mask) {
+static long segments_of(const fw_mask *mask) {
     long segments = 0;
     for (int i = 0; i < mask->nshape; i++)
         segments += mask->shape[i].contour.count;
-    bool with_text = segments <= MOST_SEGMENTS;
+    return segments;
+}
+
+/* one path per layer, from the exact outlines; text goes first when there is too much */
+static void thumbnail(fw_text *out, const fw_mask *mask) {
+    bool with_text = segments_of(mask) <= MOST_SEGMENTS;
     fw_box box = mask->box;
     fw_report_view view =
         fw_report_view_fit(box, THUMBNAIL, 0.02 * fmax(box.x1 - box.x0, box.y1 - box.y0));
@@ -73,7 +78,7 @@ static void layers(fw_text *out, const fw_mask *mask) {
     fw_text_add(out, "</tbody></table></div>\n");
 }
 
-static void one(fw_text *out, const fw_report_flow *f) {
+static fw_status one(fw_text *out, const fw_report_flow *f) {
     const fw_mask *mask = f->mask;
     fw_text_add(out, "<div class=\"two\">\n");
     thumbnail(out, mask);
@@ -102,6 +107,8 @@ static void one(fw_text *out, const fw_report_flow *f) {
     fw_text_add(out, mask->nnote ? "</p>\n" : "");
     fw_text_add(out, "</div></div>\n");
     layers(out, mask);
+    if (mask->edges && segments_of(mask) <= MOST_SEGMENTS) return fw_mask_outlines_part(mask, out);
+    return FW_OK;
 }
 
 fw_status fw_report_section_masks(fw_page *page) {
@@ -111,7 +118,7 @@ fw_status fw_report_section_masks(fw_page *page) {
         const char *flow = f->flow ? f->flow->id : f->mask ? f->mask->flow : NULL;
         fw_report_markup(out, "<h3>{s}</h3>\n", flow ? flow : "flow");
         if (f->mask)
-            one(out, f);
+            FW_TRY(one(out, f));
         else if (f->mask_error)
             fw_report_markup(out, "<p><strong class=\"no\">No mask:</strong> {s}</p>\n",
                              f->mask_error);

@@ -129,10 +129,19 @@ static fw_status as_made(fw_arena *arena, const fw_device *device, const fw_layo
     return FW_OK;
 }
 
+/* gaps of the drawing decide what an etch takes */
+static fw_status take_inputs(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                             const fw_made_of *made, fw_verdict *verdict) {
+    for (int i = 0; made->fill && i < verdict->nvariant; i++)
+        FW_TRY(made->fill(made->context, arena, device, layout, i, &verdict->variant[i]));
+    return FW_OK;
+}
+
 fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
                          const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict,
                          const fw_layout **layout) {
     FW_TRY(draw(arena, device, diags, layout));
+    FW_TRY(take_inputs(arena, device, *layout, &options->made_of, verdict));
     int nvariant = verdict->nvariant;
     fw_variant_verdict *variant = verdict->variant;
     FW_TRY(attempt(arena, device, *layout, options, diags, verdict));

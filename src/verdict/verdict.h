@@ -163,6 +163,14 @@ typedef struct fw_restated {
     void *context;
 } fw_restated;
 
+/* What flow i may make of a device that has been drawn (layout NULL: it cannot be): fills input and
+   ninput of a variant, whose ranges it already has without the drawing. fill NULL: those stand. */
+typedef struct fw_made_of {
+    fw_status (*fill)(void *context, fw_arena *arena, const fw_device *device,
+                      const fw_layout *layout, int i, fw_variant_verdict *variant);
+    void *context;
+} fw_made_of;
+
 typedef struct fw_verdict_options {
     fw_motion_options motion;
     bool with_advice;
@@ -170,6 +178,7 @@ typedef struct fw_verdict_options {
     double *work;     /* evaluations of the forces of hinges are added to it; NULL: nobody counts */
     bool at_a_glance; /* no closer look at what is undecided: for trials */
     fw_restated restated; /* with NULL: no advice on parameters */
+    fw_made_of made_of;
 } fw_verdict_options;
 
 /* what the model itself may be wrong by, relative, beside the numerical error

@@ -252,7 +252,8 @@ static void lists_of_formats(void **state) {
     (void)state;
     unsigned usual, all, some;
     assert_true(fw_mask_formats(NULL, &usual) && fw_mask_formats("all", &all));
-    assert_true(fw_mask_formats("oasis,svg", &some) && some != usual && (some & usual) == usual);
+    assert_true(fw_mask_formats("oasis,svg,outlines", &some) && some != usual &&
+                (some & usual) == usual);
     assert_false(fw_mask_formats("gds,", &some));
     assert_false(fw_mask_formats("", &some));
     assert_false(fw_mask_formats("oasis;svg", &some));

@@ -52,6 +52,12 @@ static inline fw_step *step_of(fw_flow *flow, const char *id) {
 }
 
 /* a 3 mm device on a 5.6 by 5 mm die, 30 times */
-static const fw_mask_facts plain_facts = {5e-6, 28e-6, 0.08, 10e-6, 10e-6, 10e-6, 30, 0.0};
+static const fw_mask_facts plain_facts = {.structure_area_m2 = 5e-6,
+                                          .die_area_m2 = 28e-6,
+                                          .perimeter_m = 0.08,
+                                          .narrowest_slot_m = 10e-6,
+                                          .narrowest_line_m = 10e-6,
+                                          .deepest_hinge_width_m = 10e-6,
+                                          .dies = 30};
 
 #endif

@@ -29,7 +29,7 @@ static const fw_made_input *inputs(const char *pack, const char *from, const cha
     const fw_made_input *list;
     fw_flow *flow = read_pack(arena, pack, from, to, &diags);
     assert_non_null(flow);
-    assert_int_equal(fw_flow_made(arena, flow, v, &list, n), FW_OK);
+    assert_int_equal(fw_flow_made(arena, flow, NULL, v, &list, n), FW_OK);
     return list;
 }
 

@@ -153,7 +153,7 @@ static void csv(void **state) {
     const char *at = strstr(text, row);
     assert_non_null(at);
     assert_memory_equal(at + strlen(row), "1000,s,", 7);
-    assert_non_null(strstr(text, "\"time, nominal\",5400,s,"));
+    assert_non_null(strstr(text, "\"time, nominal\",5931.25"));
     assert_non_null(strstr(text, "time in wide openings,90,min,"));
 }
 
@@ -228,6 +228,14 @@ static void json(void **state) {
         assert_string_equal(json_string_value(json_object_get(root, "schema")),
                             "flexwright.recipe/1");
         assert_string_equal(json_string_value(json_object_get(root, "flow")), flows[i]);
+        json_t *edges = json_object_get(root, "edges"),
+               *openings = json_object_get(edges, "openings");
+        assert_true(json_is_true(json_object_get(edges, "solved")));
+        assert_int_equal(json_array_size(openings), f->edges.ncls);
+        assert_relative(json_number_value(json_object_get(edges, "wet_m")) + 1e-9,
+                        f->edges.wet_m + 1e-9, 1e-11);
+        assert_relative(json_number_value(json_object_get(json_array_get(openings, 0), "mask_m")),
+                        plain_facts.narrowest_slot_m - 2 * f->bias_m, 1e-11);
         json_t *steps = json_object_get(root, "steps");
         assert_int_equal(json_array_size(steps), f->nstep);
         double sum = 0.0;
