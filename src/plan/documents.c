@@ -65,6 +65,13 @@ fw_status fw_plan_masks_json(fw_plan *plan, fw_text *out) {
             fw_text_add(out, written++ ? "," : "");
             FW_TRY(fw_mask_write_certificate(plan->flow[i].mask, plan->flow[i].mask_sha256, out));
         }
+    fw_text_add(out, "],\"violations\":[");
+    written = 0;
+    for (int i = 0; i < plan->nflow; i++)
+        if (plan->flow[i].violated) {
+            fw_text_add(out, written++ ? "," : "");
+            FW_TRY(fw_mask_write_findings(plan->flow[i].violated, out));
+        }
     fw_text_add(out, "]}\n");
     return fw_text_end(out);
 }
