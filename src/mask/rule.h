@@ -68,8 +68,11 @@ fw_status fw_rules_chords(fw_rules *rules, const fw_mask_rule *rule, fw_rule_kin
 fw_status fw_rules_between(fw_rules *rules, const fw_mask_rule *rule, fw_rule_search *between);
 /* what was found between layers as places: one alone where a shape crosses, lies in or outside */
 fw_status fw_rules_distances(fw_rules *rules, const fw_mask_rule *rule, fw_rule_search *between);
-/* is the point in any shape of a layer? */
-bool fw_rules_covered(const fw_rules *rules, int layer, fw_vec2 at);
+/* the shape of a layer that holds the point; NULL: none */
+const fw_rule_range *fw_rules_holding(const fw_rules *rules, int layer, fw_vec2 at);
+/* is the edge the first one of its shape, or behind a joint? From there to the next joint all lie
+   on the same side of an outline that they do not cross */
+bool fw_rules_first(const fw_rules *rules, const fw_rule_edge *edge);
 /* connected pieces of a layer: group[shape] is the least shape joined to it; -1: other layer */
 fw_status fw_rules_islands(const fw_rules *rules, int layer, int **group);
 fw_box fw_box_around(fw_vec2 p, fw_vec2 q);

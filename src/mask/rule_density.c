@@ -112,7 +112,7 @@ static void merge(fw_rules *rules, int first, fw_mask_finding f) {
 }
 
 static void judge(fw_rules *rules, const fw_mask_rule *rule, int first, fw_box w, double share) {
-    static const char thin[] = "coverage too low", dense[] = "coverage too high";
+    static const char thin[] = "low coverage", dense[] = "high coverage";
     if (!(badness(rule, share) < 1 - 1e-12)) return;
     bool low = share < rule->least;
     double limit = low ? rule->least : rule->most;
@@ -143,7 +143,9 @@ static fw_status check(fw_rules *rules, const fw_mask_rule *rule) {
             double x = start_of(i, all.x0, all.x1, wide, step);
             double y = start_of(j, all.y0, all.y1, high, step);
             fw_box w = {x, y, x + wide, y + high};
-            judge(rules, rule, first, w, covered(rules, box, rule->layer, w) / (wide * high));
+            double share = covered(rules, box, rule->layer, w) / (wide * high);
+            share = fmax(0, fmin(1, share)); /* round-off */
+            judge(rules, rule, first, w, share);
         }
     return FW_OK;
 }

@@ -4,7 +4,7 @@
    distances of exact edges (rules_between.c); a shape that crosses the boundary, lies outside, or
    has a hole of the other layer in it is one finding with the value 0.
    In: edges of both layers, m. Out: one finding for each place. Error: a few ulp of the
-   coordinates. Cost O(n log n), and O(pieces) for the point that says inside or not. Test:
+   coordinates. Cost O(n log n), and O(pieces) for each point that says inside or not. Test:
    test_rule_seeded.c. */
 #include "mask/rule.h"
 
@@ -40,11 +40,14 @@ static fw_status add_all_outside(fw_rules *rules, const fw_mask_rule *rule,
         if (between->found[i].value_m == 0) crosses[between->found[i].edge[0]->shape] = true;
     for (int i = 0; i < inner->nrange; i++) {
         const fw_rule_range *r = &inner->range[i];
-        const fw_rule_edge *e = &inner->edge[r->first];
-        if (!crosses[r->shape] &&
-            (!fw_rules_covered(rules, rule->other, fw_segment_point(&e->s, 0.5)) ||
-             holds_boundary(rules, r, outer)))
-            add_outside(between, e);
+        if (crosses[r->shape]) continue;
+        if (holds_boundary(rules, r, outer)) add_outside(between, &inner->edge[r->first]);
+        for (int j = 0; j < r->count; j++) {
+            const fw_rule_edge *e = &inner->edge[r->first + j];
+            if (fw_rules_first(rules, e) &&
+                !fw_rules_holding(rules, rule->other, fw_segment_point(&e->s, 0.5)))
+                add_outside(between, e);
+        }
     }
     return FW_OK;
 }

@@ -165,15 +165,24 @@ fw_status fw_rules_chords(fw_rules *r, const fw_mask_rule *rule, fw_rule_kind ki
     return FW_OK;
 }
 
-bool fw_rules_covered(const fw_rules *r, int layer, fw_vec2 at) {
+const fw_rule_range *fw_rules_holding(const fw_rules *r, int layer, fw_vec2 at) {
     const fw_rule_search *in = &r->search[layer];
     for (int i = 0; i < in->nrange && in->range[i].box.x0 <= at.x; i++) {
         const fw_rule_range *s = &in->range[i];
         if (at.x <= s->box.x1 && at.y >= s->box.y0 && at.y <= s->box.y1 &&
             fw_contour_contains(&r->shape[s->shape].contour, at))
-            return true;
+            return s;
     }
-    return false;
+    return NULL;
+}
+
+bool fw_rules_first(const fw_rules *r, const fw_rule_edge *edge) {
+    const fw_contour *c = &r->shape[edge->shape].contour;
+    if (c->segment[(edge->segment + c->count - 1) % c->count].flags & FW_SEGMENT_JOINT) return true;
+    if (edge->segment > 0) return false;
+    for (int i = 0; i < c->count; i++) /* of a shape with joints: where the run begins */
+        if (c->segment[i].flags & FW_SEGMENT_JOINT) return false;
+    return true;
 }
 
 /* ---- islands: pieces with a joint in common ---- */

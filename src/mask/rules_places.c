@@ -5,11 +5,12 @@
    nearer than the limit, walked from the foot in steps of a quarter of the limit. Chords of the
    same two edges with both feet in these stretches belong to it.
      - Stretches that run on along an edge, or over the end it shares with the next one, within half
-   the limit, are one place.
-   In: chords of one kind below the limit, m. Out: per pair of shapes the places, shortest chord
-   first in their box. Error: places less than half a limit apart become one; none is lost, and no
-   length is changed. Cost O(n log n + length / limit) per pair of edges, the square of the
-   stretches per pair of shapes. Test: test_rule_seeded.c, test_rules_search.c. */
+   the limit, are one place; between other pieces only where both sides run on, so that a gap to
+   one piece and the next gap to another stay two.
+   In: chords of one kind below the limit, m. Out: the places, each with its shortest chord and the
+   box of all of it. Error: places less than half a limit apart become one; none is lost, and no
+   length is changed. Cost O(n log n + edge / limit for each stretch + neighbours). Test:
+   test_rule_seeded.c, test_rules_search.c. */
 #include "mask/rules_search.h"
 #include <stdlib.h>
 
@@ -18,6 +19,7 @@ enum { MOST_STEPS = 8192 };
 typedef struct stretch { /* of both edges */
     const fw_finding *worst;
     double from[2], to[2];
+    fw_box box;
     int place; /* the first stretch of its place */
 } stretch;
 
@@ -53,6 +55,21 @@ static double walk(const fw_segment *s, const fw_segment *other, double t, doubl
     return t;
 }
 
+static fw_box box_of(const stretch *r) {
+    fw_box box = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (int k = 0; k < 2; k++) {
+        const fw_segment *s = &r->worst->edge[k]->s;
+        fw_vec2 at = r->worst->at[k], a = fw_segment_point(s, r->from[k]),
+                b = fw_segment_point(s, r->to[k]);
+        box = fw_box_join(box, (fw_box){at.x, at.y, at.x, at.y});
+        if (r->to[k] - r->from[k] > 1e-9) {
+            fw_segment part = fw_segment_cut(s, r->from[k], a, r->to[k], b);
+            box = fw_box_join(box, fw_segment_box(&part));
+        }
+    }
+    return box;
+}
+
 static stretch around(const fw_finding *f, double limit_m) {
     stretch r = {.worst = f};
     for (int k = 0; k < 2; k++) {
@@ -63,6 +80,7 @@ static stretch around(const fw_finding *f, double limit_m) {
         r.from[k] = s == other ? 0 : walk(s, other, t, -step, needed);
         r.to[k] = s == other ? 1 : walk(s, other, t, step, needed);
     }
+    r.box = box_of(&r);
     return r;
 }
 
@@ -86,27 +104,13 @@ static bool run_on(const fw_segment *s, double from_s, double to_s, const fw_seg
 }
 
 static bool one_place(const stretch *p, const stretch *q, double limit_m) {
+    bool run[2][2];
     for (int i = 0; i < 2; i++)
         for (int j = 0; j < 2; j++)
-            if (run_on(&p->worst->edge[i]->s, p->from[i], p->to[i], &q->worst->edge[j]->s,
-                       q->from[j], q->to[j], 0.5 * limit_m))
-                return true;
-    return false;
-}
-
-static fw_box box_of(const stretch *r) {
-    fw_box box = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    for (int k = 0; k < 2; k++) {
-        const fw_segment *s = &r->worst->edge[k]->s;
-        fw_vec2 at = r->worst->at[k], a = fw_segment_point(s, r->from[k]),
-                b = fw_segment_point(s, r->to[k]);
-        box = fw_box_join(box, (fw_box){at.x, at.y, at.x, at.y});
-        if (r->to[k] - r->from[k] > 1e-9) {
-            fw_segment part = fw_segment_cut(s, r->from[k], a, r->to[k], b);
-            box = fw_box_join(box, fw_segment_box(&part));
-        }
-    }
-    return box;
+            run[i][j] = run_on(&p->worst->edge[i]->s, p->from[i], p->to[i], &q->worst->edge[j]->s,
+                               q->from[j], q->to[j], 0.5 * limit_m);
+    if (same_shapes(p->worst, q->worst)) return run[0][0] || run[0][1] || run[1][0] || run[1][1];
+    return (run[0][0] && run[1][1]) || (run[0][1] && run[1][0]);
 }
 
 /* chords of one pair of edges, shortest first: a stretch around each that is in none before */
@@ -122,33 +126,64 @@ static int stretches_of(const fw_finding *f, int n, double limit_m, stretch *out
 }
 
 static int root(const stretch *list, int i) {
-    while (list[i].place != i)
+    while (list[i].place != i && list[i].place >= 0)
         i = list[i].place;
     return i;
 }
 
-/* all stretches of one pair of shapes: places, each with its shortest chord */
-static int places_of(stretch *list, int n, double limit_m, fw_finding *out) {
+static int by_box(const void *left, const void *right) {
+    const stretch *p = *(const stretch *const *)left, *q = *(const stretch *const *)right;
+    if (p->box.x0 != q->box.x0) return p->box.x0 < q->box.x0 ? -1 : 1;
+    return (p > q) - (p < q);
+}
+
+/* marks with each stretch the first one of its place */
+static fw_status join_places(fw_arena *arena, stretch *list, int n, double limit_m) {
+    stretch **by = fw_arena_array(arena, stretch *, (size_t)n);
+    FW_NEED(by);
     for (int i = 0; i < n; i++) {
         list[i].place = i;
-        for (int j = 0; j < i; j++) {
-            int p = root(list, i), q = root(list, j);
-            if (p != q && one_place(&list[i], &list[j], limit_m))
+        by[i] = &list[i];
+    }
+    if (n) qsort(by, (size_t)n, sizeof *by, by_box);
+    for (int i = 0; i < n; i++)
+        for (int j = i + 1; j < n && by[j]->box.x0 - by[i]->box.x1 <= limit_m; j++) {
+            if (fw_box_gap(by[i]->box, by[j]->box) > limit_m) continue;
+            int p = root(list, (int)(by[i] - list)), q = root(list, (int)(by[j] - list));
+            if (p != q && one_place(by[i], by[j], limit_m))
                 list[p > q ? p : q].place = p > q ? q : p;
         }
-    }
+    return FW_OK;
+}
+
+/* the shortest chord, moved to the middle of its stretch where it is as short there: between
+   parallel lines and concentric arcs */
+static fw_finding centred(const stretch *r) {
+    fw_finding f = *r->worst;
+    const fw_segment *s = &f.edge[0]->s, *other = &f.edge[1]->s;
+    double t;
+    fw_vec2 foot, middle = fw_segment_point(s, 0.5 * (r->from[0] + r->to[0]));
+    f.box = r->box;
+    if (s != other &&
+        fabs(fw_segment_nearest(other, middle, &t, &foot) - f.value_m) <= FW_COINCIDENT_M)
+        f.at[0] = middle, f.at[1] = foot;
+    return f;
+}
+
+/* the shortest chord of each place, and the box of all of it */
+static int shortest(stretch *list, int n, fw_finding *out) {
     int count = 0;
     for (int i = 0; i < n; i++) {
-        if (list[i].place != i) continue;
-        fw_finding best = *list[i].worst;
-        best.box = box_of(&list[i]);
-        for (int j = i + 1; j < n; j++) {
-            if (root(list, j) != i) continue;
-            fw_box box = fw_box_join(best.box, box_of(&list[j]));
-            if (list[j].worst->value_m < best.value_m) best = *list[j].worst;
-            best.box = box;
+        int first = root(list, i);
+        if (first == i) {
+            list[i].place = -1 - count; /* from now on: where it is in `out` */
+            out[count++] = centred(&list[i]);
+        } else {
+            fw_finding *f = &out[-1 - list[first].place];
+            fw_box box = fw_box_join(f->box, list[i].box);
+            if (list[i].worst->value_m < f->value_m - FW_COINCIDENT_M) *f = centred(&list[i]);
+            f->box = box;
         }
-        out[count++] = best;
     }
     return count;
 }
@@ -160,18 +195,15 @@ fw_status fw_rule_places(fw_arena *arena, fw_finding *list, int n, double limit_
     fw_mark mark = fw_arena_mark(arena);
     stretch *r = fw_arena_array(arena, stretch, (size_t)n);
     FW_NEED(r);
+    int count = 0;
     if (n) qsort(list, (size_t)n, sizeof *list, in_order);
     for (int i = 0, next; i < n; i = next) {
-        int count = 0;
-        for (next = i; next < n && same_shapes(&list[next], &list[i]);) {
-            int from = next;
-            while (next < n && same_shapes(&list[next], &list[i]) &&
-                   same_edges(&list[next], &list[from]))
-                next++;
-            count = stretches_of(list + from, next - from, limit_m, r, count);
-        }
-        *nout += places_of(r, count, limit_m, *out + *nout);
+        for (next = i; next < n && same_edges(&list[next], &list[i]);)
+            next++;
+        count = stretches_of(list + i, next - i, limit_m, r, count);
     }
+    FW_TRY(join_places(arena, r, count, limit_m));
+    *nout = shortest(r, count, *out);
     fw_arena_rewind(arena, mark);
     return FW_OK;
 }
