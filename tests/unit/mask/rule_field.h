@@ -5,13 +5,13 @@
 #include "mask/rule.h"
 #include "scene.h"
 
-enum { RULES = 11, WINDOWS = 4 };
+enum { RULES = 11, WINDOWS = 4, LAYERS = FW_ROLE_DICING + 1 };
 static const double MOST_SLACK_M __attribute__((unused)) =
     2 * (5e-9 + 0.70710678118654752e-9); /* of two arcs */
 
 typedef struct field {
     scene *s;
-    fw_mask_layer layer[FW_ROLE_COUNT];
+    fw_mask_layer layer[LAYERS];
     fw_mask_rule rule[RULES];
     uint64_t seed;
     fw_pose pose; /* of the part being drawn */
@@ -40,13 +40,13 @@ static inline void add_rule(field *f, const fw_rule_row *kind, fw_role layer, fw
 static const double DEG = PI / 180, FEATURE_M = 4.05e-6;
 
 static inline field *field_new(uint64_t seed) {
-    static const char *const name[FW_ROLE_COUNT] = {"structure", "flexure", "frame", "tether",
-                                                    "text",      "mark",    "dicing"};
+    static const char *const name[LAYERS] = {"structure", "flexure", "frame", "tether",
+                                             "text",      "mark",    "dicing"};
     scene *s = scene_new(0, 0);
     field *f = fw_arena_one(s->arena, field);
     f->s = s;
     f->seed = seed;
-    for (int k = 0; k < FW_ROLE_COUNT; k++)
+    for (int k = 0; k < LAYERS; k++)
         f->layer[k] = (fw_mask_layer){.layer = k + 1,
                                       .id = name[k],
                                       .name = name[k],
@@ -57,7 +57,7 @@ static inline field *field_new(uint64_t seed) {
     s->table = (fw_mask_table){.flow = "test-flow",
                                .reading = "right-reading chrome down",
                                .layer = f->layer,
-                               .nlayer = FW_ROLE_COUNT,
+                               .nlayer = LAYERS,
                                .rule = f->rule};
     const fw_role st = FW_ROLE_STRUCTURE, te = FW_ROLE_TETHER, di = FW_ROLE_DICING;
     add_rule(f, &fw_kind_width, st, st, 0, 4 * UM);

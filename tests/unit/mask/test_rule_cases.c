@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Design rules on single cases: shapes of one layer in, across and outside of another, windows that
    cut outlines, many findings at once, and outputs of findings. */
+#include "mask/findings.h"
 #include "rule_field.h"
 
 /* what lies in, across or outside of another layer: one finding with the value 0 */
@@ -138,11 +139,85 @@ static void warnings_let_pass(void **state) {
     scene_free(f->s);
 }
 
+/* a field with one finding of every kind that a bar, a disc and a letter can break */
+static field *broken_field(void) {
+    field *f = field_new(5);
+    f->label = "a < b & 'c'";
+    draw_box(f, FW_ROLE_STRUCTURE, 0, 0, 50, 3);
+    draw_disc(f, FW_ROLE_FRAME, 200, 0, 5);
+    draw_box(f, FW_ROLE_TEXT, 400, 0, 420, 10);
+    return f;
+}
+
+static int count_of(const char *text, const char *part) {
+    int n = 0;
+    for (const char *s = strstr(text, part); s; s = strstr(s + 1, part))
+        n++;
+    return n;
+}
+
+/* list and database have an entry for each finding, and foreign text in them breaks nothing */
+static void findings_are_written(void **state) {
+    (void)state;
+    field *f = broken_field();
+    const fw_mask *mask = examine(f->s), *marked;
+    assert_int_equal(mask->nfinding, 3);
+    fw_text json = fw_text_new(f->s->arena), lyrdb = fw_text_new(f->s->arena);
+    assert_int_equal(fw_mask_write_findings(mask, &json), FW_OK);
+    assert_int_equal(count_of(json.data, "\"rule\": "), 3);
+    assert_says(json.data, "\"errors\": 3, \"warnings\": 0");
+    assert_says(json.data, "\"value\": 3, \"limit\": 4, \"needed\": 4, \"unit\": \"um\"");
+    assert_says(json.data, "\"pieces\": [\"a < b & 'c'\"");
+    assert_int_equal(fw_mask_write_lyrdb(mask, &lyrdb), FW_OK);
+    assert_int_equal(count_of(lyrdb.data, "<item>"), 3);
+    assert_int_equal(count_of(lyrdb.data, "<category>\n"), 3);
+    assert_says(lyrdb.data, "piece: a &lt; b &amp; \\'c\\''");
+    assert_int_equal(fw_mask_marked(f->s->arena, mask, &marked), FW_OK);
+    assert_int_equal(marked->nshape, mask->nshape + 3);
+    assert_int_equal(marked->table->nlayer, mask->table->nlayer + 3);
+    for (int i = 0; i < 3; i++) {
+        const fw_mask_finding *g = &mask->finding[i];
+        const fw_mask_shape *s = &marked->shape[mask->nshape + i];
+        assert_int_equal(marked->table->layer[s->layer].layer, 60);
+        assert_int_equal(marked->table->layer[s->layer].datatype, g->rule->kind->marker);
+        fw_box box = fw_contour_box(&s->contour);
+        for (int k = 0; k < 2; k++)
+            assert_true(box.x0 <= g->at[k].x && g->at[k].x <= box.x1 && box.y0 <= g->at[k].y &&
+                        g->at[k].y <= box.y1);
+    }
+    f->layer[0].layer = 60; /* taken: the next lower one */
+    assert_int_equal(fw_mask_marked(f->s->arena, mask, &marked), FW_OK);
+    assert_int_equal(marked->table->layer[marked->shape[mask->nshape].layer].layer, 59);
+    scene_free(f->s);
+}
+
+static void short_memory(void **state) {
+    (void)state;
+    fw_status status = FW_NOMEM;
+    long at = 1;
+    for (; status == FW_NOMEM && at < 3000; at++) {
+        field *f = broken_field();
+        const fw_mask *mask = NULL, *marked;
+        fw_text text = fw_text_new(f->s->arena);
+        fw_arena_fail_at(at, 1);
+        status = fw_mask_examine(f->s->arena, &f->s->layout, &f->s->table, "test device",
+                                 &f->s->options, &f->s->diags, &mask);
+        if (mask && status == FW_INPUT) status = fw_mask_marked(f->s->arena, mask, &marked);
+        if (mask && status == FW_OK) status = fw_mask_write_lyrdb(mask, &text);
+        if (mask && status == FW_OK) status = fw_mask_write_findings(mask, &text);
+        fw_arena_fail_at(0, 0);
+        scene_free(f->s);
+    }
+    assert_int_equal(status, FW_OK);
+    assert_true(at > 50);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_between_layers), cmocka_unit_test(windows_cut_outlines),
         cmocka_unit_test(all_are_findings),       cmocka_unit_test(notches_of_one_shape),
-        cmocka_unit_test(warnings_let_pass),
+        cmocka_unit_test(warnings_let_pass),      cmocka_unit_test(findings_are_written),
+        cmocka_unit_test(short_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
