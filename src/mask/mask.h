@@ -153,6 +153,8 @@ fw_status fw_mask_write_lyrdb(const fw_mask *mask, fw_text *out);
 fw_status fw_mask_write_findings(const fw_mask *mask, fw_text *out);
 fw_status fw_mask_marked(fw_arena *arena, const fw_mask *mask, const fw_mask **marked);
 const char *fw_mask_rule_name(const fw_mask_rule *rule); /* its kind as the table says it */
+double fw_mask_rule_shown(const fw_mask_rule *rule, double value); /* in um, deg, um2, a share */
+const char *fw_mask_rule_unit(const fw_mask_rule *rule);           /* "" of a share */
 
 /* order sheet for the mask shop, as JSON and for people, with the files that go with it */
 fw_status fw_mask_write_order(const fw_mask *mask, const fw_output_file *file, int nfile,

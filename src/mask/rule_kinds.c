@@ -34,3 +34,11 @@ const char *fw_rule_unit_name(const fw_rule_row *kind) {
     static const char *const name[] = {"um", "deg", "um2", "of the window"};
     return name[kind->unit];
 }
+
+double fw_mask_rule_shown(const fw_mask_rule *rule, double value) {
+    return fw_rule_shown(rule->kind, value);
+}
+
+const char *fw_mask_rule_unit(const fw_mask_rule *rule) {
+    return rule->kind->unit == FW_UNIT_SHARE ? "" : fw_rule_unit_name(rule->kind);
+}

@@ -12,6 +12,10 @@
 static void add_rule(fw_rules *r, const fw_rule_row *kind, int layer, double least_m) {
     const fw_mask_layer *l = &r->table->layer[layer];
     if (!kind->built_in && !(least_m > 0)) return;
+    for (int i = 0; i < r->table->nrule; i++) { /* it stands there as a row, with its own reason */
+        const fw_mask_rule *row = &r->table->rule[i];
+        if (row->kind == kind && row->layer == layer && row->severity == FW_ERROR) return;
+    }
     r->rule[r->nrule++] = (fw_mask_rule){.kind = kind,
                                          .layer = layer,
                                          .other = -1,

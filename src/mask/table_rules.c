@@ -246,6 +246,21 @@ static void check_twice(reader *r, const fw_mask_table *t) {
     }
 }
 
+/* a layer's rules of width and space stand in the layer too, where other rooms look for them */
+static void tell_layers(fw_mask_table *t) {
+    for (int i = 0; i < t->nrule; i++) {
+        const fw_mask_rule *r = &t->rule[i];
+        if (!r->kind || r->layer < 0 || r->severity != FW_ERROR) continue;
+        fw_mask_layer *l = &t->layer[r->layer];
+        double *least = r->kind == &fw_kind_width   ? &l->min_width_m
+                        : r->kind == &fw_kind_space ? &l->min_space_m
+                                                    : NULL;
+        if (!least) continue;
+        *least = r->least;
+        if (!l->rule_source) l->rule_source = r->source;
+    }
+}
+
 fw_status fw_table_rules(fw_arena *arena, const fw_element *root, fw_diags *diags,
                          fw_mask_table *table) {
     reader r = {.arena = arena, .diags = diags, .table = table};
@@ -259,5 +274,6 @@ fw_status fw_table_rules(fw_arena *arena, const fw_element *root, fw_diags *diag
         FW_TRY(read_rule(&r, e));
     }
     check_twice(&r, table);
+    tell_layers(table);
     return FW_OK;
 }

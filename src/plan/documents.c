@@ -7,8 +7,9 @@
 static fw_report_flow *report_flows(fw_plan *plan) {
     fw_report_flow *flow = fw_arena_array(plan->arena, fw_report_flow, (size_t)plan->nflow);
     for (int i = 0; flow && i < plan->nflow; i++)
-        flow[i] = (fw_report_flow){&plan->verdict.variant[i], plan->flow[i].flow,
-                                   plan->flow[i].mask, plan->flow[i].mask_error};
+        flow[i] =
+            (fw_report_flow){&plan->verdict.variant[i], plan->flow[i].flow, plan->flow[i].mask,
+                             plan->flow[i].mask_error, plan->flow[i].violated};
     return flow;
 }
 

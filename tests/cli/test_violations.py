@@ -67,7 +67,9 @@ class Violations(unittest.TestCase):
         errors = sum(f["severity"] == "error" for f in listed["findings"])
         self.assertEqual((listed["errors"], listed["warnings"]), (errors, len(listed["findings"]) - errors))
         self.assertEqual(errors, count["notch"] + count["angle"])
+        page = (ROOT / "docs/reference/json.md").read_text()
         for f in listed["findings"]:
+            self.assertFalse([key for key in f if f"`{key}`" not in page])
             self.assertEqual(f["reason"], "try it")
             self.assertLess(min(f["value"] / f["needed"], f["needed"] / f["value"]), 1)
         if not shutil.which("klayout"):
@@ -113,6 +115,15 @@ class Violations(unittest.TestCase):
         self.assertFalse(certificate["rejected"])
         self.assertEqual(certificate["findings"], said["violations"][0]["findings"])
         self.assertEqual({f["severity"] for f in certificate["findings"]}, {"warning"})
+
+    def test_the_report_lists_them(self):
+        out = self.here / "out"
+        run("plan", GALLERY, "-o", out, env=self.data(RULES))
+        report = (out / "report.html").read_text()
+        listed = json.loads((out / "masks" / f"{FLOWS[0]}.violations.json").read_text())
+        self.assertIn("Where design rules are broken", report)
+        rows = report.split("Where design rules are broken", 1)[1].split("</table>", 1)[0].count("<tr>") - 1
+        self.assertEqual(rows, len(listed["findings"]))
 
     def test_a_clean_mask_has_none(self):
         out = self.here / "out"

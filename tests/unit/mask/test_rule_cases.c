@@ -124,6 +124,23 @@ static void notches_of_one_shape(void **state) {
     scene_free(s);
 }
 
+/* a row for what the layer says as well is judged once, as the row says it */
+static void row_and_layer_are_one(void **state) {
+    (void)state;
+    field *f = field_new(9);
+    f->layer[FW_ROLE_STRUCTURE].min_width_m = 4 * UM;
+    f->label = "bar";
+    draw_box(f, FW_ROLE_STRUCTURE, 0, 0, 50, 3);
+    const fw_mask *mask = examine(f->s);
+    assert_int_equal(mask->nfinding, 1);
+    assert_string_equal(mask->finding[0].rule->source, "test rule");
+    f->rule[0].severity = FW_WARNING; /* now they are two */
+    mask = examine(f->s);
+    assert_int_equal(mask->nfinding, 2);
+    assert_int_equal(mask->nbroken, 1);
+    scene_free(f->s);
+}
+
 /* a warning does not stop the mask */
 static void warnings_let_pass(void **state) {
     (void)state;
@@ -216,8 +233,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_between_layers), cmocka_unit_test(windows_cut_outlines),
         cmocka_unit_test(all_are_findings),       cmocka_unit_test(notches_of_one_shape),
-        cmocka_unit_test(warnings_let_pass),      cmocka_unit_test(findings_are_written),
-        cmocka_unit_test(short_memory),
+        cmocka_unit_test(row_and_layer_are_one),  cmocka_unit_test(warnings_let_pass),
+        cmocka_unit_test(findings_are_written),   cmocka_unit_test(short_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

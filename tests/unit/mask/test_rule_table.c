@@ -50,6 +50,10 @@ static void every_kind_is_read(void **state) {
         assert_non_null(t.rule[i].source);
         assert_int_equal(t.rule[i].place.line, i == 0 ? 2 : 3);
     }
+    assert_near(t.layer[0].min_width_m, 4e-6, 1e-20); /* for those who ask the layer */
+    assert_near(t.layer[0].min_space_m, 5e-6, 1e-20);
+    assert_string_equal(t.layer[0].rule_source, "one");
+    assert_near(t.layer[1].min_width_m, 3e-6, 1e-20);
     assert_near(t.rule[1].least, 5e-6, 1e-20);
     assert_near(t.rule[3].least, 1.5 * sqrt(405e-9 * 18e-6), 1e-19); /* 4.05 um */
     assert_string_equal(t.rule[3].formula, "1.5*sqrt(wavelength*(gap + resist/2))");
