@@ -124,6 +124,21 @@ static void notches_of_one_shape(void **state) {
     scene_free(s);
 }
 
+/* two prongs of one piece before one edge: two places, however long the edge */
+static void two_places_of_one_pair(void **state) {
+    (void)state;
+    const double p[8][2] = {{0, 40},  {0, 3},    {10, 3},   {10, 20},
+                            {30, 20}, {30, 3.5}, {40, 3.5}, {40, 40}};
+    scene *s = scene_new(4 * UM, 4 * UM);
+    scene_box(s, "bar", -10, -10, 60, 0);
+    scene_add(s, FW_ROLE_STRUCTURE, "prongs", polygon(s->arena, p, 8));
+    const fw_mask *mask = examine(s);
+    assert_int_equal(mask->nfinding, 2);
+    assert_near(fmin(mask->finding[0].value, mask->finding[1].value), 3 * UM, 1e-15);
+    assert_near(fmax(mask->finding[0].value, mask->finding[1].value), 3.5 * UM, 1e-15);
+    scene_free(s);
+}
+
 /* a row for what the layer says as well is judged once, as the row says it */
 static void row_and_layer_are_one(void **state) {
     (void)state;
@@ -233,8 +248,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_between_layers), cmocka_unit_test(windows_cut_outlines),
         cmocka_unit_test(all_are_findings),       cmocka_unit_test(notches_of_one_shape),
-        cmocka_unit_test(row_and_layer_are_one),  cmocka_unit_test(warnings_let_pass),
-        cmocka_unit_test(findings_are_written),   cmocka_unit_test(short_memory),
+        cmocka_unit_test(row_and_layer_are_one),  cmocka_unit_test(two_places_of_one_pair),
+        cmocka_unit_test(warnings_let_pass),      cmocka_unit_test(findings_are_written),
+        cmocka_unit_test(short_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
