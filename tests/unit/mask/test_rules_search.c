@@ -178,9 +178,35 @@ static void a_rounded_corner_is_no_width(void **state) {
     }
 }
 
+/* the parts of an arc follow each other bit for bit, and each is the arc that its sweep says */
+static void parts_are_the_arc(void **state) {
+    (void)state;
+    uint64_t seed = 3;
+    for (int i = 0; i < 200; i++) {
+        scene *s = scene_new(4 * UM, 4 * UM);
+        bend(s, &seed, (fw_vec2){1e-3 * random01(&seed), -1e-3 * random01(&seed)});
+        answer a;
+        ask(s, false, &a);
+        for (int k = 0; k < a.in.nedge; k++) {
+            fw_rule_edge *e = &a.in.edge[k];
+            assert_true(fw_rule_parts(&a.in, e));
+            assert_true(vec_same(e->part[0].a, e->s.a) &&
+                        vec_same(e->part[e->nparts - 1].b, e->s.b));
+            for (int m = 0; e->s.kind == FW_ARC && m < e->nparts; m++) {
+                const fw_segment *p = &e->part[m];
+                fw_vec2 turned = fw_vec_rotate(vec_sub(p->a, p->centre), p->sweep_rad);
+                assert_near(vec_distance(turned, vec_sub(p->b, p->centre)), 0, 1e-17);
+                assert_true(fabs(p->sweep_rad) <= FW_PI / 24 + 1e-15);
+                assert_true(m == 0 || vec_same(p->a, e->part[m - 1].b));
+            }
+        }
+        scene_free(s);
+    }
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_is_passed_over),
-                                       cmocka_unit_test(every_violation_is_told),
-                                       cmocka_unit_test(a_rounded_corner_is_no_width)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nothing_is_passed_over), cmocka_unit_test(every_violation_is_told),
+        cmocka_unit_test(a_rounded_corner_is_no_width), cmocka_unit_test(parts_are_the_arc)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
