@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mask/cut.h"
+#include "mask/rule.h"
 #include "mask/rules.h"
 #include <math.h>
 #include <string.h>
@@ -152,6 +153,10 @@ static void sum_up(fw_mask *mask, fw_mask_measure *measure) {
     for (int k = 0; k < mask->nshape; k++) {
         const fw_mask_shape *s = &mask->shape[k];
         fw_mask_measure *m = &measure[s->layer];
+        fw_box b = fw_contour_box(&s->contour);
+        mask->box = (fw_box){fmin(mask->box.x0, b.x0), fmin(mask->box.y0, b.y0),
+                             fmax(mask->box.x1, b.x1), fmax(mask->box.y1, b.y1)};
+        if (s->polygon.count == 0) continue; /* rules are broken, and it could not be flattened */
         m->shapes++;
         m->vertices += s->polygon.count;
         m->area_m2 += s->area_m2;
@@ -159,9 +164,6 @@ static void sum_up(fw_mask *mask, fw_mask_measure *measure) {
         m->bound_m2 += s->bound_m2;
         m->shortest_edge_m = fmin(m->shortest_edge_m, s->report.shortest_edge_m);
         m->sharpest_rad = fmin(m->sharpest_rad, s->report.sharpest_rad);
-        fw_box b = fw_contour_box(&s->contour);
-        mask->box = (fw_box){fmin(mask->box.x0, b.x0), fmin(mask->box.y0, b.y0),
-                             fmax(mask->box.x1, b.x1), fmax(mask->box.y1, b.y1)};
     }
     mask->measure = measure;
 }
@@ -180,9 +182,38 @@ static fw_status check_options(const fw_mask_options *options, double tolerance_
     return FW_OK;
 }
 
-fw_status fw_mask_build(fw_arena *arena, const fw_layout *layout, const fw_mask_table *table,
-                        const char *device_name, const fw_mask_options *options, fw_diags *diags,
-                        const fw_mask **mask) {
+/* polygons and their proofs */
+static fw_status prove(fw_arena *arena, fw_mask *m, fw_diags *diags) {
+    FW_TRY(flatten_all(arena, m->shape, m->nshape, m->tolerance_m, m->vertex_limit, diags));
+    FW_TRY(fw_mask_check_joints(arena, m->shape, m->nshape, diags));
+    fw_mask_check_corners(m->shape, m->nshape, diags);
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+/* rules on exact outlines, polygons, rules on these. Where rules are broken, what could not be
+   flattened besides is told, but the rest is there to be looked at. */
+static fw_status judge(fw_arena *arena, fw_mask *m, fw_mask_measure *measure, fw_diags *diags) {
+    fw_rules rules = {.arena = arena,
+                      .table = m->table,
+                      .shape = m->shape,
+                      .nshape = m->nshape,
+                      .tolerance_m = m->tolerance_m};
+    FW_TRY(fw_rules_start(&rules, measure));
+    FW_TRY(fw_rules_check(&rules, false));
+    fw_status status = prove(arena, m, diags);
+    if (status != FW_OK && status != FW_INPUT && status != FW_GEOMETRY) return status;
+    m->whole = status == FW_OK;
+    FW_TRY(fw_rules_check(&rules, true));
+    FW_TRY(fw_rules_tell(&rules, diags, &m->nbroken));
+    m->finding = rules.finding;
+    m->nfinding = rules.nfinding;
+    sum_up(m, measure);
+    return m->nbroken ? FW_INPUT : status;
+}
+
+fw_status fw_mask_examine(fw_arena *arena, const fw_layout *layout, const fw_mask_table *table,
+                          const char *device_name, const fw_mask_options *options, fw_diags *diags,
+                          const fw_mask **mask) {
     double tolerance_m = options->tolerance_m == 0 ? DEFAULT_TOLERANCE_M : options->tolerance_m;
     FW_TRY(check_options(options, tolerance_m, diags));
     if (!layout->drawn)
@@ -192,7 +223,6 @@ fw_status fw_mask_build(fw_arena *arena, const fw_layout *layout, const fw_mask_
     fw_mask_measure *measure = fw_arena_array(arena, fw_mask_measure, (size_t)table->nlayer);
     FW_NEED(m);
     FW_NEED(measure);
-    FW_NEED(m->cell = cell_name(arena, device_name, options->rejected));
     m->table = table;
     m->flow = table->flow;
     m->device = device_name;
@@ -201,7 +231,6 @@ fw_status fw_mask_build(fw_arena *arena, const fw_layout *layout, const fw_mask_
     m->edges = options->edges;
     m->tolerance_m = tolerance_m;
     m->vertex_limit = options->vertex_limit ? options->vertex_limit : DEFAULT_VERTICES;
-    m->rejected = options->rejected;
     m->note = options->note;
     m->nnote = options->nnote;
     FW_TRY(pick_shapes(arena, layout, table, options->no_islands, &m->shape, &m->nshape));
@@ -210,12 +239,20 @@ fw_status fw_mask_build(fw_arena *arena, const fw_layout *layout, const fw_mask_
                              table->flow, layout->npiece);
     FW_TRY(bias_shapes(arena, table, m->shape, m->nshape, options->bias_m, diags));
     FW_TRY(fw_mask_join(arena, m->shape, m->nshape, diags));
-    FW_TRY(fw_mask_check_rules(arena, table, m->shape, m->nshape, tolerance_m, measure, diags));
-    FW_TRY(flatten_all(arena, m->shape, m->nshape, tolerance_m, m->vertex_limit, diags));
-    FW_TRY(fw_mask_check_joints(arena, m->shape, m->nshape, diags));
-    fw_mask_check_corners(m->shape, m->nshape, diags);
-    if (diags->failed) return FW_NOMEM;
-    sum_up(m, measure);
+    fw_status status = judge(arena, m, measure, diags);
+    if (status != FW_OK && !(status == FW_INPUT && m->nbroken)) return status;
+    m->rejected = options->rejected || m->nbroken > 0;
+    FW_NEED(m->cell = cell_name(arena, device_name, m->rejected));
+    *mask = m;
+    return status;
+}
+
+fw_status fw_mask_build(fw_arena *arena, const fw_layout *layout, const fw_mask_table *table,
+                        const char *device_name, const fw_mask_options *options, fw_diags *diags,
+                        const fw_mask **mask) {
+    *mask = NULL;
+    const fw_mask *m = NULL;
+    FW_TRY(fw_mask_examine(arena, layout, table, device_name, options, diags, &m));
     *mask = m;
     return FW_OK;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What was proven about the file, as JSON; docs/theory/masks.md explains every member. */
+#include "mask/findings.h"
 #include "mask/json.h"
 #include "mask/notes.h"
 #include <math.h>
@@ -76,8 +77,12 @@ fw_status fw_mask_write_certificate(const fw_mask *mask, const char *gds_sha256,
     head(mask, gds_sha256, out);
     fw_text_add(out, "  \"proven\": [\"every polygon simple, in exact integers\", "
                      "\"areas within the bound\", \"both sides of every joint on the same grid "
-                     "points\", \"width and space of the exact outlines above the rules\"],\n"
-                     "  \"layers\": [\n");
+                     "points\"");
+    if (mask->nbroken == 0)
+        fw_text_add(out, ", \"width and space of the exact outlines above the rules\"");
+    fw_text_add(out, "],\n  \"findings\": ");
+    fw_mask_json_findings(out, mask);
+    fw_text_add(out, ",\n  \"layers\": [\n");
     for (int k = 0; k < mask->table->nlayer; k++) {
         layer(out, &mask->table->layer[k], &mask->measure[k]);
         fw_text_add(out, k + 1 < mask->table->nlayer ? ",\n" : "\n");

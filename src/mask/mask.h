@@ -19,12 +19,46 @@ typedef struct fw_mask_layer { /* a row of masks/FLOW.xml */
     fw_place place;     /* in the table */
 } fw_mask_layer;
 
+/* ---- design rules: rows of the table, and what breaks them ---- */
+struct fw_rule_row;       /* a kind of rule: rule.h */
+enum {                    /* what a rule looks at, where it can look at several things */
+       FW_OF_OUTLINE = 1, /* exact lines and arcs */
+       FW_OF_POLYGON = 2, /* what is written */
+       FW_OF_ISLAND = 4,
+       FW_OF_HOLE = 8,
+};
+typedef struct fw_mask_rule {
+    const struct fw_rule_row *kind;
+    int layer, other;        /* indices into table->layer; other -1: the rule has one layer */
+    double least, most;      /* m, rad, m2 or a share; 0 and INFINITY: not asked for */
+    double window_m, step_m; /* of a density */
+    unsigned of;             /* FW_OF_... */
+    const char *formula; /* the limit as it stands in the table; NULL: a layer's own attribute */
+    const char *source;
+    fw_severity severity; /* FW_ERROR: the mask is not made */
+    fw_place place;
+} fw_mask_rule;
+
+typedef struct fw_mask_finding { /* one place where a rule is broken */
+    const fw_mask_rule *rule;
+    const char *what; /* "width", "space", "corner", ... */
+    fw_vec2 at[2]; /* the two ends of the worst chord or edge; twice the same point of a corner */
+    fw_box box;    /* all of the place, m */
+    double value;  /* in the rule's unit */
+    double limit;  /* what the rule says */
+    double needed; /* the same and what the 1 nm grid takes away */
+    const char *label[2]; /* pieces; NULL: none */
+    int edge[2];          /* of their outlines; -1: none */
+} fw_mask_finding;
+
 typedef struct fw_mask_table {
     const char *flow, *reading; /* "right-reading chrome down" */
     fw_mask_layer *layer;
     int nlayer;
-    const char *order; /* what is on the plate, for the mask shop; may be NULL */
-    const char *plate; /* the same as an expression, "1/0 NOT 2/0"; NULL: not said */
+    const char *order;  /* what is on the plate, for the mask shop; may be NULL */
+    const char *plate;  /* the same as an expression, "1/0 NOT 2/0"; NULL: not said */
+    fw_mask_rule *rule; /* (nrule) rows <rule>; the rules of <layer> itself are not among them */
+    int nrule;
 } fw_mask_table;
 
 typedef struct fw_mask_shape {
@@ -74,6 +108,10 @@ typedef struct fw_mask {
     const char *device, *title;
     const fw_mask_measure *measure; /* (table->nlayer) */
     const fw_mask_edges *edges;     /* as fabricated; NULL: not known */
+    const fw_mask_finding *finding; /* (nfinding) every place where a rule is broken */
+    int nfinding;
+    int nbroken; /* of them those that forbid the mask */
+    bool whole;  /* every polygon is there and proven */
 } fw_mask;
 
 fw_status fw_mask_table_read(fw_arena *arena, const char *file, const char *xml, size_t n,
@@ -88,8 +126,13 @@ typedef struct fw_mask_options {
     const fw_mask_edges *edges; /* kept; may be NULL */
     bool no_islands; /* the flow has no insulating carrier: what is not joined would fall out */
 } fw_mask_options;
-/* biases, checks the rules, flattens, certifies. A rule that is broken is an error naming both
-   places (FW-D140..). */
+/* biases, checks the rules, flattens, certifies. FW_OK: the mask can be made. FW_INPUT with a mask:
+   rules are broken, and its findings say all of them; diagnostics name the worst. FW_INPUT or
+   FW_GEOMETRY with NULL: it cannot be drawn at all (FW-D140..). */
+fw_status fw_mask_examine(fw_arena *arena, const fw_layout *layout, const fw_mask_table *table,
+                          const char *device_name, const fw_mask_options *options, fw_diags *diags,
+                          const fw_mask **mask);
+/* the same, but a mask that breaks a rule is NULL */
 fw_status fw_mask_build(fw_arena *arena, const fw_layout *layout, const fw_mask_table *table,
                         const char *device_name, const fw_mask_options *options, fw_diags *diags,
                         const fw_mask **mask);
@@ -119,6 +162,16 @@ bool fw_mask_formats(const char *list, unsigned *set);
 
 /* certificate: counts, areas, minimum edge, angle, hash; JSON */
 fw_status fw_mask_write_certificate(const fw_mask *mask, const char *gds_sha256, fw_text *out);
+/* where rules are broken, to look at: KLayout's report database (.lyrdb), the list as JSON, and a
+   mask with the drawn layers and a marker for each finding, which every writer above takes. Its
+   marker layer is the highest one up to 60 that the table leaves free, data type by kind of rule */
+fw_status fw_mask_write_lyrdb(const fw_mask *mask, fw_text *out);
+fw_status fw_mask_write_findings(const fw_mask *mask, fw_text *out);
+fw_status fw_mask_marked(fw_arena *arena, const fw_mask *mask, const fw_mask **marked);
+const char *fw_mask_rule_name(const fw_mask_rule *rule); /* its kind as the table says it */
+double fw_mask_rule_shown(const fw_mask_rule *rule, double value); /* in um, deg, um2, a share */
+const char *fw_mask_rule_unit(const fw_mask_rule *rule);           /* "" of a share */
+
 /* order sheet for the mask shop, as JSON and for people, with the files that go with it */
 fw_status fw_mask_write_order(const fw_mask *mask, const fw_output_file *file, int nfile,
                               fw_text *out);

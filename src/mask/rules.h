@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Exact width and space of the union of pieces on one layer, and the joints between them. */
+/* The joints between pieces, and what is said of places. The rules themselves: rule.h */
 #ifndef FW_MASK_RULES_H
 #define FW_MASK_RULES_H
 #include "mask/mask.h"
@@ -8,12 +8,6 @@
    bit), makes the biased end points of both the same bits, and marks the joint as inner. Distances
    above 1e-12 m and missing partners are FW-D146. */
 fw_status fw_mask_join(fw_arena *arena, fw_mask_shape *shape, int nshape, fw_diags *diags);
-
-/* Measures every layer (width_m, space_m, perimeter_m of `measure`) and reports what breaks a rule
-   (FW-D144, FW-D145) or overlaps (FW-D152). tolerance_m is the flattening's sagitta. */
-fw_status fw_mask_check_rules(fw_arena *arena, const fw_mask_table *table,
-                              const fw_mask_shape *shape, int nshape, double tolerance_m,
-                              fw_mask_measure *measure, fw_diags *diags);
 
 /* after flattening: both sides of every joint share the same two grid points (FW-D146) */
 fw_status fw_mask_check_joints(fw_arena *arena, const fw_mask_shape *shape, int nshape,

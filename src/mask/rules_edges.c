@@ -18,18 +18,13 @@ static double slack_of(const fw_segment *s, double tolerance_m) {
     return s->kind == FW_ARC ? tolerance_m + ROUND_M : exact ? 0 : ROUND_M;
 }
 
-typedef struct start {
-    fw_vec2 at;
-    int edge;
-} start;
-
 static int by_place(const void *left, const void *right) {
-    const start *p = left, *q = right;
+    const fw_rule_start *p = left, *q = right;
     if (!vec_same(p->at, q->at)) return vec_before(p->at, q->at) ? -1 : 1;
     return p->edge - q->edge;
 }
 
-static int first_at(const start *list, int n, fw_vec2 at) {
+int fw_rule_first_at(const fw_rule_start *list, int n, fw_vec2 at) {
     int low = 0;
     while (n > 0) {
         int half = n / 2;
@@ -41,18 +36,24 @@ static int first_at(const start *list, int n, fw_vec2 at) {
     return low;
 }
 
+fw_rule_start *fw_rule_starts(fw_arena *arena, const fw_rule_edge *edge, int n) {
+    fw_rule_start *by = fw_arena_array(arena, fw_rule_start, (size_t)n);
+    for (int i = 0; by && i < n; i++)
+        by[i] = (fw_rule_start){edge[i].s.a, i};
+    if (by && n) qsort(by, (size_t)n, sizeof *by, by_place);
+    return by;
+}
+
 /* corners of the union: across a joint the outline goes on in the other piece. Cost O(n log n) */
 static fw_status mark_corners(fw_arena *arena, fw_rule_edge *list, int n) {
     fw_mark mark = fw_arena_mark(arena);
-    start *by = fw_arena_array(arena, start, (size_t)n);
+    fw_rule_start *by = fw_rule_starts(arena, list, n);
     FW_NEED(by);
-    for (int i = 0; i < n; i++) {
-        list[i].corner_a = list[i].corner_b = true;
-        by[i] = (start){list[i].s.a, i};
-    }
-    qsort(by, (size_t)n, sizeof *by, by_place);
     for (int i = 0; i < n; i++)
-        for (int k = first_at(by, n, list[i].s.b); k < n && vec_same(by[k].at, list[i].s.b); k++) {
+        list[i].corner_a = list[i].corner_b = true;
+    for (int i = 0; i < n; i++)
+        for (int k = fw_rule_first_at(by, n, list[i].s.b); k < n && vec_same(by[k].at, list[i].s.b);
+             k++) {
             int j = by[k].edge;
             fw_vec2 u = fw_segment_tangent(&list[i].s, 1), v = fw_segment_tangent(&list[j].s, 0);
             if (vec_dot(u, v) > 0 && fabs(vec_cross(u, v)) < FW_SMOOTH_RAD)
@@ -118,9 +119,10 @@ bool fw_rule_parts(fw_rule_search *in, fw_rule_edge *e) {
         return false;
     }
     for (int m = 0; m < n; m++) {
-        double t0 = (double)m / n, t1 = (double)(m + 1) / n;
-        part[m] =
-            fw_segment_cut(&e->s, t0, fw_segment_point(&e->s, t0), t1, fw_segment_point(&e->s, t1));
+        part[m] = e->s;
+        part[m].sweep_rad = e->s.sweep_rad / n;
+        if (m > 0) part[m].a = part[m - 1].b;
+        if (m + 1 < n) part[m].b = fw_segment_point(&e->s, (double)(m + 1) / n);
         box[m] = fw_segment_box(&part[m]);
     }
     e->part = part, e->part_box = box, e->nparts = n;

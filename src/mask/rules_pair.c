@@ -11,7 +11,6 @@
    break a rule. Source: Euclidian width and space with a 90 deg limit, as KLayout has it. Test:
    test_mask_rules.c, test_rules_search.c. */
 #include "mask/rules_search.h"
-#include <stdlib.h>
 
 static const double FACING = -1e-6;       /* normals more than 90 deg apart */
 static const double NEAR_CORNER_M = 1e-7; /* contacts there are the corner itself */
@@ -19,14 +18,7 @@ static const double SQUARE = 1e-5;
 
 /* ---- findings ---- */
 
-void fw_rule_report(fw_rule_search *in, fw_finding f) {
-    if (f.shape[0] > f.shape[1] || (f.shape[0] == f.shape[1] && f.segment[0] > f.segment[1])) {
-        int shape = f.shape[0], segment = f.segment[0];
-        f.shape[0] = f.shape[1];
-        f.segment[0] = f.segment[1];
-        f.shape[1] = shape;
-        f.segment[1] = segment;
-    }
+void fw_rule_add(fw_rule_search *in, fw_finding f) {
     if (in->nfound == in->room) {
         size_t more = in->room ? 2 * (size_t)in->room : 16;
         fw_finding *grown = fw_arena_grow(in->arena, in->found, (size_t)in->nfound, more, sizeof f);
@@ -40,38 +32,25 @@ void fw_rule_report(fw_rule_search *in, fw_finding f) {
     in->found[in->nfound++] = f;
 }
 
-static int in_order(const void *left, const void *right) {
-    const fw_finding *p = left, *q = right;
-    if (p->shape[0] != q->shape[0]) return p->shape[0] - q->shape[0];
-    if (p->shape[1] != q->shape[1]) return p->shape[1] - q->shape[1];
-    if (p->kind != q->kind) return (int)p->kind - (int)q->kind;
-    if (p->value_m != q->value_m) return p->value_m < q->value_m ? -1 : 1;
-    if (p->segment[0] != q->segment[0]) return p->segment[0] - q->segment[0];
-    if (p->segment[1] != q->segment[1]) return p->segment[1] - q->segment[1];
-    if (p->at.x != q->at.x) return p->at.x < q->at.x ? -1 : 1;
-    return p->at.y < q->at.y ? -1 : p->at.y > q->at.y;
-}
-
-void fw_rule_tidy(fw_rule_search *in) {
-    int kept = 0;
-    if (in->nfound) qsort(in->found, (size_t)in->nfound, sizeof *in->found, in_order);
-    for (int i = 0; i < in->nfound; i++) {
-        const fw_finding *f = &in->found[i], *last = kept ? &in->found[kept - 1] : NULL;
-        if (last && last->kind == f->kind && last->shape[0] == f->shape[0] &&
-            last->shape[1] == f->shape[1])
-            continue;
-        in->found[kept++] = *f;
-    }
-    in->nfound = kept;
+void fw_rule_report(fw_rule_search *in, fw_finding f) {
+    if (f.shape[0] > f.shape[1] || (f.shape[0] == f.shape[1] && f.segment[0] > f.segment[1]))
+        f = (fw_finding){
+            f.kind,    {f.shape[1], f.shape[0]}, {f.segment[1], f.segment[0]}, f.value_m,
+            f.slack_m, {f.at[1], f.at[0]},       {f.edge[1], f.edge[0]},       f.box};
+    fw_rule_add(in, f);
 }
 
 static void judged(fw_rule_search *in, fw_rule_kind what, const fw_rule_edge *p,
-                   const fw_rule_edge *q, double length, fw_vec2 at) {
-    double needed = fw_rule_needed(in, what, p->slack_m + q->slack_m);
-    if (length < needed - FW_COINCIDENT_M)
-        fw_rule_report(
-            in,
-            (fw_finding){what, {p->shape, q->shape}, {p->segment, q->segment}, length, needed, at});
+                   const fw_rule_edge *q, double length, fw_vec2 at_p, fw_vec2 at_q) {
+    double slack = p->slack_m + q->slack_m;
+    if (length < fw_rule_needed(in, what, slack) - FW_COINCIDENT_M)
+        fw_rule_report(in, (fw_finding){.kind = what,
+                                        .shape = {p->shape, q->shape},
+                                        .segment = {p->segment, q->segment},
+                                        .value_m = length,
+                                        .slack_m = slack,
+                                        .at = {at_p, at_q},
+                                        .edge = {p, q}});
 }
 
 static void measured(fw_rule_search *in, fw_rule_kind what, fw_vec2 from, fw_vec2 to,
@@ -158,8 +137,7 @@ static void judge_parts(fw_rule_search *in, const fw_rule_edge *p, const fw_rule
     int n = fw_segment_chords(s, t, chord);
     for (int i = 0; i < n; i++)
         if (crosses(s, t, &chord[i], &x))
-            judged(in, x.kind, p, q, x.length_m,
-                   vec_scale(0.5, vec_add(chord[i].at_p, chord[i].at_q)));
+            judged(in, x.kind, p, q, x.length_m, chord[i].at_p, chord[i].at_q);
 }
 
 /* can any two points of parts of at most 7.5 degrees face each other? By the normals of their
@@ -192,9 +170,10 @@ static bool concentric(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_
     if (isinf(gap)) return false;
     bool material = (p->s.radius > q->s.radius) == (p->s.sweep_rad > 0);
     fw_rule_kind kind = material ? FW_RULE_WIDTH : FW_RULE_SPACE;
-    measured(in, kind, vec_along(p->s.centre, p->s.radius, along),
-             vec_along(p->s.centre, q->s.radius, along), gap);
-    judged(in, kind, p, q, gap, vec_along(p->s.centre, 0.5 * (p->s.radius + q->s.radius), along));
+    fw_vec2 at_p = vec_along(p->s.centre, p->s.radius, along);
+    fw_vec2 at_q = vec_along(p->s.centre, q->s.radius, along);
+    measured(in, kind, at_p, at_q, gap);
+    judged(in, kind, p, q, gap, at_p, at_q);
     return true;
 }
 
@@ -203,8 +182,12 @@ void fw_rule_own(fw_rule_search *in, fw_rule_edge *e) {
     double sweep = fabs(e->s.sweep_rad);
     if (e->s.kind != FW_ARC || !(cos(fmin(sweep, FW_PI)) < FACING)) return; /* a rounded corner */
     fw_rule_kind kind = e->s.sweep_rad > 0 ? FW_RULE_WIDTH : FW_RULE_SPACE;
-    fw_vec2 middle = fw_segment_point(&e->s, 0.5);
-    judged(in, kind, e, e, sqrt(2) * e->s.radius, middle);
+    double quarter = sqrt(2) * e->s.radius; /* the chord over a quarter turn, in the middle */
+    if (quarter < fw_rule_needed(in, kind, 2 * e->slack_m)) {
+        double eighth = 0.25 * FW_PI / sweep;
+        judged(in, kind, e, e, quarter, fw_segment_point(&e->s, 0.5 - eighth),
+               fw_segment_point(&e->s, 0.5 + eighth));
+    }
     if (sweep >= half_turn) { /* from the middle of the first quarter and across */
         fw_vec2 from = fw_segment_point(&e->s, 0.5 * fmax(0, 1 - FW_PI / sweep));
         measured(in, kind, from, vec_sub(vec_scale(2, e->s.centre), from), 2 * e->s.radius);
@@ -220,7 +203,8 @@ void fw_rule_own(fw_rule_search *in, fw_rule_edge *e) {
 static void look_at_corner(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q) {
     fw_vec2 before = fw_segment_tangent(&p->s, 1), after = fw_segment_tangent(&q->s, 0);
     if (vec_dot(before, after) < FACING)
-        judged(in, vec_cross(before, after) > 0 ? FW_RULE_WIDTH : FW_RULE_SPACE, p, q, 0, p->s.b);
+        judged(in, vec_cross(before, after) > 0 ? FW_RULE_WIDTH : FW_RULE_SPACE, p, q, 0, p->s.b,
+               p->s.b);
 }
 
 static void look_at_contacts(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q) {
@@ -233,12 +217,11 @@ static void look_at_contacts(fw_rule_search *in, const fw_rule_edge *p, const fw
         bool corner = (p_then_q && vec_distance(hit[i].at, p->s.b) < NEAR_CORNER_M) ||
                       (q_then_p && vec_distance(hit[i].at, q->s.b) < NEAR_CORNER_M);
         if (!corner)
-            fw_rule_report(in, (fw_finding){FW_RULE_OVERLAP,
-                                            {p->shape, q->shape},
-                                            {p->segment, q->segment},
-                                            0,
-                                            0,
-                                            hit[i].at});
+            fw_rule_report(in, (fw_finding){.kind = FW_RULE_OVERLAP,
+                                            .shape = {p->shape, q->shape},
+                                            .segment = {p->segment, q->segment},
+                                            .at = {hit[i].at, hit[i].at},
+                                            .edge = {p, q}});
     }
 }
 

@@ -5,8 +5,8 @@
 #include "mask/rules_search.h"
 
 double fw_rule_needed(const fw_rule_search *in, fw_rule_kind kind, double slack_m) {
-    double rule = kind == FW_RULE_WIDTH ? in->layer->min_width_m : in->layer->min_space_m;
-    return rule > 0 ? rule + slack_m : 0;
+    double limit = in->limit_m[kind];
+    return limit > 0 ? limit + slack_m : 0;
 }
 
 double fw_rule_bound(const fw_rule_search *in, fw_rule_kind kind) {

@@ -23,24 +23,26 @@ typedef struct fw_rule_range { /* the edges of one shape */
 
 typedef enum fw_rule_kind { FW_RULE_WIDTH, FW_RULE_SPACE, FW_RULE_OVERLAP } fw_rule_kind;
 
-typedef struct fw_finding { /* worst place of one pair of shapes */
+typedef struct fw_finding { /* a chord that is shorter than a rule; edges that meet */
     fw_rule_kind kind;
     int shape[2], segment[2];
-    double value_m, needed_m;
-    fw_vec2 at;
+    double value_m, slack_m; /* its length; what flattening may take of it */
+    fw_vec2 at[2];
+    const fw_rule_edge *edge[2]; /* NULL: one lies inside the other */
+    fw_box box;                  /* of the whole place, by fw_rule_places */
 } fw_finding;
 
 typedef struct fw_rule_search { /* one layer */
     fw_arena *arena;
-    const fw_mask_layer *layer;
     const fw_mask_shape *shape;
-    int index; /* of the layer */
+    int index;         /* of the layer */
+    double limit_m[2]; /* largest rule for widths and for spaces; 0: there is none */
     fw_rule_edge *edge;
     fw_rule_range *range; /* (nrange) by the left end of their boxes */
     int nedge, nrange;
     double slack_m; /* largest of any edge */
     fw_mask_measure *measure;
-    fw_finding *found; /* grows; several of one pair until fw_rule_tidy */
+    fw_finding *found; /* (nfound) grows */
     int nfound, room;
     bool everything; /* for the tests: no pair is passed over */
     bool no_memory;
@@ -49,14 +51,24 @@ typedef struct fw_rule_search { /* one layer */
 /* rules_edges.c */
 fw_status fw_rule_edges(fw_rule_search *in, int nshape, double tolerance_m);
 bool fw_rule_parts(fw_rule_search *in, fw_rule_edge *e); /* false: no memory */
+typedef struct fw_rule_start {                           /* where an edge begins */
+    fw_vec2 at;
+    int edge;
+} fw_rule_start;
+/* (nedge) by place; NULL: no memory. And the first of them at or behind a place */
+fw_rule_start *fw_rule_starts(fw_arena *arena, const fw_rule_edge *edge, int n);
+int fw_rule_first_at(const fw_rule_start *list, int n, fw_vec2 at);
 /* rules_search.c: every pair of edges that may matter */
 void fw_rule_look(fw_rule_search *in);
 /* rules_pair.c */
 void fw_rule_pair(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q);
 void fw_rule_own(fw_rule_search *in, fw_rule_edge *e);
-void fw_rule_report(fw_rule_search *in, fw_finding f);
-/* one finding, the worst, for each kind and pair of shapes, in their order */
-void fw_rule_tidy(fw_rule_search *in);
+void fw_rule_add(fw_rule_search *in, fw_finding f);
+void fw_rule_report(fw_rule_search *in, fw_finding f); /* the same, the lesser shape first */
+/* rules_places.c: the chords of one kind that are below a limit, as places: the shortest chord of
+   each, in the order of shapes. Sorts `list`. */
+fw_status fw_rule_places(fw_arena *arena, fw_finding *list, int n, double limit_m, fw_finding **out,
+                         int *nout);
 /* what a rule asks of a pair of edges; 0: there is none */
 double fw_rule_needed(const fw_rule_search *in, fw_rule_kind kind, double slack_m);
 /* beyond this a chord of that kind changes nothing */

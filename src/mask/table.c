@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "device/xml.h"
+#include "mask/table.h"
 #include "mask/order.h"
 #include "quantity/expression.h"
 #include <stdlib.h>
@@ -25,18 +25,18 @@ typedef struct reader {
 } reader;
 
 /* ---- one function per kind of value; mistakes are collected and reading goes on ---- */
-static void read_text(reader *r, const fw_attribute *a, const char **out) {
+void fw_table_text(fw_diags *diags, const fw_attribute *a, const char **out) {
     size_t n = strlen(a->value);
     for (size_t i = 0; i < n; i++)
         if ((unsigned char)a->value[i] < 0x20 || (unsigned char)a->value[i] > 0x7e) {
-            fw_diag_error(r->diags, 141, a->place,
+            fw_diag_error(diags, 141, a->place,
                           "%s=\"%s\" is not plain ASCII, which some mask readers refuse; write it "
                           "without other characters",
                           a->name, a->value);
             return;
         }
     if (n == 0 || n > 400)
-        fw_diag_error(r->diags, 141, a->place, "%s has %zu characters; give 1 to 400", a->name, n);
+        fw_diag_error(diags, 141, a->place, "%s has %zu characters; give 1 to 400", a->name, n);
     else
         *out = a->value;
 }
@@ -155,7 +155,7 @@ static fw_status read_attribute(reader *r, const fw_attribute *a) {
     else if (strcmp(n, "name") == 0)
         read_identifier(r, a, &l->name);
     else if (strcmp(n, "purpose") == 0)
-        read_text(r, a, &l->purpose);
+        fw_table_text(r->diags, a, &l->purpose);
     else if (strcmp(n, "tone") == 0)
         read_tone(r, a);
     else if (strcmp(n, "colour") == 0)
@@ -167,7 +167,7 @@ static fw_status read_attribute(reader *r, const fw_attribute *a) {
     else if (strcmp(n, "documentation") == 0)
         read_yes(r, a, &l->documentation);
     else if (strcmp(n, "source") == 0)
-        read_text(r, a, &l->rule_source);
+        fw_table_text(r->diags, a, &l->rule_source);
     else if (strcmp(n, "min-width") == 0)
         return read_length(r, a, &l->min_width_m);
     else if (strcmp(n, "min-space") == 0)
@@ -244,11 +244,11 @@ static void read_root(reader *r, const fw_element *root, fw_mask_table *table) {
         if (strcmp(a->name, "flow") == 0)
             read_identifier(r, a, &table->flow);
         else if (strcmp(a->name, "reading") == 0)
-            read_text(r, a, &table->reading);
+            fw_table_text(r->diags, a, &table->reading);
         else if (strcmp(a->name, "order") == 0)
-            read_text(r, a, &table->order);
+            fw_table_text(r->diags, a, &table->order);
         else if (strcmp(a->name, "plate") == 0)
-            read_text(r, a, &table->plate);
+            fw_table_text(r->diags, a, &table->plate);
         else
             fw_diag_error(r->diags, 140, a->place, "<mask-table> has no attribute \"%s\"", a->name);
     }
@@ -279,9 +279,10 @@ fw_status fw_mask_table_read(fw_arena *arena, const char *file, const char *xml,
         count++;
     FW_NEED(table->layer = fw_arena_array(arena, fw_mask_layer, count));
     for (const fw_element *e = root->first_child; e; e = e->next) {
+        if (strcmp(e->name, "rule") == 0) continue; /* when all layers are known */
         if (strcmp(e->name, "layer") != 0) {
-            fw_diag_error(diags, 140, e->place, "<mask-table> holds only <layer>, not <%s>",
-                          e->name);
+            fw_diag_error(diags, 140, e->place,
+                          "<mask-table> holds only <layer> and <rule>, not <%s>", e->name);
             continue;
         }
         r.layer = &table->layer[table->nlayer++];
@@ -290,6 +291,7 @@ fw_status fw_mask_table_read(fw_arena *arena, const char *file, const char *xml,
     if (table->nlayer == 0) fw_diag_error(diags, 140, root->place, "<mask-table> has no <layer>");
     check_collisions(table, diags);
     check_plate(table, root, diags);
+    FW_TRY(fw_table_rules(arena, root, diags, table));
     if (diags->failed) return FW_NOMEM;
     return diags->errors > errors ? FW_INPUT : FW_OK;
 }

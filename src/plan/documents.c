@@ -7,8 +7,9 @@
 static fw_report_flow *report_flows(fw_plan *plan) {
     fw_report_flow *flow = fw_arena_array(plan->arena, fw_report_flow, (size_t)plan->nflow);
     for (int i = 0; flow && i < plan->nflow; i++)
-        flow[i] = (fw_report_flow){&plan->verdict.variant[i], plan->flow[i].flow,
-                                   plan->flow[i].mask, plan->flow[i].mask_error};
+        flow[i] =
+            (fw_report_flow){&plan->verdict.variant[i], plan->flow[i].flow, plan->flow[i].mask,
+                             plan->flow[i].mask_error, plan->flow[i].violated};
     return flow;
 }
 
@@ -64,6 +65,13 @@ fw_status fw_plan_masks_json(fw_plan *plan, fw_text *out) {
         if (plan->flow[i].mask) {
             fw_text_add(out, written++ ? "," : "");
             FW_TRY(fw_mask_write_certificate(plan->flow[i].mask, plan->flow[i].mask_sha256, out));
+        }
+    fw_text_add(out, "],\"violations\":[");
+    written = 0;
+    for (int i = 0; i < plan->nflow; i++)
+        if (plan->flow[i].violated) {
+            fw_text_add(out, written++ ? "," : "");
+            FW_TRY(fw_mask_write_findings(plan->flow[i].violated, out));
         }
     fw_text_add(out, "]}\n");
     return fw_text_end(out);

@@ -105,11 +105,13 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
                                .title = plan->device->die.title};
     FW_TRY(notes_of(plan, pf, &options));
     FW_TRY(edges_of(plan, pf->flow, &options.edges));
-    fw_status status = fw_mask_build(plan->arena, plan->layout, pf->table, plan->device->name,
-                                     &options, &plan->diags, &pf->mask);
+    const fw_mask *mask = NULL;
+    fw_status status = fw_mask_examine(plan->arena, plan->layout, pf->table, plan->device->name,
+                                       &options, &plan->diags, &mask);
+    if (status != FW_OK && status != FW_GEOMETRY && status != FW_INPUT) return status;
+    pf->violated = mask && mask->nfinding ? mask : NULL;
+    pf->mask = status == FW_OK || (mask && mask->whole && plan->options.force) ? mask : NULL;
     if (status == FW_OK) return FW_OK;
-    if (status != FW_GEOMETRY && status != FW_INPUT) return status;
-    pf->mask = NULL;
     pf->mask_error = "the mask breaks a design rule or cannot be biased; see the diagnostics";
     return not_manufacturable(plan, pf->flow, pf->mask_error);
 }

@@ -21,8 +21,7 @@ static const char *unfit(const fw_ladder_case *c) {
     const fw_flexure_input *in = &c->hinge->input;
     if (in->crystal.known && !in->crystal.aligned)
         return "the direction of the hinge in the crystal is not known";
-    if (fw_flexure_input_varies(in))
-        return "solids are made of one arc or line of one width";
+    if (fw_flexure_input_varies(in)) return "solids are made of one arc or line of one width";
     return in->fillet_m > 0 ? NULL : "roots without fillets have no finite strain";
 }
 

@@ -37,6 +37,8 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     fw_flow *flow; /* NULL: none */
     const fw_mask_table *table;
     const fw_mask *mask;
+    const fw_mask *violated; /* the mask where it breaks rules or nearly does, to look at; NULL: it
+                                has no findings */
     fw_text gds; /* of the mask, composed once: its hash is in recipe and certificate */
     const char *mask_error;
     const char *flow_sha256, *mask_sha256;

@@ -66,6 +66,21 @@ static fw_status write_mask(writer *w, const fw_plan_flow *pf) {
     return write_formats(w, pf, set, true); /* behind the order sheets, which do not name them */
 }
 
+/* where rules are broken: the list, KLayout's marker database, and the outlines with markers */
+static fw_status write_violations(writer *w, const fw_plan_flow *pf) {
+    fw_text text = fw_text_new(w->scratch);
+    FW_TRY(fw_mask_write_findings(pf->violated, &text));
+    FW_TRY(put(w, "masks/", pf->use->ref, ".violations.json", &text));
+    text = fw_text_new(w->scratch);
+    FW_TRY(fw_mask_write_lyrdb(pf->violated, &text));
+    FW_TRY(put(w, "masks/", pf->use->ref, ".violations.lyrdb", &text));
+    const fw_mask *marked;
+    FW_TRY(fw_mask_marked(w->plan->arena, pf->violated, &marked));
+    text = fw_text_new(w->scratch);
+    FW_TRY(fw_mask_write_gds(marked, &text));
+    return put(w, "masks/", pf->use->ref, ".violations.gds", &text);
+}
+
 static fw_status write_recipe(writer *w, const fw_plan_flow *pf) {
     static const struct {
         const char *ending;
@@ -137,6 +152,8 @@ static fw_status write_all(writer *w, unsigned what) {
     bool given = plan->verdict.decision != FW_REJECT || plan->options.force;
     for (int i = 0; given && i < plan->nflow; i++) {
         if ((what & FW_WRITE_MASKS) && plan->flow[i].mask) FW_TRY(write_mask(w, &plan->flow[i]));
+        if ((what & FW_WRITE_MASKS) && plan->flow[i].violated)
+            FW_TRY(write_violations(w, &plan->flow[i]));
         if ((what & FW_WRITE_RECIPES) && plan->flow[i].flow)
             FW_TRY(write_recipe(w, &plan->flow[i]));
     }

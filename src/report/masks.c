@@ -127,6 +127,7 @@ fw_status fw_report_section_masks(fw_page *page) {
                              page->in->verdict->decision == FW_REJECT
                                  ? ": a rejected design gets none unless it is forced"
                                  : " was made");
+        if (f->violated) fw_report_findings(out, f->violated);
     }
     if (page->in->nflow == 0) fw_text_add(out, "<p>The description names no flow.</p>\n");
     return fw_text_end(out);

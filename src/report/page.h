@@ -184,6 +184,7 @@ fw_status fw_report_section_motion(fw_page *page);
 fw_status fw_report_section_workspace(fw_page *page);
 fw_status fw_report_section_flows(fw_page *page);
 fw_status fw_report_section_masks(fw_page *page);
+void fw_report_findings(fw_text *out, const fw_mask *mask); /* what breaks design rules, a table */
 fw_status fw_report_section_recipes(fw_page *page);
 fw_status fw_report_section_effects(fw_page *page);
 fw_status fw_report_section_accuracy(fw_page *page);

@@ -17,9 +17,10 @@
 
 typedef struct fw_report_flow { /* one process flow of the device */
     const fw_variant_verdict *variant;
-    const fw_flow *flow;    /* NULL: not computed */
-    const fw_mask *mask;    /* NULL: not built, `mask_error` says why */
-    const char *mask_error; /* NULL: the design was rejected, or masks were not asked for */
+    const fw_flow *flow;     /* NULL: not computed */
+    const fw_mask *mask;     /* NULL: not built, `mask_error` says why */
+    const char *mask_error;  /* NULL: the design was rejected, or masks were not asked for */
+    const fw_mask *violated; /* its findings are listed; NULL: no rule is broken */
 } fw_report_flow;
 
 typedef struct fw_report_input {

@@ -6,6 +6,7 @@
 
    cmake --build DIR --target bench_outlines && DIR/tests/bench/bench_outlines [vertices] */
 #include "geometry/segment.h"
+#include "mask/rule.h"
 #include "mask/rules.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -115,8 +116,13 @@ static void bench_rules(field *f, const fw_mask_table *table) {
         fw_mark mark = fw_arena_mark(f->arena);
         double from = now_ms();
         must(fw_mask_join(f->arena, f->shape, f->n, &diags) == FW_OK, "joints");
-        must(fw_mask_check_rules(f->arena, table, f->shape, f->n, tolerance_m, &measure, &diags) ==
-                 FW_OK,
+        fw_rules rules = {.arena = f->arena,
+                          .table = table,
+                          .shape = f->shape,
+                          .nshape = f->n,
+                          .tolerance_m = tolerance_m};
+        must(fw_rules_start(&rules, &measure) == FW_OK && fw_rules_check(&rules, false) == FW_OK &&
+                 rules.nfinding == 0,
              "rules");
         t.ms[t.n++] = now_ms() - from;
         snprintf(found, sizeof found, "least width %.4f um", 1e6 * measure.width_m);

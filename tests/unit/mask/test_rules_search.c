@@ -66,7 +66,26 @@ static scene *random_layer(uint64_t seed) {
 typedef struct answer {
     fw_rule_search in;
     fw_mask_measure measure;
+    fw_finding *found; /* (nfound) places of every kind */
+    int nfound;
 } answer;
+
+static void add_places(answer *a, fw_rule_kind kind) {
+    fw_arena *arena = a->in.arena;
+    fw_finding *list = fw_arena_array(arena, fw_finding, (size_t)a->in.nfound), *place;
+    int n = 0, count;
+    for (int i = 0; i < a->in.nfound; i++)
+        if (a->in.found[i].kind == kind) list[n++] = a->in.found[i];
+    if (kind == FW_RULE_OVERLAP) { /* where they meet: all */
+        place = list, count = n;
+    } else {
+        assert_int_equal(fw_rule_places(arena, list, n, 4 * UM, &place, &count), FW_OK);
+    }
+    a->found = fw_arena_grow(arena, a->found, (size_t)a->nfound, (size_t)(a->nfound + count),
+                             sizeof *place);
+    memcpy(a->found + a->nfound, place, (size_t)count * sizeof *place);
+    a->nfound += count;
+}
 
 static void ask(scene *s, bool everything, answer *a) {
     int n = s->layout.npiece;
@@ -75,14 +94,15 @@ static void ask(scene *s, bool everything, answer *a) {
         shape[i] = (fw_mask_shape){.piece = &s->piece[i], .contour = s->piece[i].contour};
     *a = (answer){.measure = {.width_m = HUGE_VAL, .space_m = HUGE_VAL}};
     a->in = (fw_rule_search){.arena = s->arena,
-                             .layer = &s->layer[0],
+                             .limit_m = {4 * UM, 4 * UM},
                              .shape = shape,
                              .measure = &a->measure,
                              .everything = everything};
     assert_int_equal(fw_rule_edges(&a->in, n, 5e-9), FW_OK);
     fw_rule_look(&a->in);
-    fw_rule_tidy(&a->in);
     assert_false(a->in.no_memory);
+    for (int kind = 0; kind < 3; kind++)
+        add_places(a, (fw_rule_kind)kind);
 }
 
 static double looked_at(double least) {
@@ -97,11 +117,10 @@ static void nothing_is_passed_over(void **state) {
         answer few, all;
         ask(s, false, &few);
         ask(s, true, &all);
-        if (few.in.nfound != all.in.nfound)
-            fail_msg("layer %d: %d findings, %d of all pairs", (int)seed, few.in.nfound,
-                     all.in.nfound);
-        for (int i = 0; i < few.in.nfound; i++) {
-            const fw_finding *f = &few.in.found[i], *g = &all.in.found[i];
+        if (few.nfound != all.nfound)
+            fail_msg("layer %d: %d findings, %d of all pairs", (int)seed, few.nfound, all.nfound);
+        for (int i = 0; i < few.nfound; i++) {
+            const fw_finding *f = &few.found[i], *g = &all.found[i];
             kinds[f->kind]++;
             assert_int_equal(f->kind, g->kind);
             assert_int_equal(f->shape[0], g->shape[0]);
@@ -110,7 +129,7 @@ static void nothing_is_passed_over(void **state) {
         }
         assert_near(looked_at(few.measure.width_m), looked_at(all.measure.width_m), 1e-15);
         assert_near(looked_at(few.measure.space_m), looked_at(all.measure.space_m), 1e-15);
-        clean += few.in.nfound == 0;
+        clean += few.nfound == 0;
         measured += few.measure.space_m < FW_MASK_LOOK_M;
         scene_free(s);
     }
@@ -127,7 +146,7 @@ static void every_violation_is_told(void **state) {
         scene_box(s, "bar", 20 * i, 0, 20 * i + 3.5, 50);
     answer a;
     ask(s, false, &a);
-    assert_int_equal(a.in.nfound, 200);
+    assert_int_equal(a.nfound, 200);
     assert_near(a.measure.space_m, 16.5 * UM, 1e-15);
     scene_free(s);
 }
@@ -153,15 +172,41 @@ static void a_rounded_corner_is_no_width(void **state) {
         answer few, all;
         ask(s, false, &few);
         ask(s, true, &all);
-        assert_int_equal(few.in.nfound, lean > 0);
-        assert_int_equal(all.in.nfound, lean > 0);
+        assert_int_equal(few.nfound, lean > 0 ? 2 : 0); /* the two sharp corners */
+        assert_int_equal(all.nfound, lean > 0 ? 2 : 0);
+        scene_free(s);
+    }
+}
+
+/* the parts of an arc follow each other bit for bit, and each is the arc that its sweep says */
+static void parts_are_the_arc(void **state) {
+    (void)state;
+    uint64_t seed = 3;
+    for (int i = 0; i < 200; i++) {
+        scene *s = scene_new(4 * UM, 4 * UM);
+        bend(s, &seed, (fw_vec2){1e-3 * random01(&seed), -1e-3 * random01(&seed)});
+        answer a;
+        ask(s, false, &a);
+        for (int k = 0; k < a.in.nedge; k++) {
+            fw_rule_edge *e = &a.in.edge[k];
+            assert_true(fw_rule_parts(&a.in, e));
+            assert_true(vec_same(e->part[0].a, e->s.a) &&
+                        vec_same(e->part[e->nparts - 1].b, e->s.b));
+            for (int m = 0; e->s.kind == FW_ARC && m < e->nparts; m++) {
+                const fw_segment *p = &e->part[m];
+                fw_vec2 turned = fw_vec_rotate(vec_sub(p->a, p->centre), p->sweep_rad);
+                assert_near(vec_distance(turned, vec_sub(p->b, p->centre)), 0, 1e-17);
+                assert_true(fabs(p->sweep_rad) <= FW_PI / 24 + 1e-15);
+                assert_true(m == 0 || vec_same(p->a, e->part[m - 1].b));
+            }
+        }
         scene_free(s);
     }
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_is_passed_over),
-                                       cmocka_unit_test(every_violation_is_told),
-                                       cmocka_unit_test(a_rounded_corner_is_no_width)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nothing_is_passed_over), cmocka_unit_test(every_violation_is_told),
+        cmocka_unit_test(a_rounded_corner_is_no_width), cmocka_unit_test(parts_are_the_arc)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

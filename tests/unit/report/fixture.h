@@ -524,7 +524,7 @@ static fixture *fixture_new(fw_arena *arena, double limit) {
         fixture_mechanism(arena, f, i, limit * (i ? 0.25 : 1.0));
         fixture_hinges(arena, f, i, fixture_motion(arena, i ? 0.12 : 1.0));
         fixture_process(arena, f, i);
-        f->flow[i] = (fw_report_flow){&f->variant_verdict[i], &f->process[i], NULL, NULL};
+        f->flow[i] = (fw_report_flow){.variant = &f->variant_verdict[i], .flow = &f->process[i]};
     }
     fixture_mask(arena, f);
     f->flow[0].mask = &f->mask;

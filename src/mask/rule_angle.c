@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Angle: no corner sharper than the limit, in material or in empty space.
+     - outline: where two edges of the union follow each other, across joints too, the lesser of the
+   two angles between them is pi - |turn|, from exact tangents. Error: a few 1e-16 rad.
+     - polygon: at every vertex of what is written, but for ends of joints, atan2(|cross|, dot) of
+   exact integer vectors; nothing is allowed for the grid, which can sharpen a right angle by about
+   g / edge length.
+   In: edges of a layer, polygons on the 1 nm grid. Out: one finding for each corner, rad. Cost
+   O(n log n). Test: test_rule_seeded.c. */
+#include "mask/rule.h"
+
+static const double GRID_M = 1e-9;
+static const double SAME_RAD = 1e-9; /* tangents of arcs are not better */
+
+static void found(fw_rules *rules, const fw_mask_rule *rule, fw_vec2 at, double angle_rad,
+                  const char *label, int edge) {
+    fw_rules_add(rules, (fw_mask_finding){.rule = rule,
+                                          .what = "corner",
+                                          .at = {at, at},
+                                          .box = fw_box_around(at, at),
+                                          .value = angle_rad,
+                                          .limit = rule->least,
+                                          .needed = rule->least,
+                                          .label = {label, NULL},
+                                          .edge = {edge, -1}});
+}
+
+static fw_status of_outline(fw_rules *rules, const fw_mask_rule *rule) {
+    const fw_rule_search *in = &rules->search[rule->layer];
+    fw_mark mark = fw_arena_mark(rules->arena);
+    const fw_rule_start *by = fw_rule_starts(rules->arena, in->edge, in->nedge);
+    int *next = fw_arena_array(rules->arena, int, (size_t)in->nedge);
+    FW_NEED(by);
+    FW_NEED(next);
+    for (int i = 0; i < in->nedge; i++) {
+        int k = fw_rule_first_at(by, in->nedge, in->edge[i].s.b);
+        next[i] = k < in->nedge && vec_same(by[k].at, in->edge[i].s.b) ? by[k].edge : -1;
+    }
+    for (int i = 0; i < in->nedge; i++) {
+        const fw_rule_edge *e = &in->edge[i];
+        if (next[i] < 0 || !e->corner_b) continue;
+        fw_vec2 u = fw_segment_tangent(&e->s, 1), v = fw_segment_tangent(&in->edge[next[i]].s, 0);
+        double angle = FW_PI - fabs(atan2(vec_cross(u, v), vec_dot(u, v)));
+        if (angle < rule->least - SAME_RAD)
+            found(rules, rule, e->s.b, angle, rules->shape[e->shape].piece->label, e->segment);
+    }
+    if (rules->nfinding == 0) fw_arena_rewind(rules->arena, mark);
+    return FW_OK;
+}
+
+static bool ends_joint(const fw_contour *c, fw_vec2 at) {
+    for (int i = 0; i < c->count; i++)
+        if (c->segment[i].flags & FW_SEGMENT_JOINT && (vec_distance(c->segment[i].a, at) < GRID_M ||
+                                                       vec_distance(c->segment[i].b, at) < GRID_M))
+            return true;
+    return false;
+}
+
+/* |coordinates| < 2^30: products of differences fit into 63 bits */
+static double angle_at(const fw_polygon *p, int i) {
+    fw_point v = p->vertex[i], a = p->vertex[(i + p->count - 1) % p->count];
+    fw_point b = p->vertex[(i + 1) % p->count];
+    int64_t ax = (int64_t)a.x_dbu - v.x_dbu, ay = (int64_t)a.y_dbu - v.y_dbu;
+    int64_t bx = (int64_t)b.x_dbu - v.x_dbu, by = (int64_t)b.y_dbu - v.y_dbu;
+    return atan2(fabs((double)(ax * by - ay * bx)), (double)(ax * bx + ay * by));
+}
+
+static void of_polygons(fw_rules *rules, const fw_mask_rule *rule) {
+    for (int k = 0; k < rules->nshape; k++) {
+        const fw_mask_shape *s = &rules->shape[k];
+        for (int i = 0; s->layer == rule->layer && i < s->polygon.count; i++) {
+            double angle = angle_at(&s->polygon, i);
+            if (!(angle < rule->least - 1e-12)) continue;
+            fw_point v = s->polygon.vertex[i];
+            fw_vec2 at = {v.x_dbu * GRID_M, v.y_dbu * GRID_M};
+            if (!ends_joint(&s->contour, at)) found(rules, rule, at, angle, s->piece->label, -1);
+        }
+    }
+}
+
+static fw_status check(fw_rules *rules, const fw_mask_rule *rule) {
+    if (rule->of != FW_OF_POLYGON) return of_outline(rules, rule);
+    of_polygons(rules, rule);
+    return FW_OK;
+}
+
+const fw_rule_row fw_kind_angle = {
+    .name = "angle",
+    .advice = "round the corner",
+    .number = 155,
+    .marker = 4,
+    .unit = FW_UNIT_ANGLE,
+    .takes = FW_TAKES_OF,
+    .of = FW_OF_OUTLINE | FW_OF_POLYGON,
+    .usual_of = FW_OF_OUTLINE,
+    .check = check,
+};

@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Edge: none shorter than the limit.
+     - polygon (usual): every edge that is written, joints included, length of an exact integer
+   vector.
+     - outline: every line and arc of the exact outline that is no joint, by its length.
+   Out: one finding for each edge, m. Error: 1 ulp (polygon), a few ulp of the coordinates
+   (outline). Cost O(n). Test: test_rule_seeded.c. */
+#include "mask/rule.h"
+
+static const double GRID_M = 1e-9;
+
+static void found(fw_rules *rules, const fw_mask_rule *rule, fw_vec2 from, fw_vec2 to,
+                  double length_m, const fw_mask_shape *shape, int edge) {
+    fw_rules_add(rules, (fw_mask_finding){.rule = rule,
+                                          .what = "edge",
+                                          .at = {from, to},
+                                          .box = fw_box_around(from, to),
+                                          .value = length_m,
+                                          .limit = rule->least,
+                                          .needed = rule->least,
+                                          .label = {shape->piece->label, NULL},
+                                          .edge = {edge, -1}});
+}
+
+static void of_polygon(fw_rules *rules, const fw_mask_rule *rule, const fw_mask_shape *shape) {
+    const fw_polygon *p = &shape->polygon;
+    for (int i = 0; i < p->count; i++) {
+        fw_point a = p->vertex[i], b = p->vertex[(i + 1) % p->count];
+        double length = hypot((double)b.x_dbu - a.x_dbu, (double)b.y_dbu - a.y_dbu) * GRID_M;
+        if (length < rule->least - FW_COINCIDENT_M)
+            found(rules, rule, (fw_vec2){a.x_dbu * GRID_M, a.y_dbu * GRID_M},
+                  (fw_vec2){b.x_dbu * GRID_M, b.y_dbu * GRID_M}, length, shape, -1);
+    }
+}
+
+static void of_outline(fw_rules *rules, const fw_mask_rule *rule, const fw_mask_shape *shape) {
+    for (int i = 0; i < shape->contour.count; i++) {
+        const fw_segment *s = &shape->contour.segment[i];
+        double length = fw_segment_length(s);
+        if (!(s->flags & FW_SEGMENT_JOINT) && length < rule->least - FW_COINCIDENT_M)
+            found(rules, rule, s->a, s->b, length, shape, i);
+    }
+}
+
+static fw_status check(fw_rules *rules, const fw_mask_rule *rule) {
+    for (int k = 0; k < rules->nshape; k++) {
+        if (rules->shape[k].layer != rule->layer) continue;
+        if (rule->of == FW_OF_POLYGON)
+            of_polygon(rules, rule, &rules->shape[k]);
+        else
+            of_outline(rules, rule, &rules->shape[k]);
+    }
+    return FW_OK;
+}
+
+const fw_rule_row fw_kind_edge = {
+    .name = "edge",
+    .advice = "leave the step out, or choose another tolerance",
+    .number = 155,
+    .marker = 5,
+    .unit = FW_UNIT_LENGTH,
+    .takes = FW_TAKES_OF,
+    .of = FW_OF_OUTLINE | FW_OF_POLYGON,
+    .usual_of = FW_OF_POLYGON,
+    .check = check,
+};

@@ -1,0 +1,145 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A mask that breaks design rules: no mask, but the list, KLayout's database and the marked outlines; KLayout reads both."""
+import collections
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+from common import FLOWS, GALLERY, ROOT, run
+
+RULES = """
+<rule kind="notch" layer="device" min="9 um" source="try it"/>
+<rule kind="angle" layer="device" min="91 deg" source="try it"/>
+<rule kind="edge" layer="device" of="outline" min="300 nm" source="try it" severity="warning"/>
+<rule kind="density" layer="device" max="60 %" window="600 um" source="try it" severity="warning"/>
+<rule kind="enclosure" layer="marks" inside="device" min="40 um" source="try it" severity="warning"/>
+"""
+ENDINGS = (".violations.gds", ".violations.json", ".violations.lyrdb")
+READ = """
+import json, pya
+r = pya.ReportDatabase("")
+r.load("{stem}.violations.lyrdb")
+layout = pya.Layout()
+layout.read("{stem}.violations.gds")
+top = layout.top_cell()
+shapes = {{}}
+for i in layout.layer_indexes():
+    info = layout.get_info(i)
+    boxes = [s.dbbox() for s in top.shapes(i).each() if not s.is_text()]
+    shapes["%d/%d" % (info.layer, info.datatype)] = [[b.left, b.bottom, b.right, b.top] for b in boxes]
+items = [[r.category_by_id(i.category_id()).path(), [str(v) for v in i.each_value()]] for i in r.each_item()]
+print(json.dumps({{"top": r.top_cell_name, "cell": top.name, "items": items, "shapes": shapes}}))
+"""
+
+
+class Violations(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.here = pathlib.Path(self.folder.name)
+
+    def data(self, rules):
+        data = self.here / "data"
+        for part in ("masks", "processes"):
+            shutil.copytree(ROOT / part, data / part, ignore=shutil.ignore_patterns("gallery"))
+        table = data / "masks" / f"{FLOWS[0]}.xml"
+        text = table.read_text().replace("</mask-table>", rules + "</mask-table>")
+        table.write_text(text)
+        return dict(os.environ, FLEXWRIGHT_DATA=str(data))
+
+    def files(self, out):
+        return {p.name[len(flow):] for flow in FLOWS[:1] for p in (out / "masks").iterdir() if p.name.startswith(flow)}
+
+    def test_all_are_listed_and_klayout_reads_them(self):
+        out = self.here / "out"
+        result = run("mask", GALLERY, "-o", out, env=self.data(RULES))
+        self.assertIn("breaks a design rule", result.stdout + result.stderr)
+        self.assertEqual({n for n in self.files(out) if not n.startswith("-coupons")}, set(ENDINGS))
+        self.assertTrue((out / "masks" / f"{FLOWS[1]}.gds").exists())
+        listed = json.loads((out / "masks" / f"{FLOWS[0]}.violations.json").read_text())
+        count = collections.Counter(f["rule"] for f in listed["findings"])
+        self.assertTrue(all(count[k] for k in ("notch", "angle", "density", "enclosure")), count)
+        errors = sum(f["severity"] == "error" for f in listed["findings"])
+        self.assertEqual((listed["errors"], listed["warnings"]), (errors, len(listed["findings"]) - errors))
+        self.assertEqual(errors, count["notch"] + count["angle"])
+        page = (ROOT / "docs/reference/json.md").read_text()
+        for f in listed["findings"]:
+            self.assertFalse([key for key in f if f"`{key}`" not in page])
+            self.assertEqual(f["reason"], "try it")
+            self.assertLess(min(f["value"] / f["needed"], f["needed"] / f["value"]), 1)
+        if not shutil.which("klayout"):
+            self.skipTest("klayout is not installed")
+        script = self.here / "read.py"
+        script.write_text(READ.format(stem=out / "masks" / FLOWS[0]))
+        read = subprocess.run(["klayout", "-b", "-r", script], capture_output=True, text=True, timeout=120,
+                              env=dict(os.environ, QT_QPA_PLATFORM="offscreen", LC_ALL="C"))
+        self.assertEqual(read.returncode, 0, read.stderr)
+        found = json.loads(read.stdout.splitlines()[-1])
+        self.assertEqual(found["top"], found["cell"])
+        self.assertEqual(len(found["items"]), len(listed["findings"]))
+        kinds = collections.Counter(path.strip("'").split()[0] for path, _ in found["items"])
+        self.assertEqual(kinds, count)
+        marker = listed["marker_layer"]
+        marks = [box for name, boxes in found["shapes"].items() if name.startswith(f"{marker}/") for box in boxes]
+        self.assertEqual(len(marks), len(listed["findings"]))
+        for f in listed["findings"]:
+            self.assertTrue(any(all(b[0] - 1e-3 <= x <= b[2] + 1e-3 and b[1] - 1e-3 <= y <= b[3] + 1e-3
+                                    for x, y in f["at_um"]) for b in marks), f)
+        self.assertGreater(len(found["shapes"]["1/0"]), 10)
+
+    def test_forced_masks_say_so(self):
+        out = self.here / "out"
+        run("mask", GALLERY, "-o", out, "--force", env=self.data(RULES))
+        self.assertLessEqual(set(ENDINGS) | {".gds", ".svg", ".json"}, self.files(out))
+        certificate = json.loads((out / "masks" / f"{FLOWS[0]}.json").read_text())
+        listed = json.loads((out / "masks" / f"{FLOWS[0]}.violations.json").read_text())
+        self.assertTrue(certificate["rejected"])
+        self.assertTrue(certificate["cell"].endswith("_REJECTED"))
+        self.assertEqual(certificate["findings"], listed["findings"])
+        self.assertFalse(any("above the rules" in p for p in certificate["proven"]))
+
+    def test_warnings_let_the_mask_pass(self):
+        out = self.here / "out"
+        rules = "\n".join(r for r in RULES.splitlines() if "warning" in r)
+        result = run("mask", GALLERY, "-o", out, "--json", env=self.data(rules))
+        said = json.loads(result.stdout)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(len(said["masks"]), 2)
+        self.assertEqual([v["flow"] for v in said["violations"]], [FLOWS[0]])
+        certificate = said["masks"][0]
+        self.assertFalse(certificate["rejected"])
+        self.assertEqual(certificate["findings"], said["violations"][0]["findings"])
+        self.assertEqual({f["severity"] for f in certificate["findings"]}, {"warning"})
+
+    def test_the_report_lists_them(self):
+        out = self.here / "out"
+        run("plan", GALLERY, "-o", out, env=self.data(RULES))
+        report = (out / "report.html").read_text()
+        listed = json.loads((out / "masks" / f"{FLOWS[0]}.violations.json").read_text())
+        self.assertIn("Where design rules are broken", report)
+        rows = report.split("Where design rules are broken", 1)[1].split("</table>", 1)[0].count("<tr>") - 1
+        self.assertEqual(rows, len(listed["findings"]))
+
+    def test_a_clean_mask_has_none(self):
+        out = self.here / "out"
+        result = run("mask", GALLERY, "-o", out, "--json")
+        said = json.loads(result.stdout)
+        self.assertEqual(said["violations"], [])
+        self.assertTrue(all(m["findings"] == [] for m in said["masks"]))
+        self.assertFalse([p for p in out.rglob("*violations*")])
+
+    def test_a_wrong_rule_is_told_at_its_place(self):
+        result = run("mask", GALLERY, "-o", self.here / "out",
+                     env=self.data('<rule kind="widht" layer="device" min="4 um" source="s"/>'))
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("[FW-D135]", result.stderr)
+        self.assertIn('did you mean "width"', result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
