@@ -14,12 +14,16 @@ typedef struct page {
 
 /* `letter` and the place: most of the file, hence in one piece */
 static void coordinate(const page *p, char letter, fw_vec2 at) {
-    char text[2 * FW_FIXED_BYTES + 2], *end = text;
+    fw_text *out = p->out;
+    if (out->capacity - out->length < 2 * FW_FIXED_BYTES + 3)
+        fw_text_reserve(out, 2 * FW_FIXED_BYTES + 2);
+    if (out->failed) return;
+    char *end = out->data + out->length;
     *end++ = letter;
     end = fw_fixed_text(end, (at.x - p->x0) * 1e6, 6);
     *end++ = ' ';
     end = fw_fixed_text(end, (p->y1 - at.y) * 1e6, 6);
-    fw_text_bytes(p->out, text, (size_t)(end - text));
+    out->length = (size_t)(end - out->data);
 }
 
 /* parts of at most a third of a turn: a reader finds the centre from the end points, which fails
