@@ -2,8 +2,8 @@
 /* GDSII stream, restricted to what every reader takes in silence: one cell, closed boundaries in
    one XY record, texts, all dates zero. Record = length u16, type u8, data type u8, payload,
    big-endian (Calma GDSII Stream Format Manual, release 6). */
-#include "mask/gds.h"
 #include "mask/notes.h"
+#include "mask/stream.h"
 #include <math.h>
 #include <string.h>
 
@@ -97,7 +97,7 @@ static unsigned char *put_points(unsigned char *at, const fw_point *p, size_t n)
     return at;
 }
 
-void fw_gds_boundary(const fw_mask_layer *layer, const fw_polygon *polygon, fw_text *out) {
+void fw_gds_boundary(fw_text *out, const fw_mask_layer *layer, const fw_polygon *polygon) {
     record(out, BOUNDARY, 0);
     number(out, LAYER, layer->layer);
     number(out, DATATYPE, layer->datatype);
@@ -131,19 +131,36 @@ static fw_status texts(const fw_mask *mask, fw_text *out) {
     return FW_OK;
 }
 
-void fw_gds_head(const fw_mask *mask, fw_text *out) {
+/* ---- a library of several cells ---- */
+
+void fw_gds_begin(fw_text *out, const char *library) {
     number(out, HEADER, VERSION);
     zero_dates(out, BGNLIB);
-    string(out, LIBNAME, mask->rejected ? "FLEXWRIGHT_REJECTED" : "FLEXWRIGHT");
+    string(out, LIBNAME, library);
     record(out, UNITS, 16);
     real8(out, 1e-3); /* user unit 1 um */
     real8(out, 1e-9);
-    zero_dates(out, BGNSTR);
-    string(out, STRNAME, mask->cell);
 }
 
-void fw_gds_tail(fw_text *out) {
+void fw_gds_cell_begin(fw_text *out, const char *name) {
+    zero_dates(out, BGNSTR);
+    string(out, STRNAME, name);
+}
+
+void fw_gds_shapes(fw_text *out, const fw_mask *mask) {
+    for (int i = 0; i < mask->nshape; i++) {
+        const fw_mask_shape *s = &mask->shape[i];
+        if (s->npart == 0) fw_gds_boundary(out, &mask->table->layer[s->layer], &s->polygon);
+        for (int k = 0; k < s->npart; k++)
+            fw_gds_boundary(out, &mask->table->layer[s->layer], &s->part[k]);
+    }
+}
+
+void fw_gds_cell_end(fw_text *out) {
     record(out, ENDSTR, 0);
+}
+
+void fw_gds_end(fw_text *out) {
     record(out, ENDLIB, 0);
 }
 
@@ -152,14 +169,11 @@ fw_status fw_mask_write_gds(const fw_mask *mask, fw_text *out) {
     for (int i = 0; i < mask->nshape; i++)
         total += 64 + 8 * (size_t)mask->shape[i].polygon.count;
     fw_text_reserve(out, total);
-    fw_gds_head(mask, out);
-    for (int i = 0; i < mask->nshape; i++) {
-        const fw_mask_shape *s = &mask->shape[i];
-        if (s->npart == 0) fw_gds_boundary(&mask->table->layer[s->layer], &s->polygon, out);
-        for (int k = 0; k < s->npart; k++)
-            fw_gds_boundary(&mask->table->layer[s->layer], &s->part[k], out);
-    }
+    fw_gds_begin(out, mask->rejected ? "FLEXWRIGHT_REJECTED" : "FLEXWRIGHT");
+    fw_gds_cell_begin(out, mask->cell);
+    fw_gds_shapes(out, mask);
     FW_TRY(texts(mask, out));
-    fw_gds_tail(out);
+    fw_gds_cell_end(out);
+    fw_gds_end(out);
     return fw_text_end(out);
 }

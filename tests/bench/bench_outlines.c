@@ -6,8 +6,8 @@
 
    cmake --build DIR --target bench_outlines && DIR/tests/bench/bench_outlines [vertices [FILE]] */
 #include "geometry/segment.h"
-#include "mask/gds.h"
 #include "mask/rules.h"
+#include "mask/stream.h"
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -209,7 +209,6 @@ static void bench_stream(double vertices, const fw_mask_table *table, const char
     char size[120];
     int n = (int)fmin(fmax(vertices / 390, 1), MOST);
     field f = new_field(n);
-    const fw_mask mask = {.table = table, .cell = "FIELD"};
     for (int r = 0; r < ROUNDS; r++) {
         int file = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0644), i, j;
         must(file >= 0, path);
@@ -218,7 +217,8 @@ static void bench_stream(double vertices, const fw_mask_table *table, const char
         fw_text_reserve(&out, BUFFER);
         long count = 0, bytes = 0;
         double from = now_ms();
-        fw_gds_head(&mask, &out);
+        fw_gds_begin(&out, "FLEXWRIGHT");
+        fw_gds_cell_begin(&out, "FIELD");
         for (int k = 0; k < n; k++) {
             fw_mark before = fw_arena_mark(f.arena);
             fw_contour biased;
@@ -229,11 +229,12 @@ static void bench_stream(double vertices, const fw_mask_table *table, const char
                 bytes += (long)out.length;
                 flush(&out, file);
             }
-            fw_gds_boundary(&table->layer[0], &flat, &out);
+            fw_gds_boundary(&out, &table->layer[0], &flat);
             count += flat.count;
             fw_arena_rewind(f.arena, before);
         }
-        fw_gds_tail(&out);
+        fw_gds_cell_end(&out);
+        fw_gds_end(&out);
         bytes += (long)out.length;
         flush(&out, file);
         all.ms[all.n++] = now_ms() - from;
