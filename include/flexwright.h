@@ -100,6 +100,8 @@ typedef struct fw_design_options {
                                  GDSII and KLayout's files are always written */
     int32_t mask_vertices;    /* most of one GDSII boundary: 199, 4094 (default) or 8190; larger
                                  outlines are cut at vertices */
+    const char *mask_flatten; /* "inside" (default): vertices on the arcs; "equal-area": chords
+                                 that enclose the area of the arc */
 } fw_design_options;
 
 /* Fills `size` bytes (as the caller's header defines the struct) with the defaults. NULL options:

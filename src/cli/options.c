@@ -133,6 +133,12 @@ static const char *take_mask_format(fw_cli_options *o, const char *v) {
                                     : "needs gds, svg, oasis, dxf with commas between, or all";
 }
 
+static const char *take_mask_flatten(fw_cli_options *o, const char *v) {
+    fw_flattening kind;
+    o->design.mask_flatten = v;
+    return *v && fw_mask_flattening_named(v, &kind) ? NULL : "needs inside or equal-area";
+}
+
 static const char *take_mask_vertices(fw_cli_options *o, const char *v) {
     static const char *const word[] = {"199", "4094", "8190"};
     static const int32_t most[] = {199, 4094, 8190};
@@ -295,6 +301,10 @@ static const option_row table[] = {
      FW_OPT_FABRICATE, take_force},
     {"mask-tolerance", 0, "NM", "largest distance between an arc and its polygon, in nm; default 5",
      FW_OPT_FABRICATE, take_tolerance},
+    {"mask-flatten", 0, "HOW",
+     "arcs as polygons: inside (default; vertices on the arc) or equal-area (chords that enclose "
+     "the area of the arc)",
+     FW_OPT_FABRICATE, take_mask_flatten},
     {"mask-format", 0, "LIST",
      "gds, svg, oasis, dxf with commas between, or all; default gds,svg (GDSII is always written)",
      FW_OPT_FABRICATE, take_mask_format},

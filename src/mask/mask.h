@@ -27,6 +27,13 @@ typedef struct fw_mask_table {
     const char *plate; /* the same as an expression, "1/0 NOT 2/0"; NULL: not said */
 } fw_mask_table;
 
+typedef struct fw_mask_neck { /* the narrowest place of a flexure */
+    bool there;
+    fw_vec2 at[2];      /* ends of the chord on the exact outline */
+    bool on_vertex[2];  /* a vertex is there: on arcs always, on lines where they end */
+    fw_point vertex[2]; /* it, where it is */
+} fw_mask_neck;
+
 typedef struct fw_mask_shape {
     int layer; /* index into table->layer */
     const fw_piece *piece;
@@ -36,6 +43,9 @@ typedef struct fw_mask_shape {
     int npart;                /* 0: not cut, `polygon` itself */
     fw_polygon_report report; /* of the polygon, exact integers */
     double area_m2, bound_m2; /* of the contour; what flattening may change */
+    fw_flattening flattening;
+    double edge_m; /* farthest that an edge of the polygon is from the contour, at most */
+    fw_mask_neck neck;
 } fw_mask_shape;
 
 typedef struct fw_mask_measure { /* per layer */
@@ -46,6 +56,10 @@ typedef struct fw_mask_measure { /* per layer */
                                              FW_MASK_LOOK_M; INFINITY beyond */
     fw_vec2 width_at[2], space_at[2];     /* ends of these chords */
     double shortest_edge_m, sharpest_rad; /* of the polygons; INFINITY without any */
+    double sharpest_material_rad, sharpest_space_rad; /* its two sides */
+    double edge_m; /* farthest that an edge of a polygon is from its outline, at most */
+    int straight;  /* vertices exactly between their neighbours */
+    fw_box box;    /* of the polygons, on the grid; x0 > x1 without any */
 } fw_mask_measure;
 #define FW_MASK_LOOK_M 100e-6
 
@@ -55,6 +69,7 @@ typedef struct fw_mask {
     fw_mask_shape *shape; /* (nshape) */
     int nshape;
     double bias_m, tolerance_m;
+    fw_flattening flattening;
     fw_box box;
     int vertex_limit;  /* of one GDSII boundary */
     bool rejected;     /* every file says REJECTED */
@@ -69,6 +84,7 @@ fw_status fw_mask_table_read(fw_arena *arena, const char *file, const char *xml,
 typedef struct fw_mask_options {
     double bias_m, tolerance_m; /* 0 tolerance: 5 nm */
     int vertex_limit;           /* 0: 4094; else 8 to 8190 */
+    fw_flattening flattening;
     bool rejected;
     const char *title;
     const char **note;
@@ -100,6 +116,10 @@ const fw_mask_format *fw_mask_format_at(size_t i); /* NULL behind the last row *
 /* bit i for row i. list: names with commas between, "all", or NULL for the usual ones; false: a
    name is not known */
 bool fw_mask_formats(const char *list, unsigned *set);
+
+/* "inside" (also NULL and "") or "equal-area"; false: neither */
+bool fw_mask_flattening_named(const char *name, fw_flattening *kind);
+const char *fw_mask_flattening_name(fw_flattening kind);
 
 /* certificate: counts, areas, minimum edge, angle, hash; JSON */
 fw_status fw_mask_write_certificate(const fw_mask *mask, const char *gds_sha256, fw_text *out);

@@ -97,6 +97,7 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
                                .rejected = rejected,
                                .no_islands = !insulated(pf),
                                .title = plan->device->die.title};
+    if (!fw_mask_flattening_named(plan->options.mask_flatten, &options.flattening)) return FW_USAGE;
     FW_TRY(notes_of(plan, pf, &options));
     fw_status status = fw_mask_build(plan->arena, plan->layout, pf->table, plan->device->name,
                                      &options, &plan->diags, &pf->mask);
