@@ -129,8 +129,9 @@ static const char *take_tolerance(fw_cli_options *o, const char *v) {
 static const char *take_mask_format(fw_cli_options *o, const char *v) {
     unsigned set;
     o->design.mask_formats = v;
-    return fw_mask_formats(v, &set) ? NULL
-                                    : "needs gds, svg, oasis, dxf with commas between, or all";
+    return fw_mask_formats(v, &set)
+               ? NULL
+               : "needs gds, svg, oasis, dxf, stl, obj with commas between, or all";
 }
 
 static const char *take_mask_flatten(fw_cli_options *o, const char *v) {
@@ -306,7 +307,8 @@ static const option_row table[] = {
      "the area of the arc)",
      FW_OPT_FABRICATE, take_mask_flatten},
     {"mask-format", 0, "LIST",
-     "gds, svg, oasis, dxf with commas between, or all; default gds,svg (GDSII is always written)",
+     "gds, svg, oasis, dxf, stl, obj with commas between, or all; default gds,svg (GDSII is always "
+     "written)",
      FW_OPT_FABRICATE, take_mask_format},
     {"mask-vertices", 0, "N",
      "most vertices of one GDSII boundary: 199, 4094 or 8190; default 4094; larger outlines are "

@@ -46,6 +46,13 @@ fw_status fw_tessellate(fw_arena *arena, const fw_contour *contour, double toler
 /* twice the signed area in dbu^2, exact (|coordinate| < 2^30) */
 int64_t fw_polygon_area2(const fw_polygon *polygon);
 
+typedef struct fw_polygon_triangle { /* vertex numbers, counter-clockwise */
+    int vertex[3];
+} fw_polygon_triangle;
+/* out: (count - 2) triangles that make a simple polygon, counter-clockwise, none of them flat */
+fw_status fw_polygon_triangulate(fw_arena *arena, const fw_polygon *polygon,
+                                 fw_polygon_triangle *out);
+
 /* exact integer certificate of one polygon */
 typedef struct fw_polygon_report {
     bool simple;      /* no crossing, touch, zero edge or spike */

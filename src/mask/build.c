@@ -206,6 +206,7 @@ fw_status fw_mask_build(fw_arena *arena, const fw_layout *layout, const fw_mask_
         return fw_diag_error(diags, 151, nowhere, "no layer of flow %s draws any of the %d pieces",
                              table->flow, layout->npiece);
     m->flattening = options->flattening;
+    m->thickness_m = options->thickness_m;
     fw_mask_set_flattening(m->shape, m->nshape, options->flattening);
     FW_TRY(bias_shapes(arena, table, m->shape, m->nshape, options->bias_m, diags));
     FW_TRY(fw_mask_join(arena, m->shape, m->nshape, diags));

@@ -70,6 +70,7 @@ typedef struct fw_mask {
     int nshape;
     double bias_m, tolerance_m;
     fw_flattening flattening;
+    double thickness_m; /* of the device, for solids; 0: not known */
     fw_box box;
     int vertex_limit;  /* of one GDSII boundary */
     bool rejected;     /* every file says REJECTED */
@@ -85,6 +86,7 @@ typedef struct fw_mask_options {
     double bias_m, tolerance_m; /* 0 tolerance: 5 nm */
     int vertex_limit;           /* 0: 4094; else 8 to 8190 */
     fw_flattening flattening;
+    double thickness_m; /* of the device */
     bool rejected;
     const char *title;
     const char **note;
@@ -105,6 +107,9 @@ fw_status fw_mask_write_oasis(const fw_mask *mask, fw_text *out);
 /* name of layer k in DXF; NULL: out of memory */
 const char *fw_mask_dxf_layer(fw_arena *arena, const fw_mask *mask, int k);
 fw_status fw_mask_write_dxf(const fw_mask *mask, fw_text *out);
+/* the solid of the biased layers, walls vertical; pieces are one where they share an edge */
+fw_status fw_mask_write_stl(const fw_mask *mask, fw_text *out);
+fw_status fw_mask_write_obj(const fw_mask *mask, fw_text *out);
 fw_status fw_mask_write_lyt(const fw_mask *mask, fw_text *out);
 
 typedef struct fw_mask_format { /* a row of format.c */

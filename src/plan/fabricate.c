@@ -94,6 +94,7 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     fw_mask_options options = {.bias_m = pf->flow->bias_m,
                                .tolerance_m = plan->options.mask_tolerance_m,
                                .vertex_limit = plan->options.mask_vertices,
+                               .thickness_m = pf->variant.thickness_m,
                                .rejected = rejected,
                                .no_islands = !insulated(pf),
                                .title = plan->device->die.title};
