@@ -128,6 +128,9 @@ const char *fw_mask_flattening_name(fw_flattening kind);
 
 /* certificate: counts, areas, minimum edge, angle, hash; JSON */
 fw_status fw_mask_write_certificate(const fw_mask *mask, const char *gds_sha256, fw_text *out);
+/* the same with the files that it goes with */
+fw_status fw_mask_write_certificate_of(const fw_mask *mask, const char *gds_sha256,
+                                       const fw_output_file *file, int nfile, fw_text *out);
 /* order sheet for the mask shop, as JSON and for people, with the files that go with it */
 fw_status fw_mask_write_order(const fw_mask *mask, const fw_output_file *file, int nfile,
                               fw_text *out);
