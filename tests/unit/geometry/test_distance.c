@@ -132,25 +132,35 @@ static void contains_matches_closed_forms(void **state) {
     }
 }
 
-/* a strip of one width along tangent arcs, with round ends: all of its neighbours touch */
-static fw_contour worm(fw_arena *arena, int arcs) {
-    fw_vec2 at = {uniform(-1e-3, 1e-3), uniform(-1e-3, 1e-3)}, first = at, centre[4], side, middle;
+/* a strip of one width along tangent arcs and lines, with round ends: all of its neighbours touch
+ */
+static fw_contour worm(fw_arena *arena, int parts) {
+    fw_vec2 at = {uniform(-1e-3, 1e-3), uniform(-1e-3, 1e-3)}, first = at, centre[4], left[5], side;
     double heading = uniform(0, FW_TURN), half = uniform(1e-6, 8e-6), sweep[4];
     side = (fw_vec2){sin(heading), -cos(heading)};
-    fw_outline o = fw_outline_start(arena, vec_along(at, half, side));
-    for (int k = 0; k < arcs; k++) { /* along the right side */
+    fw_vec2 start = vec_along(at, half, side);
+    fw_outline o = fw_outline_start(arena, start);
+    for (int k = 0; k < parts; k++) { /* along the right side */
+        left[k] = vec_along(at, -half, side);
         double turn = whole(0, 1) ? 1 : -1, r = half + uniform(1e-6, 4e-5);
-        sweep[k] = turn * uniform(0.2, 3.5);
+        sweep[k] = whole(0, 2) ? turn * uniform(0.2, 3.5) : 0;
+        if (sweep[k] == 0) {
+            at = vec_along(at, uniform(2e-6, 6e-5), (fw_vec2){-side.y, side.x});
+            fw_outline_line(&o, vec_along(at, half, side), 0);
+            continue;
+        }
         centre[k] = vec_along(at, -turn * r, side);
         at = vec_add(centre[k], fw_vec_rotate(vec_sub(at, centre[k]), sweep[k]));
         side = fw_vec_rotate(side, sweep[k]);
         fw_outline_arc(&o, centre[k], sweep[k], 0);
     }
     fw_outline_arc(&o, at, FW_PI, 0);
-    middle = vec_along(first, half, (fw_vec2){sin(heading), -cos(heading)});
-    for (int k = arcs - 1; k >= 0; k--)
-        fw_outline_arc(&o, centre[k], -sweep[k], 0);
-    fw_outline_arc_to(&o, first, FW_PI, middle, 0);
+    for (int k = parts - 1; k >= 0; k--)
+        if (sweep[k] == 0)
+            fw_outline_line(&o, left[k], 0);
+        else
+            fw_outline_arc(&o, centre[k], -sweep[k], 0);
+    fw_outline_arc_to(&o, first, FW_PI, start, 0);
     fw_contour c = {0};
     assert_int_equal(fw_outline_close(&o, &c), FW_OK);
     return c;
