@@ -98,16 +98,25 @@ static bool nothing_between(const search *in, int i, int j, double limit) {
            ((j + 1) % n == i && no_chord_of_touching(in, j, limit));
 }
 
-static double pair_clearance(const search *in, int i, int j, double limit) {
+/* two lines whose outward normals are not more than 90 degrees apart face each other nowhere */
+static bool lines_look_away(const fw_segment *p, const fw_segment *q) {
+    return p->kind == FW_LINE && q->kind == FW_LINE &&
+           vec_dot(vec_sub(p->b, p->a), vec_sub(q->b, q->a)) >= 0;
+}
+
+/* gap: of the two boxes */
+static double pair_clearance(const search *in, int i, int j, double limit, double gap) {
     const fw_segment *p = around(in->contour, i), *q = around(in->contour, j);
     int n = in->contour->count;
     fw_vec2 along;
     if (nothing_between(in, i, j, limit)) return HUGE_VAL;
-    double gap = fw_concentric_gap(p, q, &along);
-    if (!isinf(gap)) /* material lies between them where the larger one is convex */
-        return ((p->radius > q->radius) == (p->sweep_rad > 0)) == in->inside ? gap : HUGE_VAL;
+    double ring = fw_concentric_gap(p, q, &along);
+    if (!isinf(ring)) /* material lies between them where the larger one is convex */
+        return ((p->radius > q->radius) == (p->sweep_rad > 0)) == in->inside ? ring : HUGE_VAL;
+    bool apart = gap > 10 * FW_COINCIDENT_M; /* then they do not touch either */
+    if (apart && lines_look_away(p, q)) return HUGE_VAL;
     fw_hit hit[FW_MOST_HITS];
-    int hits = fw_segment_intersect(p, q, hit);
+    int hits = apart ? 0 : fw_segment_intersect(p, q, hit);
     for (int k = 0; k < hits;
          k++) { /* touching or crossing anywhere else than at a shared corner */
         fw_chord met = {hit[k].tp, hit[k].tq, hit[k].at, hit[k].at};
@@ -150,10 +159,10 @@ double fw_contour_clearance_below(const fw_contour *contour, bool inside, double
             for (int q = p + 1; q < contour->count; q++) {
                 const fw_segment *other = &contour->segment[q];
                 bool beside = q == p + 1 || (p == 0 && q == contour->count - 1);
-                if (beside != (round == 1) || other->flags & FW_SEGMENT_JOINT ||
-                    fw_box_gap(own, q < boxed ? box[q] : fw_segment_box(other)) >= least)
-                    continue;
-                double here = pair_clearance(&in, p, q, least);
+                if (beside != (round == 1) || other->flags & FW_SEGMENT_JOINT) continue;
+                double gap = fw_box_gap(own, q < boxed ? box[q] : fw_segment_box(other));
+                if (gap >= least) continue;
+                double here = pair_clearance(&in, p, q, least, gap);
                 if (here < least) {
                     least = here;
                     best_i = p;
