@@ -4,8 +4,8 @@
 
 enum {
     MOST_CHORDS = 1 << 22,
-    LANES = 8,  /* points that are turned side by side: no one waits for another */
-    ANEW = 128, /* blocks of LANES until sine and cosine are taken anew */
+    LANES = 8, /* points that are turned side by side: no one waits for another */
+    ANEW = 64, /* blocks of LANES until sine and cosine are taken anew */
 };
 
 /* the arc as both of its neighbours see it: from the lexicographically smaller end, radius and
