@@ -94,6 +94,7 @@ fw_chords fw_flatten_plan(const fw_segment *arc, double tolerance_m, fw_flatteni
 /* two side by side: what every machine of 64 bits can do at once */
 typedef double pair __attribute__((vector_size(16)));
 typedef int64_t whole_pair __attribute__((vector_size(16)));
+typedef uint64_t bit_pair __attribute__((vector_size(16)));
 enum { PAIRS = LANES / 2 };
 
 /* Nearest whole numbers in the lower half of each lane, halves upwards. In: |x| < 2^31. Adding
@@ -108,8 +109,8 @@ static inline whole_pair nearest(pair x) {
 /* two points from the lower halves, to at[0] and at[way] */
 static inline void store(fw_point *at, int way, whole_pair x, whole_pair y) {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-    whole_pair both = (x & 0xffffffff) | (y << 32);
-    int64_t first = both[0], second = both[1];
+    bit_pair both = ((bit_pair)x & 0xffffffffu) | ((bit_pair)y << 32);
+    uint64_t first = both[0], second = both[1];
     memcpy(at, &first, sizeof first);
     memcpy(at + way, &second, sizeof second);
 #else
