@@ -134,6 +134,44 @@ static int places_of(uint64_t n) {
     return places + (n >= 10) + (n >= 100);
 }
 
+/* The eight digits of n < 10^8 as values 0 .. 9, the first one in the lowest byte: halves, then
+   quarters, then single digits, all at once. 10486 / 2^20 is 1/100 for what is below 10^4, 103 /
+   2^10 is 1/10 below 100, each rounded up by so little that the whole part is right. */
+static inline uint64_t eight_digits(uint64_t n) {
+    uint64_t v = n / 10000;
+    v |= (n - 10000 * v) << 32;
+    uint64_t hundreds = (v * 10486 >> 20) & 0x0000007f0000007full;
+    v = hundreds | (v - 100 * hundreds) << 16;
+    uint64_t tens = (v * 103 >> 10) & 0x000f000f000f000full;
+    return tens | (v - 10 * tens) << 8;
+}
+
+/* eight bytes, the lowest first; the caller's buffer has room for them all */
+static inline void put_eight(char *at, uint64_t digit_values) {
+    uint64_t v = digit_values | 0x3030303030303030ull;
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+    v = __builtin_bswap64(v);
+#endif
+    memcpy(at, &v, sizeof v);
+}
+
+/* n millionths, without zeros at the ends: millions of coordinates are written so. n < 10^14 */
+static inline char *millionths(char *at, uint64_t n) {
+    uint64_t whole = n / 1000000, rest = n - 1000000 * whole;
+    uint64_t v = eight_digits(whole);
+    unsigned skip = whole ? (unsigned)__builtin_ctzll(v) / 8 : 7;
+    put_eight(at, v >> 8 * skip);
+    at += 8 - skip;
+    if (rest) {
+        uint64_t part = eight_digits(100 * rest);
+        *at = '.';
+        put_eight(at + 1, part);
+        at += 1 + 8 - (unsigned)__builtin_clzll(part) / 8;
+    }
+    *at = '\0';
+    return at;
+}
+
 /* value 10^d as an integer, rounded as printf does, a hundred times faster. In: any value and
    number of decimals d. Below 2^40 the product's own error is less than 2^-13, so the nearest
    integer is known unless the product lies within 2^-12 of halfway: that, and all that is larger,
@@ -148,9 +186,8 @@ char *fw_fixed_text(char *buffer, double value, int decimals) {
     n += rest > 0.5;
     char *at = buffer;
     if (value < 0 && n > 0) *at++ = '-';
-    uint64_t one = (uint64_t)ten[decimals];
-    uint64_t whole =
-        decimals == 6 ? n / 1000000 : n / one; /* six: a product instead of a division */
+    if (decimals == 6) return millionths(at, n); /* below 2^40 + 1 */
+    uint64_t one = (uint64_t)ten[decimals], whole = n / one;
     int places = places_of(whole);
     digits(at += places, whole, places);
     if (n != whole * one) {

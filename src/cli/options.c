@@ -131,7 +131,13 @@ static const char *take_mask_format(fw_cli_options *o, const char *v) {
     o->design.mask_formats = v;
     return fw_mask_formats(v, &set)
                ? NULL
-               : "needs gds, svg, outlines, oasis, dxf with commas between, or all";
+               : "needs gds, svg, outlines, oasis, dxf, stl, obj with commas between, or all";
+}
+
+static const char *take_mask_flatten(fw_cli_options *o, const char *v) {
+    fw_flattening kind;
+    o->design.mask_flatten = v;
+    return *v && fw_mask_flattening_named(v, &kind) ? NULL : "needs inside or equal-area";
 }
 
 static const char *take_mask_vertices(fw_cli_options *o, const char *v) {
@@ -313,9 +319,13 @@ static const option_row table[] = {
      FW_OPT_FABRICATE, take_force},
     {"mask-tolerance", 0, "NM", "largest distance between an arc and its polygon, in nm; default 5",
      FW_OPT_FABRICATE, take_tolerance},
+    {"mask-flatten", 0, "HOW",
+     "arcs as polygons: inside (default; vertices on the arc) or equal-area (chords that enclose "
+     "the area of the arc)",
+     FW_OPT_FABRICATE, take_mask_flatten},
     {"mask-format", 0, "LIST",
-     "gds, svg, outlines, oasis, dxf with commas between, or all; default gds,svg,outlines (GDSII "
-     "is always written)",
+     "gds, svg, outlines, oasis, dxf, stl, obj with commas between, or all; default "
+     "gds,svg,outlines (GDSII is always written)",
      FW_OPT_FABRICATE, take_mask_format},
     {"mask-vertices", 0, "N",
      "most vertices of one GDSII boundary: 199, 4094 or 8190; default 4094; larger outlines are "

@@ -2,6 +2,8 @@
 /* Width and space of one outline: the shortest chord between two edges that face each other. */
 #include "geometry/segment.h"
 
+enum { FEW = 64 };
+
 typedef struct search {
     const fw_contour *contour;
     bool inside;
@@ -49,15 +51,72 @@ static bool at_shared_corner(const fw_contour *contour, int i, int j, const fw_c
     return after || before;
 }
 
-static double pair_clearance(const search *in, int i, int j) {
+static bool no_chord_of_line(const search *in, int i, double limit) {
+    const fw_segment *p = around(in->contour, i), *q = around(in->contour, i + 1);
+    fw_vec2 v = p->b;
+    if (p->kind == FW_LINE && q->kind == FW_LINE)
+        return vec_dot(vec_sub(v, p->a), vec_sub(q->b, v)) > 0;
+    const fw_segment *line = p->kind == FW_LINE ? p : q, *arc = line == p ? q : p;
+    double off = vec_cross(fw_segment_tangent(line, 0), vec_sub(arc->centre, v));
+    if (fabs(fabs(off) - arc->radius) > FW_COINCIDENT_M || off * arc->sweep_rad < 0)
+        return false; /* a corner, or the arc runs back along the line */
+    if ((arc->sweep_rad > 0) != in->inside) return true;
+    return 2 * arc->radius > limit * (1 + 1e-5) && runs_on(in->contour, i, false) &&
+           runs_on(in->contour, i + 1, true);
+}
+
+/* Neighbouring edges whose carriers touch where the edges join, and nowhere else: most pairs of a
+   drawing. Can no chord below the limit count? Said of a space; a width is one of the outline run
+   backwards.
+   1. The smaller circle lies in the other one, which is convex: a chord that leaves the larger disc
+   outwards does not come back to it.
+   2. The circles lie beside each other, and the outline runs on smoothly at the far ends too: then
+   a chord counts only square on both, hence on the line of the centres; outwards from the convex
+   arc and out of the hollow one's disc it is the diameter of that disc.
+   3. A line is such a circle: a convex arc lies wholly on its other side, a hollow one is met as in
+   2. Two lines that turn by less than 90 degrees do not face each other.
+   In: edges i and i + 1. false says nothing. Test: test_distance.c, against all chords. */
+static bool no_chord_of_touching(const search *in, int i, double limit) {
+    const fw_segment *p = around(in->contour, i), *q = around(in->contour, i + 1);
+    if (in->contour->count < 3) return false;
+    if (p->kind == FW_LINE || q->kind == FW_LINE) return no_chord_of_line(in, i, limit);
+    double apart = vec_distance(p->centre, q->centre), turn = in->inside ? -1 : 1;
+    const fw_segment *large = p->radius > q->radius ? p : q, *small = large == p ? q : p;
+    bool same_turn = p->sweep_rad * q->sweep_rad > 0;
+    if (same_turn)
+        return turn * p->sweep_rad > 0 && small->radius < 0.99 * large->radius &&
+               fabs(apart - (large->radius - small->radius)) <= FW_COINCIDENT_M;
+    const fw_segment *hollow = turn * p->sweep_rad < 0 ? p : q;
+    return fabs(apart - (large->radius + small->radius)) <= FW_COINCIDENT_M &&
+           2 * hollow->radius > limit * (1 + 1e-5) && runs_on(in->contour, i, false) &&
+           runs_on(in->contour, i + 1, true);
+}
+
+static bool nothing_between(const search *in, int i, int j, double limit) {
+    int n = in->contour->count;
+    return ((i + 1) % n == j && no_chord_of_touching(in, i, limit)) ||
+           ((j + 1) % n == i && no_chord_of_touching(in, j, limit));
+}
+
+/* two lines whose outward normals are not more than 90 degrees apart face each other nowhere */
+static bool lines_look_away(const fw_segment *p, const fw_segment *q) {
+    return p->kind == FW_LINE && q->kind == FW_LINE &&
+           vec_dot(vec_sub(p->b, p->a), vec_sub(q->b, q->a)) >= 0;
+}
+
+/* gap: of the two boxes */
+static double pair_clearance(const search *in, int i, int j, double limit, double gap) {
     const fw_segment *p = around(in->contour, i), *q = around(in->contour, j);
     int n = in->contour->count;
     fw_vec2 along;
-    double gap = fw_concentric_gap(p, q, &along);
-    if (!isinf(gap)) /* material lies between them where the larger one is convex */
-        return ((p->radius > q->radius) == (p->sweep_rad > 0)) == in->inside ? gap : HUGE_VAL;
+    if (nothing_between(in, i, j, limit)) return HUGE_VAL;
+    double ring = fw_concentric_gap(p, q, &along);
+    if (!isinf(ring)) /* material lies between them where the larger one is convex */
+        return ((p->radius > q->radius) == (p->sweep_rad > 0)) == in->inside ? ring : HUGE_VAL;
+    bool apart = gap > 10 * FW_COINCIDENT_M; /* then they do not touch either */
+    if (apart && lines_look_away(p, q)) return HUGE_VAL;
     fw_hit hit[FW_MOST_HITS];
-    int hits = fw_segment_intersect(p, q, hit);
+    int hits = apart ? 0 : fw_segment_intersect(p, q, hit);
     for (int k = 0; k < hits;
          k++) { /* touching or crossing anywhere else than at a shared corner */
         fw_chord met = {hit[k].tp, hit[k].tq, hit[k].at, hit[k].at};
@@ -84,27 +143,33 @@ double fw_contour_clearance_below(const fw_contour *contour, bool inside, double
                                   int *j) {
     search in = {contour, inside};
     double least = limit_m;
-    int best_i = -1, best_j = -1;
-    for (int p = 0; p < contour->count; p++) {
-        const fw_segment *s = &contour->segment[p];
-        if (s->flags & FW_SEGMENT_JOINT) continue;
-        if (own_clearance(s, inside) < least) {
-            least = own_clearance(s, inside);
-            best_i = best_j = p;
-        }
-        fw_box box = fw_segment_box(s);
-        for (int q = p + 1; q < contour->count; q++) {
-            const fw_segment *other = &contour->segment[q];
-            if (other->flags & FW_SEGMENT_JOINT || fw_box_gap(box, fw_segment_box(other)) >= least)
-                continue;
-            double here = pair_clearance(&in, p, q);
-            if (here < least) {
-                least = here;
-                best_i = p;
-                best_j = q;
+    int best_i = -1, best_j = -1, boxed = contour->count < FEW ? contour->count : FEW;
+    fw_box box[FEW]; /* of the first segments, each asked for many times */
+    for (int k = 0; k < boxed; k++)
+        box[k] = fw_segment_box(&contour->segment[k]);
+    for (int round = 0; round < 2; round++) /* neighbours last: the limit may then spare them */
+        for (int p = 0; p < contour->count; p++) {
+            const fw_segment *s = &contour->segment[p];
+            if (s->flags & FW_SEGMENT_JOINT) continue;
+            if (round == 0 && own_clearance(s, inside) < least) {
+                least = own_clearance(s, inside);
+                best_i = best_j = p;
+            }
+            fw_box own = p < boxed ? box[p] : fw_segment_box(s);
+            for (int q = p + 1; q < contour->count; q++) {
+                const fw_segment *other = &contour->segment[q];
+                bool beside = q == p + 1 || (p == 0 && q == contour->count - 1);
+                if (beside != (round == 1) || other->flags & FW_SEGMENT_JOINT) continue;
+                double gap = fw_box_gap(own, q < boxed ? box[q] : fw_segment_box(other));
+                if (gap >= least) continue;
+                double here = pair_clearance(&in, p, q, least, gap);
+                if (here < least) {
+                    least = here;
+                    best_i = p;
+                    best_j = q;
+                }
             }
         }
-    }
     if (i) *i = best_i;
     if (j) *j = best_j;
     return least;

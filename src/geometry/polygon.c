@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Exact certificate of a polygon on the grid, in 64-bit integers: with |coordinate| < 2^30 every
    difference is below 2^31 and every cross product below 2^63. */
+#include "geometry/polygon.h"
 #include "geometry/segment.h"
-#include "geometry/tessellate.h"
 #include <stdlib.h>
 
 typedef struct sweep {
@@ -13,11 +13,6 @@ typedef struct sweep {
 
 static fw_point vertex(const fw_polygon *p, int i) {
     return p->vertex[i < p->count ? i : 0];
-}
-
-static int64_t cross(fw_point a, fw_point b, fw_point c) {
-    return ((int64_t)b.x_dbu - a.x_dbu) * ((int64_t)c.y_dbu - a.y_dbu) -
-           ((int64_t)b.y_dbu - a.y_dbu) * ((int64_t)c.x_dbu - a.x_dbu);
 }
 
 static int sign(int64_t value) {
@@ -44,11 +39,11 @@ static int above(const fw_polygon *p, int e, int f) {
     ends(p, e, &el, &eh);
     ends(p, f, &fl, &fh);
     if (compare_points(el, fl) >= 0) {
-        int side = sign(cross(fl, fh, el));
-        return side ? side : sign(cross(fl, fh, eh));
+        int side = sign(fw_cross(fl, fh, el));
+        return side ? side : sign(fw_cross(fl, fh, eh));
     }
-    int side = sign(cross(el, eh, fl));
-    return side ? -side : -sign(cross(el, eh, fh));
+    int side = sign(fw_cross(el, eh, fl));
+    return side ? -side : -sign(fw_cross(el, eh, fh));
 }
 
 /* c lies on the line through a <= b: between them? */
@@ -61,8 +56,8 @@ static bool meet(const fw_polygon *p, int e, int f) {
     fw_point a, b, c, d;
     ends(p, e, &a, &b);
     ends(p, f, &c, &d);
-    int c_side = sign(cross(a, b, c)), d_side = sign(cross(a, b, d));
-    int a_side = sign(cross(c, d, a)), b_side = sign(cross(c, d, b));
+    int c_side = sign(fw_cross(a, b, c)), d_side = sign(fw_cross(a, b, d));
+    int a_side = sign(fw_cross(c, d, a)), b_side = sign(fw_cross(c, d, b));
     if (c_side * d_side < 0 && a_side * b_side < 0) return true;
     return (c_side == 0 && within(a, b, c)) || (d_side == 0 && within(a, b, d)) ||
            (a_side == 0 && within(c, d, a)) || (b_side == 0 && within(c, d, b));
@@ -166,8 +161,8 @@ static bool neighbours(int n, int e, int f) {
 
 static bool clash(const fw_polygon *p, int e, int f, fw_polygon_report *report) {
     if (e < 0 || f < 0 || neighbours(p->count, e, f) || !meet(p, e, f)) return false;
-    *report = (fw_polygon_report){false, e < f ? e : f, e < f ? f : e, report->shortest_edge_m,
-                                  report->sharpest_rad};
+    report->bad_i = e < f ? e : f;
+    report->bad_j = e < f ? f : e;
     return true;
 }
 
@@ -190,28 +185,49 @@ static bool sweep_edges(sweep *s, const event *events, fw_polygon_report *report
     return true;
 }
 
-/* lengths, corners, spikes; false at the first spike or zero edge */
-static bool measure(const fw_polygon *p, fw_polygon_report *report) {
-    bool good = true;
-    int n = p->count;
-    report->shortest_edge_m = HUGE_VAL;
-    report->sharpest_rad = FW_PI;
-    for (int i = 0; i < n; i++) {
-        fw_point a = vertex(p, i), b = vertex(p, i + 1),
-                 c = vertex(p, i + 2 < n ? i + 2 : i + 2 - n);
-        int64_t ux = (int64_t)a.x_dbu - b.x_dbu, uy = (int64_t)a.y_dbu - b.y_dbu;
-        int64_t vx = (int64_t)c.x_dbu - b.x_dbu, vy = (int64_t)c.y_dbu - b.y_dbu;
-        int64_t area = ux * vy - uy * vx, dot = ux * vx + uy * vy;
-        double length = sqrt((double)ux * (double)ux + (double)uy * (double)uy) * 1e-9;
-        report->shortest_edge_m = fmin(report->shortest_edge_m, length);
-        report->sharpest_rad = fmin(report->sharpest_rad, atan2(fabs((double)area), (double)dot));
-        if (good && area == 0 && dot >= 0) {
-            good = false;
-            report->bad_i = i;
-            report->bad_j = (i + 1) % n;
-        }
+/* the smaller of two angles between 0 and pi, each as (|sine|, cosine) times the same lengths */
+static void sharper(double sine, double cosine, double least[2]) {
+    if (cosine * least[0] > sine * least[1]) {
+        least[0] = sine;
+        least[1] = cosine;
     }
-    return good;
+}
+
+/* Lengths and corners, in one pass without roots or angles: the least square, and the sharpest
+   corner as a pair (u x v, u . v), compared crosswise.
+   In: vertices (dbu), exact products. Out: shortest edge (m), sharpest corners (rad) towards
+   material and space, numbers of zero edges, spikes and straight vertices. Error: one rounding of
+   each. Cost O(n). Test: test_polygon.c. */
+static bool measure(const fw_polygon *p, fw_polygon_report *report) {
+    int n = p->count;
+    int64_t least2 = INT64_MAX;
+    double corner[2][2] = {{0, -1}, {0, -1}}; /* in material, in space: a straight way so far */
+    fw_point a = vertex(p, n - 1), b = vertex(p, 0);
+    int64_t ux = (int64_t)a.x_dbu - b.x_dbu, uy = (int64_t)a.y_dbu - b.y_dbu;
+    for (int i = 0; i < n; i++) {
+        fw_point c = vertex(p, i + 1);
+        int64_t vx = (int64_t)c.x_dbu - b.x_dbu, vy = (int64_t)c.y_dbu - b.y_dbu;
+        int64_t turn = ux * vy - uy * vx, dot = ux * vx + uy * vy, length2 = vx * vx + vy * vy;
+        least2 = length2 < least2 ? length2 : least2;
+        if (turn == 0) {
+            bool spike = dot >= 0;
+            report->zero_edges += length2 == 0;
+            report->spikes += dot > 0;
+            report->straight += dot < 0;
+            if (spike && report->bad_i < 0) {
+                report->bad_i = (i + n - 1) % n;
+                report->bad_j = i;
+            }
+        }
+        /* counter-clockwise, an edge that turns left leaves material in the corner */
+        sharper(fabs((double)turn), (double)dot, corner[turn > 0]);
+        ux = -vx, uy = -vy, b = c;
+    }
+    report->shortest_edge_m = sqrt((double)least2) * 1e-9;
+    report->sharpest_space_rad = atan2(corner[1][0], corner[1][1]);
+    report->sharpest_material_rad = atan2(corner[0][0], corner[0][1]);
+    report->sharpest_rad = fmin(report->sharpest_material_rad, report->sharpest_space_rad);
+    return report->bad_i < 0;
 }
 
 static void fill_events(const fw_polygon *p, event *events) {
@@ -248,6 +264,8 @@ fw_status fw_polygon_check(fw_arena *arena, const fw_polygon *polygon, fw_polygo
         if (x <= -most || x >= most || y <= -most || y >= most) return FW_LIMIT;
     }
     if (!measure(polygon, report)) return FW_OK;
+    FW_TRY(fw_polygon_prove(arena, polygon, &report->simple));
+    if (report->simple) return FW_OK;
     fw_mark mark = fw_arena_mark(arena);
     event *events = fw_arena_array(arena, event, 2 * (size_t)n);
     sweep s = {polygon, fw_arena_array(arena, int, (size_t)n),

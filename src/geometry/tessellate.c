@@ -1,114 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "geometry/tessellate.h"
-#include "geometry/segment.h"
+#include "geometry/flatten.h"
 #include <string.h>
 
-#define GRID_PER_M      1e9     /* 1 dbu = 1 nm */
 #define LEAST_SAGITTA_M 1.42e-9 /* below it rounding can turn an arc's corners the wrong way */
-
-enum { MOST_CHORDS = 1 << 22 };
-
-/* Chords of an arc: a chord of angle h has the sagitta R (1 - cos(h/2)); with h = 4 asin(sqrt(eps /
-   2R)) = 2 acos(1 - eps/R), without its cancellation, n = ceil(|sweep| / h).
-   In: radius, sweep (rad), eps (m). Out: n >= 1; an arc of any size keeps chords of at most 120
-   degrees. Source: docs/theory/contours.md. Test: test_tessellate.c. */
-static int chord_count(double radius, double sweep_rad, double eps) {
-    double step = eps < 0.5 * radius ? 4 * asin(sqrt(0.5 * eps / radius)) : FW_TURN / 3;
-    double n = ceil(fabs(sweep_rad) / step);
-    return n < 1 ? 1 : n > MOST_CHORDS ? MOST_CHORDS : (int)n;
-}
-
-/* the arc as both of its neighbours see it: from the lexicographically smaller end, radius and
-   sweep recomputed from the shared points alone */
-static fw_segment canonical(const fw_segment *s, bool *reversed) {
-    *reversed = vec_before(s->b, s->a) || (vec_same(s->a, s->b) && s->sweep_rad < 0);
-    fw_segment c = *reversed ? fw_segment_reverse(s) : *s;
-    c.radius = vec_distance(c.a, c.centre);
-    c.sweep_rad = vec_same(c.a, c.b)
-                      ? FW_TURN
-                      : fw_angle_near(fw_vec_angle(vec_sub(c.a, c.centre), vec_sub(c.b, c.centre)),
-                                      c.sweep_rad);
-    return c;
-}
+enum { FEW_SEGMENTS = 16 };     /* planned on the stack */
+static const double FARTHEST_DBU = 1073741823.0;
 
 typedef struct builder {
     fw_point *vertex;
-    unsigned char *fixed; /* an end of a joint: kept even when it lies on a straight line */
     int count;
-    bool outside; /* a coordinate beyond 2^30 */
+    bool fixed;       /* the last vertex: an end of a joint, kept even on a straight line */
+    bool first_fixed; /* so is the first one */
 } builder;
-
-/* floor(x + 1/2) for |x| < 2^30, without a call */
-static int32_t rounded(double x) {
-    int32_t n = (int32_t)(x + 0.5);
-    return n - (n > x + 0.5);
-}
-
-static fw_point on_grid(builder *b, fw_vec2 p) {
-    double x = p.x * GRID_PER_M, y = p.y * GRID_PER_M;
-    if (fabs(x) < 1073741823.0 && fabs(y) < 1073741823.0) return (fw_point){rounded(x), rounded(y)};
-    b->outside = true;
-    return (fw_point){0, 0};
-}
-
-static void add(builder *b, fw_vec2 p, bool fixed) {
-    b->fixed[b->count] = fixed;
-    b->vertex[b->count++] = on_grid(b, p);
-}
-
-/* n points from an arm's end, each the one before turned by h, and anew from the end every 64, so
-   that rounding adds up to less than 1e-13 R; into at[0], at[way], at[2 way].. */
-static void turn_about(builder *b, fw_vec2 centre, fw_vec2 end, double h, int n, fw_point *at,
-                       int way) {
-    enum { ANEW = 64 };
-    const fw_vec2 step = {cos(h), sin(h)};
-    fw_vec2 arm = end;
-    for (int k = 1; k <= n; k++, at += way) {
-        if (k % ANEW == 0)
-            arm = fw_vec_rotate(end, k * h);
-        else
-            arm = (fw_vec2){step.x * arm.x - step.y * arm.y, step.y * arm.x + step.x * arm.y};
-        *at = on_grid(b, vec_add(centre, arm));
-    }
-}
-
-/* vertices k/n of the arc, k = 1..n-1, from both ends to its middle: always as `canonical` has it,
-   so that both neighbours of an arc find the same */
-static void add_arc(builder *b, const fw_segment *s, double eps) {
-    bool reversed;
-    fw_segment c = canonical(s, &reversed);
-    int n = chord_count(c.radius, c.sweep_rad, eps), half = n / 2;
-    double h = c.sweep_rad / n;
-    fw_point *first = b->vertex + b->count, *last = first + n - 2;
-    turn_about(b, c.centre, vec_sub(c.a, c.centre), h, half < n ? half : n - 1, first, 1);
-    turn_about(b, c.centre, vec_sub(c.b, c.centre), -h, n - 1 - half, last, -1);
-    memset(b->fixed + b->count, 0, (size_t)(n - 1));
-    b->count += n - 1;
-    for (; reversed && first < last; first++, last--) {
-        fw_point swap = *first;
-        *first = *last;
-        *last = swap;
-    }
-}
 
 static bool same_point(fw_point p, fw_point q) {
     return p.x_dbu == q.x_dbu && p.y_dbu == q.y_dbu;
-}
-
-/* takes out vertices that repeat */
-static void once_each(builder *b) {
-    int kept = 0;
-    for (int i = 0; i < b->count; i++) {
-        if (kept > 0 && same_point(b->vertex[kept - 1], b->vertex[i])) {
-            b->fixed[kept - 1] |= b->fixed[i];
-            continue;
-        }
-        b->fixed[kept] = b->fixed[i];
-        b->vertex[kept++] = b->vertex[i];
-    }
-    while (kept > 1 && same_point(b->vertex[0], b->vertex[kept - 1]))
-        b->fixed[0] |= b->fixed[--kept];
-    b->count = kept;
 }
 
 /* is q on the straight way from p to r, exactly? */
@@ -118,59 +25,130 @@ static bool on_the_way(fw_point p, fw_point q, fw_point r) {
     return ax * by - ay * bx == 0 && ax * bx + ay * by > 0;
 }
 
-/* takes out vertices that repeat or lie exactly between their neighbours */
-static void tidy(builder *b) {
-    once_each(b);
-    int n = b->count, kept = 0;
-    if (n < 4) return;
-    fw_point first = b->vertex[0];
-    for (int i = 0; i < n; i++) {
-        fw_point before = kept > 0 ? b->vertex[kept - 1] : b->vertex[n - 1];
-        fw_point after = i + 1 < n ? b->vertex[i + 1] : first;
-        if (!b->fixed[i] && on_the_way(before, b->vertex[i], after)) continue;
-        if (kept == 0) first = b->vertex[i];
-        b->fixed[kept] = b->fixed[i];
-        b->vertex[kept++] = b->vertex[i];
+/* the next vertex: none that repeats the last one, and the last one goes where it lies exactly on
+   the way to this one, unless it ends a joint */
+static void add(builder *b, fw_point p, bool fixed) {
+    if (b->count > 0 && same_point(b->vertex[b->count - 1], p)) {
+        b->fixed |= fixed;
+    } else {
+        if (b->count > 1 && !b->fixed &&
+            on_the_way(b->vertex[b->count - 2], b->vertex[b->count - 1], p))
+            b->count--;
+        b->vertex[b->count++] = p;
+        b->fixed = fixed;
     }
-    b->count = kept;
+    if (b->count == 1) b->first_fixed |= b->fixed;
 }
 
-static int most_vertices(const fw_contour *contour, double eps) {
-    double total = 0;
+/* Inner vertices of an arc. Of a clean one (flatten.h) only the first can make its start needless
+   or repeat it; then, and where rounding can do more, one by one. */
+static void add_arc(builder *b, const fw_chords *c) {
+    if (c->n < 2) return;
+    fw_point *first = b->vertex + b->count, start = first[-1];
+    fw_flatten_points(c, first);
+    bool goes = b->count > 1 && !b->fixed && on_the_way(first[-2], start, first[0]);
+    if (c->clean && !goes && !same_point(start, first[0])) {
+        b->count += c->n - 1;
+        b->fixed = false;
+        return;
+    }
+    for (int i = 0; i < c->n - 1; i++)
+        add(b, first[i], false);
+}
+
+/* where the last vertex meets the first */
+static fw_point *closed(builder *b) {
+    fw_point *v = b->vertex;
+    while (b->count > 1 && same_point(v[0], v[b->count - 1])) {
+        b->first_fixed |= b->fixed;
+        b->count--;
+        b->fixed = true; /* whether it is, was not kept: it may stay */
+    }
+    if (b->count > 3 && !b->fixed && on_the_way(v[b->count - 2], v[b->count - 1], v[0])) b->count--;
+    if (b->count > 3 && !b->first_fixed && on_the_way(v[b->count - 1], v[0], v[1])) {
+        b->count--;
+        v++;
+    }
+    return v;
+}
+
+/* all of the outline within the grid's range, with room for vertices outside of arcs */
+static bool in_range(const fw_box *box, double tolerance_m) {
+    double most = fmax(fmax(fabs(box->x0), fabs(box->x1)), fmax(fabs(box->y0), fabs(box->y1)));
+    return (most + tolerance_m) * FW_GRID_PER_M < FARTHEST_DBU;
+}
+
+/* Room for all vertices, and what of the bounds does not depend on rounding: *length_m of the
+   polygon, chords instead of arcs. */
+static void plan_arcs(const fw_contour *contour, double tolerance_m, fw_flattening kind,
+                      fw_chords *chords, double *most, double *length_m, fw_flat_bounds *bounds) {
+    *most = *length_m = 0;
+    *bounds = (fw_flat_bounds){0, 0};
     for (int i = 0; i < contour->count; i++) {
         const fw_segment *s = &contour->segment[i];
-        bool reversed;
-        fw_segment c = *s;
-        if (s->kind == FW_ARC) c = canonical(s, &reversed);
-        total += s->kind == FW_ARC ? chord_count(c.radius, c.sweep_rad, eps) : 1;
+        if (s->kind == FW_LINE) {
+            *most += 1;
+            *length_m += vec_distance(s->a, s->b);
+            continue;
+        }
+        chords[i] = fw_flatten_plan(s, tolerance_m, kind);
+        *most += chords[i].n;
+        *length_m += chords[i].length_m;
+        bounds->area_m2 += chords[i].area_m2;
+        bounds->edge_m = fmax(bounds->edge_m, chords[i].edge_m);
     }
-    return total < 1e9 ? (int)total : -1;
+}
+
+/* Rounding moves each vertex by at most e = g/sqrt 2. With moves m_i the area changes by
+   sum m_i x (p_(i+1) - p_(i-1)) / 2 + sum m_i x m_(i+1) / 2 <= e (length) + n e^2 / 2; to which the
+   error of the doubles is added, some 1e-12 of the numbers that are summed. Test:
+   test_tessellate.c. */
+static void bound_rounding(double length_m, int n, const fw_box *box, fw_flat_bounds *bounds) {
+    double size = (box->x1 - box->x0) * (box->y1 - box->y0);
+    bounds->area_m2 = bounds->area_m2 * (1 + 1e-9) + FW_SNAP_M * length_m * (1 + 1e-9) +
+                      0.5 * n * FW_SNAP_M * FW_SNAP_M + 1e-12 * size;
+    bounds->edge_m = bounds->edge_m * (1 + 1e-9) + FW_SNAP_M;
+}
+
+static void run_along(builder *b, const fw_contour *contour, const fw_chords *chords) {
+    for (int i = 0; i < contour->count; i++) {
+        const fw_segment *s = &contour->segment[i];
+        const fw_segment *before = &contour->segment[i > 0 ? i - 1 : contour->count - 1];
+        fw_point a = {fw_round_half_up(s->a.x * FW_GRID_PER_M),
+                      fw_round_half_up(s->a.y * FW_GRID_PER_M)};
+        add(b, a, (s->flags | before->flags) & FW_SEGMENT_JOINT);
+        if (s->kind == FW_ARC) add_arc(b, &chords[i]);
+    }
+}
+
+fw_status fw_flatten(fw_arena *arena, const fw_contour *contour, double tolerance_m,
+                     fw_flattening kind, fw_polygon *polygon, fw_flat_bounds *bounds) {
+    *polygon = (fw_polygon){0};
+    if (!(tolerance_m >= LEAST_SAGITTA_M) || !isfinite(tolerance_m)) return FW_INPUT;
+    if (!fw_contour_valid(contour)) return FW_GEOMETRY;
+    fw_box box = fw_contour_box(contour);
+    if (!in_range(&box, tolerance_m)) return FW_LIMIT;
+    fw_chords few[FEW_SEGMENTS], *chords = few;
+    fw_flat_bounds proven;
+    double most, length_m;
+    if (contour->count > FEW_SEGMENTS)
+        FW_NEED(chords = fw_arena_array(arena, fw_chords, (size_t)contour->count));
+    plan_arcs(contour, tolerance_m, kind, chords, &most, &length_m, &proven);
+    if (!(most < 1e9)) return FW_LIMIT;
+    builder b = {.vertex = fw_arena_array(arena, fw_point, (size_t)most)};
+    FW_NEED(b.vertex);
+    run_along(&b, contour, chords);
+    fw_point *vertex = closed(&b);
+    if (b.count < 3) return FW_GEOMETRY;
+    bound_rounding(length_m, (int)most, &box, &proven);
+    *polygon = (fw_polygon){vertex, b.count};
+    if (bounds) *bounds = proven;
+    return FW_OK;
 }
 
 fw_status fw_tessellate(fw_arena *arena, const fw_contour *contour, double tolerance_m,
                         fw_polygon *polygon) {
-    *polygon = (fw_polygon){0};
-    if (!(tolerance_m >= LEAST_SAGITTA_M) || !isfinite(tolerance_m)) return FW_INPUT;
-    if (!fw_contour_valid(contour)) return FW_GEOMETRY;
-    int most = most_vertices(contour, tolerance_m);
-    if (most < 0) return FW_LIMIT;
-    builder b = {.vertex = fw_arena_array(arena, fw_point, (size_t)most)};
-    FW_NEED(b.vertex);
-    fw_mark mark = fw_arena_mark(arena);
-    b.fixed = fw_arena_array(arena, unsigned char, (size_t)most);
-    FW_NEED(b.fixed);
-    for (int i = 0; i < contour->count; i++) {
-        const fw_segment *s = &contour->segment[i];
-        const fw_segment *before = &contour->segment[i > 0 ? i - 1 : contour->count - 1];
-        add(&b, s->a, (s->flags | before->flags) & FW_SEGMENT_JOINT);
-        if (s->kind == FW_ARC) add_arc(&b, s, tolerance_m);
-    }
-    tidy(&b);
-    fw_arena_rewind(arena, mark);
-    if (b.outside) return FW_LIMIT;
-    if (b.count < 3) return FW_GEOMETRY;
-    *polygon = (fw_polygon){b.vertex, b.count};
-    return FW_OK;
+    return fw_flatten(arena, contour, tolerance_m, FW_FLATTEN_INSIDE, polygon, NULL);
 }
 
 int64_t fw_polygon_area2(const fw_polygon *polygon) {

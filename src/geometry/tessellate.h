@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Flattening, last of all: lines and arcs to a polygon on the integer grid (1 dbu = 1 nm).
 
-   n = ceil(|sweep| / (2 acos(1 - eps/R))) chords per arc, all arcs start and end on exact joints;
-   then each vertex is rounded to the grid (half up, the same for both pieces that share it).
-   Bounds (docs/theory/contours.md): vertex error <= 0.707 g; edge error <= eps + 0.707 g; area
-   error <= perimeter (eps + 0.707 g); arcs keep one-signed turns when eps >= 1.42 g. */
+   n = ceil(|sweep| / (2 acos(1 - eps/R))) chords per arc (fewer, with vertices off the arc, where
+   areas are kept), all arcs start and end on exact joints; then each vertex is rounded to the grid
+   (half up, the same for both pieces that share it). Bounds (docs/theory/contours.md): vertex error
+   <= 0.707 g; edge error <= eps + 0.707 g; area error <= perimeter (eps + 0.707 g); arcs keep
+   one-signed turns when eps >= 1.42 g. */
 #ifndef FW_GEOMETRY_TESSELLATE_H
 #define FW_GEOMETRY_TESSELLATE_H
 #include "geometry/contour.h"
@@ -19,14 +20,38 @@ typedef struct fw_polygon { /* closed, first vertex not repeated, counter-clockw
     int count;
 } fw_polygon;
 
-/* tolerance_m is the sagitta eps >= 1.42 nm (else FW_INPUT); grid 1e-9 m. Vertices that lie exactly
-   on the way between their neighbours are left out, except the ends of JOINT segments. A clockwise
-   outline gives a clockwise polygon. FW_LIMIT: a coordinate of 2^30 or more; FW_GEOMETRY: fewer
-   than three vertices are left. */
+typedef enum fw_flattening {
+    FW_FLATTEN_INSIDE,     /* vertices on the arc: a convex arc loses area, a hollow one gains it */
+    FW_FLATTEN_EQUAL_AREA, /* inner vertices a little outside, so that the chords enclose what the
+                              arc does; its ends stay */
+} fw_flattening;
+
+typedef struct fw_flat_bounds { /* proven of the polygon, rounding included */
+    double edge_m;              /* no point of an edge is farther from the outline */
+    double area_m2;             /* |area of the polygon - area of the outline| */
+} fw_flat_bounds;
+
+/* Flattens an outline. tolerance_m: farthest that a chord may be from its arc, >= 1.42 nm (else
+   FW_INPUT), before rounding to the grid of 1e-9 m. bounds may be NULL. For the rest see
+   fw_tessellate. */
+fw_status fw_flatten(fw_arena *arena, const fw_contour *contour, double tolerance_m,
+                     fw_flattening kind, fw_polygon *polygon, fw_flat_bounds *bounds);
+
+/* the same with vertices on the arcs. tolerance_m is the sagitta eps >= 1.42 nm (else FW_INPUT);
+   grid 1e-9 m. Vertices that lie exactly on the way between their neighbours are left out, except
+   the ends of JOINT segments. A clockwise outline gives a clockwise polygon. FW_LIMIT: a coordinate
+   of 2^30 or more; FW_GEOMETRY: fewer than three vertices are left. */
 fw_status fw_tessellate(fw_arena *arena, const fw_contour *contour, double tolerance_m,
                         fw_polygon *polygon);
 /* twice the signed area in dbu^2, exact (|coordinate| < 2^30) */
 int64_t fw_polygon_area2(const fw_polygon *polygon);
+
+typedef struct fw_polygon_triangle { /* vertex numbers, counter-clockwise */
+    int vertex[3];
+} fw_polygon_triangle;
+/* out: (count - 2) triangles that make a simple polygon, counter-clockwise, none of them flat */
+fw_status fw_polygon_triangulate(fw_arena *arena, const fw_polygon *polygon,
+                                 fw_polygon_triangle *out);
 
 /* exact integer certificate of one polygon */
 typedef struct fw_polygon_report {
@@ -34,6 +59,9 @@ typedef struct fw_polygon_report {
     int bad_i, bad_j; /* the two edges, when not simple */
     double shortest_edge_m;
     double sharpest_rad; /* smallest interior or exterior corner angle */
+    double sharpest_material_rad, sharpest_space_rad; /* interior, exterior ones; pi: none */
+    int zero_edges, spikes;                           /* none of a simple polygon */
+    int straight; /* vertices exactly between their neighbours: ends of joints */
 } fw_polygon_report;
 fw_status fw_polygon_check(fw_arena *arena, const fw_polygon *polygon, fw_polygon_report *report);
 

@@ -18,7 +18,12 @@ static int line_winding(const fw_segment *s, fw_vec2 p) {
 
 static int arc_winding(const fw_segment *s, fw_vec2 p) {
     fw_vec2 c = s->centre;
-    double r = s->radius, y = p.y - c.y, half = fabs(y) < r ? sqrt((r - y) * (r + y)) : 0;
+    double r = s->radius, y = p.y - c.y;
+    /* beside the circle (ends may be off it by less than 1e-10 m): nothing to the right, or all of
+       it, and then the steps below add up to that from one end to the other */
+    if (fabs(y) > r + 1e-10 || p.x >= c.x + r) return 0;
+    if (p.x < c.x - r) return crosses(s->a.y, s->b.y, p.y);
+    double half = fabs(y) < r ? sqrt((r - y) * (r + y)) : 0;
     double start = atan2(s->a.y - c.y, s->a.x - c.x), end = start + s->sweep_rad;
     double way = s->sweep_rad > 0 ? 1 : -1;
     /* quadrant pairs: right half between -pi/2 and pi/2 (+ 2 pi k), left half the others */

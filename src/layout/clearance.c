@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "geometry/segment.h"
 #include "layout/draw.h"
 #include <math.h>
 
-enum { MOST_CROSSINGS = 64, RADII = 400 };
+enum { MOST_CROSSINGS = 64, MOST_REACHES = 256, RADII = 400 };
 
 static int add_angle(double *angle, int n, fw_vec2 p) {
     if (n < MOST_CROSSINGS) angle[n++] = atan2(p.y, p.x);
@@ -17,11 +18,25 @@ static bool on_arc(const fw_segment *s, fw_vec2 p) {
     return fabs(turn) <= fabs(s->sweep_rad);
 }
 
+typedef struct reach { /* distances from a centre between which a segment lies */
+    double least, most;
+} reach;
+
+static void reaches(const fw_contour *c, fw_vec2 w, reach *out) {
+    for (int i = 0; i < c->count && i < MOST_REACHES; i++) {
+        const fw_segment *s = &c->segment[i];
+        double a = fw_norm(fw_sub(s->a, w)), b = fw_norm(fw_sub(s->b, w)), far = fmax(a, b);
+        if (s->kind == FW_ARC) far = fw_norm(fw_sub(s->centre, w)) + s->radius;
+        out[i] = (reach){fw_segment_nearest(s, w, NULL, NULL) - 1e-9, far + 1e-9};
+    }
+}
+
 /* angles about w at which an outline crosses the circle of radius q */
-static int crossings(const fw_contour *c, fw_vec2 w, double q, double *angle) {
+static int crossings(const fw_contour *c, const reach *within, fw_vec2 w, double q, double *angle) {
     int n = 0;
     for (int i = 0; i < c->count; i++) {
         const fw_segment *s = &c->segment[i];
+        if (i < MOST_REACHES && (q < within[i].least || q > within[i].most)) continue;
         if (s->kind == FW_LINE) {
             fw_vec2 a = fw_sub(s->a, w), d = fw_sub(s->b, s->a);
             double dd = fw_dot(d, d), b = fw_dot(a, d), in = b * b - dd * (fw_dot(a, a) - q * q);
@@ -54,9 +69,12 @@ static int crossings(const fw_contour *c, fw_vec2 w, double q, double *angle) {
 double fw_layout_free_rotation(fw_vec2 w, const fw_contour *p, const fw_contour *q,
                                double radius_m) {
     double a[MOST_CROSSINGS], b[MOST_CROSSINGS], least = M_PI;
+    reach of_p[MOST_REACHES], of_q[MOST_REACHES];
+    reaches(p, w, of_p);
+    reaches(q, w, of_q);
     for (int k = 1; k <= RADII; k++) {
-        int na = crossings(p, w, radius_m * k / RADII, a);
-        int nb = crossings(q, w, radius_m * k / RADII, b);
+        int na = crossings(p, of_p, w, radius_m * k / RADII, a);
+        int nb = crossings(q, of_q, w, radius_m * k / RADII, b);
         for (int i = 0; i < na; i++)
             for (int j = 0; j < nb; j++)
                 least = fmin(least, fabs(remainder(a[i] - b[j], 2.0 * M_PI)));

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mask/cut.h"
+#include "mask/flatten.h"
 #include "mask/rule.h"
 #include "mask/rules.h"
 #include <math.h>
@@ -108,7 +109,7 @@ static fw_status cut(fw_arena *arena, fw_mask_shape *shape, int most, fw_diags *
 static fw_status flatten(fw_arena *arena, fw_mask_shape *shape, double tolerance_m, int most,
                          fw_diags *diags) {
     FW_TRY(check_range(shape, diags));
-    FW_TRY(fw_tessellate(arena, &shape->contour, tolerance_m, &shape->polygon));
+    FW_TRY(fw_mask_flatten(arena, shape, tolerance_m));
     const char *name = shape->piece->label;
     const fw_polygon *p = &shape->polygon;
     FW_TRY(fw_polygon_check(arena, p, &shape->report));
@@ -124,8 +125,6 @@ static fw_status flatten(fw_arena *arena, fw_mask_shape *shape, double tolerance
     FW_TRY(cut(arena, shape, most, diags));
     shape->area_m2 = fw_contour_area(&shape->contour);
     double flat = 0.5 * (double)fw_polygon_area2(p) * GRID_M * GRID_M;
-    shape->bound_m2 =
-        fw_contour_perimeter(&shape->contour) * (tolerance_m + 0.70710678118654752 * GRID_M);
     if (fabs(flat - shape->area_m2) <= shape->bound_m2) return FW_OK;
     char got[32], want[32];
     return fw_diag_error(diags, 150, nowhere,
@@ -148,7 +147,7 @@ static fw_status flatten_all(fw_arena *arena, fw_mask_shape *shape, int nshape, 
 
 static void sum_up(fw_mask *mask, fw_mask_measure *measure) {
     for (int k = 0; k < mask->table->nlayer; k++)
-        measure[k].shortest_edge_m = measure[k].sharpest_rad = HUGE_VAL;
+        fw_mask_measure_start(&measure[k]);
     mask->box = (fw_box){HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (int k = 0; k < mask->nshape; k++) {
         const fw_mask_shape *s = &mask->shape[k];
@@ -162,8 +161,7 @@ static void sum_up(fw_mask *mask, fw_mask_measure *measure) {
         m->area_m2 += s->area_m2;
         m->polygon_area_m2 += 0.5 * (double)fw_polygon_area2(&s->polygon) * GRID_M * GRID_M;
         m->bound_m2 += s->bound_m2;
-        m->shortest_edge_m = fmin(m->shortest_edge_m, s->report.shortest_edge_m);
-        m->sharpest_rad = fmin(m->sharpest_rad, s->report.sharpest_rad);
+        fw_mask_measure_add(m, s);
     }
     mask->measure = measure;
 }
@@ -237,6 +235,9 @@ fw_status fw_mask_examine(fw_arena *arena, const fw_layout *layout, const fw_mas
     if (m->nshape == 0)
         return fw_diag_error(diags, 151, nowhere, "no layer of flow %s draws any of the %d pieces",
                              table->flow, layout->npiece);
+    m->flattening = options->flattening;
+    m->thickness_m = options->thickness_m;
+    fw_mask_set_flattening(m->shape, m->nshape, options->flattening);
     FW_TRY(bias_shapes(arena, table, m->shape, m->nshape, options->bias_m, diags));
     FW_TRY(fw_mask_join(arena, m->shape, m->nshape, diags));
     fw_status status = judge(arena, m, measure, diags);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What was proven about the file, as JSON; docs/theory/masks.md explains every member. */
+#include "mask/certificate.h"
 #include "mask/findings.h"
 #include "mask/json.h"
 #include "mask/notes.h"
@@ -37,6 +38,7 @@ static void layer(fw_text *out, const fw_mask_layer *y, const fw_mask_measure *m
     fw_mask_json_number(out, "shortest_edge_nm", m->shortest_edge_m * 1e9, 6);
     fw_text_add(out, ", ");
     fw_mask_json_number(out, "sharpest_corner_deg", m->sharpest_rad * (180 / acos(-1.0)), 6);
+    fw_certificate_layer(out, m);
     fw_text_add(out, "}");
 }
 
@@ -71,6 +73,11 @@ static void head(const fw_mask *mask, const char *gds_sha256, fw_text *out) {
 }
 
 fw_status fw_mask_write_certificate(const fw_mask *mask, const char *gds_sha256, fw_text *out) {
+    return fw_mask_write_certificate_of(mask, gds_sha256, NULL, 0, out);
+}
+
+fw_status fw_mask_write_certificate_of(const fw_mask *mask, const char *gds_sha256,
+                                       const fw_output_file *file, int nfile, fw_text *out) {
     const char **line;
     int n;
     FW_TRY(fw_mask_notes(out->arena, mask, &line, &n));
@@ -87,7 +94,9 @@ fw_status fw_mask_write_certificate(const fw_mask *mask, const char *gds_sha256,
         layer(out, &mask->table->layer[k], &mask->measure[k]);
         fw_text_add(out, k + 1 < mask->table->nlayer ? ",\n" : "\n");
     }
-    fw_text_add(out, "  ],\n  \"notes\": [");
+    fw_text_add(out, "  ],\n");
+    fw_certificate_shapes(mask, file, nfile, out);
+    fw_text_add(out, "  \"notes\": [");
     for (int i = 0; i < n; i++) {
         fw_text_add(out, i ? ",\n    " : "\n    ");
         fw_mask_json_string(out, line[i]);

@@ -11,6 +11,8 @@ static const fw_mask_format table[] = {
     {"outlines", ".outlines.svg", fw_mask_write_outlines, .usual = true, .picture = true},
     {"oasis", ".oas", fw_mask_write_oasis, .usual = false},
     {"dxf", ".dxf", fw_mask_write_dxf, .usual = false},
+    {"stl", ".stl", fw_mask_write_stl, .usual = false},
+    {"obj", ".obj", fw_mask_write_obj, .usual = false},
 };
 enum { NFORMAT = sizeof table / sizeof table[0] };
 

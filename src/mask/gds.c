@@ -3,6 +3,7 @@
    one XY record, texts, all dates zero. Record = length u16, type u8, data type u8, payload,
    big-endian (Calma GDSII Stream Format Manual, release 6). */
 #include "mask/notes.h"
+#include "mask/stream.h"
 #include <math.h>
 #include <string.h>
 
@@ -84,15 +85,25 @@ static void zero_dates(fw_text *out, unsigned type) {
         u16(out, 0);
 }
 
-static void boundary(fw_text *out, const fw_mask_layer *layer, const fw_polygon *polygon) {
+/* Both numbers of a point at once: the eight bytes turned round, and their halves exchanged. */
+static unsigned char *put_points(unsigned char *at, const fw_point *p, size_t n) {
+    for (size_t i = 0; i < n; i++, at += 8) {
+        uint64_t x = (uint32_t)p[i].x_dbu, y = (uint32_t)p[i].y_dbu, big = x << 32 | y;
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+        big = __builtin_bswap64(big);
+#endif
+        memcpy(at, &big, sizeof big);
+    }
+    return at;
+}
+
+void fw_gds_boundary(fw_text *out, const fw_mask_layer *layer, const fw_polygon *polygon) {
     record(out, BOUNDARY, 0);
     number(out, LAYER, layer->layer);
     number(out, DATATYPE, layer->datatype);
     record(out, XY, 8 * ((size_t)polygon->count + 1));
     unsigned char *at = fw_text_room(out, 8 * ((size_t)polygon->count + 1));
-    for (int i = 0; at && i < polygon->count; i++)
-        at = put_i32(put_i32(at, polygon->vertex[i].x_dbu), polygon->vertex[i].y_dbu);
-    if (at) put_i32(put_i32(at, polygon->vertex[0].x_dbu), polygon->vertex[0].y_dbu); /* closed */
+    if (at) put_points(put_points(at, polygon->vertex, (size_t)polygon->count), polygon->vertex, 1);
     record(out, ENDEL, 0);
 }
 
@@ -120,27 +131,49 @@ static fw_status texts(const fw_mask *mask, fw_text *out) {
     return FW_OK;
 }
 
+/* ---- a library of several cells ---- */
+
+void fw_gds_begin(fw_text *out, const char *library) {
+    number(out, HEADER, VERSION);
+    zero_dates(out, BGNLIB);
+    string(out, LIBNAME, library);
+    record(out, UNITS, 16);
+    real8(out, 1e-3); /* user unit 1 um */
+    real8(out, 1e-9);
+}
+
+void fw_gds_cell_begin(fw_text *out, const char *name) {
+    zero_dates(out, BGNSTR);
+    string(out, STRNAME, name);
+}
+
+void fw_gds_shapes(fw_text *out, const fw_mask *mask) {
+    for (int i = 0; i < mask->nshape; i++) {
+        const fw_mask_shape *s = &mask->shape[i];
+        if (s->npart == 0) fw_gds_boundary(out, &mask->table->layer[s->layer], &s->polygon);
+        for (int k = 0; k < s->npart; k++)
+            fw_gds_boundary(out, &mask->table->layer[s->layer], &s->part[k]);
+    }
+}
+
+void fw_gds_cell_end(fw_text *out) {
+    record(out, ENDSTR, 0);
+}
+
+void fw_gds_end(fw_text *out) {
+    record(out, ENDLIB, 0);
+}
+
 fw_status fw_mask_write_gds(const fw_mask *mask, fw_text *out) {
     size_t total = 4096; /* texts may take more */
     for (int i = 0; i < mask->nshape; i++)
         total += 64 + 8 * (size_t)mask->shape[i].polygon.count;
     fw_text_reserve(out, total);
-    number(out, HEADER, VERSION);
-    zero_dates(out, BGNLIB);
-    string(out, LIBNAME, mask->rejected ? "FLEXWRIGHT_REJECTED" : "FLEXWRIGHT");
-    record(out, UNITS, 16);
-    real8(out, 1e-3); /* user unit 1 um */
-    real8(out, 1e-9);
-    zero_dates(out, BGNSTR);
-    string(out, STRNAME, mask->cell);
-    for (int i = 0; i < mask->nshape; i++) {
-        const fw_mask_shape *s = &mask->shape[i];
-        if (s->npart == 0) boundary(out, &mask->table->layer[s->layer], &s->polygon);
-        for (int k = 0; k < s->npart; k++)
-            boundary(out, &mask->table->layer[s->layer], &s->part[k]);
-    }
+    fw_gds_begin(out, mask->rejected ? "FLEXWRIGHT_REJECTED" : "FLEXWRIGHT");
+    fw_gds_cell_begin(out, mask->cell);
+    fw_gds_shapes(out, mask);
     FW_TRY(texts(mask, out));
-    record(out, ENDSTR, 0);
-    record(out, ENDLIB, 0);
+    fw_gds_cell_end(out);
+    fw_gds_end(out);
     return fw_text_end(out);
 }

@@ -61,6 +61,13 @@ typedef struct fw_mask_table {
     int nrule;
 } fw_mask_table;
 
+typedef struct fw_mask_neck { /* the narrowest place of a flexure */
+    bool there;
+    fw_vec2 at[2];      /* ends of the chord on the exact outline */
+    bool on_vertex[2];  /* a vertex is there: on arcs always, on lines where they end */
+    fw_point vertex[2]; /* it, where it is */
+} fw_mask_neck;
+
 typedef struct fw_mask_shape {
     int layer; /* index into table->layer */
     const fw_piece *piece;
@@ -70,6 +77,9 @@ typedef struct fw_mask_shape {
     int npart;                /* 0: not cut, `polygon` itself */
     fw_polygon_report report; /* of the polygon, exact integers */
     double area_m2, bound_m2; /* of the contour; what flattening may change */
+    fw_flattening flattening;
+    double edge_m; /* farthest that an edge of the polygon is from the contour, at most */
+    fw_mask_neck neck;
 } fw_mask_shape;
 
 typedef struct fw_mask_measure { /* per layer */
@@ -80,6 +90,10 @@ typedef struct fw_mask_measure { /* per layer */
                                              FW_MASK_LOOK_M; INFINITY beyond */
     fw_vec2 width_at[2], space_at[2];     /* ends of these chords */
     double shortest_edge_m, sharpest_rad; /* of the polygons; INFINITY without any */
+    double sharpest_material_rad, sharpest_space_rad; /* its two sides */
+    double edge_m; /* farthest that an edge of a polygon is from its outline, at most */
+    int straight;  /* vertices exactly between their neighbours */
+    fw_box box;    /* of the polygons, on the grid; x0 > x1 without any */
 } fw_mask_measure;
 #define FW_MASK_LOOK_M 100e-6
 
@@ -100,6 +114,8 @@ typedef struct fw_mask {
     fw_mask_shape *shape; /* (nshape) */
     int nshape;
     double bias_m, tolerance_m;
+    fw_flattening flattening;
+    double thickness_m; /* of the device, for solids; 0: not known */
     fw_box box;
     int vertex_limit;  /* of one GDSII boundary */
     bool rejected;     /* every file says REJECTED */
@@ -119,6 +135,8 @@ fw_status fw_mask_table_read(fw_arena *arena, const char *file, const char *xml,
 typedef struct fw_mask_options {
     double bias_m, tolerance_m; /* 0 tolerance: 5 nm */
     int vertex_limit;           /* 0: 4094; else 8 to 8190 */
+    fw_flattening flattening;
+    double thickness_m; /* of the device */
     bool rejected;
     const char *title;
     const char **note;
@@ -147,6 +165,9 @@ fw_status fw_mask_write_oasis(const fw_mask *mask, fw_text *out);
 /* name of layer k in DXF; NULL: out of memory */
 const char *fw_mask_dxf_layer(fw_arena *arena, const fw_mask *mask, int k);
 fw_status fw_mask_write_dxf(const fw_mask *mask, fw_text *out);
+/* the solid of the biased layers, walls vertical; pieces are one where they share an edge */
+fw_status fw_mask_write_stl(const fw_mask *mask, fw_text *out);
+fw_status fw_mask_write_obj(const fw_mask *mask, fw_text *out);
 fw_status fw_mask_write_lyt(const fw_mask *mask, fw_text *out);
 
 typedef struct fw_mask_format { /* a row of format.c */
@@ -160,6 +181,10 @@ const fw_mask_format *fw_mask_format_at(size_t i); /* NULL behind the last row *
    name is not known */
 bool fw_mask_formats(const char *list, unsigned *set);
 
+/* "inside" (also NULL and "") or "equal-area"; false: neither */
+bool fw_mask_flattening_named(const char *name, fw_flattening *kind);
+const char *fw_mask_flattening_name(fw_flattening kind);
+
 /* certificate: counts, areas, minimum edge, angle, hash; JSON */
 fw_status fw_mask_write_certificate(const fw_mask *mask, const char *gds_sha256, fw_text *out);
 /* where rules are broken, to look at: KLayout's report database (.lyrdb), the list as JSON, and a
@@ -172,6 +197,9 @@ const char *fw_mask_rule_name(const fw_mask_rule *rule); /* its kind as the tabl
 double fw_mask_rule_shown(const fw_mask_rule *rule, double value); /* in um, deg, um2, a share */
 const char *fw_mask_rule_unit(const fw_mask_rule *rule);           /* "" of a share */
 
+/* the same with the files that it goes with */
+fw_status fw_mask_write_certificate_of(const fw_mask *mask, const char *gds_sha256,
+                                       const fw_output_file *file, int nfile, fw_text *out);
 /* order sheet for the mask shop, as JSON and for people, with the files that go with it */
 fw_status fw_mask_write_order(const fw_mask *mask, const fw_output_file *file, int nfile,
                               fw_text *out);

@@ -2,7 +2,7 @@
 /* What a mask shop asks for beside the data: which layers make the plate, tone, reading, sizes, and
    where to measure. docs/theory/masks.md says where the terms come from. */
 #include "mask/order.h"
-#include "geometry/segment.h"
+#include "mask/flatten.h"
 #include <string.h>
 
 void fw_order_count(const fw_mask *mask, int layer, int *polygons, int *vertices) {
@@ -28,24 +28,6 @@ static void add_site(fw_order *order, fw_order_site site) {
     order->site[order->nsite++] = site;
 }
 
-/* nearest point of segment j over 65 points of segment i, from its middle outwards: of parallel
-   edges the middle, where a microscope finds it, else the narrowest of them. The length told is
-   that of the chord told, exactly. */
-static fw_order_site narrowest(const fw_segment *p, const fw_segment *q) {
-    fw_order_site site = {.what = NULL};
-    double least = HUGE_VAL;
-    for (int k = 0; k <= 64; k++) {
-        double t = 0.5 + (k % 2 ? 1 : -1) * ((k + 1) / 2) / 64.0, tq;
-        fw_vec2 from = fw_segment_point(p, t), to;
-        double length = fw_segment_nearest(q, from, &tq, &to);
-        if (length > least - FW_COINCIDENT_M) continue;
-        least = length;
-        site.from = from;
-        site.to = to;
-    }
-    return site;
-}
-
 fw_status fw_order_sites(fw_arena *arena, const fw_mask *mask, fw_order *order) {
     size_t most = 2 * (size_t)mask->table->nlayer + (size_t)mask->nshape;
     FW_NEED(order->site = fw_arena_array(arena, fw_order_site, most));
@@ -64,10 +46,8 @@ fw_status fw_order_sites(fw_arena *arena, const fw_mask *mask, fw_order *order) 
         if (!order->plate[s->layer] || s->piece->role != FW_ROLE_FLEXURE) continue;
         int a, b;
         if (!isfinite(fw_contour_clearance(&s->contour, true, &a, &b)) || a < 0) continue;
-        fw_order_site site = narrowest(&s->contour.segment[a], &s->contour.segment[b]);
-        site.layer = s->layer;
-        site.what = s->piece->label;
-        add_site(order, site);
+        fw_chord c = fw_mask_narrowest(&s->contour.segment[a], &s->contour.segment[b]);
+        add_site(order, (fw_order_site){s->layer, s->piece->label, false, c.at_p, c.at_q});
     }
     return FW_OK;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Exact outlines with true arcs: 1 user unit = 1 um, six decimals (1 pm). The y axis of SVG points
    down, so y is turned round here and not by a transform that importers may lose. */
-#include "mask/mask.h"
+#include "mask/stream.h"
 #include <math.h>
 
 static const double MARGIN_UM = 150, LEGEND_UM = 150, BAR_UM = 10;
@@ -14,12 +14,16 @@ typedef struct page {
 
 /* `letter` and the place: most of the file, hence in one piece */
 static void coordinate(const page *p, char letter, fw_vec2 at) {
-    char text[2 * FW_FIXED_BYTES + 2], *end = text;
+    fw_text *out = p->out;
+    if (out->capacity - out->length < 2 * FW_FIXED_BYTES + 3)
+        fw_text_reserve(out, 2 * FW_FIXED_BYTES + 2);
+    if (out->failed) return;
+    char *end = out->data + out->length;
     *end++ = letter;
     end = fw_fixed_text(end, (at.x - p->x0) * 1e6, 6);
     *end++ = ' ';
     end = fw_fixed_text(end, (p->y1 - at.y) * 1e6, 6);
-    fw_text_bytes(p->out, text, (size_t)(end - text));
+    out->length = (size_t)(end - out->data);
 }
 
 /* parts of at most a third of a turn: a reader finds the centre from the end points, which fails
@@ -49,14 +53,61 @@ static void segment(const page *p, const fw_segment *s) {
     coordinate(p, 'L', s->b);
 }
 
-static void shape(const page *p, const fw_mask_shape *s) {
-    fw_text_add(p->out, "<path d=\"");
+/* unique among the cells of a document; a name of XML */
+static void name_of(fw_text *out, const fw_mask *mask, int shape) {
+    fw_text_add(out, "s.");
+    for (const char *c = mask->cell; c && *c; c++)
+        fw_text_bytes(out, *c == '?' || *c == '$' ? "_" : c, 1);
+    fw_text_printf(out, ".%d", shape);
+}
+
+/* the path of another shape, moved */
+static void repeat(const page *p, const fw_mask *mask, int first, const fw_mask_shape *s) {
+    fw_vec2 from = mask->shape[first].contour.segment[0].a, to = s->contour.segment[0].a;
+    double x0 = round((from.x - p->x0) * 1e12), y0 = round((p->y1 - from.y) * 1e12);
+    double x1 = round((to.x - p->x0) * 1e12), y1 = round((p->y1 - to.y) * 1e12);
+    fw_text_add(p->out, "<use xlink:href=\"#");
+    name_of(p->out, mask, first);
+    fw_text_add(p->out, "\" x=\"");
+    fw_text_fixed(p->out, (x1 - x0) * 1e-6, 6);
+    fw_text_add(p->out, "\" y=\"");
+    fw_text_fixed(p->out, (y1 - y0) * 1e-6, 6);
+    fw_text_add(p->out, "\"><title>");
+    fw_text_escaped(p->out, s->piece->label);
+    fw_text_add(p->out, "</title></use>\n");
+}
+
+/* id: of the shape in the mask where others repeat it, else -1 */
+static void shape(const page *p, const fw_mask *mask, const fw_mask_shape *s, int id) {
+    fw_text_add(p->out, "<path ");
+    if (id >= 0) {
+        fw_text_add(p->out, "id=\"");
+        name_of(p->out, mask, id);
+        fw_text_add(p->out, "\" ");
+    }
+    fw_text_add(p->out, "d=\"");
     coordinate(p, 'M', s->contour.segment[0].a);
     for (int i = 0; i < s->contour.count; i++)
         segment(p, &s->contour.segment[i]);
     fw_text_add(p->out, "Z\"><title>");
     fw_text_escaped(p->out, s->piece->label);
     fw_text_add(p->out, "</title></path>\n");
+}
+
+void fw_svg_paths(const fw_mask *mask, int layer, fw_vec2 upper_left, fw_text *out) {
+    page p = {.out = out, .x0 = upper_left.x, .y1 = upper_left.y};
+    int *of;
+    if (fw_svg_repeats(out->arena, mask, layer, upper_left, &of) != FW_OK) {
+        out->failed = 1;
+        return;
+    }
+    for (int i = 0; i < mask->nshape; i++) {
+        if (mask->shape[i].layer != layer) continue;
+        if (of[i] >= 0 && of[i] != i)
+            repeat(&p, mask, of[i], &mask->shape[i]);
+        else
+            shape(&p, mask, &mask->shape[i], of[i]);
+    }
 }
 
 static void layer(const page *p, const fw_mask *mask, int k) {
@@ -68,8 +119,7 @@ static void layer(const page *p, const fw_mask *mask, int k) {
     fw_text_add(p->out, ": ");
     fw_text_escaped(p->out, y->purpose);
     fw_text_printf(p->out, " (%s)</title>\n", y->tone);
-    for (int i = 0; i < mask->nshape; i++)
-        if (mask->shape[i].layer == k) shape(p, &mask->shape[i]);
+    fw_svg_paths(mask, k, (fw_vec2){p->x0, p->y1}, p->out);
     fw_text_add(p->out, "</g>\n");
 }
 
@@ -101,7 +151,8 @@ static void scale_bar(const page *p, double drawn_um) {
 
 static void head(const page *p, const fw_mask *mask) {
     fw_text_add(p->out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-                        "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"");
+                        "<svg xmlns=\"http://www.w3.org/2000/svg\" "
+                        "xmlns:xlink=\"http://www.w3.org/1999/xlink\" version=\"1.1\" width=\"");
     fw_text_fixed(p->out, p->width / 1000, 9);
     fw_text_add(p->out, "mm\" height=\"");
     fw_text_fixed(p->out, p->height / 1000, 9);

@@ -81,7 +81,11 @@ static const char *wrong_option(const fw_design_options *o) {
         return "hinge_model must be \"auto\", \"revolute\", \"compliance\" or \"elastica\"";
     unsigned formats;
     if (!fw_mask_formats(o->mask_formats, &formats))
-        return "mask_formats must name some of gds, svg, oasis and dxf, with commas, or be \"all\"";
+        return "mask_formats must name some of gds, svg, oasis, dxf, stl and obj, with commas, or "
+               "be \"all\"";
+    fw_flattening flattening;
+    if (!fw_mask_flattening_named(o->mask_flatten, &flattening))
+        return "mask_flatten must be \"inside\" or \"equal-area\"";
     if (o->mask_vertices != 0 && o->mask_vertices != 199 && o->mask_vertices != 4094 &&
         o->mask_vertices != 8190)
         return "mask_vertices must be 0 (default), 199, 4094 or 8190";
@@ -127,10 +131,10 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     if (d->wrong_option) return FW_OK;
     if (given) memcpy(&o, given, given->size < sizeof o ? given->size : sizeof o);
     fw_arena *arena = d->plan->arena;
-    const char **text[] = {&o.data_directory, &o.flow,        &o.scene,         &o.effects,
-                           &o.method,         &o.integrator,  &o.stabilise,     &o.at,
-                           &o.independent,    &o.rates,       &o.accelerations, &o.corners,
-                           &o.hinge_model,    &o.mask_formats};
+    const char **text[] = {&o.data_directory, &o.flow,         &o.scene,         &o.effects,
+                           &o.method,         &o.integrator,   &o.stabilise,     &o.at,
+                           &o.independent,    &o.rates,        &o.accelerations, &o.corners,
+                           &o.hinge_model,    &o.mask_formats, &o.mask_flatten};
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
         FW_TRY(keep(arena, text[i]));
     d->wrong_option = wrong_option(&o);
@@ -142,6 +146,7 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     p->mask_tolerance_m = o.mask_tolerance_m;
     p->mask_formats = o.mask_formats;
     p->mask_vertices = o.mask_vertices;
+    p->mask_flatten = o.mask_flatten;
     p->force = o.force != 0;
     p->path = o.path != 0;
     p->at_equilibrium = o.at && strcmp(o.at, "equilibrium") == 0;

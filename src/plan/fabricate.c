@@ -100,9 +100,11 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     fw_mask_options options = {.bias_m = pf->flow->bias_m,
                                .tolerance_m = plan->options.mask_tolerance_m,
                                .vertex_limit = plan->options.mask_vertices,
+                               .thickness_m = pf->variant.thickness_m,
                                .rejected = rejected,
                                .no_islands = !fw_plan_insulated(pf),
                                .title = plan->device->die.title};
+    if (!fw_mask_flattening_named(plan->options.mask_flatten, &options.flattening)) return FW_USAGE;
     FW_TRY(notes_of(plan, pf, &options));
     FW_TRY(edges_of(plan, pf->flow, &options.edges));
     const fw_mask *mask = NULL;

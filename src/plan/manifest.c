@@ -46,6 +46,9 @@ fw_status fw_plan_manifest(const fw_plan *plan, const fw_output_file *file, size
                              "flexwright.manifest/1", "program", "flexwright", "version",
                              FW_VERSION, "device", plan->device->name, "options", option_list(plan),
                              "inputs", file_list(plan), "outputs", output_list(file, count));
+    const char *flatten = plan->options.mask_flatten;
+    json_object_set_new(json_object_get(json, "options"), "mask_flatten",
+                        json_string(flatten && *flatten ? flatten : "inside"));
     if (plan->verdict.decision == FW_REJECT)
         json_object_set_new(json, "banner", json_string("REJECTED"));
     char *text = json ? json_dumps(json, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) : NULL;

@@ -20,6 +20,7 @@ typedef struct fw_plan_options {
     double mask_tolerance_m;    /* 0: 5 nm */
     const char *mask_formats;   /* fw_mask_formats; NULL: the usual ones */
     int mask_vertices;          /* most of one GDSII boundary; 0: 4094 */
+    const char *mask_flatten;   /* fw_mask_flattening_named; NULL: "inside" */
     const fw_set *set;          /* (nset) */
     int nset;
     bool force;          /* masks and recipes of a rejected design too */

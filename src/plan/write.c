@@ -20,8 +20,8 @@ static fw_status put(writer *w, const char *folder, const char *name, const char
     return FW_OK;
 }
 
-/* the order sheets name what was written of this flow before them, without the folder */
-static fw_status write_order(writer *w, const fw_plan_flow *pf) {
+/* what was written of this flow so far, without the folder */
+static fw_status own_files(writer *w, const fw_plan_flow *pf, fw_output_file **out, int *found) {
     const char *start = fw_arena_printf(w->plan->arena, "masks/%s.", pf->use->ref);
     FW_NEED(start);
     size_t count;
@@ -34,6 +34,16 @@ static fw_status write_order(writer *w, const fw_plan_flow *pf) {
             own[n] = all[i];
             own[n++].name = all[i].name + strlen("masks/");
         }
+    *out = own;
+    *found = n;
+    return FW_OK;
+}
+
+/* the order sheets name what was written before them */
+static fw_status write_order(writer *w, const fw_plan_flow *pf) {
+    fw_output_file *own;
+    int n;
+    FW_TRY(own_files(w, pf, &own, &n));
     fw_text json = fw_text_new(w->scratch);
     FW_TRY(fw_mask_write_order(pf->mask, own, n, &json));
     FW_TRY(put(w, "masks/", pf->use->ref, ".order.json", &json));
@@ -59,8 +69,11 @@ static fw_status write_mask(writer *w, const fw_plan_flow *pf) {
     unsigned set;
     if (!fw_mask_formats(w->plan->options.mask_formats, &set)) return FW_USAGE;
     FW_TRY(write_formats(w, pf, set, false));
+    fw_output_file *own;
+    int n;
+    FW_TRY(own_files(w, pf, &own, &n));
     fw_text text = fw_text_new(w->scratch);
-    FW_TRY(fw_mask_write_certificate(pf->mask, pf->mask_sha256, &text));
+    FW_TRY(fw_mask_write_certificate_of(pf->mask, pf->mask_sha256, own, n, &text));
     FW_TRY(put(w, "masks/", pf->use->ref, ".json", &text));
     FW_TRY(write_order(w, pf));
     return write_formats(w, pf, set, true); /* behind the order sheets, which do not name them */

@@ -40,6 +40,7 @@ for gds in "$1"/*.gds; do
     [ -f "$gds" ] || continue
     count=$((count + 1))
     flow=$(basename "$gds" .gds) stem=${gds%.gds}
+    judge "$flow: all that the certificate says" /usr/bin/python3 "$here/check_mask.py" "$stem.json"
     judge "$flow: strict reading without warnings" "$here/kl_nowarn.sh" "$gds"
     /usr/bin/python3 "$here/layers.py" "$gds" "$tables/$flow.xml" "$stem.json" >"$work/layers"
     [ -s "$work/layers" ] || { echo "FAIL  $flow: no polygons"; failed=1; }

@@ -4,13 +4,17 @@
    Thread CPU time, median and least of rounds. Flattening and writing: until there are as many
    vertices as asked for (default 1e6; `bench_outlines 1e7`).
 
-   cmake --build DIR --target bench_outlines && DIR/tests/bench/bench_outlines [vertices] */
+   cmake --build DIR --target bench_outlines && DIR/tests/bench/bench_outlines [vertices [FILE]] */
 #include "geometry/segment.h"
 #include "mask/rule.h"
 #include "mask/rules.h"
+#include "mask/stream.h"
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <time.h>
+#include <unistd.h>
 
 enum { ROUNDS = 7, HINGES = 1000, MOST = 100000 };
 static const double tolerance_m = 5e-9, bias_m = 1.5e-6;
@@ -195,6 +199,62 @@ static void bench_whole(double vertices, const fw_mask_table *table) {
     print("SVG of the same, true arcs", &svg, "");
 }
 
+static void flush(fw_text *out, int file) {
+    for (size_t done = 0; done < out->length;) {
+        ssize_t n = write(file, out->data + done, out->length - done);
+        must(n > 0, "writing");
+        done += (size_t)n;
+    }
+    out->length = 0;
+}
+
+/* the same, hinge by hinge through a buffer of 256 KiB, from drawn outlines that are held */
+static void bench_stream(double vertices, const fw_mask_table *table, const char *path) {
+    enum { BUFFER = 1 << 18 };
+    times all = {0};
+    char size[120];
+    int n = (int)fmin(fmax(vertices / 390, 1), MOST);
+    field f = new_field(n);
+    for (int r = 0; r < ROUNDS; r++) {
+        int file = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0644), i, j;
+        must(file >= 0, path);
+        fw_mark mark = fw_arena_mark(f.arena);
+        fw_text out = fw_text_new(f.arena);
+        fw_text_reserve(&out, BUFFER);
+        long count = 0, bytes = 0;
+        double from = now_ms();
+        fw_gds_begin(&out, "FLEXWRIGHT");
+        fw_gds_cell_begin(&out, "FIELD");
+        for (int k = 0; k < n; k++) {
+            fw_mark before = fw_arena_mark(f.arena);
+            fw_contour biased;
+            fw_polygon flat;
+            must(fw_contour_offset(f.arena, &f.drawn[k], bias_m, &biased, &i, &j) == FW_OK, "bias");
+            must(fw_tessellate(f.arena, &biased, tolerance_m, &flat) == FW_OK, "flattening");
+            if (out.length + 64 + 8 * (size_t)flat.count > BUFFER) {
+                bytes += (long)out.length;
+                flush(&out, file);
+            }
+            fw_gds_boundary(&out, &table->layer[0], &flat);
+            count += flat.count;
+            fw_arena_rewind(f.arena, before);
+        }
+        fw_gds_cell_end(&out);
+        fw_gds_end(&out);
+        bytes += (long)out.length;
+        flush(&out, file);
+        all.ms[all.n++] = now_ms() - from;
+        must(fw_text_end(&out) == FW_OK && close(file) == 0, "the file");
+        struct rusage use;
+        getrusage(RUSAGE_SELF, &use);
+        snprintf(size, sizeof size, "%ld vertices, %.1f MB to %s, largest resident %.0f MB", count,
+                 1e-6 * (double)bytes, path, 1e-3 * (double)use.ru_maxrss);
+        fw_arena_rewind(f.arena, mark);
+    }
+    fw_arena_free(f.arena);
+    print("the same, streamed", &all, size);
+}
+
 int main(int argc, char **argv) {
     fw_mask_layer layer = {.layer = 1,
                            .id = "device",
@@ -213,6 +273,8 @@ int main(int argc, char **argv) {
     bench_rules(&f, &table);
     bench_certificate(&f);
     fw_arena_free(f.arena);
-    bench_whole(argc > 1 ? strtod(argv[1], NULL) : 1e6, &table);
+    double vertices = argc > 1 ? strtod(argv[1], NULL) : 1e6;
+    bench_stream(vertices, &table, argc > 2 ? argv[2] : "/dev/null");
+    bench_whole(vertices, &table);
     return 0;
 }

@@ -132,11 +132,98 @@ static void contains_matches_closed_forms(void **state) {
     }
 }
 
+/* a strip of one width along tangent arcs and lines, with round ends: all of its neighbours touch
+ */
+static fw_contour worm(fw_arena *arena, int parts) {
+    fw_vec2 at = {uniform(-1e-3, 1e-3), uniform(-1e-3, 1e-3)}, first = at, centre[4], left[5], side;
+    double heading = uniform(0, FW_TURN), half = uniform(1e-6, 8e-6), sweep[4];
+    side = (fw_vec2){sin(heading), -cos(heading)};
+    fw_vec2 start = vec_along(at, half, side);
+    fw_outline o = fw_outline_start(arena, start);
+    for (int k = 0; k < parts; k++) { /* along the right side */
+        left[k] = vec_along(at, -half, side);
+        double turn = whole(0, 1) ? 1 : -1, r = half + uniform(1e-6, 4e-5);
+        sweep[k] = whole(0, 2) ? turn * uniform(0.2, 3.5) : 0;
+        if (sweep[k] == 0) {
+            at = vec_along(at, uniform(2e-6, 6e-5), (fw_vec2){-side.y, side.x});
+            fw_outline_line(&o, vec_along(at, half, side), 0);
+            continue;
+        }
+        centre[k] = vec_along(at, -turn * r, side);
+        at = vec_add(centre[k], fw_vec_rotate(vec_sub(at, centre[k]), sweep[k]));
+        side = fw_vec_rotate(side, sweep[k]);
+        fw_outline_arc(&o, centre[k], sweep[k], 0);
+    }
+    fw_outline_arc(&o, at, FW_PI, 0);
+    for (int k = parts - 1; k >= 0; k--)
+        if (sweep[k] == 0)
+            fw_outline_line(&o, left[k], 0);
+        else
+            fw_outline_arc(&o, centre[k], -sweep[k], 0);
+    fw_outline_arc_to(&o, first, FW_PI, start, 0);
+    fw_contour c = {0};
+    assert_int_equal(fw_outline_close(&o, &c), FW_OK);
+    return c;
+}
+
+/* of a smooth outline that does not touch itself: the shortest chord that is square on both ends,
+   faces and leaves on the wanted side, over all pairs */
+static double all_chords(const fw_contour *c, bool inside) {
+    double least = HUGE_VAL, side = inside ? 1 : -1;
+    for (int i = 0; i < c->count; i++) {
+        const fw_segment *p = &c->segment[i];
+        if ((p->sweep_rad > 0) == inside && fabs(p->sweep_rad) >= FW_PI * (1 - 1e-12))
+            least = fmin(least, 2 * p->radius);
+        for (int j = i + 1; j < c->count; j++) {
+            fw_chord chord[FW_MOST_CHORDS];
+            const fw_segment *q = &c->segment[j];
+            int n = fw_segment_chords(p, q, chord);
+            for (int k = 0; k < n; k++) {
+                double length = vec_distance(chord[k].at_p, chord[k].at_q);
+                if (length <= FW_COINCIDENT_M) continue;
+                fw_vec2 u = vec_scale(1 / length, vec_sub(chord[k].at_q, chord[k].at_p));
+                fw_vec2 tp = fw_segment_tangent(p, chord[k].tp);
+                fw_vec2 tq = fw_segment_tangent(q, chord[k].tq);
+                if (fabs(vec_dot(u, tp)) > 1e-6 || fabs(vec_dot(u, tq)) > 1e-6) continue;
+                if (side * vec_cross(tp, u) <= 0 || side * vec_cross(tq, u) >= 0) continue;
+                least = fmin(least, length);
+            }
+        }
+    }
+    return least;
+}
+
+static void touching_neighbours_have_no_chord(void **state) {
+    int clear = 0, below = 0;
+    for (int i = 0; i < 4000; i++) {
+        fw_mark mark = fw_arena_mark(*state);
+        fw_contour c = worm(*state, whole(1, 4));
+        double limit = uniform(2e-6, 4e-5);
+        for (int inside = 0; inside < 2; inside++) {
+            double found = fw_contour_clearance(&c, inside, NULL, NULL);
+            if (found == 0) continue; /* the strip runs over itself */
+            double want = all_chords(&c, inside);
+            if (isfinite(want) || isfinite(found)) assert_near(found, want, 1e-12);
+            found = fw_contour_clearance_below(&c, inside, limit, NULL, NULL);
+            assert_near(found, fmin(want, limit), 1e-12);
+            clear++;
+            below += want < limit;
+        }
+        fw_arena_rewind(*state, mark);
+    }
+    print_message("%d clearances, %d of them below the limit\n", clear, below);
+    assert_true(clear > 3000 && below > 1000 && below < clear - 500);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        geo_test(distance_matches_sampling), geo_test(known_distances),
-        geo_test(clearance_of_a_comb),       geo_test(clearance_of_rounds),
-        geo_test(joints_are_no_edges),       geo_test(contains_matches_closed_forms),
+        geo_test(distance_matches_sampling),
+        geo_test(known_distances),
+        geo_test(touching_neighbours_have_no_chord),
+        geo_test(clearance_of_a_comb),
+        geo_test(clearance_of_rounds),
+        geo_test(joints_are_no_edges),
+        geo_test(contains_matches_closed_forms),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "geo.h"
+#include "geometry/polygon.h"
 #include <time.h>
 
 static int64_t cross(fw_point a, fw_point b, fw_point c) {
@@ -46,6 +47,14 @@ static bool edges_clash(const fw_polygon *p, int i, int j) {
             sign(cross(c, d, a)) * sign(cross(c, d, b)) < 0);
 }
 
+/* the sweep over chains proves a polygon when and only when it is simple */
+static void assert_proved(fw_arena *arena, const fw_polygon *p, const fw_polygon_report *report) {
+    bool proved;
+    if (report->zero_edges > 0) return; /* not asked then */
+    assert_int_equal(fw_polygon_prove(arena, p, &proved), FW_OK);
+    assert_int_equal(proved, report->simple);
+}
+
 /* small coordinates make touches, overlaps, spikes and repeated vertices common */
 static void agrees_with_all_pairs(void **state) {
     int simple = 0, not_simple = 0;
@@ -58,6 +67,7 @@ static void agrees_with_all_pairs(void **state) {
         fw_polygon_report report;
         fw_mark mark = fw_arena_mark(*state);
         assert_int_equal(fw_polygon_check(*state, &p, &report), FW_OK);
+        assert_proved(*state, &p, &report);
         fw_arena_rewind(*state, mark);
         bool want = simple_by_pairs(&p);
         assert_int_equal(report.simple, want);
@@ -88,12 +98,53 @@ static void agrees_on_larger_polygons(void **state) {
         fw_polygon_report report;
         fw_mark mark = fw_arena_mark(*state);
         assert_int_equal(fw_polygon_check(*state, &p, &report), FW_OK);
+        assert_proved(*state, &p, &report);
         fw_arena_rewind(*state, mark);
         assert_int_equal(report.simple, simple_by_pairs(&p));
         simple += report.simple;
         not_simple += !report.simple;
     }
     assert_true(simple > 500 && not_simple > 300);
+}
+
+/* corners, spikes and straight vertices by definition, on small random polygons */
+static void measures_what_is_there(void **state) {
+    int spikes = 0, zero = 0, straight = 0;
+    for (int i = 0; i < 20000; i++) {
+        int n = whole(3, 8);
+        fw_point v[8];
+        for (int k = 0; k < n; k++)
+            v[k] = (fw_point){whole(-5, 5), whole(-5, 5)};
+        fw_polygon p = {v, n};
+        fw_polygon_report report;
+        fw_mark mark = fw_arena_mark(*state);
+        assert_int_equal(fw_polygon_check(*state, &p, &report), FW_OK);
+        fw_arena_rewind(*state, mark);
+        double shortest = HUGE_VAL, sharpest[2] = {FW_PI, FW_PI};
+        int count[3] = {0};
+        for (int k = 0; k < n; k++) {
+            fw_point a = v[k], b = v[(k + 1) % n], c = v[(k + 2) % n];
+            double ux = a.x_dbu - b.x_dbu, uy = a.y_dbu - b.y_dbu;
+            double vx = c.x_dbu - b.x_dbu, vy = c.y_dbu - b.y_dbu;
+            double turn = ux * vy - uy * vx, dot = ux * vx + uy * vy;
+            shortest = fmin(shortest, 1e-9 * hypot(vx, vy));
+            count[0] += hypot(vx, vy) == 0;
+            count[1] += turn == 0 && dot > 0;
+            count[2] += turn == 0 && dot < 0;
+            if (turn != 0) sharpest[turn > 0] = fmin(sharpest[turn > 0], atan2(fabs(turn), dot));
+        }
+        assert_near(report.shortest_edge_m, shortest, 1e-20);
+        assert_int_equal(report.zero_edges, count[0]);
+        assert_int_equal(report.spikes, count[1]);
+        assert_int_equal(report.straight, count[2]);
+        if (!report.simple) continue;
+        assert_near(report.sharpest_material_rad, sharpest[0], 1e-12);
+        assert_near(report.sharpest_space_rad, sharpest[1], 1e-12);
+        assert_near(report.sharpest_rad, fmin(sharpest[0], sharpest[1]), 1e-12);
+        zero += count[0], spikes += count[1], straight += count[2];
+    }
+    print_message("%d straight vertices\n", straight);
+    assert_true(zero == 0 && spikes == 0 && straight > 50);
 }
 
 static void measures_edge_and_angle(void **state) {
@@ -163,9 +214,13 @@ static void errors(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        geo_test(agrees_with_all_pairs),         geo_test(agrees_on_larger_polygons),
-        geo_test(measures_edge_and_angle),       geo_test(large_polygons_are_certified),
-        geo_test(flattened_outlines_are_simple), geo_test(errors),
+        geo_test(agrees_with_all_pairs),
+        geo_test(agrees_on_larger_polygons),
+        geo_test(measures_what_is_there),
+        geo_test(measures_edge_and_angle),
+        geo_test(large_polygons_are_certified),
+        geo_test(flattened_outlines_are_simple),
+        geo_test(errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

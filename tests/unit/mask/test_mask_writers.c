@@ -153,7 +153,8 @@ static void certificate_is_json(void **state) {
     s->options.nnote = 1;
     const fw_mask *mask = built(s);
     fw_text out = fw_text_new(s->arena);
-    assert_int_equal(fw_mask_write_certificate(mask, "abc", &out), FW_OK);
+    const fw_output_file file[] = {{"x.gds", 12, "00ff"}, {"x.svg", 7, "11"}};
+    assert_int_equal(fw_mask_write_certificate_of(mask, "abc", file, 2, &out), FW_OK);
     json_error_t error;
     json_t *root = json_loads(out.data, JSON_REJECT_DUPLICATES, &error);
     if (!root) fail_msg("line %d: %s", error.line, error.text);
@@ -172,6 +173,25 @@ static void certificate_is_json(void **state) {
     assert_near(json_number_value(json_object_get(first, "min_space_um")), 91, 1e-8);
     /* the empty layer has no width */
     assert_true(json_is_null(json_object_get(json_array_get(layers, 1), "min_width_um")));
+    assert_int_equal(json_array_size(json_object_get(root, "files")), 2);
+    assert_string_equal(json_string_value(json_object_get(root, "flattening")), "inside");
+    json_t *shapes = json_object_get(root, "shapes"), *arch = json_array_get(shapes, 0);
+    assert_int_equal(json_array_size(shapes), 3);
+    assert_string_equal(json_string_value(json_object_get(arch, "piece")), "arch");
+    assert_true(json_integer_value(json_object_get(arch, "area2_nm2")) ==
+                fw_polygon_area2(&mask->shape[0].polygon));
+    json_t *necks = json_object_get(root, "necks"), *neck = json_array_get(necks, 0);
+    assert_int_equal(json_array_size(necks), 1);
+    assert_near(json_number_value(json_object_get(neck, "width_um")), 9, 1e-9);
+    json_t *vertex = json_array_get(json_object_get(neck, "vertices_nm"), 0);
+    assert_int_equal(json_integer_value(json_array_get(vertex, 0)), 0);
+    size_t i;
+    json_t *check;
+    json_array_foreach(json_object_get(root, "checks"), i, check) {
+        assert_true(json_integer_value(json_object_get(check, "of")) > 0);
+        assert_int_equal(json_integer_value(json_object_get(check, "not_simple")), 0);
+        assert_true(json_number_value(json_object_get(check, "worst_part")) <= 1);
+    }
     json_t *notes = json_object_get(root, "notes");
     assert_string_equal(json_string_value(json_array_get(notes, json_array_size(notes) - 1)),
                         "quote=\"\\");

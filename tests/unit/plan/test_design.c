@@ -368,7 +368,7 @@ static void null_is_wrong_usage(void **state) {
 
 static void options_out_of_range(void **state) {
     (void)state;
-    for (int i = 0; i < 12; i++) {
+    for (int i = 0; i < 13; i++) {
         fw_design_options o = options();
         switch (i) {
         case 0:
@@ -403,6 +403,9 @@ static void options_out_of_range(void **state) {
             break;
         case 10:
             o.mask_vertices = 200;
+            break;
+        case 11:
+            o.mask_flatten = "outside";
             break;
         default:
             o.integrator = "";

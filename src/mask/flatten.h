@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From an exact outline to its polygon: necks, flattening, bounds. Private to the room. */
+#ifndef FW_MASK_FLATTEN_H
+#define FW_MASK_FLATTEN_H
+#include "geometry/segment.h"
+#include "mask/mask.h"
+
+/* how all shapes are to be flattened */
+void fw_mask_set_flattening(fw_mask_shape *shape, int nshape, fw_flattening kind);
+/* Where a chord between two edges is shortest: of parallel or concentric ones in the middle. */
+fw_chord fw_mask_narrowest(const fw_segment *p, const fw_segment *q);
+/* polygon, bounds and, of a flexure, the neck, whose ends on arcs become vertices */
+fw_status fw_mask_flatten(fw_arena *arena, fw_mask_shape *shape, double tolerance_m);
+
+/* of a layer: shortest edge, sharpest corners, farthest edge, straight vertices, box */
+void fw_mask_measure_start(fw_mask_measure *measure);
+void fw_mask_measure_add(fw_mask_measure *measure, const fw_mask_shape *shape);
+
+#endif
