@@ -473,7 +473,7 @@ class Recipe(InTemporary):
 
     def test_formats_of_masks_and_what_the_order_sheet_says_of_them(self):
         flow, always = FLOWS[0], {".gds", ".json", ".lyp", ".lyt"}
-        for formats, more in (("all", {".svg", ".oas", ".dxf"}), ("oasis", {".oas"}), ("dxf,svg", {".dxf", ".svg"})):
+        for formats, more in (("all", {".svg", ".oas", ".dxf", ".stl", ".obj"}), ("oasis", {".oas"}), ("dxf,svg", {".dxf", ".svg"})):
             out = self.here / formats
             self.expect(run("mask", GALLERY, "--flow", flow, "--mask-format", formats, "--mask-vertices", "199", "-o", out), 0)
             order = json.loads((out / f"masks/{flow}.order.json").read_text())
@@ -488,7 +488,8 @@ class Recipe(InTemporary):
             self.assertEqual(order["vertex_limit"], 199)
             self.assertGreater(order["polygons"], 100)
             self.assertEqual(len([s for s in order["cd_sites"] if s["what"].startswith("flexure")]), 6)
-        for wrong in (("--mask-format", "gds,"), ("--mask-format", "tiff"), ("--mask-vertices", "200")):
+        for wrong in (("--mask-format", "gds,"), ("--mask-format", "tiff"), ("--mask-vertices", "200"),
+                      ("--mask-flatten", "outside")):
             self.expect(run("mask", GALLERY, *wrong), 2)
 
 
