@@ -75,6 +75,19 @@ static void plan_corner(const fw_segment *before, const fw_segment *after, doubl
                 !((before->flags | after->flags) & FW_SEGMENT_JOINT);
 }
 
+/* factor for the radii at the two ends of segment s, whose roundings cut the share `cut` of it
+   away. Either all of it is used up (the two arcs then share a point), or a whole edge stays: a
+   rest of nanometres would be a sliver on the mask, where chords are some 200 nm and longer. The
+   trim of a corner grows linearly with its radius between lines, else about so: the next pass looks
+   again. Test: test_round.c. */
+static double scale_for(const fw_segment *s, double cut) {
+    const double slack = 1e-12, rest_m = 200e-9;
+    if (cut > 1 + slack) return 1 / cut;
+    double length = fw_segment_length(s), rest = (1 - cut) * length;
+    if (rest >= rest_m || rest <= FW_COINCIDENT_M || length < 8 * rest_m) return 1;
+    return (1 - 2 * rest_m / length) / cut;
+}
+
 /* one pass: fits all corners, shrinks those that do not fit; index of a corner that got too small,
    or -1. corner i is where segment i ends. */
 static int shrink(const fw_contour *contour, fillet *f, bool *changed) {
@@ -90,11 +103,11 @@ static int shrink(const fw_contour *contour, fillet *f, bool *changed) {
     for (int i = 0; i < n; i++) {
         fillet *start = &f[(i + n - 1) % n], *end = &f[i];
         double cut = (start->wanted ? start->trim_after : 0) + (end->wanted ? end->trim_before : 0);
-        if (cut <= 1 + slack) continue;
+        double scale = scale_for(&contour->segment[i], cut);
+        if (scale == 1) continue;
         *changed = true;
-        /* the trim of a corner grows about linearly with its radius */
-        start->scale = fmin(start->scale, 1 / cut);
-        end->scale = fmin(end->scale, 1 / cut);
+        start->scale = fmin(start->scale, scale);
+        end->scale = fmin(end->scale, scale);
     }
     for (int i = 0; i < n; i++) {
         f[i].factor *= f[i].scale;

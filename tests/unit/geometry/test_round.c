@@ -53,6 +53,32 @@ static void convex_and_concave_have_their_own_radius(void **state) {
         assert_memory_equal(&round.segment[i].a, &ell.segment[i].a, sizeof(fw_vec2));
 }
 
+/* Two hollow corners share an arc that is about as long as both roundings: whatever its length, it
+   is used up, or an edge of some 200 nm stays. Nothing between, which would be a sliver on the
+   mask. */
+static void what_stays_between_two_corners_is_no_sliver(void **state) {
+    double least = HUGE_VAL;
+    for (int k = 0; k < 400; k++) {
+        double sweep = 0.02 + 0.00006 * k, r = 300e-6;
+        fw_vec2 o = {0, 0}, p = {r * sin(sweep), -r * cos(sweep)}, q = {-p.x, p.y};
+        fw_contour c, round;
+        fw_vec2 where, up = {0, 60e-6};
+        fw_outline out = fw_outline_start(*state, (fw_vec2){q.x, q.y + up.y});
+        fw_outline_line(&out, q, 0);
+        fw_outline_arc_to(&out, o, 2 * sweep, p, 0);
+        fw_outline_line(&out, (fw_vec2){p.x, p.y + up.y}, 0);
+        fw_outline_line(&out, (fw_vec2){p.x, p.y + 80e-6}, 0);
+        fw_outline_line(&out, (fw_vec2){q.x, q.y + 80e-6}, 0);
+        assert_int_equal(fw_outline_close(&out, &c), FW_OK);
+        assert_int_equal(fw_contour_round(*state, &c, 10e-6, 0, &round, &where), FW_OK);
+        assert_true(fw_contour_valid(&round));
+        assert_true(worst_turn(&round) < 1e-6);
+        for (int i = 0; i < round.count; i++)
+            least = fmin(least, fw_segment_length(&round.segment[i]));
+    }
+    assert_true(least > 199e-9);
+}
+
 static void corners_beside_joints_stay(void **state) {
     const double x[] = {0, 50, 50, 0}, y[] = {0, 0, 20, 20};
     const unsigned flags[] = {0, FW_SEGMENT_JOINT, 0, 0};
@@ -133,9 +159,13 @@ static void errors(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        geo_test(square_loses_the_closed_form), geo_test(convex_and_concave_have_their_own_radius),
-        geo_test(corners_beside_joints_stay),   geo_test(arcs_get_tangent_fillets),
-        geo_test(half_disc_closed_form),        geo_test(errors),
+        geo_test(square_loses_the_closed_form),
+        geo_test(convex_and_concave_have_their_own_radius),
+        geo_test(corners_beside_joints_stay),
+        geo_test(arcs_get_tangent_fillets),
+        geo_test(half_disc_closed_form),
+        geo_test(what_stays_between_two_corners_is_no_sliver),
+        geo_test(errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""bytes.py PROGRAM: the masks of the gallery and of a dozen random devices are the same bytes from gcc -O0, -O2 (PROGRAM) and
+-O3, from clang -O2 (build-clang, which build.clang leaves), and from gcc -O1 under the sanitizers where build.sanitized has
+left it. Only the programs are built. Motion is not compared: masks depend on the description and the process alone."""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/accept"))
+sys.dont_write_bytecode = True
+import random_devices  # noqa: E402
+
+FAST = ["--force", "--corners", "none", "--accuracy", "3e-2", "--hinge-model", "revolute", "--mask-format", "all", "-q"]
+COUNT = int(os.environ.get("FW_BYTES_COUNT", "12"))
+
+
+def build(name, *options):
+    """the program of a build directory beside the sources"""
+    directory = ROOT / name
+    for command in (["cmake", "-S", ROOT, "-B", directory, "-G", "Ninja", *options], ["cmake", "--build", directory, "--target", "flexwright"]):
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode:
+            sys.exit("%s does not build:\n%s" % (name, (done.stdout + done.stderr)[-3000:]))
+    return directory / "flexwright"
+
+
+def level(flags):
+    return ("-DFW_TESTS=OFF", "-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_C_COMPILER=gcc", "-DCMAKE_C_FLAGS_DEBUG=" + flags)
+
+
+def programs(own):
+    found = {"gcc -O2": own, "gcc -O0": build("build-O0", *level("-O0")), "gcc -O3": build("build-O3", *level("-O3")),
+             "clang -O2": build("build-clang", "-DCMAKE_C_COMPILER=clang", "-DFW_TESTS=ON")}
+    sanitized = ROOT / "build-asan/flexwright"
+    if sanitized.exists() and sanitized.stat().st_mtime >= pathlib.Path(own).stat().st_mtime:
+        found["gcc -O1, sanitizers"] = sanitized
+    return found
+
+
+def devices(where):
+    """(name, file, options); the gallery's scenes are cut short, since nothing that moves is in a mask"""
+    for path in sorted((ROOT / "docs/gallery").glob("*/device.xml")):
+        file = where / (path.parent.name + ".xml")
+        file.write_text(re.sub(r'(<scene [^>]*duration=)"[^"]*"', r'\1"0.1 ms"', path.read_text(encoding="utf-8")), encoding="utf-8")
+        yield path.parent.name, file, []
+    for seed in range(5000, 5000 + COUNT):
+        text, options = random_devices.device(seed)
+        file = where / ("%d.xml" % seed)
+        file.write_text(text, encoding="utf-8")
+        yield str(seed), file, options
+
+
+def masks(program, file, options, out):
+    """{name: bytes}; of a device that is refused, what is said"""
+    done = subprocess.run([program, "mask", file, *FAST, *options, "-o", out], capture_output=True, text=True, check=False)
+    if not (out / "masks").exists():
+        return {"refused": done.stderr.encode()}
+    return {p.name: p.read_bytes() for p in sorted((out / "masks").iterdir())}
+
+
+def main():
+    wrong, files, drawn = [], 0, 0
+    with tempfile.TemporaryDirectory() as temporary:
+        where = pathlib.Path(temporary)
+        all_programs = programs(pathlib.Path(sys.argv[1]))
+        for name, file, options in devices(where):
+            first = None
+            for number, (build_name, program) in enumerate(all_programs.items()):
+                made = masks(program, file, options, where / ("%s-%d" % (name, number)))
+                first = first or made
+                wrong += ["%s: %s differs (%s)" % (name, k, build_name) for k in sorted(set(first) | set(made))
+                          if first.get(k) != made.get(k)]
+            files += len(first)
+            drawn += "refused" not in first
+    print("\n".join(wrong) or "%d files of %d devices: the same bytes from %s" % (files, drawn, ", ".join(all_programs)))
+    return 1 if wrong or drawn < 10 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
