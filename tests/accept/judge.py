@@ -88,12 +88,12 @@ class Judge:
         _, text = self.python(HERE / "layers.py", gds, table, str(stem) + ".json")
         rows = [line.split() for line in text.splitlines()]
         self.say(name + ": has polygons", bool(rows))
-        areas = []
+        areas, least = [], self.chords(pathlib.Path(str(stem) + ".json"), gds)
         for layer, width, space, area in rows:
             for rule in dict.fromkeys([(width, space), ("4.0", "4.0")]):
                 self.ask("%s %s: width %s um, space %s um" % (name, layer, *rule), "kl_drc.py", f=gds, layer=layer, width=rule[0],
                          space=rule[1])
-            self.clearance(name, gds, layer)
+            self.clearance(name, gds, layer, float(least.get(layer, 0)))
             areas.append("%s:%s" % (layer, area))
         self.ask(name + ": merged areas", "kl_area.py", f=gds, expect=",".join(areas), rel="1e-9")
         self.say(name + ": gdspy", *self.verdict(self.python(self.scripts / "gdspy_read.py", gds, *areas)))
@@ -103,8 +103,18 @@ class Judge:
     def verdict(result):
         return result[0] == 0, result[1]
 
-    def clearance(self, name, gds, layer):
-        done = subprocess.run([self.work / "geos_check", gds, *layer.split("/"), "0.020"], capture_output=True, text=True, check=False)
+    @staticmethod
+    def chords(certificate, gds):
+        """{layer: um}: the shortest edge that the certificate names, where no outline is cut"""
+        polygons = outlines.read_gds(gds)
+        layers = json.loads(certificate.read_text(encoding="utf-8"))["layers"] if certificate.exists() else []
+        return {k["gds"]: k["shortest_edge_nm"] * 1e-3 for k in layers
+                if k["polygons"] and len(polygons.get(k["gds"], [])) == k["polygons"]}
+
+    def clearance(self, name, gds, layer, chord):
+        """no vertex nearer to an edge than 0.9 of the shortest edge, and 20 nm in any case"""
+        done = subprocess.run([self.work / "geos_check", gds, *layer.split("/"), "%.6f" % max(0.020, 0.9 * chord)],
+                              capture_output=True, text=True, check=False)
         self.say("%s %s: GEOS" % (name, layer), done.returncode == 0, done.stdout + done.stderr)
 
     def formats(self, name, gds, stem):
@@ -117,7 +127,8 @@ class Judge:
             self.ask(name + ": OASIS equal to GDSII", "kl_xor.py", a=gds, b=file["oas"])
         near = tolerance + 5.5e-3  # two roundings to the grid, chords of the other side, and whole nanometres
         if file["dxf"].exists():
-            self.ask(name + ": DXF by KLayout", "kl_dxf.py", gds=gds, dxf=file["dxf"], lyt=file["lyt"], tol=near + tolerance)  # KLayout's own arcs
+            self.ask(name + ": DXF by KLayout", "kl_dxf.py", gds=gds, dxf=file["dxf"], lyt=file["lyt"],
+                     tol=near + tolerance)  # KLayout's own arcs
         if file["svg"].exists():
             self.ask(name + ": SVG and GDSII", "kl_svg.py", gds=gds, svg=file["svg"], json=json_file, here=HERE, tol=near)
         polygons = outlines.read_gds(gds)

@@ -157,12 +157,15 @@ def legs(draw, kind=hinge_of_any_kind, count=None):
     joints = ""
     for i in range(count):
         lean = draw.between(-80, 80, 2) if draw.often(0.3) else 0
-        body += '    <body id="leg%d" x="%s" y="%s" width="%s"/>\n' % (i, um(i * pitch + lean / 2), um(height / 2), um(draw.between(100, 180)))
+        body += ('    <body id="leg%d" x="%s" y="%s" width="%s"/>\n'
+                 % (i, um(i * pitch + lean / 2), um(height / 2), um(draw.between(100, 180))))
         flexure = lambda: "L%d" % draw.whole(0, len(flexures) - 1)
         joints += revolute("A%d" % i, "ground", i * pitch, 0, "leg%d" % i, -lean / 2, -height / 2, flexure())
-        joints += revolute("B%d" % i, "leg%d" % i, lean / 2, height / 2, "coupler", i * pitch + lean - pitch * (count - 1) / 2, 0, flexure())
+        joints += revolute("B%d" % i, "leg%d" % i, lean / 2, height / 2, "coupler",
+                           i * pitch + lean - pitch * (count - 1) / 2, 0, flexure())
     text = "".join(flexures) + "  <mechanism>\n" + body + joints + "  </mechanism>\n"
-    return text + scene('    <force on="coupler" fx="1 nN" fy="0 mN"/>\n'), pitch * (count - 1) + 800, height + 500 + (900 if count > 2 else 0)
+    pushed = scene('    <force on="coupler" fx="1 nN" fy="0 mN"/>\n')
+    return text + pushed, pitch * (count - 1) + 800, height + 500 + (900 if count > 2 else 0)
 
 
 def comb_stage(draw):
@@ -196,7 +199,8 @@ def chain(draw):
     for i in range(count):
         length, lean = draw.between(900, 1500), draw.between(-250, 250)
         flexures += hinge_of_any_kind(draw, "F%d" % i)
-        bodies += '    <body id="bar%d" x="%s" y="%s" width="%s"/>\n' % (i, um(x + lean / 2), um(y + length / 2), um(draw.between(110, 220)))
+        bodies += ('    <body id="bar%d" x="%s" y="%s" width="%s"/>\n'
+                   % (i, um(x + lean / 2), um(y + length / 2), um(draw.between(110, 220))))
         joints += revolute("J%d" % i, last, at[0], at[1], "bar%d" % i, -lean / 2, -length / 2, "F%d" % i)
         x, y, last, at = x + lean, y + length, "bar%d" % i, (lean / 2, length / 2)
     plate = draw.between(300, 700)  # at the end of the last bar: a tool

@@ -57,7 +57,9 @@ def sliver(stem):
 
 
 def svg_arc(stem):
-    text_of(stem.with_suffix(".svg"), lambda s: re.sub(r"A(\d{2,}\.\d+) \1", lambda m: "A%s %s" % (2 * ("%.6f" % (float(m[1]) + 0.1),)), s, count=1))
+    def larger(match):
+        return "A%s %s" % (2 * ("%.6f" % (float(match[1]) + 0.1),))
+    text_of(stem.with_suffix(".svg"), lambda s: re.sub(r"A(\d{2,}\.\d+) \1", larger, s, count=1))
 
 
 def svg_shape(stem):
@@ -65,7 +67,9 @@ def svg_shape(stem):
 
 
 def dxf_bulge(stem):
-    text_of(stem.with_suffix(".dxf"), lambda s: re.sub(r"\n42\n(0\.[1-9]\d*)\n", lambda m: "\n42\n%.9f\n" % (float(m[1]) * 1.02), s, count=1))
+    def larger(match):
+        return "\n42\n%.9f\n" % (float(match[1]) * 1.02)
+    text_of(stem.with_suffix(".dxf"), lambda s: re.sub(r"\n42\n(0\.[1-9]\d*)\n", larger, s, count=1))
 
 
 def number(name, change):

@@ -136,7 +136,8 @@ def measure(build, rounds, where):
     for source, name in ((HERE / "peers/geos_bias.c", "geos_bias"), (ROOT / "tests/accept/geos_check.c", "geos_check")):
         subprocess.run(["cc", "-O2", source, "-lgeos_c", "-lm", "-o", where / name], check=True)
     write_input(where)
-    programs = ([build / "tests/bench/bench_mask_peers", where / "radii.txt", where], ["/usr/bin/python3", HERE / "peers/gdspy_bias.py", where],
+    programs = ([build / "tests/bench/bench_mask_peers", where / "radii.txt", where],
+                ["/usr/bin/python3", HERE / "peers/gdspy_bias.py", where],
                 ["klayout", "-b", "-r", HERE / "peers/kl_bias.py", "-rd", "dir=%s" % where],
                 [where / "geos_bias", where / "input.f64", where / "geos.bin"])
     took = [one_round(where, programs) for _ in range(rounds)]
@@ -186,16 +187,17 @@ def page(rows):
     yield "# Masks beside other tools\n\n"
     yield ("Written by `tests/bench/mask_peers.py` from [the measured rows](data/mask-benchmarks.csv); do not edit. 1000 hinges, none "
            "like another: two half circles of 80 to 110 um on either side of a neck of 8 um. Other tools get them as polygons of 1000 "
-           "vertices, KLayout on its grid of 1 nm, gdspy and GEOS as doubles; Flexwright keeps lines and arcs to the end. Times are CPU times of the operation alone, "
-           "in the tool's own process, without start-up; the tools take turns, median of the rounds.\n\n")
+           "vertices, KLayout on its grid of 1 nm, gdspy and GEOS as doubles; Flexwright keeps lines and arcs to the end. "
+           "Times are CPU times of the operation alone, in the tool's own process, without start-up; the tools take turns, median of the rounds.\n\n")
     yield ("## Moved outward by 1.5 um, on the 1 nm grid\n\nThe exact arcs are known: error of a vertex, along the radius, on any half "
            "circle. Clearance: the least move of a vertex that would break a polygon (GEOS). The grid alone allows 0.71 nm.\n\n")
-    yield "| tool | setting | CPU ms | vertices | vertex error nm | edges below 5 nm | shortest edge nm | clearance nm |\n|---|---|---|---|---|---|---|---|\n"
+    yield ("| tool | setting | CPU ms | vertices | vertex error nm | edges below 5 nm | shortest edge nm | clearance nm |\n"
+           "|---|---|---|---|---|---|---|---|\n")
     for r in rows:
         if r["task"] == "bias":
             yield ("| %s | %s | %s | %s | %s to +%s | %s | %s | %s |\n"
-                   % (r["tool"], r["setting"], shown(r["cpu_ms"], 3), r["vertices"], shown(r["error_low_nm"], -2), shown(r["error_high_nm"], -2),
-                      r["short_edges"], shown(r["shortest_nm"], 3), shown(r["clearance_nm"], 3)))
+                   % (r["tool"], r["setting"], shown(r["cpu_ms"], 3), r["vertices"], shown(r["error_low_nm"], -2),
+                      shown(r["error_high_nm"], -2), r["short_edges"], shown(r["shortest_nm"], 3), shown(r["clearance_nm"], 3)))
     yield "\n## The same 1000 x 1000 vertices, written\n\n| tool | format | CPU ms | bytes |\n|---|---|---|---|\n"
     for r in rows:
         if r["task"].startswith("write "):

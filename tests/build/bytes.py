@@ -23,7 +23,8 @@ GALLERY = len(list((ROOT / "docs/gallery").glob("*/device.xml")))
 def build(name, *options):
     """the program of a build directory beside the sources"""
     directory = ROOT / name
-    for command in (["cmake", "-S", ROOT, "-B", directory, "-G", "Ninja", *options], ["cmake", "--build", directory, "--target", "flexwright"]):
+    for command in (["cmake", "-S", ROOT, "-B", directory, "-G", "Ninja", *options],
+                    ["cmake", "--build", directory, "--target", "flexwright"]):
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode:
             sys.exit("%s does not build:\n%s" % (name, (done.stdout + done.stderr)[-3000:]))
