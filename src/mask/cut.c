@@ -12,7 +12,7 @@ enum { SAMPLES = 1024 };
 typedef struct search {
     const fw_polygon *p;
     bool wide, clear; /* the two qualities asked for */
-    int share;        /* of the vertices that lie on either side at least: a fourth, an eighth */
+    int share;        /* of the vertices that lie on either side at least: a fourth, an eighth .. */
     int i, j;         /* best so far; -1: none */
     double least2;
 } search;
@@ -100,9 +100,9 @@ static bool valid(const search *s, int i, int j) {
         int next = k + 1 < p->count ? k + 1 : 0;
         if (k != i && next != i && k != j && next != j && meet(a, b, at(p, k), at(p, next)))
             return false;
-        if (s->clear && !is_neighbour(p, k, i) && !is_neighbour(p, k, j) &&
-            distance_to_line(a, b, at(p, k)) < CLEAR_DBU)
-            return false;
+        bool own = k == i || k == j;
+        if (s->wide) own = is_neighbour(p, k, i) || is_neighbour(p, k, j); /* at their angle */
+        if (s->clear && !own && distance_to_line(a, b, at(p, k)) < CLEAR_DBU) return false;
     }
     return true;
 }
@@ -119,8 +119,8 @@ static void look(search *s, int step) {
         }
 }
 
-/* Shortest straight cut that leaves at least a quarter of the vertices on either side (an eighth
-   where that makes it a good one): a neck, where there is one. In: a simple polygon,
+/* Shortest straight cut that leaves at least a quarter of the vertices on either side (less where
+   that makes it a good one): a neck, where there is one. In: a simple polygon,
    counter-clockwise. Every polygon has a cut inside it with at least n / 3 edges on either side
    (the middle edge of the tree of any triangulation), so the last search, over all pairs, finds
    one. Cost: at most SAMPLES^2 / 2 lengths and an O(n) check for each that is shorter than the
@@ -130,11 +130,13 @@ static bool find(const fw_polygon *p, int *i, int *j) {
     static const struct {
         bool wide, clear, all;
         int share;
-    } rounds[] = {{true, true, false, 4},
-                  {true, true, false, 8},
-                  {false, true, false, 8},
-                  {false, false, false, 4},
-                  {false, false, true, 4}};
+    } rounds[] = {
+        {true, true, false, 4},   {true, true, false, 8},
+        {false, true, false, 8}, /* discs: no angle is wide */
+        {true, true, false, 32}, /* one finger of a comb */
+        {false, true, false, 32}, {false, false, false, 4},
+        {false, false, true, 4},
+    };
     int coarse = p->count / SAMPLES > 1 ? p->count / SAMPLES : 1;
     for (size_t round = 0; round < sizeof rounds / sizeof *rounds; round++) {
         search s = {.p = p,
