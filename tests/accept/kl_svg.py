@@ -16,7 +16,7 @@ layers = {"%d/%d" % (B.get_info(i).layer, B.get_info(i).datatype): region(i) for
 for k in sorted(set(layers) | set(shapes)):
     q = layers.get(k, pya.Region()); p = pya.Region()
     for o in shapes.get(k, []): p.insert(pya.Polygon([pya.Point(x, y) for x, y in O.flat(o, 0.0015)]))
-    p.merge(); x = p ^ q; h = max(1, int(round(tol / d / 2))); y = x.sized(-h, 2).sized(h, 2)
+    p.merge(); x = p ^ q; h = max(1, int(round(tol / d / 2))); y = x.sized(-h, 2)
     wrong = y.count() > 0 or p.count() != q.count(); bad |= wrong; drawn += q.count()
     print("%s %s: %d and %d polygons, XOR %.6f um2, wider than %g um: %d" % ("FAIL" if wrong else "ok", k, p.count(), q.count(), x.area() * d * d, 2 * h * d, y.count()))
 if not drawn: bad = 1; print("nothing drawn")

@@ -80,8 +80,8 @@ static void what_stays_between_two_corners_is_no_sliver(void **state) {
 }
 
 /* A step that the rolling disc does not touch leaves no trace: a box with a corner cut off by less
-   than that is rounded like the whole box, bit for bit of area; cut off by more, each corner has
-   its own arc. Hollow corners alike. */
+   than that is rounded like the whole box; cut off by more, each corner has its own arc. Holes
+   alike. */
 static void steps_shorter_than_the_disc_are_passed_over(void **state) {
     double r = 10;
     for (int k = 0; k < 200; k++) {
@@ -103,6 +103,10 @@ static void steps_shorter_than_the_disc_are_passed_over(void **state) {
             want = 2400 - 0.5 * up * run - 0.75 * (4 - FW_PI) * r * r -
                    r * r * (tan(angle / 2) + tan(second / 2) - FW_PI / 4);
         assert_relative(fw_contour_area(&round), want * 1e-12, 1e-12);
+        fw_contour hole;
+        assert_int_equal(fw_contour_reverse(*state, &cut, &hole), FW_OK);
+        assert_int_equal(fw_contour_round(*state, &hole, 0, r * 1e-6, &round, &where), FW_OK);
+        assert_relative(-fw_contour_area(&round), want * 1e-12, 1e-12);
     }
 }
 
