@@ -33,12 +33,17 @@ fw_script_test(cli.violations COMMAND ${Python3_EXECUTABLE} tests/cli/test_viola
 fw_script_test(cli.mask_certificate COMMAND ${Python3_EXECUTABLE} tests/cli/test_mask_certificate.py ${FW_PROGRAM})
 fw_script_test(fault.files COMMAND ${Python3_EXECUTABLE} tests/fault/test_faults.py ${FW_PROGRAM})
 fw_script_test(accept.masks COMMAND tests/accept/gallery.sh ${FW_PROGRAM} TIMEOUT 600)
+fw_script_test(accept.selftest COMMAND tests/accept/selftest.py ${FW_PROGRAM})
+fw_script_test(accept.random COMMAND tests/accept/random_masks.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(docs.readme COMMAND ${Python3_EXECUTABLE} tests/docs/readme.py ${FW_PROGRAM})
 fw_script_test(docs.json COMMAND ${Python3_EXECUTABLE} tests/docs/json_keys.py ${FW_PROGRAM})
 fw_script_test(docs.effects LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/effects.py)
+fw_script_test(docs.masks LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/mask_benchmarks.py)
 fw_script_test(docs.pages LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/pages.py)
 fw_script_test(build.clang COMMAND tests/build/clang.sh TIMEOUT 600)
 fw_script_test(build.sanitized COMMAND tests/build/sanitized.sh TIMEOUT 900)
+fw_script_test(build.bytes COMMAND ${Python3_EXECUTABLE} tests/build/bytes.py ${FW_PROGRAM} TIMEOUT 900)
+set_tests_properties(build.bytes PROPERTIES DEPENDS "build.clang;build.sanitized") # uses what they build
 fw_script_test(effects.costs COMMAND ${Python3_EXECUTABLE} tests/build/effects.py costs $<TARGET_FILE:effect_cost>)
 fw_script_test(effects.absent COMMAND ${Python3_EXECUTABLE} tests/build/effects.py absent
                ${PROJECT_BINARY_DIR} TIMEOUT 600)
@@ -46,13 +51,13 @@ set_tests_properties(effects.costs effects.absent PROPERTIES SKIP_RETURN_CODE 77
 fw_script_test(fuzz.device COMMAND tests/build/fuzz.sh TIMEOUT 600)
 fw_script_test(hard.valgrind LABEL hard COMMAND tests/build/valgrind.sh ${PROJECT_BINARY_DIR}/tests TIMEOUT 600)
 set_tests_properties(hard.valgrind PROPERTIES SKIP_RETURN_CODE 77)
-set_tests_properties(build.clang build.sanitized fuzz.device effects.absent PROPERTIES RUN_SERIAL ON)
+set_tests_properties(build.clang build.sanitized build.bytes fuzz.device effects.absent PROPERTIES RUN_SERIAL ON)
 
 add_executable(fault_memory fault/memory.c)
 target_link_libraries(fault_memory PRIVATE fw_plan)
 fw_script_test(fault.memory COMMAND fault_memory docs/gallery/reference-six-bar/device.xml TIMEOUT 600)
 fw_script_test(golden.gallery COMMAND tests/golden/gallery.sh ${FW_PROGRAM})
-set_tests_properties(accept.masks PROPERTIES SKIP_RETURN_CODE 77)
+set_tests_properties(accept.masks accept.random accept.selftest PROPERTIES SKIP_RETURN_CODE 77)
 if(NOT FW_SANITIZE) # a sanitized library wants a sanitized user
     fw_script_test(library.consumer COMMAND tests/consumer/run.sh ${PROJECT_BINARY_DIR} ${FW_PROGRAM})
 endif()

@@ -189,6 +189,7 @@ static double branch(const struct fw_kinks *k, int i, int count, double theta, d
 /* the ones nearest to the step */
 static double nearest(const struct fw_kinks *k, int i, int count, double at[3]) {
     double least = HUGE_VAL, other[3];
+    at[0] = at[1] = at[2] = 0; /* gcc -O3 does not see that without a kink nobody reads it */
     for (int p = 0; p <= FINE; p++) {
         double how = branch(k, i, count, (double)p / FINE, other);
         if (how < least) least = how, memcpy(at, other, sizeof other);

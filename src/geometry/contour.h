@@ -116,9 +116,11 @@ typedef enum fw_boolean { FW_UNION, FW_DIFFERENCE, FW_INTERSECTION } fw_boolean;
 fw_status fw_region_boolean(fw_arena *arena, const fw_region *p, const fw_region *q, fw_boolean op,
                             fw_region *out);
 /* rounds corners with tangent arcs: convex corners (material angle < 180) with `convex_m`, concave
-   ones with `concave_m`; radius 0 leaves them. A corner next to a JOINT segment stays. Where the
-   neighbouring segments are too short the radius shrinks, never below a quarter, else
-   FW_GEOMETRY with the corner's place in *where. */
+   ones with `concave_m`; radius 0 leaves them. A corner next to a JOINT segment stays. A segment
+   between two corners of one side that is too short for both (and shorter than the radius, turns up
+   to 120 degrees together) is left out: the rounding touches its neighbours. Where neighbouring
+   segments are else too short the radius shrinks, never below a quarter, else FW_GEOMETRY with the
+   corner's place in *where; what stays of a segment is nothing or 200 nm. */
 fw_status fw_contour_round(fw_arena *arena, const fw_contour *contour, double convex_m,
                            double concave_m, fw_contour *out, fw_vec2 *where);
 /* moves every segment outward by d (inward for d < 0) along its normal; lines and arcs stay lines

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "geometry/segment.h"
+#include <string.h>
+
+static const double MOST_SKIPPED_RAD = 2.0943951023931957; /* 120 degrees */
 
 typedef struct fillet {
     bool wanted;
@@ -75,6 +78,60 @@ static void plan_corner(const fw_segment *before, const fw_segment *after, doubl
                 !((before->flags | after->flags) & FW_SEGMENT_JOINT);
 }
 
+/* is segment s too short for the rounding circles at its two ends, but one circle of that radius
+   touches p before and q behind it? */
+static bool rolls_past(const fw_segment *p, const fw_segment *s, const fw_segment *q,
+                       double convex_m, double concave_m) {
+    fillet first, second, both;
+    plan_corner(p, s, convex_m, concave_m, &first);
+    plan_corner(s, q, convex_m, concave_m, &second);
+    plan_corner(p, q, convex_m, concave_m, &both);
+    if (!first.wanted || !second.wanted || !both.wanted) return false;
+    if (first.side != second.side || first.side != both.side) return false;
+    double turn = fabs(fw_corner_turn(p, s)) + fabs(fw_corner_turn(s, q));
+    if (turn > MOST_SKIPPED_RAD || fw_segment_length(s) > first.radius_m) return false;
+    if (fit(p, s, &first) && fit(s, q, &second) && first.trim_after + second.trim_before <= 1)
+        return false;
+    return fit(p, q, &both) && both.t_before > 0 && both.t_before <= 1 && both.t_after >= 0 &&
+           both.t_after < 1;
+}
+
+/* A disc of the radius that rolls along the outline passes over a step that is shorter than it: the
+   segment is left out, and the rounding touches its neighbours. For lines that is so exactly when
+   r (tan(turn1 / 2) + tan(turn2 / 2)) exceeds its length; to shrink both radii instead would leave
+   a tip or notch sharper than any rule of a mask allows. Only up to turns of 120 degrees together:
+   beyond, much of a tip would go. Count of those kept. Test: test_round.c. */
+static int leave_out(const fw_contour *contour, double convex_m, double concave_m,
+                     fw_segment *kept) {
+    int n = contour->count, i = 0;
+    memcpy(kept, contour->segment, (size_t)n * sizeof *kept);
+    for (int since = 0; since < n && n > 3; since++) {
+        i = i < n ? i : 0;
+        const fw_segment *p = &kept[(i + n - 1) % n], *q = &kept[(i + 1) % n];
+        if (rolls_past(p, &kept[i], q, convex_m, concave_m)) {
+            memmove(kept + i, kept + i + 1, (size_t)(n - i - 1) * sizeof *kept);
+            n--;
+            since = -1;
+        } else {
+            i++;
+        }
+    }
+    return n;
+}
+
+/* factor for the radii at the two ends of segment s, whose roundings cut the share `cut` of it
+   away. Either all of it is used up (the two arcs then share a point), or a whole edge stays: a
+   rest of nanometres would be a sliver on the mask, where chords are some 200 nm and longer. The
+   trim of a corner grows linearly with its radius between lines, else about so: the next pass looks
+   again. Test: test_round.c. */
+static double scale_for(const fw_segment *s, double cut) {
+    const double slack = 1e-12, rest_m = 200e-9;
+    if (cut > 1 + slack) return 1 / cut;
+    double length = fw_segment_length(s), rest = (1 - cut) * length;
+    if (rest >= rest_m || rest <= FW_COINCIDENT_M || length < 8 * rest_m) return 1;
+    return (1 - 2 * rest_m / length) / cut;
+}
+
 /* one pass: fits all corners, shrinks those that do not fit; index of a corner that got too small,
    or -1. corner i is where segment i ends. */
 static int shrink(const fw_contour *contour, fillet *f, bool *changed) {
@@ -90,11 +147,11 @@ static int shrink(const fw_contour *contour, fillet *f, bool *changed) {
     for (int i = 0; i < n; i++) {
         fillet *start = &f[(i + n - 1) % n], *end = &f[i];
         double cut = (start->wanted ? start->trim_after : 0) + (end->wanted ? end->trim_before : 0);
-        if (cut <= 1 + slack) continue;
+        double scale = scale_for(&contour->segment[i], cut);
+        if (scale == 1) continue;
         *changed = true;
-        /* the trim of a corner grows about linearly with its radius */
-        start->scale = fmin(start->scale, 1 / cut);
-        end->scale = fmin(end->scale, 1 / cut);
+        start->scale = fmin(start->scale, scale);
+        end->scale = fmin(end->scale, scale);
     }
     for (int i = 0; i < n; i++) {
         f[i].factor *= f[i].scale;
@@ -137,6 +194,11 @@ fw_status fw_contour_round(fw_arena *arena, const fw_contour *contour, double co
     fw_segment *segment = fw_arena_array(arena, fw_segment, 2 * (size_t)n);
     FW_NEED(segment);
     fw_mark mark = fw_arena_mark(arena);
+    fw_segment *kept = fw_arena_array(arena, fw_segment, (size_t)n);
+    FW_NEED(kept);
+    n = leave_out(contour, convex_m, concave_m, kept);
+    fw_contour long_ones = {kept, n};
+    contour = &long_ones;
     fillet *f = fw_arena_array(arena, fillet, (size_t)n);
     FW_NEED(f);
     for (int i = 0; i < n; i++)

@@ -376,10 +376,12 @@ static fw_status refuse(fw_drawing *d, int joint, int number, const char *what) 
     const fw_joint *j = &d->device->joint[joint];
     const fw_flexure *f = &d->device->flexure[j->flexure];
     char length[32], width[32], angle[32];
-    fw_diag_error(d->diags, number, f->place,
-                  "hinge %s (length %s um, width %s um, angle %s deg): %s", j->id,
-                  fw_layout_um(length, f->length_m), fw_layout_um(width, f->width_m),
-                  fw_number_text(angle, sizeof angle, f->angle_rad * 180.0 / M_PI, 5), what);
+    bool turns = isfinite(f->angle_rad); /* not a leaf */
+    fw_diag_error(d->diags, number, f->place, "hinge %s (length %s um, width %s um%s%s%s): %s",
+                  j->id, fw_layout_um(length, f->length_m), fw_layout_um(width, f->width_m),
+                  turns ? ", angle " : "",
+                  turns ? fw_number_text(angle, sizeof angle, f->angle_rad * 180.0 / M_PI, 5) : "",
+                  turns ? " deg" : "", what);
     return FW_GEOMETRY;
 }
 

@@ -4,14 +4,16 @@
 #include <string.h>
 
 /* Cuts of good quality keep 30 degrees to the edges at their ends and 50 nm to all other vertices,
-   so that no part has a sliver; where there is none, any cut inside the polygon will do. */
+   so that no part has a sliver; where there is none, not even with less of the polygon on one side,
+   at least the 50 nm; and any cut inside the polygon will do before none does. */
 static const double SINE_30 = 0.5, CLEAR_DBU = 50;
 enum { SAMPLES = 1024 };
 
 typedef struct search {
     const fw_polygon *p;
-    bool good; /* only cuts of good quality */
-    int i, j;  /* best so far; -1: none */
+    bool wide, clear; /* the two qualities asked for */
+    int share;        /* of the vertices that lie on either side at least: a fourth, an eighth .. */
+    int i, j;         /* best so far; -1: none */
     double least2;
 } search;
 
@@ -89,7 +91,7 @@ static bool valid(const search *s, int i, int j) {
     fw_point a = at(p, i), b = at(p, j);
     if (!enters(p, i, b) || !enters(p, j, a)) return false;
     if (along(p, i, b) || along(p, j, a)) return false;
-    if (s->good && !(wide(a, at(p, i - 1), b) && wide(a, at(p, i + 1), b) &&
+    if (s->wide && !(wide(a, at(p, i - 1), b) && wide(a, at(p, i + 1), b) &&
                      wide(b, at(p, j - 1), a) && wide(b, at(p, j + 1), a)))
         return false;
     for (int d = 0; d < p->count; d++) { /* from i both ways: most lines that fail do so near it */
@@ -98,15 +100,15 @@ static bool valid(const search *s, int i, int j) {
         int next = k + 1 < p->count ? k + 1 : 0;
         if (k != i && next != i && k != j && next != j && meet(a, b, at(p, k), at(p, next)))
             return false;
-        if (s->good && !is_neighbour(p, k, i) && !is_neighbour(p, k, j) &&
-            distance_to_line(a, b, at(p, k)) < CLEAR_DBU)
-            return false;
+        bool own = k == i || k == j;
+        if (s->wide) own = is_neighbour(p, k, i) || is_neighbour(p, k, j); /* at their angle */
+        if (s->clear && !own && distance_to_line(a, b, at(p, k)) < CLEAR_DBU) return false;
     }
     return true;
 }
 
 static void look(search *s, int step) {
-    int n = s->p->count, least = n / 4;
+    int n = s->p->count, least = n / s->share > 2 ? n / s->share : 2;
     for (int i = 0; i < n; i += step)
         for (int j = i + least; j <= i + n - least && j < n; j += step) {
             double l2 = length2(at(s->p, i), at(s->p, j));
@@ -117,17 +119,34 @@ static void look(search *s, int step) {
         }
 }
 
-/* Shortest straight cut that leaves at least a quarter of the vertices on either side: a neck,
-   where there is one. In: a simple polygon, counter-clockwise. Every polygon has a cut inside it
-   with at least n / 3 edges on either side (the middle edge of the tree of any triangulation), so
-   the last search, over all pairs, finds one. Cost: at most SAMPLES^2 / 2 lengths and an O(n) check
-   for each that is shorter than the best; only where that finds nothing, all pairs. Exact integers
-   decide what is inside. Test: test_polygon_cut.c. */
+/* Shortest straight cut that leaves at least a quarter of the vertices on either side (less where
+   that makes it a good one): a neck, where there is one. In: a simple polygon,
+   counter-clockwise. Every polygon has a cut inside it with at least n / 3 edges on either side
+   (the middle edge of the tree of any triangulation), so the last search, over all pairs, finds
+   one. Cost: at most SAMPLES^2 / 2 lengths and an O(n) check for each that is shorter than the
+   best; only where that finds nothing, all pairs. Exact integers decide what is inside. Test:
+   test_polygon_cut.c. */
 static bool find(const fw_polygon *p, int *i, int *j) {
+    static const struct {
+        bool wide, clear, all;
+        int share;
+    } rounds[] = {
+        {true, true, false, 4},   {true, true, false, 8},
+        {false, true, false, 8}, /* discs: no angle is wide */
+        {true, true, false, 32}, /* one finger of a comb */
+        {false, true, false, 32}, {false, false, false, 4},
+        {false, false, true, 4},
+    };
     int coarse = p->count / SAMPLES > 1 ? p->count / SAMPLES : 1;
-    for (int round = 0; round < 3; round++) {
-        search s = {.p = p, .good = round == 0, .i = -1, .j = -1, .least2 = HUGE_VAL};
-        look(&s, round < 2 ? coarse : 1);
+    for (size_t round = 0; round < sizeof rounds / sizeof *rounds; round++) {
+        search s = {.p = p,
+                    .wide = rounds[round].wide,
+                    .clear = rounds[round].clear,
+                    .share = rounds[round].share,
+                    .i = -1,
+                    .j = -1,
+                    .least2 = HUGE_VAL};
+        look(&s, rounds[round].all ? 1 : coarse);
         *i = s.i;
         *j = s.j;
         if (s.i >= 0) return true;

@@ -53,6 +53,63 @@ static void convex_and_concave_have_their_own_radius(void **state) {
         assert_memory_equal(&round.segment[i].a, &ell.segment[i].a, sizeof(fw_vec2));
 }
 
+/* Two hollow corners share an arc that is about as long as both roundings: whatever its length, it
+   is used up, or an edge of some 200 nm stays. Nothing between, which would be a sliver on the
+   mask. */
+static void what_stays_between_two_corners_is_no_sliver(void **state) {
+    double least = HUGE_VAL;
+    for (int k = 0; k < 400; k++) {
+        double sweep = 0.02 + 0.00006 * k, r = 300e-6;
+        fw_vec2 o = {0, 0}, p = {r * sin(sweep), -r * cos(sweep)}, q = {-p.x, p.y};
+        fw_contour c, round;
+        fw_vec2 where, up = {0, 60e-6};
+        fw_outline out = fw_outline_start(*state, (fw_vec2){q.x, q.y + up.y});
+        fw_outline_line(&out, q, 0);
+        fw_outline_arc_to(&out, o, 2 * sweep, p, 0);
+        fw_outline_line(&out, (fw_vec2){p.x, p.y + up.y}, 0);
+        fw_outline_line(&out, (fw_vec2){p.x, p.y + 80e-6}, 0);
+        fw_outline_line(&out, (fw_vec2){q.x, q.y + 80e-6}, 0);
+        assert_int_equal(fw_outline_close(&out, &c), FW_OK);
+        assert_int_equal(fw_contour_round(*state, &c, 10e-6, 0, &round, &where), FW_OK);
+        assert_true(fw_contour_valid(&round));
+        assert_true(worst_turn(&round) < 1e-6);
+        for (int i = 0; i < round.count; i++)
+            least = fmin(least, fw_segment_length(&round.segment[i]));
+    }
+    assert_true(least > 199e-9);
+}
+
+/* A step that the rolling disc does not touch leaves no trace: a box with a corner cut off by less
+   than that is rounded like the whole box; cut off by more, each corner has its own arc. Holes
+   alike. */
+static void steps_shorter_than_the_disc_are_passed_over(void **state) {
+    double r = 10;
+    for (int k = 0; k < 200; k++) {
+        double angle = FW_PI / 180 * uniform(3, 43), up = uniform(0.01, 8);
+        /* cut off at `angle` to the right side, from (60, 40 - up) to the top */
+        double run = up * tan(angle);
+        const double x[] = {0, 60, 60, 60 - run, 0}, y[] = {0, 0, 40 - up, 40, 40};
+        fw_contour cut = polygon_of(*state, x, y, 5, NULL), round;
+        fw_vec2 where;
+        assert_int_equal(fw_contour_round(*state, &cut, r * 1e-6, 0, &round, &where), FW_OK);
+        double step = hypot(up, run), second = FW_PI / 2 - angle;
+        double trims = r * (tan(angle / 2) + tan(second / 2));
+        bool passed = trims > step;
+        if (!passed && step - trims < 0.2) continue; /* then both shrink, to leave an edge */
+        assert_int_equal(round.count, passed ? 8 : 10);
+        assert_true(worst_turn(&round) < 1e-6);
+        double want = 2400 - (4 - FW_PI) * r * r;
+        if (!passed) /* the cut, and roundings with other turns: each takes r^2 (tan(t/2) - t/2) */
+            want = 2400 - 0.5 * up * run - 0.75 * (4 - FW_PI) * r * r -
+                   r * r * (tan(angle / 2) + tan(second / 2) - FW_PI / 4);
+        assert_relative(fw_contour_area(&round), want * 1e-12, 1e-12);
+        fw_contour hole;
+        assert_int_equal(fw_contour_reverse(*state, &cut, &hole), FW_OK);
+        assert_int_equal(fw_contour_round(*state, &hole, 0, r * 1e-6, &round, &where), FW_OK);
+        assert_relative(-fw_contour_area(&round), want * 1e-12, 1e-12);
+    }
+}
+
 static void corners_beside_joints_stay(void **state) {
     const double x[] = {0, 50, 50, 0}, y[] = {0, 0, 20, 20};
     const unsigned flags[] = {0, FW_SEGMENT_JOINT, 0, 0};
@@ -124,7 +181,7 @@ static void errors(void **state) {
     assert_int_equal(fw_contour_rectangle(*state, (fw_box){0, 0, 1e-5, 1e-5}, &box), 0);
     assert_int_equal(fw_contour_round(*state, &box, (double)NAN, 0, &round, &where), FW_GEOMETRY);
     assert_int_equal(fw_contour_round(*state, &box, -1, 0, &round, NULL), FW_GEOMETRY);
-    for (long n = 1; n <= 2; n++) {
+    for (long n = 1; n <= 3; n++) {
         fw_arena_fail_at(n, 1);
         assert_int_equal(fw_contour_round(*state, &box, 1e-6, 0, &round, &where), FW_NOMEM);
         fw_arena_fail_at(0, 0);
@@ -133,9 +190,14 @@ static void errors(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        geo_test(square_loses_the_closed_form), geo_test(convex_and_concave_have_their_own_radius),
-        geo_test(corners_beside_joints_stay),   geo_test(arcs_get_tangent_fillets),
-        geo_test(half_disc_closed_form),        geo_test(errors),
+        geo_test(square_loses_the_closed_form),
+        geo_test(convex_and_concave_have_their_own_radius),
+        geo_test(corners_beside_joints_stay),
+        geo_test(arcs_get_tangent_fillets),
+        geo_test(half_disc_closed_form),
+        geo_test(steps_shorter_than_the_disc_are_passed_over),
+        geo_test(what_stays_between_two_corners_is_no_sliver),
+        geo_test(errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -144,6 +144,54 @@ static void combs(void **state) {
     fw_arena_free(arena);
 }
 
+/* least distance of a vertex from an edge that is not its own, nm */
+static double clearance_dbu(const fw_polygon *p) {
+    double least = HUGE_VAL;
+    for (int i = 0; i < p->count; i++)
+        for (int j = 0; j < p->count; j++) {
+            fw_point v = p->vertex[i], a = p->vertex[j], b = p->vertex[(j + 1) % p->count];
+            if (j == i || (j + 1) % p->count == i) continue;
+            double x = (double)b.x_dbu - a.x_dbu, y = (double)b.y_dbu - a.y_dbu;
+            double u = (double)v.x_dbu - a.x_dbu, w = (double)v.y_dbu - a.y_dbu;
+            double t = fmin(1, fmax(0, (x * u + y * w) / (x * x + y * y)));
+            least = fmin(least, hypot(u - t * x, w - t * y));
+        }
+    return least;
+}
+
+/* rounded fingers on a stage, as a comb drive has them: the shortest cuts run along their roots,
+   where vertices lie on one line but for the roundings of a few micrometres */
+static void fingers_leave_no_slivers(void **state) {
+    (void)state;
+    for (int fingers = 6; fingers <= 15; fingers += 3) {
+        fw_arena *arena = fw_arena_new(0);
+        double pitch = 36.47 * UM, wide = 11.48 * UM, top = (fingers + 1) * pitch;
+        fw_outline o = fw_outline_start(arena, (fw_vec2){0, 0});
+        fw_outline_line(&o, (fw_vec2){200 * UM, 0}, 0);
+        for (int k = 0; k < fingers; k++) {
+            double y = (k + 1) * pitch;
+            fw_outline_line(&o, (fw_vec2){200 * UM, y}, 0);
+            fw_outline_line(&o, (fw_vec2){296 * UM, y}, 0);
+            fw_outline_line(&o, (fw_vec2){296 * UM, y + wide}, 0);
+            fw_outline_line(&o, (fw_vec2){200 * UM, y + wide}, 0);
+        }
+        fw_outline_line(&o, (fw_vec2){200 * UM, top + pitch}, 0);
+        fw_outline_line(&o, (fw_vec2){0, top + pitch}, 0);
+        fw_contour sharp, c;
+        assert_int_equal(fw_outline_close(&o, &sharp), FW_OK);
+        assert_int_equal(fw_contour_round(arena, &sharp, 3.1 * UM, 6.9 * UM, &c, NULL), FW_OK);
+        fw_polygon p = flat(arena, &c, 1.42e-9), *part;
+        int npart;
+        assert_int_equal(fw_polygon_cut(arena, &p, 199, &part, &npart), FW_OK);
+        assert_partition(arena, &p, 199, part, npart);
+        for (int k = 0; k < npart; k++)
+            if (clearance_dbu(&part[k]) < 50)
+                fail_msg("%d fingers: part %d of %d has %g nm", fingers, k, npart,
+                         clearance_dbu(&part[k]));
+        fw_arena_free(arena);
+    }
+}
+
 /* through the whole room: the file has the same area, in parts within the limit */
 static void limits_of_a_mask(void **state) {
     (void)state;
@@ -176,6 +224,7 @@ int main(void) {
         cmocka_unit_test(necks_are_preferred),
         cmocka_unit_test(random_outlines),
         cmocka_unit_test(combs),
+        cmocka_unit_test(fingers_leave_no_slivers),
         cmocka_unit_test(limits_of_a_mask),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

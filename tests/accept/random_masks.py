@@ -1,0 +1,82 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""random_masks.py PROGRAM [--scripts DIR] [--keep DIR]: masks of random devices (random_devices.py) before judge.py.
+
+FW_MASKS_COUNT (24) devices that can be drawn, from seed FW_MASKS_FIRST (0) on. A device that is refused must have a reason of
+those below, and at least six of ten must be drawn; what was refused is listed."""
+import argparse
+import collections
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+sys.dont_write_bytecode = True
+import judge  # noqa: E402
+import random_devices  # noqa: E402
+
+# parts that have no room, a die or hinge that cannot be drawn, and rules of the mask; never "an error of the program"
+REASONS = {120, 121, 122, 123, 124, 125, 126, 127, 128, 143, 144, 145, 152, 264}
+# the drawing is what counts here: the motion is judged quickly, and a design that is rejected is drawn all the same
+FAST = ["--force", "--corners", "none", "--accuracy", "3e-2", "--hinge-model", "revolute", "--mask-format", "all"]
+
+
+def draw(program, seed, where):
+    """directory of the masks, or None and the reasons (a set of numbers)"""
+    text, options = random_devices.device(seed)
+    file = where / ("%d.xml" % seed)
+    file.write_text(text, encoding="utf-8")
+    done = subprocess.run([program, "mask", file, *FAST, *options, "-o", where / str(seed)], capture_output=True, text=True, check=False)
+    masks = where / str(seed) / "masks"
+    if done.returncode in (0, 1, 4) and list(masks.glob("*.gds")):
+        return masks, done
+    return None, done
+
+
+def collect(program, first, count, where):
+    """directories of `count` drawn devices; False: something was refused without a reason of those above"""
+    found, refused, tried, good = [], collections.Counter(), 0, True
+    while len(found) < count and tried < 2 * count + 10:
+        seed = first + tried
+        tried += 1
+        masks, done = draw(program, seed, where)
+        if masks:
+            found.append(masks)
+            continue
+        reasons = {int(n) for n in re.findall(r"error: .*\[FW-D(\d+)\]", done.stderr)}
+        refused.update("FW-D%d" % n for n in reasons)
+        if not reasons or not reasons <= REASONS:
+            good = False
+            print("FAIL  seed %d: status %d\n%s" % (seed, done.returncode, done.stderr[:2000]))
+    print("seeds %d to %d: %d drawn, refused: %s" % (first, first + tried - 1, len(found),
+                                                    ", ".join("%s %d" % r for r in sorted(refused.items())) or "none"), flush=True)
+    return found, good and len(found) == count and 10 * count >= 6 * tried
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("--scripts", type=pathlib.Path, default=HERE)
+    parser.add_argument("--keep", type=pathlib.Path)
+    asked = parser.parse_args()
+    if not shutil.which("klayout"):
+        print("SKIPPED: klayout is not installed (Debian: apt-get install klayout python3-gdspy libgeos-dev)")
+        return 77
+    first, count = (int(os.environ.get("FW_MASKS_" + k, v)) for k, v in (("FIRST", 0), ("COUNT", 24)))
+    with tempfile.TemporaryDirectory() as temporary:
+        where = asked.keep or pathlib.Path(temporary)
+        where.mkdir(parents=True, exist_ok=True)
+        found, good = collect(asked.program, first, count, where)
+        if not good:
+            print("too few devices, or a refusal without a reason")
+        status, _ = judge.judge(found, asked.scripts)
+    return 0 if good and status == 0 else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
