@@ -163,6 +163,7 @@ fw_status fw_plan_fabricate(fw_plan *plan) {
         FW_TRY(fw_mask_write_gds(pf->mask, &pf->gds));
         fw_sha256(pf->gds.data, pf->gds.length, hash);
         FW_NEED(pf->mask_sha256 = fw_arena_strdup(plan->arena, hash));
+        FW_TRY(fw_plan_coupons(plan, pf));
     }
     return FW_OK;
 }

@@ -21,8 +21,8 @@ static fw_status put(writer *w, const char *folder, const char *name, const char
 }
 
 /* the order sheets name what was written of this flow before them, without the folder */
-static fw_status write_order(writer *w, const fw_plan_flow *pf) {
-    const char *start = fw_arena_printf(w->plan->arena, "masks/%s.", pf->use->ref);
+static fw_status write_order(writer *w, const fw_mask *mask, const char *name) {
+    const char *start = fw_arena_printf(w->plan->arena, "masks/%s.", name);
     FW_NEED(start);
     size_t count;
     const fw_output_file *all = fw_output_files(w->output, &count);
@@ -35,28 +35,46 @@ static fw_status write_order(writer *w, const fw_plan_flow *pf) {
             own[n++].name = all[i].name + strlen("masks/");
         }
     fw_text json = fw_text_new(w->scratch);
-    FW_TRY(fw_mask_write_order(pf->mask, own, n, &json));
-    FW_TRY(put(w, "masks/", pf->use->ref, ".order.json", &json));
+    FW_TRY(fw_mask_write_order(mask, own, n, &json));
+    FW_TRY(put(w, "masks/", name, ".order.json", &json));
     fw_text text = fw_text_new(w->scratch);
-    FW_TRY(fw_mask_write_order_text(pf->mask, own, n, &text));
-    return put(w, "masks/", pf->use->ref, ".order.txt", &text);
+    FW_TRY(fw_mask_write_order_text(mask, own, n, &text));
+    return put(w, "masks/", name, ".order.txt", &text);
 }
 
-static fw_status write_mask(writer *w, const fw_plan_flow *pf) {
+typedef struct mask_files { /* a mask: the device's, or the test die's with its list */
+    const char *name;
+    const fw_mask *mask;
+    const fw_text *gds;
+    const char *sha256;
+    const fw_mask_coupons *coupons; /* NULL: the device's */
+} mask_files;
+
+static fw_status write_one(writer *w, const mask_files *m) {
     unsigned set;
     if (!fw_mask_formats(w->plan->options.mask_formats, &set)) return FW_USAGE;
     const fw_mask_format *format;
     for (size_t i = 0; (format = fw_mask_format_at(i)); i++) {
         if (!(set & 1u << i)) continue;
         bool composed = format->write == fw_mask_write_gds; /* for its hash */
-        fw_text text = composed ? pf->gds : fw_text_new(w->scratch);
-        if (!composed) FW_TRY(format->write(pf->mask, &text));
-        FW_TRY(put(w, "masks/", pf->use->ref, format->ending, &text));
+        fw_text text = composed ? *m->gds : fw_text_new(w->scratch);
+        if (!composed) FW_TRY(format->write(m->mask, &text));
+        FW_TRY(put(w, "masks/", m->name, format->ending, &text));
     }
     fw_text text = fw_text_new(w->scratch);
-    FW_TRY(fw_mask_write_certificate(pf->mask, pf->mask_sha256, &text));
-    FW_TRY(put(w, "masks/", pf->use->ref, ".json", &text));
-    return write_order(w, pf);
+    FW_TRY(m->coupons ? fw_mask_write_coupons(m->coupons, m->sha256, &text)
+                      : fw_mask_write_certificate(m->mask, m->sha256, &text));
+    FW_TRY(put(w, "masks/", m->name, ".json", &text));
+    return write_order(w, m->mask, m->name);
+}
+
+static fw_status write_mask(writer *w, const fw_plan_flow *pf) {
+    FW_TRY(write_one(w, &(mask_files){pf->use->ref, pf->mask, &pf->gds, pf->mask_sha256, NULL}));
+    if (!pf->coupons) return FW_OK;
+    const char *name = fw_arena_printf(w->plan->arena, "%s-coupons", pf->use->ref);
+    FW_NEED(name);
+    return write_one(w, &(mask_files){name, pf->coupons->mask, &pf->coupons_gds, pf->coupons_sha256,
+                                      pf->coupons});
 }
 
 static fw_status write_recipe(writer *w, const fw_plan_flow *pf) {

@@ -52,7 +52,10 @@ static inline scene *scene_new(double width_rule_m, double space_rule_m) {
                                   .tone = "data dark",
                                   .colour = "#000000",
                                   .documentation = true};
-    s->table = (fw_mask_table){"test-flow", "right-reading chrome down", s->layer, 3, NULL, NULL};
+    s->table = (fw_mask_table){.flow = "test-flow",
+                               .reading = "right-reading chrome down",
+                               .layer = s->layer,
+                               .nlayer = 3};
     s->layout = (fw_layout){.drawn = true, .piece = s->piece};
     return s;
 }
