@@ -30,6 +30,18 @@ fw_status fw_content_build(fw_arena *arena, const fw_pattern *pattern, int npatt
                            const fw_content_options *options, fw_diags *diags,
                            const fw_content **content);
 
+/* the device's drawing with what its table has for the frame (kinds with on_frame): the pieces of
+   `device` and, behind them, marks in its uprights, from the top, where they lie 12 um clear of
+   every edge and 40 um of lettering and other marks. What finds no room is left out (*left_out
+   counts). */
+fw_status fw_content_on_frame(fw_arena *arena, const fw_layout *device, const fw_pattern *pattern,
+                              int npattern, double width_rule_m, double space_rule_m,
+                              const fw_layout **out, int *left_out);
+/* appends the die's id as TEXT in the left upright, from below, in lines of what fits there;
+   nothing where it has no room. The three last arguments are a growing array. */
+fw_status fw_content_die_id(fw_arena *arena, const fw_layout *device, const char *id,
+                            fw_piece **piece, int *npiece, int *capacity);
+
 /* ---- private to content*.c ---- */
 typedef struct fw_shelf { /* a bar with what stands on it */
     double low_m, top_m;  /* of the bar, once all rows are known */

@@ -9,20 +9,25 @@
 enum { WINDOW, CROSS, ARM };
 static const double RIM_M = 40e-6;
 
-static fw_status draw(fw_pen *pen) {
-    double window = fw_pen_value(pen, WINDOW), cross = fw_pen_value(pen, CROSS);
-    double arm = fw_pen_value(pen, ARM), side = window + 2 * RIM_M, m = 0.5 * side;
+fw_status fw_back_cross_draw(fw_pen *pen, double m, double cross, double arm, double window) {
     if (cross > window - 2 * pen->space_rule_m || arm > 0.5 * cross) return FW_GEOMETRY;
-    FW_TRY(fw_pen_bar(pen, FW_ROLE_STRUCTURE, "block of the back mark", 0, 0, side, side));
-    FW_TRY(fw_pen_bar(pen, FW_ROLE_MARK, "window of the back mark", RIM_M, RIM_M, RIM_M + window,
-                      RIM_M + window));
     FW_TRY(fw_pen_box(pen, m - 0.5 * cross, m - 0.5 * arm, m + 0.5 * cross, m + 0.5 * arm));
     FW_TRY(fw_pen_box(pen, m - 0.5 * arm, m - 0.5 * cross, m + 0.5 * arm, m + 0.5 * cross));
     FW_TRY(fw_pen_shape(pen, FW_ROLE_BACK, "back side cross"));
-    FW_TRY(fw_pen_chord(pen, "left", RIM_M, m, m - 0.5 * cross, m, NULL));
-    FW_TRY(fw_pen_chord(pen, "below", m, RIM_M, m, m - 0.5 * cross, NULL));
+    double edge = m - 0.5 * window;
+    FW_TRY(fw_pen_chord(pen, "left", edge, m, m - 0.5 * cross, m, NULL));
+    FW_TRY(fw_pen_chord(pen, "below", m, edge, m, m - 0.5 * cross, NULL));
     pen->coupon->formula = "offset of the back = (left - right)/2, (below - above)/2";
     return FW_OK;
+}
+
+static fw_status draw(fw_pen *pen) {
+    double window = fw_pen_value(pen, WINDOW), side = window + 2 * RIM_M;
+    FW_TRY(fw_pen_bar(pen, FW_ROLE_STRUCTURE, "block of the back mark", 0, 0, side, side));
+    FW_TRY(fw_pen_bar(pen, FW_ROLE_MARK, "window of the back mark", RIM_M, RIM_M, RIM_M + window,
+                      RIM_M + window));
+    return fw_back_cross_draw(pen, 0.5 * side, fw_pen_value(pen, CROSS), fw_pen_value(pen, ARM),
+                              window);
 }
 
 const fw_pattern_kind fw_pattern_back_mark = {

@@ -17,7 +17,8 @@ typedef struct scale {
     double x0, y0; /* middle of the scale, on the line where the two meet */
     bool upright;  /* counts along y: teeth of the device point to the right */
     double pitch;
-    int side; /* teeth to either side of the middle one */
+    int side;   /* teeth to either side of the middle one */
+    bool frame; /* taken out of the frame, so without feet */
 } scale;
 
 /* a rectangle: `along` the scale, `across` towards the second scale */
@@ -41,15 +42,21 @@ static fw_status teeth(fw_pen *pen, const scale *s, double pitch, double sign) {
     return FW_OK;
 }
 
-static fw_status pair(fw_pen *pen, const scale *s, double step) {
+static fw_status first_scale(fw_pen *pen, const scale *s) {
     double half = s->side * s->pitch + 0.5 * TOOTH_M, bar = LONG_M + MORE_M;
-    double foot = s->upright ? -s->y0 : -half;
+    double foot = s->upright && !s->frame ? -s->y0 : -half;
     FW_TRY(part(pen, s, foot, half, -bar - BAR_M, -bar));
     FW_TRY(teeth(pen, s, s->pitch, -1));
+    if (s->frame) return fw_pen_shape(pen, FW_ROLE_MARK, "vernier, front");
     if (!s->upright) /* a stand below the bar */
         FW_TRY(fw_pen_box(pen, s->x0 - 0.5 * POST_M, 0, s->x0 + 0.5 * POST_M,
                           s->y0 - bar - 0.5 * BAR_M));
-    FW_TRY(fw_pen_shape(pen, FW_ROLE_STRUCTURE, "vernier, device layer"));
+    return fw_pen_shape(pen, FW_ROLE_STRUCTURE, "vernier, device layer");
+}
+
+static fw_status pair(fw_pen *pen, const scale *s, double step) {
+    double half = s->side * s->pitch + 0.5 * TOOTH_M, bar = LONG_M + MORE_M;
+    FW_TRY(first_scale(pen, s));
     double gap = fmax(pen->space_rule_m, 4e-6);
     scale other = *s;
     other.x0 += s->upright ? gap : 0;
@@ -59,15 +66,19 @@ static fw_status pair(fw_pen *pen, const scale *s, double step) {
     return fw_pen_shape(pen, FW_ROLE_BACK, "vernier, other layer");
 }
 
-static fw_status draw(fw_pen *pen) {
+/* side by side on a bar, above each other on a frame */
+fw_status fw_vernier_draw(fw_pen *pen, bool frame) {
     double pitch = fw_pen_value(pen, PITCH), step = fw_pen_value(pen, STEP);
-    int count = (int)fw_pen_value(pen, TEETH);
+    int count = (int)fw_pen_value(pen, TEETH), side = count / 2;
     if (count % 2 == 0 || pitch - step < 2 * TOOTH_M) return FW_GEOMETRY;
-    int side = count / 2;
     double half = side * pitch + 0.5 * TOOTH_M, deep = LONG_M + MORE_M + BAR_M;
-    scale across = {half, STAND_M + deep, false, pitch, side};
+    scale across = {half, (frame ? 0 : STAND_M) + deep, false, pitch, side, frame};
+    scale up = {2 * half + 60e-6 + deep, STAND_M + half, true, pitch, side, frame};
+    if (frame) {
+        up.x0 = deep;
+        up.y0 = 2 * deep + 40e-6 + half;
+    }
     FW_TRY(pair(pen, &across, step));
-    scale up = {2 * half + 60e-6 + deep, STAND_M + half, true, pitch, side};
     FW_TRY(pair(pen, &up, step));
     FW_TRY(fw_pen_feature(pen, "offset x", step, (fw_vec2){across.x0, across.y0},
                           (fw_vec2){across.x0 + step, across.y0}, "X"));
@@ -78,6 +89,10 @@ static fw_status draw(fw_pen *pen) {
     pen->coupon->formula = "offset of the second layer = number of the pair in line times step, "
                            "counted from the long teeth to the right and upwards";
     return FW_OK;
+}
+
+static fw_status draw(fw_pen *pen) {
+    return fw_vernier_draw(pen, false);
 }
 
 const fw_pattern_kind fw_pattern_vernier = {

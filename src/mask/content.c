@@ -12,6 +12,14 @@ static const fw_mask_layer *structure_layer(const fw_mask_table *table) {
     return NULL;
 }
 
+fw_status fw_mask_frame_marks(fw_arena *arena, const fw_mask_table *table, const fw_layout *device,
+                              const fw_layout **layout, int *left_out) {
+    const fw_mask_layer *layer = structure_layer(table);
+    double width = layer ? layer->min_width_m : 0, space = layer ? layer->min_space_m : 0;
+    return fw_content_on_frame(arena, device, table->pattern, table->npattern, width, space, layout,
+                               left_out);
+}
+
 fw_status fw_mask_coupons_build(fw_arena *arena, const fw_mask_table *table,
                                 const fw_coupon_options *options, fw_diags *diags,
                                 const fw_mask_coupons **coupons) {

@@ -99,6 +99,10 @@ typedef struct fw_coupon_options {
 fw_status fw_mask_coupons_build(fw_arena *arena, const fw_mask_table *table,
                                 const fw_coupon_options *options, fw_diags *diags,
                                 const fw_mask_coupons **coupons);
+/* the device's drawing with the marks that the table has for its frame; the device itself where it
+   has none */
+fw_status fw_mask_frame_marks(fw_arena *arena, const fw_mask_table *table, const fw_layout *device,
+                              const fw_layout **layout, int *left_out);
 /* the certificate and, in `coupons`, every pattern: place, drawn sizes, what to measure and which
    quantity of the process it gives */
 fw_status fw_mask_write_coupons(const fw_mask_coupons *coupons, const char *gds_sha256,

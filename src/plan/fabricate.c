@@ -98,8 +98,11 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
                                .no_islands = !insulated(pf),
                                .title = plan->device->die.title};
     FW_TRY(notes_of(plan, pf, &options));
-    fw_status status = fw_mask_build(plan->arena, plan->layout, pf->table, plan->device->name,
-                                     &options, &plan->diags, &pf->mask);
+    const fw_layout *layout;
+    int left_out; /* a mark that finds no room on the frame is no mistake */
+    FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, plan->layout, &layout, &left_out));
+    fw_status status = fw_mask_build(plan->arena, layout, pf->table, plan->device->name, &options,
+                                     &plan->diags, &pf->mask);
     if (status == FW_OK) return FW_OK;
     if (status != FW_GEOMETRY && status != FW_INPUT) return status;
     pf->mask = NULL;

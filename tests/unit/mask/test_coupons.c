@@ -48,7 +48,8 @@ static void dies_of_both_flows(void **state) {
                          d->diags.count ? d->diags.item[0].message : "no message");
             const fw_mask *m = d->coupons->mask;
             const fw_content *c = d->coupons->content;
-            assert_true(c->ncoupon == d->table.npattern - 1);
+            assert_true(c->ncoupon ==
+                        d->table.npattern - 3); /* fill, and two kinds for the frame */
             assert_int_equal(d->diags.count, c->ncoupon - c->nplaced);
             assert_true(s > 1 || c->nplaced == c->ncoupon); /* all have room from 3.5 mm on */
             assert_true(c->nplaced >= 3);
@@ -311,6 +312,107 @@ static void own_rule_holds(void **state) {
     fw_arena_free(arena);
 }
 
+/* ---- on the frame of the device's die ---- */
+
+typedef struct framed {
+    fw_piece piece[3];
+    fw_layout layout;
+} framed;
+
+/* two uprights `bar_um` wide beside a window of 3 mm, lane 100 um */
+static void frame_of(fw_arena *arena, double bar_um, framed *f) {
+    *f = (framed){.layout = {.drawn = true, .piece = f->piece, .npiece = 2}};
+    f->layout.window = (fw_box){0, 0, 3000 * UM, 3000 * UM};
+    double rim = (bar_um + 100) * UM;
+    f->layout.die = (fw_box){-rim, -rim, 3000 * UM + rim, 3000 * UM + rim};
+    for (int k = 0; k < 2; k++) {
+        double x0 = k ? 3000 : -bar_um, x1 = k ? 3000 + bar_um : 0;
+        const double p[4][2] = {
+            {x0, -bar_um}, {x1, -bar_um}, {x1, 3000 + bar_um}, {x0, 3000 + bar_um}};
+        f->piece[k] = (fw_piece){FW_ROLE_FRAME, FW_GROUND, FW_NONE, k ? "right" : "left",
+                                 polygon(arena, p, 4)};
+    }
+}
+
+static void marks_on_the_frame(void **state) {
+    (void)state;
+    die *d = read_table(flows[0]);
+    framed f;
+    const fw_layout *out;
+    int left_out;
+    frame_of(d->arena, 250, &f);
+    assert_int_equal(fw_mask_frame_marks(d->arena, &d->table, &f.layout, &out, &left_out), FW_OK);
+    assert_int_equal(left_out, 0);
+    assert_int_equal(out->npiece, 2 + 2 * 2 + 4);
+    fw_vec2 cross[2];
+    int n = 0;
+    for (int i = 2; i < out->npiece; i++) {
+        fw_box b = fw_contour_box(&out->piece[i].contour);
+        bool left = b.x0 >= (-250 + 12) * UM && b.x1 <= -12 * UM;
+        bool right = b.x0 >= 3012 * UM && b.x1 <= 3238 * UM;
+        assert_true(left || right);
+        if (strcmp(out->piece[i].label, "back side cross") == 0)
+            cross[n++] = (fw_vec2){0.5 * (b.x0 + b.x1), 0.5 * (b.y0 + b.y1)};
+    }
+    assert_int_equal(n, 2); /* level, and symmetric about the die's middle */
+    assert_near(cross[0].y, cross[1].y, 1e-15);
+    assert_near(0.5 * (cross[0].x + cross[1].x), 1500 * UM, 1e-15);
+    double top = cross[0].y;
+    /* lettering where the first mark would be: it goes below */
+    const double at[4][2] = {{-150, 2950}, {-100, 2950}, {-100, 2995}, {-150, 2995}};
+    f.piece[2] = (fw_piece){FW_ROLE_TEXT, FW_NONE - 1, FW_NONE, "title", polygon(d->arena, at, 4)};
+    f.layout.npiece = 3;
+    assert_int_equal(fw_mask_frame_marks(d->arena, &d->table, &f.layout, &out, &left_out), FW_OK);
+    for (int i = 3; i < out->npiece; i++) {
+        fw_box b = fw_contour_box(&out->piece[i].contour);
+        assert_true(b.x0 > 0 || b.y1 <= 2910 * UM + 1e-12);
+    }
+    assert_true(fw_contour_box(&out->piece[4].contour).y1 < top);
+    /* a frame too narrow has none, and is handed back as it is */
+    frame_of(d->arena, 100, &f);
+    assert_int_equal(fw_mask_frame_marks(d->arena, &d->table, &f.layout, &out, &left_out), FW_OK);
+    assert_int_equal(left_out, 3);
+    assert_int_equal(out->npiece, 2);
+    d->table.npattern = 0;
+    assert_int_equal(fw_mask_frame_marks(d->arena, &d->table, &f.layout, &out, &left_out), FW_OK);
+    assert_ptr_equal(out, &f.layout);
+    fw_arena_free(d->arena);
+}
+
+static void die_ids(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    static const struct {
+        const char *id;
+        double bar_um, high_um; /* of the lettering; 0: none */
+    } ids[] = {{"R2C3", 250, 45},
+               {"R12C123", 250, 110},
+               {"R2C3", 130, 110},
+               {"R2C3", 50, 0},
+               {"", 250, 0}};
+    for (size_t k = 0; k < sizeof ids / sizeof ids[0]; k++) {
+        framed f;
+        fw_piece *piece = NULL;
+        int n = 0, room = 0;
+        frame_of(arena, ids[k].bar_um, &f);
+        assert_int_equal(fw_content_die_id(arena, &f.layout, ids[k].id, &piece, &n, &room), FW_OK);
+        fw_box all = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+        for (int i = 0; i < n; i++) {
+            fw_box b = fw_contour_box(&piece[i].contour);
+            all = (fw_box){fmin(all.x0, b.x0), fmin(all.y0, b.y0), fmax(all.x1, b.x1),
+                           fmax(all.y1, b.y1)};
+            assert_int_equal(piece[i].role, FW_ROLE_TEXT);
+        }
+        if (ids[k].high_um == 0) {
+            assert_int_equal(n, 0);
+            continue;
+        }
+        assert_near(all.y1 - all.y0, ids[k].high_um * UM, 1e-12);
+        assert_true(all.x0 >= (-ids[k].bar_um + 12) * UM && all.x1 <= -12 * UM && all.y0 >= 0);
+    }
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(dies_of_both_flows),
@@ -322,6 +424,8 @@ int main(void) {
         cmocka_unit_test(what_has_no_room),
         cmocka_unit_test(rows_that_are_wrong),
         cmocka_unit_test(own_rule_holds),
+        cmocka_unit_test(marks_on_the_frame),
+        cmocka_unit_test(die_ids),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
