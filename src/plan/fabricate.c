@@ -138,7 +138,11 @@ fw_status fw_plan_compute_flows(fw_plan *plan) {
     for (int i = 0; i < plan->nflow; i++) {
         fw_plan_flow *pf = &plan->flow[i];
         if (!pf->flow) continue;
-        fw_mask_facts facts = facts_of(plan->device, plan->layout, insulated(pf));
+        const fw_layout *layout = plan->layout; /* marks are taken out of the frame */
+        int left_out;
+        if (drawn)
+            FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, plan->layout, &layout, &left_out));
+        fw_mask_facts facts = facts_of(plan->device, layout, insulated(pf));
         facts.device_thickness_m = pf->variant.thickness_m;
         FW_TRY(fw_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, &plan->diags));
         fw_drive_facts *drive;
