@@ -141,6 +141,7 @@ static fw_status draw(fw_drawing *d) {
     FW_TRY(fw_clearance_check(d));
     FW_TRY(base);
     measure_free_rotation(d);
+    FW_TRY(fw_release_holes(d));
     FW_TRY(add_bodies(d));
     FW_TRY(fw_actuators_add(d));
     fw_layout *l = d->layout;

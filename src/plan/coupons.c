@@ -20,7 +20,7 @@ fw_status fw_plan_coupons(fw_plan *plan, fw_plan_flow *pf) {
     if (status == FW_NOMEM || said.failed) return FW_NOMEM;
     size_t left_out = said.count;
     if (status != FW_OK) {
-        fw_diag_note(&plan->diags, 189, (fw_place){.file = device->file},
+        fw_diag_note(&plan->diags, 188, (fw_place){.file = device->file},
                      "there is no test die for flow %s: %s", pf->use->ref,
                      said.count ? said.item[0].message : fw_status_text(status));
         pf->coupons = NULL;
