@@ -14,8 +14,13 @@ for device in docs/gallery/*/device.xml; do
         continue # rejected, on purpose: it has no masks
     fi
     [ "$status" -eq 0 ] || exit "$status"
+    case $name in # test dies differ by the die's size alone
+    reference-six-bar | leaf-four-bar) ;;
+    *) rm -f "$work/$name"/masks/*-coupons.* ;;
+    esac
     tests/accept/run.sh "$work/$name/masks"
 done
 # cut for readers that take 199 vertices: the same polygons
 "$program" mask docs/gallery/comb-stage/device.xml --mask-vertices 199 -o "$work/cut" -q
+rm -f "$work"/cut/masks/*-coupons.*
 tests/accept/run.sh "$work/cut/masks" "$work/comb-stage/masks"
