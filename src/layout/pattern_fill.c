@@ -14,7 +14,7 @@ double fw_fill_gap_m(double square_m, double stem_m, double density) {
     return density > 0 && density < 1 ? (b + sqrt(root)) / (2 * density) : (double)NAN;
 }
 
-/* by itself a field of 300 um square, for looking at */
+/* has no drawing of its own: it takes the rest of a row */
 static fw_status draw(fw_pen *pen) {
     (void)pen;
     return FW_GEOMETRY;
