@@ -110,6 +110,8 @@ static void build_die(fw_device *d, const fw_record *record) {
                       .clearance_m = fw_number_of(record, "clearance"),
                       .title = fw_text_of(record, "title"),
                       .tethers = !tethers || strcmp(tethers, "no") != 0};
+    d->release_pitch_m = fw_number_of(record, "release-pitch");
+    d->release_hole_m = fw_number_of(record, "release-hole");
 }
 
 /* flows before the rest, because scenes and workspaces refer to them */

@@ -331,6 +331,7 @@ typedef struct fw_device {
     fw_place limits_place;
     bool six_bar; /* joints 0..5 are A..F, bodies 0..4 AB BC CD DE EF */
     fw_die die;
+    double release_pitch_m, release_hole_m; /* <die>: holes in bodies; NaN or 0 pitch: none */
 } fw_device;
 
 typedef struct fw_set { /* --set PATH=VALUE */

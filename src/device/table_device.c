@@ -160,6 +160,10 @@ static const fw_attribute_row die_rows[] = {
     {"title", TEXT, .fallback = "the device's name", .sentence = "Written on the die."},
     {"tethers", .kind = FW_KIND_WORD, .words = yes_no, .fallback = "yes",
      .sentence = "Thin bridges that hold the mechanism until they are broken."},
+    {"release-pitch", GAP, .fallback = "no holes",
+     .sentence = "Pitch of round release holes in bodies that are wider than the release reaches "
+                 "between them; mass and inertia are without them."},
+    {"release-hole", GAP, .fallback = "0.3 release-pitch", .sentence = "Diameter of a release hole."},
 };
 
 const fw_element_row fw_table_device[] = {

@@ -141,6 +141,7 @@ static fw_status draw(fw_drawing *d) {
     FW_TRY(fw_clearance_check(d));
     FW_TRY(base);
     measure_free_rotation(d);
+    FW_TRY(fw_release_holes(d));
     FW_TRY(add_bodies(d));
     FW_TRY(fw_actuators_add(d));
     fw_layout *l = d->layout;
@@ -179,7 +180,7 @@ fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *di
         say_ties(device, diags);
         for (size_t i = 0; i < diags->count; i++)
             d.said = d.said || diags->item[i].number == 131 || diags->item[i].number == 255 ||
-                     diags->item[i].number == 258;
+                     diags->item[i].number == 258 || diags->item[i].number == 189;
         FW_TRY(draw(&d));
         l->drawn = true;
     }

@@ -297,4 +297,16 @@ fw_status fw_frame_draw(fw_drawing *d);
 fw_status fw_clearance_check(fw_drawing *d);
 double fw_layout_free_rotation(fw_vec2 w, const fw_contour *p, const fw_contour *q,
                                double radius_m);
+
+/* where a ray first meets an outline; segment -1: nowhere (eyelet.c) */
+typedef struct fw_ray_hit {
+    int segment;
+    double far_m;
+    fw_vec2 at;
+} fw_ray_hit;
+fw_ray_hit fw_first_hit(const fw_contour *c, fw_vec2 from, fw_vec2 u);
+
+/* holes in bodies, where the die asks for them: outlines, caps and moments (release.c). Last of
+   all, before the pieces are listed */
+fw_status fw_release_holes(fw_drawing *d);
 #endif

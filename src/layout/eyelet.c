@@ -89,17 +89,13 @@ fw_status fw_eyelet_ring(fw_drawing *d, const fw_eyelet_plan *e, int body, const
 
 /* ---- the hole ---- */
 
-typedef struct hit { /* where a ray leaves the outline first */
-    int segment;
-    double far_m;
-    fw_vec2 at;
-} hit;
+typedef fw_ray_hit hit;
 
 static void nearer(hit *h, int i, double t, fw_vec2 from, fw_vec2 u) {
     if (t > 0.0 && t < h->far_m) *h = (hit){i, t, fw_add(from, t, u)};
 }
 
-static hit first_hit(const fw_contour *c, fw_vec2 from, fw_vec2 u) {
+hit fw_first_hit(const fw_contour *c, fw_vec2 from, fw_vec2 u) {
     hit h = {-1, HUGE_VAL, {0.0, 0.0}};
     for (int i = 0; i < c->count; i++) {
         const fw_segment *s = &c->segment[i];
@@ -127,8 +123,8 @@ static bool leaves(const fw_contour *c, fw_vec2 centre, fw_vec2 u, hit side[2]) 
     fw_vec2 n = fw_left(u);
     static const double beside[] = {-1.0, 1.0};
     for (int k = 0; k < 2; k++) {
-        side[k] = first_hit(c, fw_add(centre, beside[k] * HALF_CUT_M, n), u);
-        hit out = first_hit(c, fw_add(centre, beside[k] * (HALF_CUT_M + BESIDE_M), n), u);
+        side[k] = fw_first_hit(c, fw_add(centre, beside[k] * HALF_CUT_M, n), u);
+        hit out = fw_first_hit(c, fw_add(centre, beside[k] * (HALF_CUT_M + BESIDE_M), n), u);
         if (side[k].segment < 0 || out.segment != side[k].segment) return false;
         if (k == 1 && side[0].segment != side[1].segment) return false;
         const fw_segment *s = &c->segment[side[k].segment];

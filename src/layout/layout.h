@@ -17,6 +17,7 @@ typedef enum fw_role {                    /* what a piece is; masks/ maps roles 
                        FW_ROLE_TEXT,      /* title and parameters, polygons */
                        FW_ROLE_MARK,      /* alignment marks */
                        FW_ROLE_DICING,    /* lane */
+                       FW_ROLE_BACK,      /* marks of the back side, as seen from the front */
                        FW_ROLE_COUNT
 } fw_role;
 

@@ -6,7 +6,7 @@
 #include "base/output.h"
 #include "geometry/contour.h"
 #include "geometry/tessellate.h"
-#include "layout/layout.h"
+#include "layout/content.h"
 
 typedef struct fw_mask_layer { /* a row of masks/FLOW.xml */
     int layer, datatype;
@@ -59,6 +59,8 @@ typedef struct fw_mask_table {
     const char *plate;  /* the same as an expression, "1/0 NOT 2/0"; NULL: not said */
     fw_mask_rule *rule; /* (nrule) rows <rule>; the rules of <layer> itself are not among them */
     int nrule;
+    const fw_pattern *pattern; /* (npattern) of the test die, in the order of the file */
+    int npattern;
 } fw_mask_table;
 
 typedef struct fw_mask_neck { /* the narrowest place of a flexure */
@@ -154,6 +156,31 @@ fw_status fw_mask_examine(fw_arena *arena, const fw_layout *layout, const fw_mas
 fw_status fw_mask_build(fw_arena *arena, const fw_layout *layout, const fw_mask_table *table,
                         const char *device_name, const fw_mask_options *options, fw_diags *diags,
                         const fw_mask **mask);
+
+/* ---- the test die: the patterns of the table on a die of the device's size ---- */
+typedef struct fw_mask_coupons {
+    const fw_mask *mask; /* as any other: written, certified and placed on a wafer likewise */
+    const fw_content *content;
+} fw_mask_coupons;
+typedef struct fw_coupon_options {
+    fw_box die;             /* with its lane: layout->die of the device */
+    double frame_m, lane_m; /* NAN: as devices have them */
+    const char *die_id;     /* lettered on the frame; NULL: none */
+    fw_mask_options mask;   /* the same as for the device: bias, tolerance, title, notes */
+} fw_coupon_options;
+/* *coupons NULL where the table has no <pattern>. The mask's own bias is 0: the process bias is in
+   the outlines of the patterns that ask for it, and in no other. Cell "TEST_FLOW". */
+fw_status fw_mask_coupons_build(fw_arena *arena, const fw_mask_table *table,
+                                const fw_coupon_options *options, fw_diags *diags,
+                                const fw_mask_coupons **coupons);
+/* the device's drawing with the marks that the table has for its frame; the device itself where it
+   has none */
+fw_status fw_mask_frame_marks(fw_arena *arena, const fw_mask_table *table, const fw_layout *device,
+                              const fw_layout **layout, int *left_out);
+/* the certificate and, in `coupons`, every pattern: place, drawn sizes, what to measure and which
+   quantity of the process it gives */
+fw_status fw_mask_write_coupons(const fw_mask_coupons *coupons, const char *gds_sha256,
+                                const fw_output_file *file, int nfile, fw_text *out);
 
 /* writers: same mask, same bytes */
 fw_status fw_mask_write_gds(const fw_mask *mask, fw_text *out);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mask/table.h"
+#include "mask/content.h"
 #include "mask/order.h"
 #include "quantity/expression.h"
 #include <stdlib.h>
@@ -14,7 +15,7 @@ typedef struct role_name {
 static const role_name roles[] = {
     {"structure", FW_ROLE_STRUCTURE}, {"flexure", FW_ROLE_FLEXURE}, {"frame", FW_ROLE_FRAME},
     {"tether", FW_ROLE_TETHER},       {"text", FW_ROLE_TEXT},       {"mark", FW_ROLE_MARK},
-    {"dicing", FW_ROLE_DICING},
+    {"dicing", FW_ROLE_DICING},       {"back", FW_ROLE_BACK},
 };
 enum { NROLE = sizeof roles / sizeof roles[0] };
 
@@ -109,7 +110,7 @@ static void read_roles(reader *r, const fw_attribute *a) {
         if (n > 0 && k == NROLE)
             fw_diag_error(r->diags, 141, a->place,
                           "role \"%.*s\" is unknown; roles are structure flexure frame tether text "
-                          "mark dicing",
+                          "mark dicing back",
                           (int)(n > 40 ? 40 : n), s);
         else if (n > 0)
             r->layer->roles |= 1u << roles[k].role;
@@ -278,11 +279,14 @@ fw_status fw_mask_table_read(fw_arena *arena, const char *file, const char *xml,
     for (const fw_element *e = root->first_child; e; e = e->next)
         count++;
     FW_NEED(table->layer = fw_arena_array(arena, fw_mask_layer, count));
+    FW_TRY(fw_mask_table_content(arena, root, diags, table));
     for (const fw_element *e = root->first_child; e; e = e->next) {
         if (strcmp(e->name, "rule") == 0) continue; /* when all layers are known */
+        if (strcmp(e->name, "pattern") == 0) continue;
         if (strcmp(e->name, "layer") != 0) {
             fw_diag_error(diags, 140, e->place,
-                          "<mask-table> holds only <layer> and <rule>, not <%s>", e->name);
+                          "<mask-table> holds only <layer>, <rule> and <pattern>, not <%s>",
+                          e->name);
             continue;
         }
         r.layer = &table->layer[table->nlayer++];

@@ -107,9 +107,12 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     if (!fw_mask_flattening_named(plan->options.mask_flatten, &options.flattening)) return FW_USAGE;
     FW_TRY(notes_of(plan, pf, &options));
     FW_TRY(edges_of(plan, pf->flow, &options.edges));
+    const fw_layout *layout;
+    int left_out; /* a mark that finds no room on the frame is no mistake */
+    FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, plan->layout, &layout, &left_out));
     const fw_mask *mask = NULL;
-    fw_status status = fw_mask_examine(plan->arena, plan->layout, pf->table, plan->device->name,
-                                       &options, &plan->diags, &mask);
+    fw_status status = fw_mask_examine(plan->arena, layout, pf->table, plan->device->name, &options,
+                                       &plan->diags, &mask);
     if (status != FW_OK && status != FW_GEOMETRY && status != FW_INPUT) return status;
     pf->violated = mask && mask->nfinding ? mask : NULL;
     pf->mask = status == FW_OK || (mask && mask->whole && plan->options.force) ? mask : NULL;
@@ -123,8 +126,12 @@ fw_status fw_plan_compute_flows(fw_plan *plan) {
     for (int i = 0; i < plan->nflow; i++) {
         fw_plan_flow *pf = &plan->flow[i];
         if (!pf->flow) continue;
+        const fw_layout *layout = plan->layout; /* marks are taken out of the frame */
+        int left_out;
+        if (drawn)
+            FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, plan->layout, &layout, &left_out));
         fw_mask_facts facts;
-        FW_TRY(fw_plan_mask_facts(plan->arena, plan->device, plan->layout, &pf->variant,
+        FW_TRY(fw_plan_mask_facts(plan->arena, plan->device, layout, &pf->variant,
                                   fw_plan_insulated(pf), &facts));
         FW_TRY(fw_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, &plan->diags));
         fw_drive_facts *drive;
@@ -152,6 +159,7 @@ fw_status fw_plan_fabricate(fw_plan *plan) {
         FW_TRY(fw_mask_write_gds(pf->mask, &pf->gds));
         fw_sha256(pf->gds.data, pf->gds.length, hash);
         FW_NEED(pf->mask_sha256 = fw_arena_strdup(plan->arena, hash));
+        FW_TRY(fw_plan_coupons(plan, pf));
     }
     return FW_OK;
 }

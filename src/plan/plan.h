@@ -43,6 +43,9 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     fw_text gds; /* of the mask, composed once: its hash is in recipe and certificate */
     const char *mask_error;
     const char *flow_sha256, *mask_sha256;
+    const fw_mask_coupons *coupons; /* test die; NULL: the table has none, or it has no room */
+    fw_text coupons_gds;
+    const char *coupons_sha256;
 } fw_plan_flow;
 
 typedef struct fw_input_file { /* for the manifest */

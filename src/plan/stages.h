@@ -43,4 +43,7 @@ fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *
 fw_status fw_plan_start(fw_plan *plan, const fw_mechanism **mechanism, const fw_scene **scene,
                         double *moved_m);
 
+/* the test die of a flow whose mask is made (coupons.c) */
+fw_status fw_plan_coupons(fw_plan *plan, fw_plan_flow *pf);
+
 #endif

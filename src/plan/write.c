@@ -20,9 +20,9 @@ static fw_status put(writer *w, const char *folder, const char *name, const char
     return FW_OK;
 }
 
-/* what was written of this flow so far, without the folder */
-static fw_status own_files(writer *w, const fw_plan_flow *pf, fw_output_file **out, int *found) {
-    const char *start = fw_arena_printf(w->plan->arena, "masks/%s.", pf->use->ref);
+/* what was written of this mask so far, without the folder */
+static fw_status own_files(writer *w, const char *name, fw_output_file **out, int *found) {
+    const char *start = fw_arena_printf(w->plan->arena, "masks/%s.", name);
     FW_NEED(start);
     size_t count;
     const fw_output_file *all = fw_output_files(w->output, &count);
@@ -40,43 +40,62 @@ static fw_status own_files(writer *w, const fw_plan_flow *pf, fw_output_file **o
 }
 
 /* the order sheets name what was written before them */
-static fw_status write_order(writer *w, const fw_plan_flow *pf) {
+static fw_status write_order(writer *w, const fw_mask *mask, const char *name) {
     fw_output_file *own;
     int n;
-    FW_TRY(own_files(w, pf, &own, &n));
+    FW_TRY(own_files(w, name, &own, &n));
     fw_text json = fw_text_new(w->scratch);
-    FW_TRY(fw_mask_write_order(pf->mask, own, n, &json));
-    FW_TRY(put(w, "masks/", pf->use->ref, ".order.json", &json));
+    FW_TRY(fw_mask_write_order(mask, own, n, &json));
+    FW_TRY(put(w, "masks/", name, ".order.json", &json));
     fw_text text = fw_text_new(w->scratch);
-    FW_TRY(fw_mask_write_order_text(pf->mask, own, n, &text));
-    return put(w, "masks/", pf->use->ref, ".order.txt", &text);
+    FW_TRY(fw_mask_write_order_text(mask, own, n, &text));
+    return put(w, "masks/", name, ".order.txt", &text);
 }
 
+typedef struct mask_files { /* a mask: the device's, or the test die's with its list */
+    const char *name;
+    const fw_mask *mask;
+    const fw_text *gds;
+    const char *sha256;
+    const fw_mask_coupons *coupons; /* NULL: the device's */
+} mask_files;
+
 /* masks, or the pictures of them */
-static fw_status write_formats(writer *w, const fw_plan_flow *pf, unsigned set, bool pictures) {
+static fw_status write_formats(writer *w, const mask_files *m, unsigned set, bool pictures) {
     const fw_mask_format *format;
     for (size_t i = 0; (format = fw_mask_format_at(i)); i++) {
         if (!(set & 1u << i) || format->picture != pictures) continue;
         bool composed = format->write == fw_mask_write_gds; /* for its hash */
-        fw_text text = composed ? pf->gds : fw_text_new(w->scratch);
-        if (!composed) FW_TRY(format->write(pf->mask, &text));
-        FW_TRY(put(w, "masks/", pf->use->ref, format->ending, &text));
+        fw_text text = composed ? *m->gds : fw_text_new(w->scratch);
+        if (!composed) FW_TRY(format->write(m->mask, &text));
+        FW_TRY(put(w, "masks/", m->name, format->ending, &text));
     }
     return FW_OK;
 }
 
-static fw_status write_mask(writer *w, const fw_plan_flow *pf) {
+static fw_status write_one(writer *w, const mask_files *m) {
     unsigned set;
     if (!fw_mask_formats(w->plan->options.mask_formats, &set)) return FW_USAGE;
-    FW_TRY(write_formats(w, pf, set, false));
+    FW_TRY(write_formats(w, m, set, false));
     fw_output_file *own;
     int n;
-    FW_TRY(own_files(w, pf, &own, &n));
+    FW_TRY(own_files(w, m->name, &own, &n));
     fw_text text = fw_text_new(w->scratch);
-    FW_TRY(fw_mask_write_certificate_of(pf->mask, pf->mask_sha256, own, n, &text));
-    FW_TRY(put(w, "masks/", pf->use->ref, ".json", &text));
-    FW_TRY(write_order(w, pf));
-    return write_formats(w, pf, set, true); /* behind the order sheets, which do not name them */
+    FW_TRY(m->coupons ? fw_mask_write_coupons(m->coupons, m->sha256, own, n, &text)
+                      : fw_mask_write_certificate_of(m->mask, m->sha256, own, n, &text));
+    FW_TRY(put(w, "masks/", m->name, ".json", &text));
+    FW_TRY(write_order(w, m->mask, m->name));
+    if (m->coupons) return FW_OK;
+    return write_formats(w, m, set, true); /* behind the order sheets, which do not name them */
+}
+
+static fw_status write_mask(writer *w, const fw_plan_flow *pf) {
+    FW_TRY(write_one(w, &(mask_files){pf->use->ref, pf->mask, &pf->gds, pf->mask_sha256, NULL}));
+    if (!pf->coupons) return FW_OK;
+    const char *name = fw_arena_printf(w->plan->arena, "%s-coupons", pf->use->ref);
+    FW_NEED(name);
+    return write_one(w, &(mask_files){name, pf->coupons->mask, &pf->coupons_gds, pf->coupons_sha256,
+                                      pf->coupons});
 }
 
 /* where rules are broken: the list, KLayout's marker database, and the outlines with markers */

@@ -11,6 +11,7 @@ import xml.etree.ElementTree as ET
 import numpy as np
 
 SVG = "{http://www.w3.org/2000/svg}"
+XLINK = "{http://www.w3.org/1999/xlink}"
 MARGIN_UM = 150.0  # of the page around the drawing
 
 
@@ -61,13 +62,23 @@ def path_outline(text):
 
 def read_svg(path, extent):
     """{layer/datatype: [outline]} in the world; extent: x0 y0 x1 y1 of the certificate"""
-    found = {}
-    for group in ET.parse(path).getroot().iter(SVG + "g"):
+    found, named = {}, {}
+    root = ET.parse(path).getroot()
+    for element in root.iter(SVG + "path"):
+        named["#" + element.get("id", "")] = element
+    for group in root.iter(SVG + "g"):
         if group.get("data-gds") is None:
             continue
         shapes = found.setdefault(group.get("data-gds"), [])
-        for element in group.findall(SVG + "path"):
-            o = path_outline(element.get("d"))
+        for element in group:
+            if element.tag == SVG + "path":
+                o = path_outline(element.get("d"))
+            elif element.tag == SVG + "use":  # a copy, moved
+                o = path_outline(named[element.get(XLINK + "href")].get("d"))
+                o[:, [0, 2, 4]] += float(element.get("x"))
+                o[:, [1, 3, 5]] += float(element.get("y"))
+            else:
+                continue
             o[:, [0, 2, 4]] += extent[0] - MARGIN_UM
             o[:, [1, 3, 5]] = extent[3] + MARGIN_UM - o[:, [1, 3, 5]]
             o[:, 7:9] = -o[:, 7:9]  # y turned round

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # run.sh DIR [REFERENCE_DIR]: independent programs (KLayout, gdspy, GEOS) judge every FLOW.gds in DIR:
 # strict reading, width, space, angles, overlaps and grid per layer with the layer's own rule of
-# masks/FLOW.xml and with 4 um, polygon validity and clearance, areas of FLOW.json, FLOW.lyp loads.
+# masks/FLOW.xml (of FLOW-coupons.gds too) and with 4 um, polygon validity and clearance, areas of FLOW.json, FLOW.lyp loads.
 # With REFERENCE_DIR the files of the same name must be equal layer by layer.
 # Exit 0 passed, 1 failed, 77 skipped because klayout is not installed.
 here=$(cd "$(dirname "$0")" && pwd)
@@ -42,7 +42,7 @@ for gds in "$1"/*.gds; do
     flow=$(basename "$gds" .gds) stem=${gds%.gds}
     judge "$flow: all that the certificate says" /usr/bin/python3 "$here/check_mask.py" "$stem.json"
     judge "$flow: strict reading without warnings" "$here/kl_nowarn.sh" "$gds"
-    /usr/bin/python3 "$here/layers.py" "$gds" "$tables/$flow.xml" "$stem.json" >"$work/layers"
+    /usr/bin/python3 "$here/layers.py" "$gds" "$tables/${flow%-coupons}.xml" "$stem.json" >"$work/layers"
     [ -s "$work/layers" ] || { echo "FAIL  $flow: no polygons"; failed=1; }
     areas=()
     while read -r layer width space area; do

@@ -31,6 +31,10 @@ for device in docs/gallery/*/device.xml; do
     done >"$work/$name.ledger"
     keep "$work/$name.ledger" "docs/gallery/$name/ledger.txt"
     for file in "$work/$name"/masks/*.gds "$work/$name"/masks/*.svg "$work/$name"/masks/*.lyp "$work/$name"/masks/*.lyt; do
+        case $file in # test dies differ by the die's size and the flow alone: those of one device
+        */reference-six-bar/*) ;;
+        *-coupons.*) continue ;;
+        esac
         [ -f "$file" ] && keep "$file" "masks/gallery/$name/$(basename "$file")"
     done
     for file in "$work/$name"/recipes/*.html "$work/$name"/recipes/*.csv; do

@@ -44,7 +44,11 @@ static void the_gallery_device(void **state) {
     assert_relative(d->die.width_m, 5.6e-3, 1e-15);
     assert_true(isnan(d->die.frame_m) && d->die.tethers);
     assert_string_equal(d->die.title, "REFERENCE SIX-BAR");
+    assert_true(isnan(d->release_pitch_m) && isnan(d->release_hole_m));
     assert_int_equal(d->source_length, n);
+    d = sound(arena, DEVICE("<die release-pitch=\"40 um\" release-hole=\"12 um\"/>" ARM), NULL, 0);
+    assert_relative(d->release_pitch_m, 40e-6, 1e-15);
+    assert_relative(d->release_hole_m, 12e-6, 1e-15);
     fw_arena_free(arena);
 }
 

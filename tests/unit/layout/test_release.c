@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Release holes in the bodies of a device. */
+#include "test.h"
+#include "fixture.h"
+#include "layout/pattern.h"
+#include <stdlib.h>
+
+#define UM 1e-6
+
+typedef struct drawn {
+    fw_arena *arena;
+    fw_diags diags;
+    fixture f;
+    const fw_layout *layout;
+} drawn;
+
+static drawn *draw(double pitch_um, double hole_um) {
+    fw_arena *arena = fw_arena_new(0);
+    drawn *d = fw_arena_one(arena, drawn);
+    d->arena = arena;
+    d->diags = fw_diags_new(arena);
+    fixture_six_bar(&d->f);
+    d->f.device.die.tethers = false;
+    d->f.device.release_pitch_m = pitch_um * UM;
+    d->f.device.release_hole_m = hole_um * UM;
+    fw_status status = fw_layout_build(arena, &d->f.device, &d->diags, &d->layout);
+    if (status != FW_OK) fail_msg("%s", d->diags.count ? d->diags.item[0].message : "no message");
+    return d;
+}
+
+static fw_region pieces_of(const drawn *d, int body) {
+    fw_region r = {fw_arena_array(d->arena, fw_contour, (size_t)d->layout->npiece), 0};
+    for (int i = 0; i < d->layout->npiece; i++)
+        if (d->layout->piece[i].body == body && d->layout->piece[i].role == FW_ROLE_STRUCTURE)
+            r.contour[r.count++] = d->layout->piece[i].contour;
+    for (int i = 1; i < r.count; i++) /* the body itself first */
+        if (fw_contour_area(&r.contour[i]) > fw_contour_area(&r.contour[0])) {
+            fw_contour t = r.contour[0];
+            r.contour[0] = r.contour[i];
+            r.contour[i] = t;
+        }
+    return r;
+}
+
+/* what the mechanics take equals Green's theorem over the body's own pieces, and the holes missing
+   are whole discs */
+static void moments_follow(void **state) {
+    (void)state;
+    drawn *plain = draw(0, 0), *holes = draw(40, 12);
+    int bodies = 0;
+    for (int b = 0; b < 5; b++) {
+        fw_region r = pieces_of(holes, b);
+        fw_moments m = fw_region_moments(&r);
+        const fw_body_layout *l = &holes->layout->body[b], *p = &plain->layout->body[b];
+        assert_relative(l->area_m2, m.area_m2, 1e-11);
+        assert_near(l->centroid.x, m.centroid.x, 1e-14);
+        assert_near(l->centroid.y, m.centroid.y, 1e-14);
+        assert_relative(l->polar_m4, m.polar_m4, 1e-9);
+        double n = (p->area_m2 - l->area_m2) / (M_PI * 36e-12);
+        assert_near(n, nearbyint(n), 1e-6);
+        assert_int_equal(nearbyint(n), r.count - 1); /* one cap for each hole */
+        assert_relative(l->perimeter_m, p->perimeter_m + M_PI * 12e-6 * nearbyint(n), 1e-12);
+        bodies += n > 10;
+    }
+    assert_int_equal(bodies, 5);
+    fw_arena_free(plain->arena);
+    fw_arena_free(holes->arena);
+}
+
+/* no hole near a hinge or an edge: the bodies' own outlines outside are what they were */
+static void holes_keep_away(void **state) {
+    (void)state;
+    drawn *plain = draw(0, 0), *d = draw(40, 12);
+    int holes = 0;
+    for (int b = 0; b < 5; b++) {
+        fw_region before = pieces_of(plain, b), after = pieces_of(d, b);
+        for (int i = 1; i < after.count; i++) { /* caps: the end inside is an arc of a hole */
+            const fw_contour *cap = &after.contour[i];
+            fw_vec2 middle = cap->segment[2].centre;
+            double t, least = HUGE_VAL;
+            fw_vec2 at;
+            for (int k = 0; k < before.contour[0].count; k++) {
+                const fw_segment *e = &before.contour[0].segment[k];
+                double x = e->b.x - e->a.x, y = e->b.y - e->a.y, l = x * x + y * y;
+                if (e->kind != FW_LINE || l == 0) continue;
+                t = fmin(1, fmax(0, ((middle.x - e->a.x) * x + (middle.y - e->a.y) * y) / l));
+                at = (fw_vec2){e->a.x + t * x, e->a.y + t * y};
+                least = fmin(least, hypot(at.x - middle.x, at.y - middle.y));
+            }
+            assert_true(least >= 20 * UM - 1e-9);
+            for (int j = 0; j < 6; j++) {
+                fw_vec2 w = d->layout->hinge[j].centre;
+                assert_true(hypot(middle.x - w.x, middle.y - w.y) > d->layout->hinge[j].keep_out_m);
+            }
+            holes++;
+        }
+    }
+    assert_true(holes > 300);
+    for (int j = 0; j < 6; j++)
+        assert_true(d->layout->hinge[j].free_rad == plain->layout->hinge[j].free_rad);
+    fw_arena_free(plain->arena);
+    fw_arena_free(d->arena);
+}
+
+/* every cut fits: bit for bit, also after a bias to either side */
+static void cuts_fit(void **state) {
+    (void)state;
+    drawn *d = draw(40, 12);
+    static const double bias[] = {0, 1.1e-6, -1.1e-6};
+    for (int k = 0; k < 3; k++)
+        for (int b = 0; b < 5; b++) {
+            fw_region r = pieces_of(d, b);
+            double area = 0, cut = 0;
+            for (int i = 0; i < r.count; i++) {
+                fw_contour out = r.contour[i];
+                int p, q;
+                if (bias[k] != 0)
+                    assert_int_equal(
+                        fw_contour_offset(d->arena, &r.contour[i], bias[k], &out, &p, &q), FW_OK);
+                area += fw_contour_area(&out);
+                cut += i > 0;
+                r.contour[i] = out;
+            }
+            int joints = 0, paired = 0;
+            for (int i = 1; i < r.count; i++)
+                for (int s = 0; s < r.contour[i].count; s++) {
+                    const fw_segment *u = &r.contour[i].segment[s];
+                    if (!(u->flags & FW_SEGMENT_JOINT)) continue;
+                    joints++;
+                    for (int t = 0; t < r.contour[0].count; t++) {
+                        const fw_segment *v = &r.contour[0].segment[t];
+                        paired += v->flags & FW_SEGMENT_JOINT &&
+                                  hypot(u->a.x - v->b.x, u->a.y - v->b.y) < 1e-12 &&
+                                  hypot(u->b.x - v->a.x, u->b.y - v->a.y) < 1e-12;
+                    }
+                }
+            assert_int_equal(joints, 2 * (int)cut);
+            assert_int_equal(paired, joints);
+            if (bias[k] == 0) assert_relative(area, d->layout->body[b].area_m2, 1e-11);
+        }
+    fw_arena_free(d->arena);
+}
+
+/* a body narrower than the reach has none; a pitch that large leaves the drawing as it was */
+static void narrow_bodies_have_none(void **state) {
+    (void)state;
+    drawn *plain = draw(0, 0), *d = draw(120, 12); /* reach 79 um, bars 120 um wide */
+    for (int b = 0; b < 5; b++) {
+        fw_region p = pieces_of(plain, b), q = pieces_of(d, b);
+        if (b == 2) {
+            assert_true(q.count > p.count); /* the platform is wide */
+            continue;
+        }
+        assert_int_equal(p.count, q.count);
+        assert_true(plain->layout->body[b].area_m2 == d->layout->body[b].area_m2);
+    }
+    fw_arena_free(plain->arena);
+    fw_arena_free(d->arena);
+}
+
+static void wrong_sizes(void **state) {
+    (void)state;
+    static const double bad[][2] = {{40, 21}, {20, 6}, {40, 7.9}};
+    for (int i = 0; i < 3; i++) {
+        fw_arena *arena = fw_arena_new(0);
+        fw_diags diags = fw_diags_new(arena);
+        fixture f;
+        const fw_layout *layout;
+        fixture_six_bar(&f);
+        f.device.release_pitch_m = bad[i][0] * UM;
+        f.device.release_hole_m = bad[i][1] * UM;
+        assert_int_equal(fw_layout_build(arena, &f.device, &diags, &layout), FW_GEOMETRY);
+        assert_int_equal(diags.item[diags.count - 1].number, 189);
+        fw_arena_free(arena);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(moments_follow), cmocka_unit_test(holes_keep_away),
+        cmocka_unit_test(cuts_fit),       cmocka_unit_test(narrow_bodies_have_none),
+        cmocka_unit_test(wrong_sizes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
