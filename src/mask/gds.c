@@ -3,6 +3,7 @@
    one XY record, texts, all dates zero. Record = length u16, type u8, data type u8, payload,
    big-endian (Calma GDSII Stream Format Manual, release 6). */
 #include "mask/notes.h"
+#include "mask/stream.h"
 #include <math.h>
 #include <string.h>
 
@@ -16,11 +17,15 @@ enum {
     STRNAME = 0x0606,
     ENDSTR = 0x0700,
     BOUNDARY = 0x0800,
+    SREF = 0x0a00,
+    AREF = 0x0b00,
     TEXT = 0x0c00,
     LAYER = 0x0d02,
     DATATYPE = 0x0e02,
     XY = 0x1003,
     ENDEL = 0x1100,
+    SNAME = 0x1206,
+    COLROW = 0x1302,
     TEXTTYPE = 0x1602,
     STRING = 0x1906,
     VERSION = 600,
@@ -120,27 +125,72 @@ static fw_status texts(const fw_mask *mask, fw_text *out) {
     return FW_OK;
 }
 
-fw_status fw_mask_write_gds(const fw_mask *mask, fw_text *out) {
-    size_t total = 4096; /* texts may take more */
-    for (int i = 0; i < mask->nshape; i++)
-        total += 64 + 8 * (size_t)mask->shape[i].polygon.count;
-    fw_text_reserve(out, total);
+/* ---- a library of several cells ---- */
+
+void fw_gds_begin(fw_text *out, const char *library) {
     number(out, HEADER, VERSION);
     zero_dates(out, BGNLIB);
-    string(out, LIBNAME, mask->rejected ? "FLEXWRIGHT_REJECTED" : "FLEXWRIGHT");
+    string(out, LIBNAME, library);
     record(out, UNITS, 16);
     real8(out, 1e-3); /* user unit 1 um */
     real8(out, 1e-9);
+}
+
+void fw_gds_cell_begin(fw_text *out, const char *name) {
     zero_dates(out, BGNSTR);
-    string(out, STRNAME, mask->cell);
+    string(out, STRNAME, name);
+}
+
+void fw_gds_shapes(fw_text *out, const fw_mask *mask) {
     for (int i = 0; i < mask->nshape; i++) {
         const fw_mask_shape *s = &mask->shape[i];
         if (s->npart == 0) boundary(out, &mask->table->layer[s->layer], &s->polygon);
         for (int k = 0; k < s->npart; k++)
             boundary(out, &mask->table->layer[s->layer], &s->part[k]);
     }
-    FW_TRY(texts(mask, out));
+}
+
+void fw_gds_note(fw_text *out, const fw_mask_layer *layer, fw_point at, const char *line) {
+    text(out, layer, at.x_dbu, at.y_dbu, line);
+}
+
+void fw_gds_array(fw_text *out, const char *cell, fw_point at, int columns, int rows,
+                  fw_point step) {
+    bool one = columns == 1 && rows == 1;
+    record(out, one ? SREF : AREF, 0);
+    string(out, SNAME, cell);
+    if (!one) {
+        record(out, COLROW, 4);
+        u16(out, (unsigned)columns);
+        u16(out, (unsigned)rows);
+    }
+    record(out, XY, one ? 8 : 24);
+    point(out, at.x_dbu, at.y_dbu);
+    if (!one) {
+        point(out, at.x_dbu + columns * step.x_dbu, at.y_dbu);
+        point(out, at.x_dbu, at.y_dbu + rows * step.y_dbu);
+    }
+    record(out, ENDEL, 0);
+}
+
+void fw_gds_cell_end(fw_text *out) {
     record(out, ENDSTR, 0);
+}
+
+void fw_gds_end(fw_text *out) {
     record(out, ENDLIB, 0);
+}
+
+fw_status fw_mask_write_gds(const fw_mask *mask, fw_text *out) {
+    size_t total = 4096; /* texts may take more */
+    for (int i = 0; i < mask->nshape; i++)
+        total += 64 + 8 * (size_t)mask->shape[i].polygon.count;
+    fw_text_reserve(out, total);
+    fw_gds_begin(out, mask->rejected ? "FLEXWRIGHT_REJECTED" : "FLEXWRIGHT");
+    fw_gds_cell_begin(out, mask->cell);
+    fw_gds_shapes(out, mask);
+    FW_TRY(texts(mask, out));
+    fw_gds_cell_end(out);
+    fw_gds_end(out);
     return fw_text_end(out);
 }

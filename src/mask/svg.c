@@ -2,6 +2,7 @@
 /* Exact outlines with true arcs: 1 user unit = 1 um, six decimals (1 pm). The y axis of SVG points
    down, so y is turned round here and not by a transform that importers may lose. */
 #include "mask/mask.h"
+#include "mask/stream.h"
 #include <math.h>
 
 static const double MARGIN_UM = 150, LEGEND_UM = 150, BAR_UM = 10;
@@ -59,6 +60,12 @@ static void shape(const page *p, const fw_mask_shape *s) {
     fw_text_add(p->out, "</title></path>\n");
 }
 
+void fw_svg_paths(const fw_mask *mask, int layer, fw_vec2 upper_left, fw_text *out) {
+    page p = {.out = out, .x0 = upper_left.x, .y1 = upper_left.y};
+    for (int i = 0; i < mask->nshape; i++)
+        if (mask->shape[i].layer == layer) shape(&p, &mask->shape[i]);
+}
+
 static void layer(const page *p, const fw_mask *mask, int k) {
     const fw_mask_layer *y = &mask->table->layer[k];
     fw_text_printf(p->out, "<g id=\"%s\" data-gds=\"%d/%d\" fill=\"%s\" fill-opacity=\"0.8\">",
@@ -68,8 +75,7 @@ static void layer(const page *p, const fw_mask *mask, int k) {
     fw_text_add(p->out, ": ");
     fw_text_escaped(p->out, y->purpose);
     fw_text_printf(p->out, " (%s)</title>\n", y->tone);
-    for (int i = 0; i < mask->nshape; i++)
-        if (mask->shape[i].layer == k) shape(p, &mask->shape[i]);
+    fw_svg_paths(mask, k, (fw_vec2){p->x0, p->y1}, p->out);
     fw_text_add(p->out, "</g>\n");
 }
 

@@ -137,6 +137,7 @@ fw_status fw_plan_compute_flows(fw_plan *plan) {
         if (!pf->flow) continue;
         fw_mask_facts facts = facts_of(plan->device, plan->layout, insulated(pf));
         facts.device_thickness_m = pf->variant.thickness_m;
+        facts.dies = fw_plan_dies(plan);
         FW_TRY(fw_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, &plan->diags));
         fw_drive_facts *drive;
         int n;
@@ -164,5 +165,5 @@ fw_status fw_plan_fabricate(fw_plan *plan) {
         fw_sha256(pf->gds.data, pf->gds.length, hash);
         FW_NEED(pf->mask_sha256 = fw_arena_strdup(plan->arena, hash));
     }
-    return FW_OK;
+    return fw_plan_wafers(plan);
 }

@@ -8,6 +8,7 @@
 #define FW_PLAN_PLAN_H
 #include "assembly/kinematics.h"
 #include "statics/modes.h"
+#include "wafer/wafer.h"
 #include "report/assembly.h"
 #include "report/terminal.h"
 #include "report/workspace.h"
@@ -23,6 +24,7 @@ typedef struct fw_plan_options {
     const fw_set *set;          /* (nset) */
     int nset;
     bool force;          /* masks and recipes of a rejected design too */
+    bool one_die;        /* leave <wafer> alone: this plan is one of its dies */
     bool at_equilibrium; /* modes: not about rest */
     bool path;           /* statics: follow the load path */
     /* for assemble: "AB.phi,BC.phi", "10 rad/s,0 rad/s", "0 rad/s^2,..."; NULL: chosen, 0, 0 */
@@ -40,6 +42,9 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     fw_text gds; /* of the mask, composed once: its hash is in recipe and certificate */
     const char *mask_error;
     const char *flow_sha256, *mask_sha256;
+    const fw_wafer *wafer; /* NULL: none asked for, or no mask */
+    fw_text wafer_gds;     /* composed once, as above */
+    const char *wafer_sha256;
 } fw_plan_flow;
 
 typedef struct fw_input_file { /* for the manifest */
@@ -67,6 +72,8 @@ typedef struct fw_plan {
     int ninput;
     const char *base_file, *base_xml;
     size_t base_length;
+    struct fw_plan **step; /* (nstep) plans of the steps of a wafer's sweeps; NULL: not planned */
+    int nstep;
 } fw_plan;
 
 fw_plan *fw_plan_new(const fw_plan_options *options); /* NULL: out of memory */

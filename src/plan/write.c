@@ -59,6 +59,31 @@ static fw_status write_mask(writer *w, const fw_plan_flow *pf) {
     return write_order(w, pf);
 }
 
+static fw_status write_wafer(writer *w, const fw_plan_flow *pf) {
+    unsigned set;
+    if (!pf->wafer) return FW_OK;
+    if (!fw_mask_formats(w->plan->options.mask_formats, &set)) return FW_USAGE;
+    const char *name = fw_arena_printf(w->plan->arena, "%s-wafer", pf->use->ref);
+    FW_NEED(name);
+    FW_TRY(put(w, "masks/", name, ".gds", &pf->wafer_gds));
+    const fw_mask_format *format;
+    for (size_t i = 0; (format = fw_mask_format_at(i)); i++) {
+        if (!(set & 1u << i) || format->write != fw_mask_write_svg) continue;
+        fw_text svg = fw_text_new(w->scratch);
+        FW_TRY(fw_wafer_write_svg(pf->wafer, &svg));
+        FW_TRY(put(w, "masks/", name, ".svg", &svg));
+    }
+    fw_text csv = fw_text_new(w->scratch);
+    FW_TRY(fw_wafer_write_csv(pf->wafer, &csv));
+    FW_TRY(put(w, "masks/", name, ".csv", &csv));
+    fw_text map = fw_text_new(w->scratch);
+    FW_TRY(fw_wafer_write_map(pf->wafer, &map));
+    FW_TRY(put(w, "masks/", name, "-map.svg", &map));
+    fw_text json = fw_text_new(w->scratch);
+    FW_TRY(fw_wafer_write_json(pf->wafer, pf->wafer_sha256, &json));
+    return put(w, "masks/", name, ".json", &json);
+}
+
 static fw_status write_recipe(writer *w, const fw_plan_flow *pf) {
     static const struct {
         const char *ending;
@@ -130,6 +155,7 @@ static fw_status write_all(writer *w, unsigned what) {
     bool given = plan->verdict.decision != FW_REJECT || plan->options.force;
     for (int i = 0; given && i < plan->nflow; i++) {
         if ((what & FW_WRITE_MASKS) && plan->flow[i].mask) FW_TRY(write_mask(w, &plan->flow[i]));
+        if (what & FW_WRITE_MASKS) FW_TRY(write_wafer(w, &plan->flow[i]));
         if ((what & FW_WRITE_RECIPES) && plan->flow[i].flow)
             FW_TRY(write_recipe(w, &plan->flow[i]));
     }
