@@ -167,8 +167,8 @@ static const fw_attribute_row die_rows[] = {
 };
 
 static const fw_attribute_row wafer_rows[] = {
-    {"diameter", D_LENGTH, .unit = "mm", RANGE(10e-3, 0.301, WAFER), .fallback = "100 mm",
-     .sentence = "Of the wafer. Within 2 mm of 50.8, 76.2, 100, 125, 150, 200 or 300 mm it is that "
+    {"diameter", D_LENGTH, .unit = "mm", RANGE(10e-3, 0.305, WAFER), .fallback = "100 mm",
+     .sentence = "Of the wafer. Within 2 % of 50.8, 76.2, 100, 125, 150, 200 or 300 mm it is that "
                  "size, with the flat or notch of SEMI M1."},
     {"flat", GAP, .fallback = "of SEMI M1",
      .sentence = "Length of the primary flat; 0: none. Needed for other diameters."},

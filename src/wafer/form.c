@@ -17,7 +17,8 @@ static const struct {
     double diameter_m, flat_m;
 } semi[] = {{50.8e-3, 15.88e-3}, {76.2e-3, 22.22e-3}, {100e-3, 32.5e-3}, {125e-3, 42.5e-3},
             {150e-3, 57.5e-3},   {200e-3, 0},         {300e-3, 0}};
-static const double NEAR_M = 2e-3, NOTCH_M = 1.25e-3;
+/* 4 in for a wafer of 100 mm is 1.6 % off */
+static const double NEAR = 0.02, NOTCH_M = 1.25e-3;
 static const double plate_in[] = {3, 4, 5, 6, 7, 9, 14};
 static const double INCH_M = 25.4e-3, PLATE_RIM_M = 10e-3;
 
@@ -42,7 +43,8 @@ static double plate_for(double diameter_m) {
 fw_status fw_wafer_form_of(const fw_wafer_asked *asked, fw_diags *diags, fw_wafer_form *form) {
     int known = -1;
     for (size_t i = 0; i < sizeof semi / sizeof semi[0]; i++)
-        if (fabs(asked->diameter_m - semi[i].diameter_m) <= NEAR_M) known = (int)i;
+        if (fabs(asked->diameter_m - semi[i].diameter_m) <= NEAR * semi[i].diameter_m)
+            known = (int)i;
     double d = known >= 0 ? semi[known].diameter_m : asked->diameter_m;
     double flat = !isnan(asked->flat_m) ? asked->flat_m
                   : known >= 0          ? semi[known].flat_m
@@ -50,7 +52,7 @@ fw_status fw_wafer_form_of(const fw_wafer_asked *asked, fw_diags *diags, fw_wafe
     if (isnan(flat))
         return refuse(asked, diags, "diameter", d,
                       "SEMI M1 has no such wafer, so state flat (0: none) as well");
-    bool notched = flat == 0 && known >= 0 && semi[known].flat_m == 0;
+    bool notched = isnan(asked->flat_m) && semi[known].flat_m == 0;
     double plate = isnan(asked->plate_m) ? plate_for(d) : asked->plate_m;
     if (!(flat < d))
         return refuse(asked, diags, "flat", flat, "no chord is as long as the diameter");
