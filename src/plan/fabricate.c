@@ -132,12 +132,13 @@ static fw_status drives_of(fw_plan *plan, const char *flow, fw_drive_facts **dri
 
 fw_status fw_plan_compute_flows(fw_plan *plan) {
     bool drawn = plan->layout && plan->layout->drawn;
+    FW_TRY(fw_plan_count_dies(plan));
     for (int i = 0; i < plan->nflow; i++) {
         fw_plan_flow *pf = &plan->flow[i];
         if (!pf->flow) continue;
         fw_mask_facts facts = facts_of(plan->device, plan->layout, insulated(pf));
         facts.device_thickness_m = pf->variant.thickness_m;
-        facts.dies = fw_plan_dies(plan);
+        facts.dies = plan->dies;
         FW_TRY(fw_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, &plan->diags));
         fw_drive_facts *drive;
         int n;

@@ -23,8 +23,8 @@ typedef struct fw_plan_options {
     int mask_vertices;          /* most of one GDSII boundary; 0: 4094 */
     const fw_set *set;          /* (nset) */
     int nset;
-    bool force;          /* masks and recipes of a rejected design too */
-    bool one_die;        /* leave <wafer> alone: this plan is one of its dies */
+    bool force; /* masks and recipes of a rejected design too */
+    int dies;   /* above 0: this is one device of a wafer of so many; <wafer> is left alone */
     bool at_equilibrium; /* modes: not about rest */
     bool path;           /* statics: follow the load path */
     /* for assemble: "AB.phi,BC.phi", "10 rad/s,0 rad/s", "0 rad/s^2,..."; NULL: chosen, 0, 0 */
@@ -63,6 +63,7 @@ typedef struct fw_plan {
     fw_plan_flow *flow; /* (nflow) at least one after fw_plan_load */
     int nflow;
     const fw_layout *layout; /* NULL: cannot be drawn */
+    int dies;                /* made at once; 1 without a wafer */
     fw_verdict verdict;
     const char **assumption; /* (nassumption) */
     int nassumption, assumption_capacity;

@@ -21,8 +21,8 @@ fw_status fw_plan_made_of(fw_arena *arena, const fw_plan_flow *flow, fw_variant_
 fw_status fw_plan_compute_flows(fw_plan *plan);
 /* wafers of the flows that have a mask, with the devices of the sweeps, each planned by itself */
 fw_status fw_plan_wafers(fw_plan *plan);
-/* devices that are made at once; 1 without a wafer */
-int fw_plan_dies(fw_plan *plan);
+/* plan->dies, from what <wafer> asks for */
+fw_status fw_plan_count_dies(fw_plan *plan);
 /* once per plan, after judging */
 fw_status fw_plan_assumptions(fw_plan *plan);
 fw_status fw_plan_manifest(const fw_plan *plan, const fw_output_file *file, size_t count,

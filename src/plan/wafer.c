@@ -63,7 +63,7 @@ static fw_status run_step(fw_plan *plan, int v, double *value, const char **why)
     FW_TRY(settings(plan, v, &set, value));
     options.set = set;
     options.nset = plan->options.nset + plan->device->wafer.nsweep;
-    options.one_die = true;
+    options.dies = plan->dies;
     options.verdict.with_advice = false;
     fw_plan *step = plan->step[v] = fw_plan_new(&options);
     FW_NEED(step);
@@ -127,11 +127,13 @@ static fw_status make(fw_plan *plan, int flow, const double (*value)[2], const c
     fw_wafer_variant *v = fw_arena_array(plan->arena, fw_wafer_variant, (size_t)n);
     FW_NEED(v);
     fw_wafer_variant own = variant_of(plan, flow);
+    for (int k = 0; k < w->nsweep; k++)
+        own.value[k] = plan->device->parameter[w->sweep[k].parameter].value;
     for (int i = 0; i < n; i++) {
         v[i] = w->nsweep == 0  ? own
                : plan->step[i] ? variant_of(plan->step[i], flow)
                                : (fw_wafer_variant){.utilisation = (double)NAN, .why = why[i]};
-        for (int k = 0; k < 2; k++)
+        for (int k = 0; k < w->nsweep; k++)
             v[i].value[k] = value[i][k];
         if (!v[i].mask) say(plan, w, &v[i], i, pf->use->ref);
     }
@@ -157,7 +159,7 @@ fw_status fw_plan_wafers(fw_plan *plan) {
     bool any = false;
     for (int i = 0; i < plan->nflow; i++)
         any = any || plan->flow[i].mask;
-    if (!w->asked || plan->options.one_die || !any) return FW_OK;
+    if (!w->asked || plan->options.dies > 0 || !any) return FW_OK;
     int n = steps_of(w);
     double(*value)[2] = fw_arena_alloc(plan->arena, (size_t)n, sizeof *value);
     const char **why = fw_arena_array(plan->arena, const char *, (size_t)n);
@@ -173,11 +175,42 @@ fw_status fw_plan_wafers(fw_plan *plan) {
     return FW_OK;
 }
 
-int fw_plan_dies(fw_plan *plan) {
+/* the outline of step v, as far as it can be drawn; what is wrong with it is said when it is
+ * planned
+ */
+static fw_status enlarge(fw_plan *plan, fw_arena *arena, int v, fw_box *die) {
+    fw_diags silent = fw_diags_new(arena);
+    const fw_device *device;
+    const fw_layout *layout;
+    fw_set *set;
+    double value[2];
+    FW_TRY(settings(plan, v, &set, value));
+    fw_status status =
+        fw_device_read(arena, plan->source_file, plan->source, plan->source_length, set,
+                       plan->options.nset + plan->device->wafer.nsweep, &silent, &device);
+    if (status == FW_OK) status = fw_layout_build(arena, device, &silent, &layout);
+    if (status == FW_OK && layout->drawn) {
+        die->x1 = fmax(die->x1, die->x0 + layout->die.x1 - layout->die.x0);
+        die->y1 = fmax(die->y1, die->y0 + layout->die.y1 - layout->die.y0);
+    }
+    return is_final(status) ? status : FW_OK;
+}
+
+fw_status fw_plan_count_dies(fw_plan *plan) {
     const fw_wafer_asked *w = &plan->device->wafer;
-    if (!w->asked || !plan->layout || !plan->layout->drawn) return 1;
-    fw_mark before = fw_arena_mark(plan->arena);
-    int dies = fw_wafer_dies(plan->arena, w, plan->layout->die);
-    fw_arena_rewind(plan->arena, before);
-    return dies > 0 ? dies : 1;
+    plan->dies = plan->options.dies > 0 ? plan->options.dies : 1;
+    if (plan->options.dies > 0 || !w->asked || !plan->layout || !plan->layout->drawn) return FW_OK;
+    fw_arena *scratch = fw_arena_new(plan->options.memory_cap);
+    FW_NEED(scratch);
+    fw_box die = plan->layout->die;
+    fw_status status = FW_OK;
+    for (int v = 0; w->nsweep > 0 && v < steps_of(w) && status == FW_OK; v++) {
+        fw_mark empty = fw_arena_mark(scratch);
+        status = enlarge(plan, scratch, v, &die);
+        fw_arena_rewind(scratch, empty);
+    }
+    if (status == FW_OK) plan->dies = fw_wafer_dies(scratch, w, die);
+    fw_arena_free(scratch);
+    if (plan->dies == 0) plan->dies = 1; /* why, the wafer says */
+    return status;
 }

@@ -7,8 +7,9 @@
 
 enum { LONGEST_NAME = 32 };
 
+/* a device that is not placed counts too: it could be laid out, and the number of dies must not
+   hang on what is found out about it later. Without any outline its size is 0. */
 static void enlarge(const fw_wafer_variant *v, double *width, double *height) {
-    if (!v->mask) return;
     *width = fmax(*width, v->die.x1 - v->die.x0);
     *height = fmax(*height, v->die.y1 - v->die.y0);
 }
@@ -175,6 +176,7 @@ fw_status fw_wafer_build(fw_arena *arena, const fw_wafer_input *input, fw_diags 
     *w = (fw_wafer){.device = d,
                     .table = input->table,
                     .nvariant = input->nvariant,
+                    .stand_in = input->stand_in,
                     .title = title,
                     .flow = input->table->flow};
     FW_NEED(w->variant = fw_arena_array(arena, fw_wafer_variant, (size_t)input->nvariant));

@@ -15,7 +15,7 @@ static void heading(const fw_wafer *w, fw_text *out) {
     fw_text_add(out, ",verdict,utilisation,note\n");
 }
 
-/* note: reasons hold commas and perhaps quotes */
+/* a note holds commas */
 static void quoted(fw_text *out, const char *text) {
     fw_text_add(out, "\"");
     for (const char *s = text; *s; s++) {
@@ -25,23 +25,31 @@ static void quoted(fw_text *out, const char *text) {
     fw_text_add(out, "\"");
 }
 
-static void variant(const fw_wafer *w, const fw_wafer_site *s, fw_text *out) {
+/* what the die is, which need not be what its step asked for */
+static fw_status variant(const fw_wafer *w, const fw_wafer_site *s, fw_text *out) {
     int sweeps = w->device->wafer.nsweep;
     if (s->variant < 0) {
         for (int k = 0; k < sweeps + 4; k++)
             fw_text_add(out, ",");
-        return;
+        return FW_OK;
     }
-    const fw_wafer_variant *v = &w->variant[s->variant];
+    const fw_wafer_variant *asked = &w->variant[s->variant];
+    const fw_wafer_variant *is = fw_wafer_stood_in(asked) ? &w->stand_in : asked;
     fw_text_printf(out, ",%d", s->variant + 1);
     for (int k = 0; k < sweeps; k++) {
         fw_text_add(out, ",");
-        fw_text_number(out, fw_wafer_value(w, v, k), 9);
+        fw_text_number(out, fw_wafer_value(w, is, k), 9);
     }
-    fw_text_printf(out, ",%s,", v->decision ? v->decision : "");
-    if (isfinite(v->utilisation)) fw_text_number(out, v->utilisation, 6);
+    fw_text_printf(out, ",%s,", is->decision ? is->decision : "");
+    if (isfinite(is->utilisation)) fw_text_number(out, is->utilisation, 6);
     fw_text_add(out, ",");
-    if (fw_wafer_stood_in(v)) quoted(out, "nominal die");
+    if (is == asked) return FW_OK;
+    const char *values = fw_wafer_values(out->arena, w, asked);
+    FW_NEED(values);
+    const char *note = fw_arena_printf(out->arena, "nominal die in place of %s", values);
+    FW_NEED(note);
+    quoted(out, note);
+    return FW_OK;
 }
 
 fw_status fw_wafer_write_csv(const fw_wafer *w, fw_text *out) {
@@ -57,7 +65,7 @@ fw_status fw_wafer_write_csv(const fw_wafer *w, fw_text *out) {
         fw_text_add(out, ",");
         fw_text_fixed(out, 1e-6 * (s->y + 0.5 * g->height), 7);
         fw_text_printf(out, ",%s", fw_wafer_kind_text(s->kind));
-        variant(w, s, out);
+        FW_TRY(variant(w, s, out));
         fw_text_add(out, "\n");
     }
     return fw_text_end(out);

@@ -4,12 +4,13 @@
 #include "wafer/notes.h"
 #include <math.h>
 
-static const double MARGIN = 6, LEGEND = 80, LINE = 4.2;
+static const double MARGIN = 6, LEGEND = 88, LINE = 4.2; /* of a wafer of 100 mm */
 
 typedef struct picture {
     const fw_wafer *w;
     fw_text *out;
     double x, y, r; /* mm: centre and radius of the wafer */
+    double k;       /* size of lettering and of all that is beside the wafer */
 } picture;
 
 static void number(fw_text *out, double value) {
@@ -83,7 +84,9 @@ static void notch(const picture *p) {
 }
 
 static void cross(const picture *p, double x, double y, double a) {
-    fw_text_add(p->out, "<path stroke=\"#000000\" stroke-width=\"0.25\" d=\"M");
+    fw_text_add(p->out, "<path stroke=\"#000000\" stroke-width=\"");
+    number(p->out, 0.25 * p->k);
+    fw_text_add(p->out, "\" d=\"M");
     pair(p->out, x - a, " ", y);
     fw_text_add(p->out, "h");
     number(p->out, 2 * a);
@@ -131,7 +134,7 @@ static void line(const picture *p, double x, double *y, const char *text) {
     fw_text_add(p->out, "\">");
     fw_text_escaped(p->out, text);
     fw_text_add(p->out, "</text>\n");
-    *y += LINE;
+    *y += LINE * p->k;
 }
 
 static fw_status facts(const picture *p, double x, double *y) {
@@ -165,8 +168,9 @@ static fw_status facts(const picture *p, double x, double *y) {
 
 static fw_status variants(const picture *p, double x, double *y) {
     const fw_wafer *w = p->w;
+    const double k = p->k;
     fw_arena *a = p->out->arena;
-    *y += 0.5 * LINE;
+    *y += 0.5 * LINE * p->k;
     for (int v = 0; v < w->nvariant; v++) {
         const fw_wafer_variant *u = &w->variant[v];
         char fill[8], used[32];
@@ -179,18 +183,18 @@ static fw_status variants(const picture *p, double x, double *y) {
             isfinite(u->utilisation) ? used : "", isfinite(u->utilisation) ? " % of limit" : "");
         FW_NEED(text);
         colour(v, w->nvariant, fill);
-        box(p, x, *y - 0.75 * LINE, 3.2, 3.2, fill, fw_wafer_stood_in(u));
-        line(p, x + 4.6, y, text);
+        box(p, x, *y - 0.62 * LINE * k, 3 * k, 3 * k, fill, fw_wafer_stood_in(u));
+        line(p, x + 4.6 * k, y, text);
         if (!fw_wafer_stood_in(u)) continue;
-        line(p, x + 4.6, y, "nominal dies instead (dashed)");
+        line(p, x + 4.6 * k, y, "nominal dies instead (dashed)");
     }
     if (w->alignments > 0) {
-        cross(p, x + 1.6, *y - 0.35 * LINE, 1.5);
-        line(p, x + 4.6, y, "alignment site");
+        cross(p, x + 1.5 * k, *y - 0.28 * LINE * k, 1.5 * k);
+        line(p, x + 4.6 * k, y, "alignment site");
     }
     if (w->tests > 0) {
-        box(p, x, *y - 0.75 * LINE, 3.2, 3.2, "#c8c8c8", false);
-        line(p, x + 4.6, y, "test die");
+        box(p, x, *y - 0.62 * LINE * k, 3 * k, 3 * k, "#c8c8c8", false);
+        line(p, x + 4.6 * k, y, "test die");
     }
     return FW_OK;
 }
@@ -203,14 +207,17 @@ static int legend_lines(const fw_wafer *w) {
 }
 
 fw_status fw_wafer_write_map(const fw_wafer *w, fw_text *out) {
-    double r = 0.5e3 * w->form.diameter_m, tall = MARGIN + LINE * legend_lines(w);
-    double width = 2 * r + 3 * MARGIN + LEGEND, height = fmax(2 * r + 2 * MARGIN, tall);
-    picture p = {w, out, MARGIN + r, MARGIN + r, r};
+    double r = 0.5e3 * w->form.diameter_m, k = r / 50, margin = MARGIN * k;
+    double width = 2 * r + 3 * margin + LEGEND * k;
+    double height = fmax(2 * r + 2 * margin, margin + LINE * k * legend_lines(w));
+    picture p = {w, out, margin + r, margin + r, r, k};
     fw_text_reserve(out, 8192 + 256 * (size_t)w->grid.nsite);
     fw_text_add(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg "
                      "xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" viewBox=\"0 0 ");
     pair(out, width, " ", height);
-    fw_text_add(out, "\" font-family=\"sans-serif\" font-size=\"3\">\n<title>");
+    fw_text_add(out, "\" font-family=\"sans-serif\" font-size=\"");
+    number(out, 3 * k);
+    fw_text_add(out, "\">\n<title>");
     fw_text_escaped(out, w->title);
     fw_text_add(out, ": wafer map</title>\n<rect width=\"100%\" height=\"100%\" "
                      "fill=\"#ffffff\"/>\n");
@@ -221,17 +228,20 @@ fw_status fw_wafer_write_map(const fw_wafer *w, fw_text *out) {
     double inner = r - w->form.edge_m * 1e3;
     rim(&p, inner, w->form.flat_m > 0 ? chord - w->form.edge_m * 1e3 : inner,
         "fill=\"none\" stroke=\"#c00000\" stroke-width=\"0.2\" stroke-dasharray=\"1.5 1\"");
-    fw_text_add(out, "<g text-anchor=\"middle\" stroke-width=\"0.1\">\n");
+    fw_text_add(out, "<g text-anchor=\"middle\" stroke-width=\"0.15\">\n");
     for (int i = 0; i < w->grid.nsite; i++)
         site(&p, &w->grid.site[i]);
     fw_text_add(out, "</g>\n");
-    double x = 2 * r + 2 * MARGIN, y = MARGIN + LINE;
-    fw_text_add(out, "<g font-size=\"4\" font-weight=\"bold\">\n");
+    double x = 2 * r + 2 * margin, y = margin + LINE * k;
+    fw_text_add(out, "<g font-size=\"");
+    number(out, 4 * k);
+    fw_text_add(out, "\" font-weight=\"bold\">\n");
     line(&p, x, &y, w->title);
     if (w->rejected) line(&p, x, &y, "REJECTED");
     fw_text_add(out, "</g>\n");
     FW_TRY(facts(&p, x, &y));
+    fw_text_add(out, "<g stroke-width=\"0.3\">\n");
     FW_TRY(variants(&p, x, &y));
-    fw_text_add(out, "</svg>\n");
+    fw_text_add(out, "</g>\n</svg>\n");
     return fw_text_end(out);
 }

@@ -63,7 +63,7 @@ const char *fw_wafer_column_name(const fw_wafer_grid *grid, int column, char nam
 typedef struct fw_wafer_variant {
     const fw_mask *mask;  /* NULL: could not be made; its dies are then those of `stand_in` */
     fw_box die, window;   /* of its layout */
-    double value[2];      /* SI, of the sweeps */
+    double value[2];      /* SI, of the parameters that are swept */
     const char *decision; /* "accept", "inconclusive", "reject"; NULL: not judged */
     double utilisation;   /* largest; NaN: not known */
     const char *why;      /* why its dies are other ones, or NULL */
@@ -102,6 +102,7 @@ typedef struct fw_wafer {
     fw_wafer_grid grid;
     fw_wafer_variant *variant; /* (nvariant) */
     int nvariant;
+    fw_wafer_variant stand_in;
     const fw_mask *plate; /* title and fiducials, drawn in the top cell; NULL: none */
     const char *top, *title, *flow;
     fw_wafer_cell *cell; /* (ncell) children before the top cell */
