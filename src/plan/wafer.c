@@ -209,7 +209,7 @@ fw_status fw_plan_count_dies(fw_plan *plan) {
         status = enlarge(plan, scratch, v, &die);
         fw_arena_rewind(scratch, empty);
     }
-    if (status == FW_OK) plan->dies = fw_wafer_dies(scratch, w, die);
+    if (status == FW_OK) status = fw_wafer_dies(scratch, w, die, &plan->dies);
     fw_arena_free(scratch);
     if (plan->dies == 0) plan->dies = 1; /* why, the wafer says */
     return status;

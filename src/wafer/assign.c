@@ -88,9 +88,8 @@ static int step(bool blocks, int at, int of, int steps) {
     return blocks ? (int)((int64_t)at * steps / of) : at % steps;
 }
 
-fw_status fw_wafer_assign(fw_arena *arena, const fw_wafer_form *form, const fw_wafer_asked *asked,
-                          fw_diags *diags, fw_wafer_grid *g) {
-    (void)arena;
+fw_status fw_wafer_assign(const fw_wafer_form *form, const fw_wafer_asked *asked, fw_diags *diags,
+                          fw_wafer_grid *g) {
     if (asked->alignment) align(asked, diags, g);
     if (asked->tests > 0) give_tests(form, asked, diags, g);
     int n0 = asked->nsweep > 0 ? asked->sweep[0].steps : 1;
@@ -105,18 +104,20 @@ fw_status fw_wafer_assign(fw_arena *arena, const fw_wafer_form *form, const fw_w
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
-int fw_wafer_dies(fw_arena *arena, const fw_wafer_asked *asked, fw_box die) {
+fw_status fw_wafer_dies(fw_arena *arena, const fw_wafer_asked *asked, fw_box die, int *dies) {
     fw_diags silent = fw_diags_new(arena); /* the wafer says it when it is laid out */
     fw_wafer_form form;
     fw_wafer_grid grid;
     int32_t width = (int32_t)ceil((die.x1 - die.x0) * 1e9 - 1e-3);
     int32_t height = (int32_t)ceil((die.y1 - die.y0) * 1e9 - 1e-3);
-    if (fw_wafer_form_of(asked, &silent, &form) != FW_OK ||
-        fw_wafer_grid_fill(arena, &form, asked, width, height, &silent, &grid) != FW_OK ||
-        fw_wafer_assign(arena, &form, asked, &silent, &grid) != FW_OK)
-        return 0;
-    int dies = 0;
+    *dies = 0;
+    fw_status status = fw_wafer_form_of(asked, &silent, &form);
+    if (status == FW_OK)
+        status = fw_wafer_grid_fill(arena, &form, asked, width, height, &silent, &grid);
+    if (status == FW_OK) status = fw_wafer_assign(&form, asked, &silent, &grid);
+    if (silent.failed) return FW_NOMEM;
+    if (status != FW_OK) return status == FW_INPUT ? FW_OK : status;
     for (int i = 0; i < grid.nsite; i++)
-        dies += grid.site[i].kind == FW_WAFER_DIE;
-    return dies;
+        *dies += grid.site[i].kind == FW_WAFER_DIE;
+    return FW_OK;
 }

@@ -27,7 +27,7 @@ static fw_status fill_grid(fw_wafer_maker *m) {
     FW_TRY(fw_wafer_form_of(asked, m->diags, &w->form));
     FW_TRY(fw_wafer_grid_fill(m->arena, &w->form, asked, (int32_t)ceil(width * 1e9 - 1e-3),
                               (int32_t)ceil(height * 1e9 - 1e-3), m->diags, &w->grid));
-    return fw_wafer_assign(m->arena, &w->form, asked, m->diags, &w->grid);
+    return fw_wafer_assign(&w->form, asked, m->diags, &w->grid);
 }
 
 static void count(fw_wafer_maker *m) {

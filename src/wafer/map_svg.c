@@ -3,6 +3,7 @@
    their ids, and a legend. 1 user unit = 1 mm; made for people, so rounded to 1 um. */
 #include "wafer/notes.h"
 #include <math.h>
+#include <string.h>
 
 static const double MARGIN = 6, LEGEND = 88, LINE = 4.2; /* of a wafer of 100 mm */
 
@@ -166,27 +167,37 @@ static fw_status facts(const picture *p, double x, double *y) {
     return FW_OK;
 }
 
-static fw_status variants(const picture *p, double x, double *y) {
-    const fw_wafer *w = p->w;
-    const double k = p->k;
-    fw_arena *a = p->out->arena;
-    *y += 0.5 * LINE * p->k;
+/* what the legend says of each step */
+static fw_status variant_texts(const fw_wafer *w, fw_arena *a, const char ***out) {
+    const char **text = fw_arena_array(a, const char *, (size_t)w->nvariant);
+    FW_NEED(text);
     for (int v = 0; v < w->nvariant; v++) {
         const fw_wafer_variant *u = &w->variant[v];
-        char fill[8], used[32];
+        char used[32];
         const char *values = fw_wafer_values(a, w, u);
         FW_NEED(values);
         fw_percent_text(used, sizeof used, u->utilisation);
-        const char *text = fw_arena_printf(
-            a, "%d  %s%s%d dies, %s%s%s%s", v + 1, values, *values ? ": " : "", u->dies,
-            u->decision ? u->decision : "not judged", isfinite(u->utilisation) ? ", " : "",
-            isfinite(u->utilisation) ? used : "", isfinite(u->utilisation) ? " % of limit" : "");
-        FW_NEED(text);
+        FW_NEED(text[v] = fw_arena_printf(
+                    a, "%d  %s%s%d dies, %s%s%s%s", v + 1, values, *values ? ": " : "", u->dies,
+                    u->decision ? u->decision : "not judged", isfinite(u->utilisation) ? ", " : "",
+                    isfinite(u->utilisation) ? used : "",
+                    isfinite(u->utilisation) ? " % of limit" : ""));
+    }
+    *out = text;
+    return FW_OK;
+}
+
+static void variants(const picture *p, const char *const *text, double x, double *y) {
+    const fw_wafer *w = p->w;
+    const double k = p->k;
+    *y += 0.5 * LINE * k;
+    for (int v = 0; v < w->nvariant; v++) {
+        const bool stood_in = fw_wafer_stood_in(&w->variant[v]);
+        char fill[8];
         colour(v, w->nvariant, fill);
-        box(p, x, *y - 0.62 * LINE * k, 3 * k, 3 * k, fill, fw_wafer_stood_in(u));
-        line(p, x + 4.6 * k, y, text);
-        if (!fw_wafer_stood_in(u)) continue;
-        line(p, x + 4.6 * k, y, "nominal dies instead (dashed)");
+        box(p, x, *y - 0.62 * LINE * k, 3 * k, 3 * k, fill, stood_in);
+        line(p, x + 4.6 * k, y, text[v]);
+        if (stood_in) line(p, x + 4.6 * k, y, "nominal dies instead (dashed)");
     }
     if (w->alignments > 0) {
         cross(p, x + 1.5 * k, *y - 0.28 * LINE * k, 1.5 * k);
@@ -196,7 +207,6 @@ static fw_status variants(const picture *p, double x, double *y) {
         box(p, x, *y - 0.62 * LINE * k, 3 * k, 3 * k, "#c8c8c8", false);
         line(p, x + 4.6 * k, y, "test die");
     }
-    return FW_OK;
 }
 
 static int legend_lines(const fw_wafer *w) {
@@ -208,7 +218,13 @@ static int legend_lines(const fw_wafer *w) {
 
 fw_status fw_wafer_write_map(const fw_wafer *w, fw_text *out) {
     double r = 0.5e3 * w->form.diameter_m, k = r / 50, margin = MARGIN * k;
-    double width = 2 * r + 3 * margin + LEGEND * k;
+    const char **text;
+    FW_TRY(variant_texts(w, out->arena, &text));
+    size_t longest = 0;
+    for (int v = 0; v < w->nvariant; v++)
+        longest = strlen(text[v]) > longest ? strlen(text[v]) : longest;
+    k *= fmin(1, fmax(0.5, 100.0 / (LINE * legend_lines(w)))); /* many steps: smaller letters */
+    double width = 2 * r + 3 * margin + k * fmax(LEGEND, 6 + 1.65 * (double)longest);
     double height = fmax(2 * r + 2 * margin, margin + LINE * k * legend_lines(w));
     picture p = {w, out, margin + r, margin + r, r, k};
     fw_text_reserve(out, 8192 + 256 * (size_t)w->grid.nsite);
@@ -241,7 +257,7 @@ fw_status fw_wafer_write_map(const fw_wafer *w, fw_text *out) {
     fw_text_add(out, "</g>\n");
     FW_TRY(facts(&p, x, &y));
     fw_text_add(out, "<g stroke-width=\"0.3\">\n");
-    FW_TRY(variants(&p, x, &y));
+    variants(&p, text, x, &y);
     fw_text_add(out, "</g>\n</svg>\n");
     return fw_text_end(out);
 }

@@ -37,7 +37,7 @@ const char *fw_wafer_values(fw_arena *arena, const fw_wafer *wafer, const fw_waf
         text =
             fw_arena_printf(arena, "%s%s%s = %s%s%s", text, k ? ", " : "",
                             wafer->device->parameter[s->parameter].name,
-                            fw_number_text(number, sizeof number, fw_wafer_value(wafer, v, k), 9),
+                            fw_number_text(number, sizeof number, fw_wafer_value(wafer, v, k), 6),
                             *s->unit ? " " : "", s->unit);
     }
     return text;

@@ -49,10 +49,10 @@ fw_status fw_wafer_grid_fill(fw_arena *arena, const fw_wafer_form *form,
                              const fw_wafer_asked *asked, int32_t width, int32_t height,
                              fw_diags *diags, fw_wafer_grid *grid);
 /* alignment sites, test dies, then the steps of the sweeps: variant = step0 + steps0 step1 */
-fw_status fw_wafer_assign(fw_arena *arena, const fw_wafer_form *form, const fw_wafer_asked *asked,
-                          fw_diags *diags, fw_wafer_grid *grid);
-/* dies that are devices, for the process; 0: none, or it cannot be said */
-int fw_wafer_dies(fw_arena *arena, const fw_wafer_asked *asked, fw_box die);
+fw_status fw_wafer_assign(const fw_wafer_form *form, const fw_wafer_asked *asked, fw_diags *diags,
+                          fw_wafer_grid *grid);
+/* dies that are devices, for the process; 0: what is asked for cannot be laid out */
+fw_status fw_wafer_dies(fw_arena *arena, const fw_wafer_asked *asked, fw_box die, int *dies);
 
 /* "C" and "07" of "C07"; columns are written with as many digits as the last one, two at least */
 enum { FW_WAFER_NAME = 16 };

@@ -33,7 +33,7 @@ static void assign(bench *b, int32_t width, int32_t height) {
     assert_int_equal(
         fw_wafer_grid_fill(b->arena, &b->form, &b->asked, width, height, &b->diags, &b->grid),
         FW_OK);
-    assert_int_equal(fw_wafer_assign(b->arena, &b->form, &b->asked, &b->diags, &b->grid), FW_OK);
+    assert_int_equal(fw_wafer_assign(&b->form, &b->asked, &b->diags, &b->grid), FW_OK);
 }
 
 static int count(const bench *b, fw_wafer_kind kind) {
@@ -166,10 +166,13 @@ static void test_dies(void **state) {
     b->asked.tests = 5;
     assign(b, 5600000, 5000000);
     fw_box die = {1e-3, -2e-3, 6.6e-3, 3e-3};
-    assert_int_equal(fw_wafer_dies(b->arena, &b->asked, die), count(b, FW_WAFER_DIE));
+    int dies;
+    assert_int_equal(fw_wafer_dies(b->arena, &b->asked, die, &dies), FW_OK);
+    assert_int_equal(dies, count(b, FW_WAFER_DIE));
     assert_int_equal(count(b, FW_WAFER_DIE), b->grid.nsite - 7);
     b->asked.diameter_m = 0.09;
-    assert_int_equal(fw_wafer_dies(b->arena, &b->asked, die), 0);
+    assert_int_equal(fw_wafer_dies(b->arena, &b->asked, die, &dies), FW_OK);
+    assert_int_equal(dies, 0);
     fw_arena_free(b->arena);
 }
 
