@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Whole dies on a wafer: against counts in closed form, a search over corners in long double, and
+/* Whole dies on a wafer: against counts in closed form, a search over corners in doubles, and
    the sizes of SEMI M1. */
 #include "mask/scene.h"
 #include "wafer/wafer.h"
@@ -76,8 +76,8 @@ static void test_517_dies(void **state) {
 }
 
 /* ---- an independent decision: corners in the circle, beyond the chord, far from the notch ---- */
-static void turned(fw_wafer_side side, long double *x, long double *y) {
-    long double u = *x, v = *y; /* so that the flat is at the bottom */
+static void turned(fw_wafer_side side, double *x, double *y) {
+    double u = *x, v = *y; /* so that the flat is at the bottom */
     if (side == FW_SIDE_TOP) *y = -v;
     if (side == FW_SIDE_LEFT) *x = v, *y = u;
     if (side == FW_SIDE_RIGHT) *x = v, *y = -u;
@@ -85,23 +85,23 @@ static void turned(fw_wafer_side side, long double *x, long double *y) {
 
 static bool corner_fits(const fw_wafer_asked *a, double diameter, double flat, int64_t x_dbu,
                         int64_t y_dbu) {
-    long double x = x_dbu * 1e-9L, y = y_dbu * 1e-9L, r = 0.5L * diameter;
+    double x = (double)x_dbu * 1e-9, y = (double)y_dbu * 1e-9, r = 0.5 * diameter;
     turned(a->side, &x, &y);
-    if (hypotl(x, y) > r - a->edge_m + 1e-14L) return false;
-    return flat == 0 || y >= -(sqrtl(r * r - 0.25L * flat * flat) - a->edge_m) - 0.5e-9L;
+    if (hypot(x, y) > r - a->edge_m + 1e-14) return false;
+    return flat == 0 || y >= -(sqrt(r * r - 0.25 * flat * flat) - a->edge_m) - 0.5e-9;
 }
 
 /* the sides of the die in steps of 20 um: corners alone do not see a notch between them */
 static bool misses_notch(const fw_wafer_asked *a, double diameter, const fw_wafer_grid *g,
                          int64_t x_dbu, int64_t y_dbu) {
-    long double near = 1.25e-3L + a->edge_m - 1e-14L, r = 0.5L * diameter;
+    double near = 1.25e-3 + a->edge_m - 1e-14, r = 0.5 * diameter;
     for (int side = 0; side < 4; side++)
         for (int64_t t = 0; t <= (side % 2 ? g->height : g->width); t += 20000) {
             int64_t along_x = side % 2 ? (side / 2) * g->width : t;
             int64_t along_y = side % 2 ? t : (side / 2) * g->height;
-            long double x = (x_dbu + along_x) * 1e-9L, y = (y_dbu + along_y) * 1e-9L;
+            double x = (double)(x_dbu + along_x) * 1e-9, y = (double)(y_dbu + along_y) * 1e-9;
             turned(a->side, &x, &y);
-            if (hypotl(x, y + r) < near) return false;
+            if (hypot(x, y + r) < near) return false;
         }
     return true;
 }
