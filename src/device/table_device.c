@@ -189,7 +189,8 @@ static const fw_attribute_row wafer_rows[] = {
     {"assign", .kind = FW_KIND_WORD, .words = wafer_assignments, .fallback = "round-robin",
      .sentence = "How the steps of a sweep are laid on columns and rows: in turn, or side by side "
                  "in blocks."},
-    {"plate", SIZE, .fallback = "the next plate in inches, 20 mm larger than the wafer",
+    {"plate", D_LENGTH, .unit = "mm", RANGE(10e-3, 0.4, "plates are at most 14 inches wide"),
+     .fallback = "the next plate in inches, 20 mm larger than the wafer",
      .sentence = "Edge of the square mask plate."},
     {"title", TEXT, .fallback = "the die's title", .sentence = "Written on the plate."},
 };

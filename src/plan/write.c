@@ -20,20 +20,28 @@ static fw_status put(writer *w, const char *folder, const char *name, const char
     return FW_OK;
 }
 
-/* the order sheets name what was written of this flow before them, without the folder */
-static fw_status write_order(writer *w, const fw_plan_flow *pf) {
-    const char *start = fw_arena_printf(w->plan->arena, "masks/%s.", pf->use->ref);
+/* what was written so far under names that begin so, without the folder */
+static fw_status files_of(writer *w, const char *flow, const char *behind, fw_output_file **own,
+                          int *n) {
+    const char *start = fw_arena_printf(w->plan->arena, "masks/%s%s", flow, behind);
     FW_NEED(start);
     size_t count;
     const fw_output_file *all = fw_output_files(w->output, &count);
-    fw_output_file *own = fw_arena_array(w->plan->arena, fw_output_file, count);
-    FW_NEED(own);
-    int n = 0;
+    FW_NEED(*own = fw_arena_array(w->plan->arena, fw_output_file, count));
+    *n = 0;
     for (size_t i = 0; i < count; i++)
         if (strncmp(all[i].name, start, strlen(start)) == 0) {
-            own[n] = all[i];
-            own[n++].name = all[i].name + strlen("masks/");
+            (*own)[*n] = all[i];
+            (*own)[(*n)++].name = all[i].name + strlen("masks/");
         }
+    return FW_OK;
+}
+
+/* the order sheets name what was written of this flow before them */
+static fw_status write_order(writer *w, const fw_plan_flow *pf) {
+    fw_output_file *own;
+    int n;
+    FW_TRY(files_of(w, pf->use->ref, ".", &own, &n));
     fw_text json = fw_text_new(w->scratch);
     FW_TRY(fw_mask_write_order(pf->mask, own, n, &json));
     FW_TRY(put(w, "masks/", pf->use->ref, ".order.json", &json));
@@ -81,7 +89,13 @@ static fw_status write_wafer(writer *w, const fw_plan_flow *pf) {
     FW_TRY(put(w, "masks/", name, "-map.svg", &map));
     fw_text json = fw_text_new(w->scratch);
     FW_TRY(fw_wafer_write_json(pf->wafer, pf->wafer_sha256, &json));
-    return put(w, "masks/", name, ".json", &json);
+    FW_TRY(put(w, "masks/", name, ".json", &json));
+    fw_output_file *own;
+    int n;
+    FW_TRY(files_of(w, pf->use->ref, "-wafer", &own, &n));
+    fw_text order = fw_text_new(w->scratch);
+    FW_TRY(fw_wafer_write_order(pf->wafer, own, n, &order));
+    return put(w, "masks/", name, ".order.txt", &order);
 }
 
 static fw_status write_recipe(writer *w, const fw_plan_flow *pf) {

@@ -7,39 +7,6 @@
 #include "wafer/notes.h"
 #include <math.h>
 
-typedef struct sum { /* of one layer over the whole plate */
-    double polygons, vertices, area_m2, width_m, space_m;
-} sum;
-
-static void add_mask(const fw_mask *mask, double times, sum *s) {
-    for (int i = 0; i < mask->nshape; i++) {
-        const fw_mask_shape *x = &mask->shape[i];
-        sum *of = &s[x->layer];
-        double vertices = x->npart == 0 ? x->polygon.count : 0;
-        for (int k = 0; k < x->npart; k++)
-            vertices += x->part[k].count;
-        of->polygons += times * (x->npart == 0 ? 1 : x->npart);
-        of->vertices += times * vertices;
-        of->area_m2 += times * 0.5e-18 * (double)fw_polygon_area2(&x->polygon);
-    }
-    for (int k = 0; k < mask->table->nlayer; k++) {
-        s[k].width_m = fmin(s[k].width_m, mask->measure[k].width_m);
-        s[k].space_m = fmin(s[k].space_m, mask->measure[k].space_m);
-    }
-}
-
-static fw_status add_up(const fw_wafer *w, fw_arena *arena, sum **out) {
-    sum *s = fw_arena_array(arena, sum, (size_t)w->table->nlayer);
-    FW_NEED(s);
-    for (int k = 0; k < w->table->nlayer; k++)
-        s[k].width_m = s[k].space_m = HUGE_VAL;
-    for (int c = 0; c < w->ncell; c++)
-        add_mask(w->cell[c].mask, w->cell[c].placed, s);
-    if (w->plate) add_mask(w->plate, 1, s);
-    *out = s;
-    return FW_OK;
-}
-
 static void mm(fw_text *out, const char *key, double m, const char *behind) {
     fw_mask_json_number(out, key, m * 1e3, 12);
     fw_text_add(out, behind);
@@ -79,20 +46,8 @@ static void head(const fw_wafer *w, const char *gds_sha256, fw_text *out) {
                    w->dies, w->alignments, w->tests, w->ids ? "true" : "false");
 }
 
-/* of all that is drawn: the fiducials stand outermost, without them the places do */
-static fw_box extent(const fw_wafer *w) {
-    if (w->plate) return w->plate->box;
-    fw_box b = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    for (int i = 0; i < w->grid.nsite; i++) {
-        double x = w->grid.site[i].x * 1e-9, y = w->grid.site[i].y * 1e-9;
-        b = (fw_box){fmin(b.x0, x), fmin(b.y0, y), fmax(b.x1, x + w->grid.width * 1e-9),
-                     fmax(b.y1, y + w->grid.height * 1e-9)};
-    }
-    return b;
-}
-
 /* what a mask shop asks for; tones and sides are those of the die's own order sheet */
-static fw_status plate(const fw_wafer *w, const sum *s, fw_text *out) {
+static fw_status plate(const fw_wafer *w, const fw_wafer_sum *s, fw_text *out) {
     static const char *const sense[] = {"right-reading", "wrong-reading"};
     fw_order order;
     const fw_mask *any = w->ncell > 0 ? w->cell[0].mask : w->plate;
@@ -121,7 +76,7 @@ static fw_status plate(const fw_wafer *w, const sum *s, fw_text *out) {
     fw_text_add(out, ", ");
     fw_mask_json_number(out, "bias_um_per_edge", any->bias_m * 1e6, 9);
     fw_text_add(out, ",\n    \"extent_um\": [");
-    fw_box box = extent(w);
+    fw_box box = fw_wafer_extent(w);
     const double side[] = {box.x0, box.y0, box.x1, box.y1};
     for (int i = 0; i < 4; i++) {
         fw_text_add(out, i ? ", " : "");
@@ -173,7 +128,7 @@ static void cells(const fw_wafer *w, fw_text *out) {
     fw_text_printf(out, "\n  ],\n  \"arrays\": %d,\n", w->nrun);
 }
 
-static void layers(const fw_wafer *w, const sum *s, fw_text *out) {
+static void layers(const fw_wafer *w, const fw_wafer_sum *s, fw_text *out) {
     fw_text_add(out, "  \"layers\": [");
     for (int k = 0; k < w->table->nlayer; k++) {
         const fw_mask_layer *y = &w->table->layer[k];
@@ -195,8 +150,8 @@ static void layers(const fw_wafer *w, const sum *s, fw_text *out) {
 }
 
 fw_status fw_wafer_write_json(const fw_wafer *w, const char *gds_sha256, fw_text *out) {
-    sum *s;
-    FW_TRY(add_up(w, out->arena, &s));
+    fw_wafer_sum *s;
+    FW_TRY(fw_wafer_sums(w, out->arena, &s));
     head(w, gds_sha256, out);
     FW_TRY(plate(w, s, out));
     FW_TRY(variants(w, out));

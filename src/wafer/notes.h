@@ -16,4 +16,11 @@ const char *fw_wafer_site_name(const fw_wafer *wafer, const fw_wafer_site *site,
 /* are the dies of this variant the stand-in's? */
 bool fw_wafer_stood_in(const fw_wafer_variant *v);
 
+typedef struct fw_wafer_sum { /* of one layer over the whole plate */
+    double polygons, vertices, area_m2, width_m, space_m;
+} fw_wafer_sum;
+fw_status fw_wafer_sums(const fw_wafer *wafer, fw_arena *arena, fw_wafer_sum **sum);
+/* of all that is drawn: the fiducials stand outermost, without them the places do */
+fw_box fw_wafer_extent(const fw_wafer *wafer);
+
 #endif

@@ -36,8 +36,4 @@ fw_status fw_wafer_plate(fw_wafer_maker *m);
 fw_status fw_wafer_alignment_mask(fw_wafer_maker *m, const fw_mask **mask);
 fw_status fw_wafer_ids(fw_wafer_maker *m);
 
-/* origin of a die's cell from the lower left corner of its place: dies of sweeps may differ in size
-   and are centred */
-void fw_wafer_origin(const fw_wafer_grid *grid, fw_box die, int32_t *dx, int32_t *dy);
-
 #endif

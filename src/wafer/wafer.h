@@ -126,4 +126,12 @@ fw_status fw_wafer_write_csv(const fw_wafer *wafer, fw_text *out); /* one line p
 fw_status fw_wafer_write_map(const fw_wafer *wafer, fw_text *out); /* SVG for people */
 fw_status fw_wafer_write_json(const fw_wafer *wafer, const char *gds_sha256, fw_text *out);
 
+/* for the mask shop, with the files that go with it */
+fw_status fw_wafer_write_order(const fw_wafer *wafer, const fw_output_file *file, int nfile,
+                               fw_text *out);
+
+/* origin of a die's cell from the lower left corner of its place: dies of sweeps may differ in size
+   and are centred */
+void fw_wafer_origin(const fw_wafer_grid *grid, fw_box die, int32_t *dx, int32_t *dy);
+
 #endif

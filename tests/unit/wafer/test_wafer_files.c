@@ -176,12 +176,54 @@ static void test_map(void **state) {
     fw_arena_free(p->arena);
 }
 
+/* places to measure: on the die nearest to the middle, where its own order sheet has them */
+static void test_order(void **state) {
+    (void)state;
+    plate *p = two_sweeps();
+    const fw_wafer *w = plate_build(p);
+    const fw_output_file file = {"f.gds", 12, "0123"};
+    fw_text out = fw_text_new(p->arena), own = fw_text_new(p->arena);
+    assert_int_equal(fw_wafer_write_order(w, &file, 1, &out), FW_OK);
+    assert_non_null(strstr(out.data, "0123  12  f.gds\n"));
+    assert_non_null(strstr(out.data, "76.2 mm x 76.2 mm"));
+    const char *line = strstr(out.data, "CD sites in die ");
+    assert_non_null(line);
+    const fw_wafer_site *die = NULL;
+    char name[2 * FW_WAFER_NAME], row[FW_WAFER_NAME], column[FW_WAFER_NAME];
+    for (int i = 0; i < w->grid.nsite; i++) {
+        const fw_wafer_site *s = &w->grid.site[i];
+        snprintf(name, sizeof name, "%s%s:", fw_wafer_row_name(s->row, row),
+                 fw_wafer_column_name(&w->grid, s->column, column));
+        if (strncmp(line + strlen("CD sites in die "), name, strlen(name)) == 0) die = s;
+    }
+    assert_non_null(die);
+    assert_int_equal(die->kind, FW_WAFER_DIE);
+    assert_true(abs(die->x) < 2 * w->grid.pitch_x && abs(die->y) < 2 * w->grid.pitch_y);
+    const fw_wafer_variant *v = &w->variant[die->variant];
+    assert_int_equal(fw_mask_write_order_text(v->mask ? v->mask : w->stand_in.mask, NULL, 0, &own),
+                     FW_OK);
+    const char *there = strstr(own.data, "CD sites");
+    int sites = 0, a, b;
+    double x, y, x0, y0;
+    line = strchr(strstr(line, "site  layer"), '\n'); /* behind the heading */
+    there = strchr(strstr(there, "site  layer"), '\n');
+    while (sscanf(line + 1, "%d %*s %*s %lf %lf", &a, &x, &y) == 3 &&
+           sscanf(there + 1, "%d %*s %*s %lf %lf", &b, &x0, &y0) == 3) {
+        assert_int_equal(a, b); /* the die is 2000 um x 1600 um from (-700, -1000) um */
+        assert_near(x - x0, die->x * 1e-3 + 700, 2e-3);
+        assert_near(y - y0, die->y * 1e-3 + 1000, 2e-3);
+        line = strchr(line + 1, '\n');
+        there = strchr(there + 1, '\n');
+        sites++;
+    }
+    assert_true(sites >= 3);
+    fw_arena_free(p->arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_csv),
-        cmocka_unit_test(test_json),
-        cmocka_unit_test(test_svg),
-        cmocka_unit_test(test_map),
+        cmocka_unit_test(test_csv), cmocka_unit_test(test_json),  cmocka_unit_test(test_svg),
+        cmocka_unit_test(test_map), cmocka_unit_test(test_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
