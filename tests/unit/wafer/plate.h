@@ -17,6 +17,7 @@ typedef struct plate {
     fw_parameter parameter[2];
     fw_wafer_variant variant[MOST_VARIANTS];
     fw_wafer_input input;
+    const char *lettering; /* of the dies of sweeps */
 } plate;
 
 static inline fw_mask_layer layer_of(int number, const char *id, unsigned roles, bool biased) {
@@ -103,6 +104,7 @@ static inline plate *plate_new(double bar) {
     double none = (double)NAN;
     p->arena = arena;
     p->diags = fw_diags_new(arena);
+    p->lettering = "TINY";
     p->layer[0] = layer_of(1, "device", 0xf, true);
     p->layer[1] = layer_of(2, "text", 1u << FW_ROLE_TEXT, false);
     p->layer[2] = layer_of(3, "marks", 1u << FW_ROLE_MARK, false);
@@ -147,7 +149,7 @@ static inline void plate_sweep(plate *p, double bar, int n, int m) {
     p->input.nvariant = n * m;
     for (int i = 0; i < n * m; i++) {
         fw_wafer_variant *v = &p->variant[i];
-        v->mask = die_mask(p, bar, 200 + 10 * i, "TINY", false, &v->die, &v->window);
+        v->mask = die_mask(p, bar, 200 + 10 * i, p->lettering, false, &v->die, &v->window);
         v->decision = i == 1 ? "inconclusive" : "accept";
         v->utilisation = 0.5 + 0.01 * i;
         v->value[0] = (100 + 10.0 * (i % n)) * PI / 180;

@@ -103,6 +103,7 @@ static double apart(const fw_polygon *a, const fw_polygon *b, int32_t dx, int32_
 static void test_ids(void **state) {
     (void)state;
     plate *p = plate_new(240);
+    p->lettering = "LETTERS ALONG ALL OF THE BAR"; /* where ids would else stand */
     plate_sweep(p, 240, 3, 1);
     p->device.wafer.alignment = true;
     const fw_wafer *w = plate_build(p);
