@@ -224,7 +224,9 @@ fw_status fw_wafer_write_map(const fw_wafer *w, fw_text *out) {
     for (int v = 0; v < w->nvariant; v++)
         longest = strlen(text[v]) > longest ? strlen(text[v]) : longest;
     k *= fmin(1, fmax(0.5, 100.0 / (LINE * legend_lines(w)))); /* many steps: smaller letters */
-    double width = 2 * r + 3 * margin + k * fmax(LEGEND, 6 + 1.65 * (double)longest);
+    double width =
+        2 * r + 3 * margin +
+        k * fmax(LEGEND, fmax(6 + 1.65 * (double)longest, 2.5 * (double)strlen(w->title)));
     double height = fmax(2 * r + 2 * margin, margin + LINE * k * legend_lines(w));
     picture p = {w, out, margin + r, margin + r, r, k};
     fw_text_reserve(out, 8192 + 256 * (size_t)w->grid.nsite);
