@@ -17,15 +17,11 @@ enum {
     STRNAME = 0x0606,
     ENDSTR = 0x0700,
     BOUNDARY = 0x0800,
-    SREF = 0x0a00,
-    AREF = 0x0b00,
     TEXT = 0x0c00,
     LAYER = 0x0d02,
     DATATYPE = 0x0e02,
     XY = 0x1003,
     ENDEL = 0x1100,
-    SNAME = 0x1206,
-    COLROW = 0x1302,
     TEXTTYPE = 0x1602,
     STRING = 0x1906,
     VERSION = 600,
@@ -148,29 +144,6 @@ void fw_gds_shapes(fw_text *out, const fw_mask *mask) {
         for (int k = 0; k < s->npart; k++)
             boundary(out, &mask->table->layer[s->layer], &s->part[k]);
     }
-}
-
-void fw_gds_note(fw_text *out, const fw_mask_layer *layer, fw_point at, const char *line) {
-    text(out, layer, at.x_dbu, at.y_dbu, line);
-}
-
-void fw_gds_array(fw_text *out, const char *cell, fw_point at, int columns, int rows,
-                  fw_point step) {
-    bool one = columns == 1 && rows == 1;
-    record(out, one ? SREF : AREF, 0);
-    string(out, SNAME, cell);
-    if (!one) {
-        record(out, COLROW, 4);
-        u16(out, (unsigned)columns);
-        u16(out, (unsigned)rows);
-    }
-    record(out, XY, one ? 8 : 24);
-    point(out, at.x_dbu, at.y_dbu);
-    if (!one) {
-        point(out, at.x_dbu + columns * step.x_dbu, at.y_dbu);
-        point(out, at.x_dbu, at.y_dbu + rows * step.y_dbu);
-    }
-    record(out, ENDEL, 0);
 }
 
 void fw_gds_cell_end(fw_text *out) {

@@ -8,10 +8,6 @@
 void fw_gds_begin(fw_text *out, const char *library);
 void fw_gds_cell_begin(fw_text *out, const char *name);
 void fw_gds_shapes(fw_text *out, const fw_mask *mask);
-void fw_gds_note(fw_text *out, const fw_mask_layer *layer, fw_point at, const char *line);
-/* columns, rows at most 32767; both 1: a plain reference */
-void fw_gds_array(fw_text *out, const char *cell, fw_point at, int columns, int rows,
-                  fw_point step);
 void fw_gds_cell_end(fw_text *out);
 void fw_gds_end(fw_text *out);
 

@@ -3,6 +3,7 @@
    equal dies, the top cell last. No reader warns: names of at most 32 letters, digits and _, no
    rotation, array corners that divide exactly, dates zero (docs/theory/masks.md). */
 #include "mask/notes.h"
+#include "mask/references.h"
 #include "mask/stream.h"
 #include "wafer/notes.h"
 #include <math.h>

@@ -6,9 +6,14 @@
 #include "wafer/notes.h"
 #include <math.h>
 
-/* layers in the order of the table; ids stay those of the table in the top cell only */
-static void layers(const fw_wafer *w, const fw_mask *mask, fw_vec2 upper_left, bool top,
-                   fw_text *out) {
+/* layers in the order of the table; ids stay those of the table in the top cell only. The mask goes
+   by the name of its cell here: steps of a sweep have the same name of their own, and ids of a
+   document must differ */
+static void layers(const fw_wafer *w, const fw_mask *of, const char *name, fw_vec2 upper_left,
+                   bool top, fw_text *out) {
+    fw_mask named = *of;
+    const fw_mask *mask = &named;
+    named.cell = name;
     for (int k = 0; k < w->table->nlayer; k++) {
         const fw_mask_layer *y = &w->table->layer[k];
         bool any = false;
@@ -77,12 +82,13 @@ fw_status fw_wafer_write_svg(const fw_wafer *w, fw_text *out) {
     fw_text_add(out, "<defs>\n");
     for (int c = 0; c < w->ncell; c++) {
         fw_text_printf(out, "<g id=\"%s\">\n", w->cell[c].name);
-        layers(w, w->cell[c].mask, (fw_vec2){0, 0}, false, out);
+        layers(w, w->cell[c].mask, w->cell[c].name, (fw_vec2){0, 0}, false, out);
         fw_text_add(out, "</g>\n");
     }
     fw_text_add(out, "</defs>\n");
     if (w->plate)
-        layers(w, w->plate, (fw_vec2){-0.5 * w->form.plate_m, 0.5 * w->form.plate_m}, true, out);
+        layers(w, w->plate, w->top, (fw_vec2){-0.5 * w->form.plate_m, 0.5 * w->form.plate_m}, true,
+               out);
     for (int i = 0; i < w->nrun; i++)
         use(w, &w->run[i], half_um, out);
     if (w->rejected)

@@ -141,7 +141,8 @@ static void test_svg(void **state) {
         assert_int_equal(count_of(svg, use), w->cell[c].placed);
         placed += w->cell[c].placed;
     }
-    assert_int_equal(count_of(svg, "<use "), placed);
+    int within = count_of(svg, "<use xlink:href=\"#s."); /* outlines that a cell repeats */
+    assert_int_equal(count_of(svg, "<use "), placed + within);
     assert_int_equal(count_of(svg, "<g"), count_of(svg, "</g>"));
     assert_non_null(strstr(svg, "width=\"76.2mm\""));
     /* the first array's first place: from the plate's upper left corner, y downwards, um */
