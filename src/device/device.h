@@ -298,6 +298,38 @@ typedef struct fw_die { /* <die>; NaN: from the drawn mechanism */
     bool tethers;
 } fw_die;
 
+typedef enum fw_wafer_side {
+    FW_SIDE_BOTTOM,
+    FW_SIDE_TOP,
+    FW_SIDE_LEFT,
+    FW_SIDE_RIGHT
+} fw_wafer_side;
+typedef enum fw_wafer_centre { FW_CENTRE_AUTO, FW_CENTRE_DIE, FW_CENTRE_STREET } fw_wafer_centre;
+
+typedef struct fw_sweep { /* <sweep parameter from to steps> */
+    int parameter;        /* index */
+    double from, to;      /* SI */
+    const char *unit;     /* one that its value can be written in; "" for pure numbers */
+    int steps;
+    fw_place place;
+} fw_sweep;
+
+typedef struct fw_wafer_asked { /* <wafer>; NaN: chosen by the wafer room */
+    bool asked;
+    double diameter_m, flat_m, edge_m;
+    double pitch_x_m, pitch_y_m;
+    fw_wafer_side side; /* of flat or notch */
+    fw_wafer_centre centre;
+    bool alignment; /* two sites */
+    int tests;      /* dies that give way to coupons */
+    bool blocks;    /* steps side by side, not in turn */
+    double plate_m;
+    const char *title; /* NULL: the die's */
+    fw_sweep sweep[2]; /* (nsweep) along columns, along rows */
+    int nsweep;
+    fw_place place;
+} fw_wafer_asked;
+
 typedef struct fw_limits_asked { /* <limits>, beside the safety factor */
     double cycles;               /* repetitions of every scene; NaN: static */
     double failure_probability;  /* of the whole device, of what fractures; likewise: not asked */
@@ -332,6 +364,7 @@ typedef struct fw_device {
     bool six_bar; /* joints 0..5 are A..F, bodies 0..4 AB BC CD DE EF */
     fw_die die;
     double release_pitch_m, release_hole_m; /* <die>: holes in bodies; NaN or 0 pitch: none */
+    fw_wafer_asked wafer;
 } fw_device;
 
 typedef struct fw_set { /* --set PATH=VALUE */

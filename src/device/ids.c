@@ -8,6 +8,8 @@
 
 static size_t count_of(const fw_device *d, fw_space space) {
     switch (space) {
+    case FW_SPACE_PARAMETER:
+        return (size_t)d->nparameter;
     case FW_SPACE_FLOW:
         return (size_t)d->nflow;
     case FW_SPACE_FLEXURE:
@@ -28,6 +30,7 @@ typedef struct named {
 
 static named name_of(const fw_device *d, fw_space space, size_t i) {
     size_t joints = (size_t)d->njoint;
+    if (space == FW_SPACE_PARAMETER) return (named){d->parameter[i].name, d->parameter[i].place};
     named n = space == FW_SPACE_FLOW      ? (named){d->flow[i].ref, d->flow[i].place}
               : space == FW_SPACE_FLEXURE ? (named){d->flexure[i].id, d->flexure[i].place}
               : space == FW_SPACE_BODY    ? (named){d->body[i].id, d->body[i].place}

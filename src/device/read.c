@@ -24,6 +24,7 @@ static void check_material(fw_reader *r) {
 static fw_status build(fw_reader *r) {
     FW_TRY(fw_ids_check(r));
     FW_TRY(fw_build_parts(r));
+    FW_TRY(fw_build_wafer(r));
     FW_TRY(fw_build_flexures(r));
     FW_TRY(fw_expand_six_bar(r));
     FW_TRY(fw_build_mechanism(r));

@@ -62,6 +62,7 @@ fw_status fw_ids_check(fw_reader *r);
 
 /* one step per part of the description */
 fw_status fw_build_parts(fw_reader *r);
+fw_status fw_build_wafer(fw_reader *r); /* <wafer> with its sweeps */
 fw_status fw_build_flexures(fw_reader *r);
 fw_status fw_expand_six_bar(fw_reader *r); /* bodies 0..4 and joints 0..5 */
 fw_status fw_build_mechanism(fw_reader *r);

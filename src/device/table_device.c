@@ -5,6 +5,10 @@
 static const char *const flexure_kinds[] = {"csfh", "leaf", "path", NULL};
 static const char *const carriers[] = {"none", "insulating", NULL};
 static const char *const yes_no[] = {"yes", "no", NULL};
+static const char *const wafer_centres[] = {"auto", "die", "street", NULL};
+static const char *const wafer_sides[] = {"bottom", "top", "left", "right", NULL};
+static const char *const wafer_alignments[] = {"none", "2 sites", NULL};
+static const char *const wafer_assignments[] = {"round-robin", "blocks", NULL};
 
 static const fw_attribute_row device_rows[] = {
     {"name", ID, REQUIRED, .sentence = "Name of the device; it names outputs and the GDSII cell."},
@@ -166,6 +170,44 @@ static const fw_attribute_row die_rows[] = {
     {"release-hole", GAP, .fallback = "0.3 release-pitch", .sentence = "Diameter of a release hole."},
 };
 
+static const fw_attribute_row wafer_rows[] = {
+    {"diameter", D_LENGTH, .unit = "mm", RANGE(10e-3, 0.305, WAFER), .fallback = "100 mm",
+     .sentence = "Of the wafer. Within 2 % of 50.8, 76.2, 100, 125, 150, 200 or 300 mm it is that "
+                 "size, with the flat or notch of SEMI M1."},
+    {"flat", GAP, .fallback = "of SEMI M1",
+     .sentence = "Length of the primary flat; 0: none. Needed for other diameters."},
+    {"flat-side", .kind = FW_KIND_WORD, .words = wafer_sides, .fallback = "bottom",
+     .sentence = "Where flat or notch lie, seen as drawn."},
+    {"edge-exclusion", D_LENGTH, .unit = "mm", RANGE(0, 0.1, WAFER), .fallback = "3 mm",
+     .sentence = "Rim, at the flat too, into which no die reaches."},
+    {"pitch-x", SIZE, .fallback = "the die with its lane", .sentence = "From die to die along x."},
+    {"pitch-y", SIZE, .fallback = "the die with its lane", .sentence = "From die to die along y."},
+    {"centre", .kind = FW_KIND_WORD, .words = wafer_centres, .fallback = "auto",
+     .sentence = "What lies in the wafer's centre: a die, a crossing of streets, or what gives the "
+                 "most dies."},
+    {"alignment", .kind = FW_KIND_WORD, .words = wafer_alignments, .fallback = "none",
+     .sentence = "2 sites: the outermost dies left and right of the centre give way to alignment "
+                 "crosses."},
+    {"test-dies", D_PURE, WHOLE, RANGE(0, 9, "nine places, from the centre outwards"),
+     .fallback = "0", .sentence = "Dies that give way to the die with the coupons."},
+    {"assign", .kind = FW_KIND_WORD, .words = wafer_assignments, .fallback = "round-robin",
+     .sentence = "How the steps of a sweep are laid on columns and rows: in turn, or side by side "
+                 "in blocks."},
+    {"plate", D_LENGTH, .unit = "mm", RANGE(10e-3, 0.4, "plates are at most 14 inches wide"),
+     .fallback = "the next plate in inches, 20 mm larger than the wafer",
+     .sentence = "Edge of the square mask plate."},
+    {"title", TEXT, .fallback = "the die's title", .sentence = "Written on the plate."},
+};
+static const fw_attribute_row sweep_rows[] = {
+    {"parameter", REF(FW_SPACE_PARAMETER), REQUIRED,
+     .sentence = "Which parameter differs from die to die."},
+    {"from", .kind = FW_KIND_ANY, REQUIRED, .sentence = "Its first value."},
+    {"to", .kind = FW_KIND_ANY, REQUIRED, .sentence = "Its last value."},
+    {"steps", D_PURE, WHOLE, REQUIRED,
+     RANGE(2, 64, "one step is no sweep; 64 devices are judged and drawn at most"),
+     .sentence = "How many values, evenly spaced."},
+};
+
 const fw_element_row fw_table_device[] = {
     {"device", "", "name", ROWS(device_rows), .once = true,
      .sentence = "One planar compliant mechanism; xmlns=\"urn:flexwright:device:1\"."},
@@ -183,5 +225,10 @@ const fw_element_row fw_table_device[] = {
     {"workspace", "device", .most = 200, ROWS(workspace_rows),
      .sentence = "Platform poses that must be reachable, relative to the drawn pose."},
     {"die", "device", .once = true, ROWS(die_rows), .sentence = "The chip around the mechanism."},
+    {"wafer", "device", .once = true, ROWS(wafer_rows),
+     .sentence = "Step and repeat of the die on a wafer, and the mask plate for it."},
+    {"sweep", "wafer", .most = 2, ROWS(sweep_rows),
+     .sentence = "A parameter that differs from die to die: the first along columns, the second "
+                 "along rows."},
 };
 const int fw_table_device_count = sizeof fw_table_device / sizeof fw_table_device[0];

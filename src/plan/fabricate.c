@@ -123,16 +123,14 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
 
 fw_status fw_plan_compute_flows(fw_plan *plan) {
     bool drawn = plan->layout && plan->layout->drawn;
+    FW_TRY(fw_plan_count_dies(plan));
     for (int i = 0; i < plan->nflow; i++) {
         fw_plan_flow *pf = &plan->flow[i];
         if (!pf->flow) continue;
-        const fw_layout *layout = plan->layout; /* marks are taken out of the frame */
-        int left_out;
-        if (drawn)
-            FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, plan->layout, &layout, &left_out));
         fw_mask_facts facts;
-        FW_TRY(fw_plan_mask_facts(plan->arena, plan->device, layout, &pf->variant,
+        FW_TRY(fw_plan_mask_facts(plan->arena, plan->device, plan->layout, &pf->variant, pf->table,
                                   fw_plan_insulated(pf), &facts));
+        facts.dies = plan->dies;
         FW_TRY(fw_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, &plan->diags));
         fw_drive_facts *drive;
         int n;
@@ -159,7 +157,7 @@ fw_status fw_plan_fabricate(fw_plan *plan) {
         FW_TRY(fw_mask_write_gds(pf->mask, &pf->gds));
         fw_sha256(pf->gds.data, pf->gds.length, hash);
         FW_NEED(pf->mask_sha256 = fw_arena_strdup(plan->arena, hash));
-        FW_TRY(fw_plan_coupons(plan, pf));
+        if (plan->options.dies == 0) FW_TRY(fw_plan_coupons(plan, pf)); /* one test die will do */
     }
-    return FW_OK;
+    return fw_plan_wafers(plan);
 }

@@ -76,10 +76,14 @@ static fw_status name_gaps(fw_arena *arena, const fw_device *device, const fw_la
 }
 
 fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_layout *layout,
-                             const fw_variant *variant, bool insulated, fw_mask_facts *facts) {
+                             const fw_variant *variant, const fw_mask_table *table, bool insulated,
+                             fw_mask_facts *facts) {
     *facts = (fw_mask_facts){.dies = 1, .device_thickness_m = variant->thickness_m};
     if (!layout || !layout->drawn) return FW_OK;
-    add_areas(layout, insulated, facts);
+    const fw_layout *marked; /* marks of the flow are taken out of the frame */
+    int left_out;
+    FW_TRY(fw_mask_frame_marks(arena, table, layout, &marked, &left_out));
+    add_areas(marked, insulated, facts);
     narrowest(device, layout, facts);
     return name_gaps(arena, device, layout, variant->flow, facts);
 }

@@ -20,7 +20,8 @@ static fw_status made_of(void *context, fw_arena *arena, const fw_device *device
     const fw_plan_flow *pf = &((const fw_plan *)context)->flow[i];
     fw_mask_facts facts;
     if (!pf->flow || !layout || !layout->drawn) return FW_OK;
-    FW_TRY(fw_plan_mask_facts(arena, device, layout, v->variant, fw_plan_insulated(pf), &facts));
+    FW_TRY(fw_plan_mask_facts(arena, device, layout, v->variant, pf->table, fw_plan_insulated(pf),
+                              &facts));
     return fw_flow_made(arena, pf->flow, &facts, v->variant, &v->input, &v->ninput);
 }
 

@@ -25,7 +25,10 @@ fw_plan *fw_plan_new(const fw_plan_options *options) {
 }
 
 void fw_plan_free(fw_plan *plan) {
-    if (plan) fw_arena_free(plan->arena);
+    if (!plan) return;
+    for (int i = 0; i < plan->nstep; i++)
+        fw_plan_free(plan->step[i]); /* steps have none of their own */
+    fw_arena_free(plan->arena);
 }
 
 static fw_status remember_input(fw_plan *plan, const char *name, const char *data, size_t n) {

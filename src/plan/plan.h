@@ -8,6 +8,7 @@
 #define FW_PLAN_PLAN_H
 #include "assembly/kinematics.h"
 #include "statics/modes.h"
+#include "wafer/wafer.h"
 #include "report/assembly.h"
 #include "report/terminal.h"
 #include "report/workspace.h"
@@ -23,7 +24,8 @@ typedef struct fw_plan_options {
     const char *mask_flatten;   /* fw_mask_flattening_named; NULL: "inside" */
     const fw_set *set;          /* (nset) */
     int nset;
-    bool force;          /* masks and recipes of a rejected design too */
+    bool force; /* masks and recipes of a rejected design too */
+    int dies;   /* above 0: this is one device of a wafer of so many; <wafer> is left alone */
     bool at_equilibrium; /* modes: not about rest */
     bool path;           /* statics: follow the load path */
     /* for assemble: "AB.phi,BC.phi", "10 rad/s,0 rad/s", "0 rad/s^2,..."; NULL: chosen, 0, 0 */
@@ -40,12 +42,15 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     const fw_mask *mask;
     const fw_mask *violated; /* the mask where it breaks rules or nearly does, to look at; NULL: it
                                 has no findings */
-    fw_text gds; /* of the mask, composed once: its hash is in recipe and certificate */
+    fw_text gds;             /* of the mask, composed once: its hash is in recipe and certificate */
     const char *mask_error;
     const char *flow_sha256, *mask_sha256;
     const fw_mask_coupons *coupons; /* test die; NULL: the table has none, or it has no room */
     fw_text coupons_gds;
     const char *coupons_sha256;
+    const fw_wafer *wafer; /* NULL: none asked for, or no mask */
+    fw_text wafer_gds;     /* composed once, as above */
+    const char *wafer_sha256;
 } fw_plan_flow;
 
 typedef struct fw_input_file { /* for the manifest */
@@ -64,6 +69,7 @@ typedef struct fw_plan {
     fw_plan_flow *flow; /* (nflow) at least one after fw_plan_load */
     int nflow;
     const fw_layout *layout; /* NULL: cannot be drawn */
+    int dies;                /* made at once; 1 without a wafer */
     fw_verdict verdict;
     const char **assumption; /* (nassumption) */
     int nassumption, assumption_capacity;
@@ -73,6 +79,8 @@ typedef struct fw_plan {
     int ninput;
     const char *base_file, *base_xml;
     size_t base_length;
+    struct fw_plan **step; /* (nstep) plans of the steps of a wafer's sweeps; NULL: not planned */
+    int nstep;
 } fw_plan;
 
 fw_plan *fw_plan_new(const fw_plan_options *options); /* NULL: out of memory */

@@ -20,12 +20,17 @@ fw_status fw_plan_made_of(fw_arena *arena, const fw_plan_flow *flow, fw_variant_
 bool fw_plan_insulated(const fw_plan_flow *pf);
 /* areas, edges and openings of one die, from the exact outlines; layout NULL or not drawn: zeros */
 fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_layout *layout,
-                             const fw_variant *variant, bool insulated, fw_mask_facts *facts);
+                             const fw_variant *variant, const fw_mask_table *table, bool insulated,
+                             fw_mask_facts *facts);
 /* comb drives of the scenes that hold in a flow, each once: scenes may name the same one */
 fw_status fw_plan_drives(fw_arena *arena, const fw_device *device, const char *flow,
                          fw_drive_facts **drive, int *n);
 /* times, bias and judgement of every flow, from the exact outlines */
 fw_status fw_plan_compute_flows(fw_plan *plan);
+/* wafers of the flows that have a mask, with the devices of the sweeps, each planned by itself */
+fw_status fw_plan_wafers(fw_plan *plan);
+/* plan->dies, from what <wafer> asks for */
+fw_status fw_plan_count_dies(fw_plan *plan);
 /* once per plan, after judging */
 fw_status fw_plan_assumptions(fw_plan *plan);
 fw_status fw_plan_manifest(const fw_plan *plan, const fw_output_file *file, size_t count,

@@ -20,22 +20,20 @@ static fw_status put(writer *w, const char *folder, const char *name, const char
     return FW_OK;
 }
 
-/* what was written of this mask so far, without the folder */
-static fw_status own_files(writer *w, const char *name, fw_output_file **out, int *found) {
-    const char *start = fw_arena_printf(w->plan->arena, "masks/%s.", name);
+/* what was written so far under names that begin so, without the folder */
+static fw_status files_of(writer *w, const char *flow, const char *behind, fw_output_file **own,
+                          int *n) {
+    const char *start = fw_arena_printf(w->plan->arena, "masks/%s%s", flow, behind);
     FW_NEED(start);
     size_t count;
     const fw_output_file *all = fw_output_files(w->output, &count);
-    fw_output_file *own = fw_arena_array(w->plan->arena, fw_output_file, count);
-    FW_NEED(own);
-    int n = 0;
+    FW_NEED(*own = fw_arena_array(w->plan->arena, fw_output_file, count));
+    *n = 0;
     for (size_t i = 0; i < count; i++)
         if (strncmp(all[i].name, start, strlen(start)) == 0) {
-            own[n] = all[i];
-            own[n++].name = all[i].name + strlen("masks/");
+            (*own)[*n] = all[i];
+            (*own)[(*n)++].name = all[i].name + strlen("masks/");
         }
-    *out = own;
-    *found = n;
     return FW_OK;
 }
 
@@ -43,7 +41,7 @@ static fw_status own_files(writer *w, const char *name, fw_output_file **out, in
 static fw_status write_order(writer *w, const fw_mask *mask, const char *name) {
     fw_output_file *own;
     int n;
-    FW_TRY(own_files(w, name, &own, &n));
+    FW_TRY(files_of(w, name, ".", &own, &n));
     fw_text json = fw_text_new(w->scratch);
     FW_TRY(fw_mask_write_order(mask, own, n, &json));
     FW_TRY(put(w, "masks/", name, ".order.json", &json));
@@ -79,7 +77,7 @@ static fw_status write_one(writer *w, const mask_files *m) {
     FW_TRY(write_formats(w, m, set, false));
     fw_output_file *own;
     int n;
-    FW_TRY(own_files(w, m->name, &own, &n));
+    FW_TRY(files_of(w, m->name, ".", &own, &n));
     fw_text text = fw_text_new(w->scratch);
     FW_TRY(m->coupons ? fw_mask_write_coupons(m->coupons, m->sha256, own, n, &text)
                       : fw_mask_write_certificate_of(m->mask, m->sha256, own, n, &text));
@@ -111,6 +109,37 @@ static fw_status write_violations(writer *w, const fw_plan_flow *pf) {
     text = fw_text_new(w->scratch);
     FW_TRY(fw_mask_write_gds(marked, &text));
     return put(w, "masks/", pf->use->ref, ".violations.gds", &text);
+}
+
+static fw_status write_wafer(writer *w, const fw_plan_flow *pf) {
+    unsigned set;
+    if (!pf->wafer) return FW_OK;
+    if (!fw_mask_formats(w->plan->options.mask_formats, &set)) return FW_USAGE;
+    const char *name = fw_arena_printf(w->plan->arena, "%s-wafer", pf->use->ref);
+    FW_NEED(name);
+    FW_TRY(put(w, "masks/", name, ".gds", &pf->wafer_gds));
+    const fw_mask_format *format;
+    for (size_t i = 0; (format = fw_mask_format_at(i)); i++) {
+        if (!(set & 1u << i) || format->write != fw_mask_write_svg) continue;
+        fw_text svg = fw_text_new(w->scratch);
+        FW_TRY(fw_wafer_write_svg(pf->wafer, &svg));
+        FW_TRY(put(w, "masks/", name, ".svg", &svg));
+    }
+    fw_text csv = fw_text_new(w->scratch);
+    FW_TRY(fw_wafer_write_csv(pf->wafer, &csv));
+    FW_TRY(put(w, "masks/", name, ".csv", &csv));
+    fw_text map = fw_text_new(w->scratch);
+    FW_TRY(fw_wafer_write_map(pf->wafer, &map));
+    FW_TRY(put(w, "masks/", name, "-map.svg", &map));
+    fw_text json = fw_text_new(w->scratch);
+    FW_TRY(fw_wafer_write_json(pf->wafer, pf->wafer_sha256, &json));
+    FW_TRY(put(w, "masks/", name, ".json", &json));
+    fw_output_file *own;
+    int n;
+    FW_TRY(files_of(w, pf->use->ref, "-wafer", &own, &n));
+    fw_text order = fw_text_new(w->scratch);
+    FW_TRY(fw_wafer_write_order(pf->wafer, own, n, &order));
+    return put(w, "masks/", name, ".order.txt", &order);
 }
 
 static fw_status write_recipe(writer *w, const fw_plan_flow *pf) {
@@ -186,6 +215,7 @@ static fw_status write_all(writer *w, unsigned what) {
         if ((what & FW_WRITE_MASKS) && plan->flow[i].mask) FW_TRY(write_mask(w, &plan->flow[i]));
         if ((what & FW_WRITE_MASKS) && plan->flow[i].violated)
             FW_TRY(write_violations(w, &plan->flow[i]));
+        if (what & FW_WRITE_MASKS) FW_TRY(write_wafer(w, &plan->flow[i]));
         if ((what & FW_WRITE_RECIPES) && plan->flow[i].flow)
             FW_TRY(write_recipe(w, &plan->flow[i]));
     }

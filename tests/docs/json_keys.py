@@ -91,6 +91,9 @@ with tempfile.TemporaryDirectory() as here:
                    timeout=120)
     walk(json.loads((pathlib.Path(here) / "o/manifest.json").read_text()), "manifest")
     walk(json.loads((pathlib.Path(here) / "o/masks/al-masked-rie.order.json").read_text()), "order")
+    subprocess.run([program, "mask", "tests/data/wafer/leaf-wafer.xml", "-q", "-o", f"{here}/w"], cwd=ROOT, capture_output=True,
+                   timeout=120)
+    walk(json.loads((pathlib.Path(here) / "w/masks/al-masked-rie-wafer.json").read_text()), "wafer")
 
 print("\n".join(dict.fromkeys(problems)) or f"{documents} documents, {sum(map(len, seen.values()))} keys explained")
 sys.exit(1 if problems else 0)

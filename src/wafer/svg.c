@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The plate as exact outlines: every cell once in <defs>, with true arcs, and <use> for each place.
+   1 user unit = 1 um, y downwards, the plate's upper left corner is the origin. A <g> is used and
+   not a <symbol>, which some importers clip at its own box. */
+#include "mask/stream.h"
+#include "wafer/notes.h"
+#include <math.h>
+
+/* layers in the order of the table; ids stay those of the table in the top cell only. The mask goes
+   by the name of its cell here: steps of a sweep have the same name of their own, and ids of a
+   document must differ */
+static void layers(const fw_wafer *w, const fw_mask *of, const char *name, fw_vec2 upper_left,
+                   bool top, fw_text *out) {
+    fw_mask named = *of;
+    const fw_mask *mask = &named;
+    named.cell = name;
+    for (int k = 0; k < w->table->nlayer; k++) {
+        const fw_mask_layer *y = &w->table->layer[k];
+        bool any = false;
+        for (int i = 0; i < mask->nshape && !any; i++)
+            any = mask->shape[i].layer == k;
+        if (!any) continue;
+        fw_text_add(out, "<g ");
+        if (top) fw_text_printf(out, "id=\"%s\" ", y->id);
+        fw_text_printf(out, "data-gds=\"%d/%d\" fill=\"%s\" fill-opacity=\"0.8\">\n", y->layer,
+                       y->datatype, y->colour);
+        fw_svg_paths(mask, k, upper_left, out);
+        fw_text_add(out, "</g>\n");
+    }
+}
+
+static void head(const fw_wafer *w, fw_text *out) {
+    double size = w->form.plate_m * 1e6;
+    fw_text_add(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg "
+                     "xmlns=\"http://www.w3.org/2000/svg\" "
+                     "xmlns:xlink=\"http://www.w3.org/1999/xlink\" version=\"1.1\" width=\"");
+    fw_text_fixed(out, size / 1000, 9);
+    fw_text_add(out, "mm\" height=\"");
+    fw_text_fixed(out, size / 1000, 9);
+    fw_text_add(out, "mm\" viewBox=\"0 0 ");
+    fw_text_fixed(out, size, 6);
+    fw_text_add(out, " ");
+    fw_text_fixed(out, size, 6);
+    fw_text_add(out, "\">\n<title>");
+    if (w->rejected) fw_text_add(out, "REJECTED: ");
+    fw_text_escaped(out, w->title);
+    fw_text_add(out, ", ");
+    fw_text_escaped(out, w->flow);
+    fw_text_add(out, ", whole plate</title>\n<desc>1 unit = 1 um; ");
+    fw_text_escaped(out, w->table->reading);
+    fw_text_add(out, "; flexwright " FW_VERSION "</desc>\n");
+}
+
+static void use(const fw_wafer *w, const fw_wafer_run *r, double half_um, fw_text *out) {
+    for (int j = 0; j < r->rows; j++)
+        for (int i = 0; i < r->columns; i++) {
+            char text[2 * FW_FIXED_BYTES], *end = text;
+            fw_text_printf(out, "<use xlink:href=\"#%s\" x=\"", w->cell[r->cell].name);
+            end = fw_fixed_text(end, half_um + 1e-3 * (r->x + i * r->step_x), 3);
+            fw_text_bytes(out, text, (size_t)(end - text));
+            fw_text_add(out, "\" y=\"");
+            end = fw_fixed_text(text, half_um - 1e-3 * (r->y + j * r->step_y), 3);
+            fw_text_bytes(out, text, (size_t)(end - text));
+            fw_text_add(out, "\"/>\n");
+        }
+}
+
+static size_t expected_bytes(const fw_wafer *w) {
+    size_t n = 16384;
+    for (int c = 0; c < w->ncell; c++) {
+        n += 96 * (size_t)w->cell[c].placed;
+        for (int i = 0; i < w->cell[c].mask->nshape; i++)
+            n += 100 + 90 * (size_t)w->cell[c].mask->shape[i].contour.count;
+    }
+    return n;
+}
+
+fw_status fw_wafer_write_svg(const fw_wafer *w, fw_text *out) {
+    double half_um = 0.5 * w->form.plate_m * 1e6;
+    fw_text_reserve(out, expected_bytes(w));
+    head(w, out);
+    fw_text_add(out, "<defs>\n");
+    for (int c = 0; c < w->ncell; c++) {
+        fw_text_printf(out, "<g id=\"%s\">\n", w->cell[c].name);
+        layers(w, w->cell[c].mask, w->cell[c].name, (fw_vec2){0, 0}, false, out);
+        fw_text_add(out, "</g>\n");
+    }
+    fw_text_add(out, "</defs>\n");
+    if (w->plate)
+        layers(w, w->plate, w->top, (fw_vec2){-0.5 * w->form.plate_m, 0.5 * w->form.plate_m}, true,
+               out);
+    for (int i = 0; i < w->nrun; i++)
+        use(w, &w->run[i], half_um, out);
+    if (w->rejected)
+        fw_text_add(out, "<text id=\"rejected\" x=\"50%\" y=\"50%\" text-anchor=\"middle\" "
+                         "font-family=\"sans-serif\" font-size=\"15000\" fill=\"#c00000\" "
+                         "fill-opacity=\"0.6\">REJECTED</text>\n");
+    fw_text_add(out, "</svg>\n");
+    return fw_text_end(out);
+}

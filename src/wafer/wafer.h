@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The wafer and its plate: which dies lie whole on it, which device each of them is, the cells of
+   the mask file with their arrays, and the map.
+
+   Places are integers on the 1 nm grid (dbu), counted from the wafer's centre, x right, y up, as
+   drawn. One cell per different device; equal dies of a row are one array. */
+#ifndef FW_WAFER_WAFER_H
+#define FW_WAFER_WAFER_H
+#include "device/device.h"
+#include "mask/mask.h"
+
+enum { FW_WAFER_MOST_DIES = 20000 };
+
+/* ---- the wafer as a shape: form.c ---- */
+typedef struct fw_wafer_form {
+    double diameter_m, flat_m, notch_m; /* flat: length of the chord; 0: none. notch: depth */
+    double edge_m;
+    fw_wafer_side side;
+    int64_t usable_dbu;           /* radius inside the edge exclusion */
+    int64_t flat_dbu;             /* centre to the usable side of the flat; no flat: usable_dbu */
+    int64_t notch_dbu, avoid_dbu; /* centre to rim at the notch; radius about it to stay away from;
+                                     0: no notch */
+    double plate_m;               /* edge of the square plate */
+} fw_wafer_form;
+/* FW_INPUT (FW-D190): no flat known, or what is stated contradicts itself */
+fw_status fw_wafer_form_of(const fw_wafer_asked *asked, fw_diags *diags, fw_wafer_form *form);
+/* do all points of the rectangle lie in the usable area? exact */
+bool fw_wafer_holds(const fw_wafer_form *form, int64_t x0, int64_t y0, int64_t x1, int64_t y1);
+
+/* ---- places: grid.c, assign.c ---- */
+typedef enum fw_wafer_kind { FW_WAFER_DIE, FW_WAFER_ALIGNMENT, FW_WAFER_TEST } fw_wafer_kind;
+
+typedef struct fw_wafer_site {
+    int row, column; /* 0: the top row, the leftmost column of the grid */
+    int32_t x, y;    /* lower left corner, dbu */
+    fw_wafer_kind kind;
+    int variant; /* of a die; else -1 */
+} fw_wafer_site;
+
+typedef struct fw_wafer_grid {
+    int32_t width, height, pitch_x, pitch_y; /* dbu */
+    bool street_x, street_y;                 /* a street, not a die, lies in the centre */
+    int rows, columns;
+    fw_wafer_site *site; /* (nsite) row by row from the top, each from the left */
+    int nsite;
+} fw_wafer_grid;
+/* all whole dies of width x height dbu; kinds and variants are left at FW_WAFER_DIE and 0 */
+fw_status fw_wafer_grid_fill(fw_arena *arena, const fw_wafer_form *form,
+                             const fw_wafer_asked *asked, int32_t width, int32_t height,
+                             fw_diags *diags, fw_wafer_grid *grid);
+/* alignment sites, test dies, then the steps of the sweeps: variant = step0 + steps0 step1 */
+fw_status fw_wafer_assign(const fw_wafer_form *form, const fw_wafer_asked *asked, fw_diags *diags,
+                          fw_wafer_grid *grid);
+/* dies that are devices, for the process; 0: what is asked for cannot be laid out */
+fw_status fw_wafer_dies(fw_arena *arena, const fw_wafer_asked *asked, fw_box die, int *dies);
+
+/* "C" and "07" of "C07"; columns are written with as many digits as the last one, two at least */
+enum { FW_WAFER_NAME = 16 };
+const char *fw_wafer_row_name(int row, char name[FW_WAFER_NAME]);
+const char *fw_wafer_column_name(const fw_wafer_grid *grid, int column, char name[FW_WAFER_NAME]);
+
+/* ---- what is placed ---- */
+typedef struct fw_wafer_variant {
+    const fw_mask *mask;  /* NULL: could not be made; its dies are then those of `stand_in` */
+    fw_box die, window;   /* of its layout */
+    double value[2];      /* SI, of the parameters that are swept */
+    const char *decision; /* "accept", "inconclusive", "reject"; NULL: not judged */
+    double utilisation;   /* largest; NaN: not known */
+    const char *why;      /* why its dies are other ones, or NULL */
+    int dies;             /* filled by fw_wafer_build */
+} fw_wafer_variant;
+
+typedef struct fw_wafer_input {
+    const fw_device *device;
+    const fw_mask_table *table;
+    const fw_wafer_variant *variant; /* (nvariant) one, or the product of the steps */
+    int nvariant;
+    fw_wafer_variant stand_in; /* the description as it stands: for variants without a mask */
+    fw_wafer_variant test;     /* the die with coupons; mask NULL: its sites get the marks of an
+                                  alignment site */
+    fw_mask_options mask;      /* bias, tolerance, vertex limit of the plate's own cells */
+} fw_wafer_input;
+
+typedef struct fw_wafer_cell {
+    const char *name; /* of the GDSII structure */
+    const fw_mask *mask;
+    int32_t dx, dy; /* of its origin from the lower left corner of a place */
+    int placed;     /* how often */
+} fw_wafer_cell;
+
+typedef struct fw_wafer_run { /* a cell, or an equally spaced array of it */
+    int cell;
+    int32_t x, y; /* origin of the first */
+    int columns, rows;
+    int32_t step_x, step_y;
+} fw_wafer_run;
+
+typedef struct fw_wafer {
+    const fw_device *device;
+    const fw_mask_table *table;
+    fw_wafer_form form;
+    fw_wafer_grid grid;
+    fw_wafer_variant *variant; /* (nvariant) */
+    int nvariant;
+    fw_wafer_variant stand_in;
+    const fw_mask *plate; /* title and fiducials, drawn in the top cell; NULL: none */
+    const char *top, *title, *flow;
+    fw_wafer_cell *cell; /* (ncell) children before the top cell */
+    int ncell;
+    fw_wafer_run *run; /* (nrun) */
+    int nrun;
+    int dies, alignments, tests;
+    bool ids;        /* dies are lettered */
+    fw_vec2 id_at;   /* lower left corner of the id from that of a place, m */
+    double stroke_m; /* of its letters */
+    bool rejected;
+} fw_wafer;
+
+fw_status fw_wafer_build(fw_arena *arena, const fw_wafer_input *input, fw_diags *diags,
+                         const fw_wafer **wafer);
+
+/* same wafer, same bytes */
+fw_status fw_wafer_write_gds(const fw_wafer *wafer, fw_text *out);
+fw_status fw_wafer_write_svg(const fw_wafer *wafer, fw_text *out);
+fw_status fw_wafer_write_csv(const fw_wafer *wafer, fw_text *out); /* one line per place */
+fw_status fw_wafer_write_map(const fw_wafer *wafer, fw_text *out); /* SVG for people */
+fw_status fw_wafer_write_json(const fw_wafer *wafer, const char *gds_sha256, fw_text *out);
+
+/* for the mask shop, with the files that go with it */
+fw_status fw_wafer_write_order(const fw_wafer *wafer, const fw_output_file *file, int nfile,
+                               fw_text *out);
+
+/* origin of a die's cell from the lower left corner of its place: dies of sweeps may differ in size
+   and are centred */
+void fw_wafer_origin(const fw_wafer_grid *grid, fw_box die, int32_t *dx, int32_t *dy);
+
+#endif

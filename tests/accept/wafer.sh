@@ -1,0 +1,52 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# wafer.sh PROGRAM: the plate of a small wafer with a sweep, as the program writes it, against KLayout,
+# gdspy and xmllint: strict reading, areas of the certificate, and the same wafer built die by die from the map.
+# Exit 0 passed, 1 failed, 77 skipped because klayout is not installed.
+program=$1
+here=$(cd "$(dirname "$0")" && pwd)
+cd "$here/../.." || exit 1
+export QT_QPA_PLATFORM=offscreen LC_ALL=C
+if ! command -v klayout >/dev/null; then
+    echo "SKIPPED: klayout is not installed"
+    exit 77
+fi
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+device=tests/data/wafer/leaf-wafer.xml flow=al-masked-rie
+failed=0
+judge() { # judge NAME COMMAND...
+    local name=$1
+    shift
+    if "$@" >"$work/log" 2>&1; then
+        echo "ok    $name"
+    else
+        echo "FAIL  $name"
+        sed 's/^/      /' "$work/log" | tail -20
+        failed=1
+    fi
+}
+make() { # make DIRECTORY OPTIONS...: the masks
+    local directory=$1
+    shift
+    "$program" mask "$device" -q -o "$work/$directory" "$@" >"$work/out" 2>&1 || { cat "$work/out"; failed=1; }
+}
+make wafer
+dies=
+for value in 7 8 11 15; do # 3 um is rejected: the nominal 8 um stands there
+    make "die$value" --set "width=$value um"
+    dies=$dies,$value=$work/die$value/masks/$flow.gds
+done
+stem=$work/wafer/masks/$flow-wafer
+judge "strict reading without warnings" "$here/kl_nowarn.sh" "$stem.gds"
+areas=()
+while read -r layer _ _ area; do
+    [ "$area" = - ] || areas+=("$layer:$area")
+done < <(/usr/bin/python3 "$here/layers.py" "$stem.gds" "masks/$flow.xml" "$stem.json")
+[ "${#areas[@]}" -ge 4 ] || { echo "FAIL  areas of ${#areas[@]} layers"; failed=1; }
+judge "gdspy reads it, ${#areas[@]} areas" /usr/bin/python3 "$here/gdspy_read.py" "$stem.gds" "${areas[@]}"
+judge "arrays are the map, the plate keeps 4 um" klayout -b -r "$here/kl_wafer.py" -rd "gds=$stem.gds" -rd "csv=$stem.csv" \
+    -rd "dies=${dies#,}" -rd rule=4
+judge "SVG and map are well-formed" xmllint --noout --huge "$stem.svg" "$stem-map.svg"
+[ "$failed" -eq 0 ] && echo "WAFER PASS" || echo "WAFER FAIL"
+exit "$failed"

@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The wafer of a plan: every step of its sweep is the device that --set would make, a rejected one
+   is replaced unless forced, and the process works with the number of dies. */
+#include "plan/plan.h"
+#include "test.h"
+#include <stdlib.h>
+
+#define WAFER "tests/data/wafer/leaf-wafer.xml"
+
+static fw_plan *planned(const fw_set *set, int nset, bool force, int dies) {
+    fw_plan_options o = fw_plan_options_default();
+    o.data_directory = FW_TEST_SOURCE_DIR;
+    o.set = set;
+    o.nset = nset;
+    o.force = force;
+    o.dies = dies;
+    o.verdict.with_advice = false;
+    o.verdict.corners = FW_CORNERS_NONE; /* as drawn: quick */
+    fw_plan *plan = fw_plan_new(&o);
+    assert_non_null(plan);
+    if (fw_plan_load(plan, FW_TEST_SOURCE_DIR "/" WAFER) != FW_OK || fw_plan_judge(plan) != FW_OK ||
+        fw_plan_fabricate(plan) != FW_OK)
+        fail_msg("%s", plan->diags.count ? plan->diags.item[0].message : "?");
+    return plan;
+}
+
+static fw_plan *shared;
+
+static int set_up(void **state) {
+    (void)state;
+    shared = planned(NULL, 0, false, 0);
+    return 0;
+}
+
+static int tear_down(void **state) {
+    (void)state;
+    fw_plan_free(shared);
+    return 0;
+}
+
+static const fw_diag *said(const fw_plan *plan, int number) {
+    for (size_t i = 0; i < plan->diags.count; i++)
+        if (plan->diags.item[i].number == number) return &plan->diags.item[i];
+    return NULL;
+}
+
+static bool same_polygons(const fw_mask *a, const fw_mask *b) {
+    if (a->nshape != b->nshape) return false;
+    for (int i = 0; i < a->nshape; i++) {
+        const fw_polygon *p = &a->shape[i].polygon, *q = &b->shape[i].polygon;
+        if (p->count != q->count || a->shape[i].layer != b->shape[i].layer) return false;
+        for (int k = 0; k < p->count; k++)
+            if (p->vertex[k].x_dbu != q->vertex[k].x_dbu ||
+                p->vertex[k].y_dbu != q->vertex[k].y_dbu)
+                return false;
+    }
+    return true;
+}
+
+static void steps_are_what_set_makes(void **state) {
+    (void)state;
+    fw_plan *plan = shared;
+    const fw_wafer *w = plan->flow[0].wafer;
+    assert_non_null(w);
+    assert_int_equal(w->nvariant, 4);
+    static const char *const value[] = {NULL, "7 um", NULL, "15 um"};
+    for (int v = 0; v < 4; v++) {
+        if (!value[v]) continue;
+        fw_set set = {"width", value[v]};
+        fw_plan *alone = planned(&set, 1, false, 1);
+        assert_null(alone->flow[0].wafer);
+        assert_true(same_polygons(alone->flow[0].mask, w->variant[v].mask));
+        assert_string_equal(w->variant[v].decision,
+                            fw_decision_text(alone->verdict.variant[0].decision));
+        double most = 0;
+        for (int k = 0; k < alone->verdict.variant[0].nhinge; k++)
+            most = fmax(most, alone->verdict.variant[0].hinge[k].utilisation);
+        assert_relative(w->variant[v].utilisation, most, 1e-12);
+        assert_relative(w->variant[v].value[0], atof(value[v]) * 1e-6, 1e-12);
+        fw_plan_free(alone);
+    }
+    assert_false(same_polygons(w->variant[1].mask, w->variant[2].mask));
+}
+
+static void rejected_steps(void **state) {
+    (void)state;
+    fw_plan *plan = shared;
+    const fw_wafer *w = plan->flow[0].wafer;
+    assert_null(w->variant[0].mask);
+    assert_string_equal(w->variant[0].decision, "reject");
+    assert_true(w->variant[0].utilisation > 1);
+    assert_false(w->rejected);
+    const fw_diag *d = said(plan, 194);
+    assert_non_null(d);
+    assert_non_null(strstr(d->message, "width = 3 um"));
+    plan = planned(NULL, 0, true, 0);
+    w = plan->flow[0].wafer;
+    assert_non_null(w->variant[0].mask);
+    assert_true(w->variant[0].mask->rejected && w->rejected);
+    assert_null(said(plan, 194));
+    fw_plan_free(plan);
+}
+
+/* a value that the description does not allow is no reason to stop */
+static void refused_steps(void **state) {
+    (void)state;
+    fw_set set = {"sweep/@from", "2 um"};
+    fw_plan *plan = planned(&set, 1, false, 0);
+    const fw_wafer *w = plan->flow[0].wafer;
+    assert_null(w->variant[0].mask);
+    assert_null(w->variant[0].decision);
+    assert_non_null(strstr(w->variant[0].why, "3 um"));
+    assert_non_null(said(plan, 194));
+    int dies = 0;
+    for (int v = 0; v < w->nvariant; v++)
+        dies += w->variant[v].dies;
+    assert_int_equal(dies, w->dies);
+    fw_plan_free(plan);
+}
+
+static const fw_quantity *quantity(const fw_flow *flow, const char *id) {
+    for (int i = 0; i < flow->nquantity; i++)
+        if (flow->quantity[i]->id && strcmp(flow->quantity[i]->id, id) == 0)
+            return flow->quantity[i];
+    return NULL;
+}
+
+/* what the process etches is the area of all dies, whether or not other dies are planned too */
+static void process_knows_dies(void **state) {
+    (void)state;
+    fw_plan *plan = shared;
+    const fw_wafer *w = plan->flow[0].wafer;
+    const fw_quantity *dies = quantity(plan->flow[0].flow, "mask.dies");
+    const fw_quantity *area = quantity(plan->flow[0].flow, "mask.open-area");
+    assert_true(dies || area);
+    if (dies) assert_near(dies->value, w->dies, 0);
+    if (area) {
+        fw_box b = plan->layout->die;
+        double die = (b.x1 - b.x0) * (b.y1 - b.y0);
+        assert_true(area->value > 0.3 * w->dies * die && area->value < w->dies * die);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(steps_are_what_set_makes),
+        cmocka_unit_test(rejected_steps),
+        cmocka_unit_test(refused_steps),
+        cmocka_unit_test(process_knows_dies),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}

@@ -1,0 +1,367 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cells, arrays, ids and the GDSII of the whole plate, read back record by record. */
+#include "wafer/plate.h"
+#include <stdlib.h>
+
+/* ---- arrays against places ---- */
+
+/* every place is covered once, by the cell that belongs there; nothing else is placed but ids */
+static void check_runs(const plate *p, const fw_wafer *w) {
+    const fw_wafer_grid *g = &w->grid;
+    int *covered = fw_arena_array(p->arena, int, (size_t)g->nsite);
+    for (int k = 0; k < w->nrun; k++) {
+        const fw_wafer_run *r = &w->run[k];
+        const fw_wafer_cell *c = &w->cell[r->cell];
+        bool id = strncmp(c->name, "ROW_", 4) == 0 || strncmp(c->name, "COLUMN_", 7) == 0;
+        assert_true(r->columns >= 1 && r->rows >= 1 && r->columns <= 32767 && r->rows <= 32767);
+        for (int j = 0; j < r->rows && !id; j++)
+            for (int i = 0; i < r->columns; i++) {
+                int x = r->x + i * r->step_x - c->dx, y = r->y + j * r->step_y - c->dy, at = -1;
+                for (int s = 0; s < g->nsite && at < 0; s++)
+                    if (g->site[s].x == x && g->site[s].y == y) at = s;
+                assert_true(at >= 0);
+                covered[at]++;
+                const fw_wafer_site *s = &g->site[at];
+                if (s->kind == FW_WAFER_ALIGNMENT)
+                    assert_string_equal(c->name, "ALIGNMENT_SITE");
+                else if (s->kind == FW_WAFER_DIE && w->variant[s->variant].mask)
+                    assert_ptr_equal(c->mask, w->variant[s->variant].mask);
+                else if (s->kind == FW_WAFER_DIE)
+                    assert_ptr_equal(c->mask, p->input.stand_in.mask);
+            }
+    }
+    for (int s = 0; s < g->nsite; s++)
+        assert_int_equal(covered[s], 1);
+}
+
+static void test_one_device(void **state) {
+    (void)state;
+    plate *p = plate_new(240);
+    p->device.wafer.alignment = true;
+    p->device.wafer.tests = 1;
+    const fw_wafer *w = plate_build(p);
+    check_runs(p, w);
+    assert_int_equal(p->diags.count, 0);
+    assert_int_equal(w->dies + w->alignments + w->tests, w->grid.nsite);
+    assert_int_equal(w->alignments, 2);
+    assert_int_equal(w->variant[0].dies, w->dies);
+    int arrays = 0; /* one per row, two in the row that a test die divides; alignment: one more */
+    for (int k = 0; k < w->nrun; k++)
+        arrays += w->cell[w->run[k].cell].mask == p->variant[0].mask;
+    assert_true(arrays <= w->grid.rows + 1);
+    assert_string_equal(w->top, "tiny_device_WAFER");
+    fw_arena_free(p->arena);
+}
+
+static void test_sweeps(void **state) {
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        plate *p = plate_new(240);
+        plate_sweep(p, 240, 4, k % 2 ? 3 : 1);
+        p->device.wafer.blocks = k / 2;
+        p->device.wafer.alignment = k % 2;
+        if (k == 3) p->variant[2].mask = p->variant[5].mask = NULL;
+        const fw_wafer *w = plate_build(p);
+        check_runs(p, w);
+        int dies = 0;
+        for (int v = 0; v < w->nvariant; v++)
+            dies += w->variant[v].dies;
+        assert_int_equal(dies, w->dies);
+        for (int c = 0; c < w->ncell; c++)
+            for (int d = 0; d < c; d++)
+                assert_string_not_equal(w->cell[c].name, w->cell[d].name);
+        fw_arena_free(p->arena);
+    }
+}
+
+/* ---- ids ---- */
+
+static bool all_inside(const fw_polygon *q, int32_t dx, int32_t dy, const fw_mask *mask) {
+    for (int i = 0; i < q->count; i++) {
+        fw_vec2 at = {(q->vertex[i].x_dbu + dx) * 1e-9, (q->vertex[i].y_dbu + dy) * 1e-9};
+        bool inside = false;
+        for (int s = 0; s < mask->nshape && !inside; s++)
+            inside = mask->shape[s].piece->role == FW_ROLE_FRAME &&
+                     fw_contour_contains(&mask->shape[s].contour, at);
+        if (!inside) return false;
+    }
+    return true;
+}
+
+/* distance in dbu between boxes of two polygons, the second moved */
+static double apart(const fw_polygon *a, const fw_polygon *b, int32_t dx, int32_t dy) {
+    double least = HUGE_VAL;
+    for (int i = 0; i < a->count; i++)
+        for (int j = 0; j < b->count; j++) /* corners of right-angled letters: within a stroke */
+            least = fmin(least, hypot(a->vertex[i].x_dbu - b->vertex[j].x_dbu - dx,
+                                      a->vertex[i].y_dbu - b->vertex[j].y_dbu - dy));
+    return least;
+}
+
+/* the letters over one die: in the frame, away from its own lettering and marks; names those of the
+   map */
+static void test_ids(void **state) {
+    (void)state;
+    plate *p = plate_new(240);
+    p->lettering = "LETTERS ALONG ALL OF THE BAR"; /* where ids would else stand */
+    plate_sweep(p, 240, 3, 1);
+    p->device.wafer.alignment = true;
+    const fw_wafer *w = plate_build(p);
+    assert_true(w->ids);
+    int lettered = 0, checked = 0;
+    for (int k = 0; k < w->nrun; k++) {
+        const fw_wafer_run *r = &w->run[k];
+        const fw_mask *m = w->cell[r->cell].mask;
+        const char *name = w->cell[r->cell].name;
+        bool row = strncmp(name, "ROW_", 4) == 0, column = strncmp(name, "COLUMN_", 7) == 0;
+        for (int i = 0; (row || column) && i < r->columns * r->rows; i++) {
+            int32_t x = r->x + i % r->columns * r->step_x, y = r->y + i / r->columns * r->step_y;
+            const fw_wafer_site *on = NULL;
+            for (int s = 0; s < w->grid.nsite; s++) {
+                const fw_wafer_site *t = &w->grid.site[s];
+                if (x >= t->x && y >= t->y && x < t->x + w->grid.width && y < t->y + w->grid.height)
+                    on = t;
+            }
+            assert_non_null(on);
+            assert_int_equal(on->kind, FW_WAFER_DIE);
+            char text[FW_WAFER_NAME];
+            assert_string_equal(name + (row ? 4 : 7),
+                                row ? fw_wafer_row_name(on->row, text)
+                                    : fw_wafer_column_name(&w->grid, on->column, text));
+            lettered++;
+            if (checked++ > 200) continue;
+            const fw_mask *die = w->variant[on->variant].mask;
+            int32_t dx = x - on->x + (int32_t)lround(p->variant[0].die.x0 * 1e9);
+            int32_t dy = y - on->y + (int32_t)lround(p->variant[0].die.y0 * 1e9);
+            for (int s = 0; s < m->nshape; s++) {
+                assert_true(all_inside(&m->shape[s].polygon, dx, dy, die));
+                for (int t = 0; t < die->nshape; t++)
+                    if (die->shape[t].piece->role == FW_ROLE_TEXT)
+                        assert_true(apart(&die->shape[t].polygon, &m->shape[s].polygon, dx, dy) >
+                                    10000);
+            }
+        }
+    }
+    assert_int_equal(lettered, 2 * w->dies);
+    fw_arena_free(p->arena);
+}
+
+/* where bars hold 12 um strokes they are used, narrow ones get smaller letters, the narrowest none
+ */
+static void test_id_sizes(void **state) {
+    (void)state;
+    static const double bar[] = {340, 120, 80, 60};
+    double before = 1;
+    for (int k = 0; k < 4; k++) {
+        plate *p = plate_new(bar[k]);
+        const fw_wafer *w = plate_build(p);
+        if (k == 0) assert_near(w->stroke_m, 12e-6, 1e-12);
+        if (k < 3) assert_true(w->ids && w->stroke_m >= 5e-6 - 1e-12 && w->stroke_m <= before);
+        if (k == 3) {
+            assert_false(w->ids);
+            assert_int_equal(p->diags.item[p->diags.count - 1].number, 193);
+        }
+        before = w->stroke_m;
+        fw_arena_free(p->arena);
+    }
+}
+
+/* ---- refusals and warnings ---- */
+
+static void test_spaces(void **state) {
+    (void)state;
+    static const struct {
+        double pitch_um;
+        bool ok;
+    } row[] = {{2000, true}, {2000.001, true}, {2003, false}, {2004, true}, {2100, true}};
+    for (size_t k = 0; k < sizeof row / sizeof row[0]; k++) {
+        plate *p = plate_new(240);
+        p->device.wafer.pitch_x_m = row[k].pitch_um * UM;
+        const fw_wafer *w = NULL;
+        fw_status status = fw_wafer_build(p->arena, &p->input, &p->diags, &w);
+        assert_int_equal(status, row[k].ok ? FW_OK : FW_INPUT);
+        if (!row[k].ok) assert_int_equal(p->diags.item[0].number, 191);
+        if (!row[k].ok) assert_says(p->diags.item[0].message, "4/0");
+        fw_arena_free(p->arena);
+    }
+}
+
+static void test_more_steps_than_columns(void **state) {
+    (void)state;
+    plate *p = plate_new(240);
+    plate_sweep(p, 240, 3, 1);
+    p->device.wafer.diameter_m = 12e-3;
+    p->device.wafer.flat_m = 0;
+    const fw_wafer *w = plate_build(p);
+    int without = 0;
+    for (int v = 0; v < w->nvariant; v++)
+        without += w->variant[v].dies == 0;
+    bool said = false;
+    for (size_t i = 0; i < p->diags.count; i++)
+        said = said || p->diags.item[i].number == 195;
+    assert_int_equal(said, without > 0);
+    check_runs(p, w);
+    fw_arena_free(p->arena);
+}
+
+static void test_rejected(void **state) {
+    (void)state;
+    plate *p = plate_new(240);
+    plate_sweep(p, 240, 3, 1);
+    p->variant[1].mask =
+        die_mask(p, 240, 250, "TINY", true, &p->variant[1].die, &p->variant[1].window);
+    const fw_wafer *w = plate_build(p);
+    assert_true(w->rejected);
+    assert_non_null(strstr(w->top, "REJECTED"));
+    fw_arena_free(p->arena);
+}
+
+/* ---- GDSII, read by itself ---- */
+
+typedef struct reader {
+    const unsigned char *data;
+    size_t n, at;
+    int kind;
+    size_t length; /* of the payload */
+    const unsigned char *payload;
+} reader;
+
+static bool next(reader *r) {
+    if (r->at + 4 > r->n) return false;
+    size_t whole = (size_t)r->data[r->at] << 8 | r->data[r->at + 1];
+    assert_true(whole >= 4 && whole % 2 == 0 && whole < 0x8000 && r->at + whole <= r->n);
+    r->kind = r->data[r->at + 2];
+    r->payload = r->data + r->at + 4;
+    r->length = whole - 4;
+    r->at += whole;
+    return true;
+}
+
+static int64_t i32(const reader *r, size_t k) {
+    const unsigned char *b = r->payload + 4 * k;
+    return (int32_t)((uint32_t)b[0] << 24 | (uint32_t)b[1] << 16 | (uint32_t)b[2] << 8 | b[3]);
+}
+
+typedef struct cell {
+    char name[40];
+    double area[64]; /* dbu^2 per layer, with children */
+    long placed;     /* boundaries with children */
+} cell;
+
+static int find(const cell *c, int n, const char *name) {
+    for (int i = 0; i < n; i++)
+        if (strcmp(c[i].name, name) == 0) return i;
+    return -1;
+}
+
+static void read_name(const reader *r, char name[40]) {
+    assert_true(r->length <= 32);
+    memcpy(name, r->payload, r->length);
+    name[r->length] = '\0';
+    assert_int_equal(
+        strspn(name, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_"),
+        strlen(name));
+}
+
+/* cells in order; a reference to a cell that was not complete before fails */
+static int read_library(const char *data, size_t n, cell *c, int most) {
+    reader r = {.data = (const unsigned char *)data, .n = n};
+    int cells = 0, layer = 0, child = -1, times = 1, columns = 1, rows = 1, element = 0;
+    bool used[256] = {false}, ended = false;
+    while (next(&r)) {
+        assert_false(ended);
+        if (r.kind == 0x01 || r.kind == 0x05)
+            for (size_t i = 0; i < r.length; i++)
+                assert_int_equal(r.payload[i], 0); /* dates */
+        if (r.kind == 0x06) {
+            char name[40];
+            read_name(&r, name);
+            assert_int_equal(find(c, cells, name), -1);
+            assert_true(cells < most);
+            c[cells] = (cell){.placed = 0};
+            memcpy(c[cells++].name, name, sizeof name);
+        }
+        if (r.kind == 0x08 || r.kind == 0x0a || r.kind == 0x0b || r.kind == 0x0c) element = r.kind;
+        if (r.kind == 0x0d) layer = r.payload[0] << 8 | r.payload[1];
+        if (r.kind == 0x12) {
+            char name[40];
+            read_name(&r, name);
+            child = find(c, cells - 1, name);
+            assert_true(child >= 0);
+            used[child] = true;
+            columns = rows = times = 1;
+        }
+        if (r.kind == 0x13) {
+            columns = r.payload[0] << 8 | r.payload[1];
+            rows = r.payload[2] << 8 | r.payload[3];
+            times = columns * rows;
+            assert_true(times > 1);
+        }
+        if (r.kind == 0x10 && element == 0x0b) {
+            assert_int_equal(r.length, 24);
+            assert_int_equal((i32(&r, 2) - i32(&r, 0)) % columns, 0);
+            assert_int_equal((i32(&r, 5) - i32(&r, 1)) % rows, 0);
+            assert_int_equal(i32(&r, 3), i32(&r, 1));
+            assert_int_equal(i32(&r, 4), i32(&r, 0));
+        }
+        if (r.kind == 0x10 && element == 0x08) {
+            int64_t twice = 0;
+            for (size_t i = 0; i + 1 < r.length / 8; i++)
+                twice +=
+                    i32(&r, 2 * i) * i32(&r, 2 * i + 3) - i32(&r, 2 * i + 2) * i32(&r, 2 * i + 1);
+            c[cells - 1].area[layer] += 0.5 * (double)twice;
+            c[cells - 1].placed++;
+        }
+        if (r.kind == 0x11 && (element == 0x0a || element == 0x0b)) {
+            for (int k = 0; k < 64; k++)
+                c[cells - 1].area[k] += times * c[child].area[k];
+            c[cells - 1].placed += times * c[child].placed;
+        }
+        ended = r.kind == 0x04;
+    }
+    assert_true(ended);
+    assert_int_equal(r.at, n);
+    for (int i = 0; i + 1 < cells; i++)
+        assert_true(used[i]); /* one top cell */
+    return cells;
+}
+
+static void test_gds(void **state) {
+    (void)state;
+    static cell c[256];
+    for (int k = 0; k < 2; k++) {
+        plate *p = plate_new(240);
+        p->device.wafer.alignment = true;
+        if (k) plate_sweep(p, 240, 4, 2);
+        const fw_wafer *w = plate_build(p);
+        fw_text gds = fw_text_new(p->arena), again = fw_text_new(p->arena);
+        assert_int_equal(fw_wafer_write_gds(w, &gds), FW_OK);
+        assert_int_equal(fw_wafer_write_gds(w, &again), FW_OK);
+        assert_int_equal(gds.length, again.length);
+        assert_memory_equal(gds.data, again.data, gds.length);
+        int n = read_library(gds.data, gds.length, c, 256);
+        assert_string_equal(c[n - 1].name, w->top);
+        assert_int_equal(n, w->ncell + 1);
+        double area[5] = {0};
+        for (int s = 0; s < w->grid.nsite; s++) { /* place by place, from the masks themselves */
+            const fw_wafer_site *t = &w->grid.site[s];
+            const fw_mask *m = t->variant >= 0 ? w->variant[t->variant].mask : NULL;
+            for (int i = 0; m && i < m->nshape; i++)
+                area[m->shape[i].layer] += 0.5 * (double)fw_polygon_area2(&m->shape[i].polygon);
+        }
+        assert_relative(c[n - 1].area[4], area[3], 1e-12);
+        assert_true(c[n - 1].area[1] > area[0]);       /* plate and alignment besides */
+        assert_true(c[n - 1].area[2] > 1.2 * area[1]); /* ids besides */
+        fw_arena_free(p->arena);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_one_device), cmocka_unit_test(test_sweeps),
+        cmocka_unit_test(test_ids),        cmocka_unit_test(test_id_sizes),
+        cmocka_unit_test(test_spaces),     cmocka_unit_test(test_more_steps_than_columns),
+        cmocka_unit_test(test_rejected),   cmocka_unit_test(test_gds),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
