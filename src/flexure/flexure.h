@@ -83,8 +83,7 @@ typedef struct fw_flexure_model { /* one row per kind: adding a hinge kind is on
     void (*shape)(const fw_flexure_input *in, fw_flexure_shape *shape);
     void (*closed_form)(const fw_flexure_shape *shape, const fw_flexure_input *in,
                         fw_flexure_result *out);
-    void (*at_once)(const fw_flexure_input *in,
-                    fw_flexure_result *out); /* both, isotropic; or NULL */
+    void (*at_once)(const fw_flexure_input *in, fw_flexure_result *out); /* both; or NULL */
 } fw_flexure_model;
 const fw_flexure_model *fw_flexure_models(size_t *count);
 /* 50 ns, of a crystal 120; errors included (tests/bench/bench_hinge_closed.c) */

@@ -55,23 +55,6 @@ fw_depth fw_depth_at(double deep, double poisson) {
     return fw_depth_law(&start);
 }
 
-/* Peak stress at the fillet of a crystal over Kt M/Z of the same closed form:
-     q(psi) = q0 (1 - c1 cos 4 psi + c2 |sin 4 psi|),  psi the root tangent from [100]
-   the larger of both roots. Under a pure moment M/Z is the same all along the arc, the strain is
-   not; at the fillet the stress gathers where the surface turns towards the stiff <110>.
-   in: 4 psi = 4 (al0 +- a); out: 1. Calibrated on three 3-D finite elements of one silicon arc, one
-   mesh each (peak 2006, 1747, 2089 MPa/rad at 4 psi = 180, 0, 270 deg): no shape is held out, the
-   error is taken as 6 %. Other cubic crystals: scaled with a1/a0, not compared.
-   source: docs/theory/flexure.md eq. 14; test_crystal.c peak_stress_of_silicon */
 double fw_crystal_stress(const fw_crystal *k, double cos4, double sin4) {
-    static const double q0 = 1.0638, c1 = 0.0704, c2 = 0.1130, silicon = 0.130229;
-    double part = k->a1_per_Pa / k->a0_per_Pa / silicon;
-    if (!k->aligned) return 1 + (q0 * (1 + hypot(c1, c2)) - 1) * fabs(part);
-    double worst = 0;
-    for (int side = -1; side <= 1; side += 2) {
-        double c = k->cos4 * cos4 - side * k->sin4 * sin4;
-        double s = k->sin4 * cos4 + side * k->cos4 * sin4;
-        worst = fmax(worst, 1 + (q0 * (1 - c1 * c + c2 * fabs(s)) - 1) * part);
-    }
-    return worst;
+    return fw_crystal_rise(k, cos4, sin4);
 }

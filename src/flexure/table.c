@@ -61,7 +61,7 @@ void fw_flexure_shape_of(const fw_flexure_input *in, fw_flexure_shape *f) {
 void fw_flexure_closed_form(const fw_flexure_input *in, fw_flexure_result *out) {
     bool varies = fw_flexure_input_varies(in);
     const fw_flexure_model *model = model_of(varies ? FW_FLEXURE_PATH : in->kind);
-    if (model->at_once && !in->crystal.known) {
+    if (model->at_once) {
         model->at_once(in, out);
         return;
     }
