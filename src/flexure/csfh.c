@@ -34,9 +34,11 @@ FW_INLINE void even_arc(const fw_flexure_shape *f, const fw_flexure_input *in,
     out->stiffness_thin = thin * f->per_length;
     double K = out->stiffness_Nm_per_rad = thin * f->golovin * f->per_whole * D;
     comply_evenly(f, depth->softness, 1 / EA, in->poisson, K, out->compliance);
-    out->concentration = f->fillet_concentration *
-                         fw_larger((1 + f->curved) * depth->inner, (1 - f->curved) * depth->outer);
-    out->strain_per_rad = 0.5 * t * f->per_whole * out->concentration;
+    double u = f->curved, h = in->depth_m, nu = in->poisson, Kt = f->fillet_concentration;
+    double inside = fw_larger((1 + u) * depth->inner, (1 - u) * depth->outer);
+    double G =
+        fw_root_rise(f->fillet_ratio, fw_notch_of(Kt), h / (h + 4 * t), nu, nu * depth->bow, u);
+    fw_peak_strain(f, 0.5 * t * f->per_whole, inside, Kt * (1 + u) * G, out);
 }
 
 void fw_csfh_shape(const fw_flexure_input *in, fw_flexure_shape *f) {

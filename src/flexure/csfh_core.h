@@ -16,10 +16,11 @@
 FW_INLINE void fw_arc_outline(const fw_flexure_input *in, double s, double c, fw_flexure_shape *f) {
     double r = in->radius_m, a = 0.5 * in->angle_rad, t = in->width_m, rho = in->fillet_m;
     double L = in->length_m, per_rt = 1 / (r * t), per_t = r * per_rt, half_t = 0.5 * t;
-    double dL = 0, block = 0, Kt = 1, u = half_t * (t * per_rt);
+    double dL = 0, block = 0, Kt = 1, ratio = 0, u = half_t * (t * per_rt);
     if (rho >= 0) {
         double x = fw_fitted_ratio(rho * per_t);
         dL = t * fw_root_law(x), block = fw_root_block_law * t, Kt = fw_concentration_law(x);
+        ratio = fw_larger(x, 0.1);
     }
     double whole = L + 2 * dL, per = 1 / (L * whole), e = half_t * u * fw_neutral_series(u);
     double rn = r - e;
@@ -28,7 +29,7 @@ FW_INLINE void fw_arc_outline(const fw_flexure_input *in, double s, double c, fw
     f->half_angle_rad = a, f->sine = s, f->cosine = c;
     f->neutral_m = rn, f->eccentric_m = e, f->golovin = fw_golovin_law(u);
     f->root_length_m = dL, f->root_block_m = block, f->whole_m = whole;
-    f->fillet_concentration = Kt;
+    f->fillet_concentration = Kt, f->fillet_ratio = ratio;
     f->curved = (2 / 3.0) * u;
     f->per_root_rt = sqrt(per_rt);
     f->per_eccentric = 1 / e;

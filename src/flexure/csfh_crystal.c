@@ -46,7 +46,7 @@ typedef struct soft {
 FW_INLINE soft soft_of(const fw_crystal *k, double a, double s, double c) {
     soft m = {.h = harmonic_of(s, c), .lateral = -k->s12_per_Pa * (a + a)};
     m.along = k->a1_per_Pa * k->cos4, m.across = k->a1_per_Pa * k->sin4;
-    m.weight = k->a0_per_Pa * (a + a) + m.along * m.h.w;
+    m.weight = k->a0_per_Pa * (a + a) + (m.along * ((c - s) * (c + s))) * (2 * s * c);
     return m;
 }
 
@@ -113,14 +113,28 @@ FW_INLINE flat flat_of(const fw_flexure_shape *f, const fw_crystal *k, const sof
 /* as fw_depth_start_of, but without waiting for nu = p/w, w = int 1/E db, p = -s12 2a:
      x^2 = h^2/(r t) (3 (1 - nu^2))^(1/2) = h^2/(r t w) (3 (w^2 - p^2))^(1/2) */
 FW_INLINE fw_depth_start start_of(const soft *m, double square) {
-    double w = m->weight, p = m->lateral, left = (w - p) * (w + p), root = sqrt(3 * left);
+    const double sqrt3 = 1.7320508075688773;
+    double w = m->weight, p = m->lateral, left = (w - p) * (w + p), root = sqrt(left);
     double per_w = 1 / w, per_w2 = per_w * per_w;
-    const fw_pair quotient = (fw_pair){p, w * w} / (fw_pair){root, left};
-    return (fw_depth_start){.x = sqrt(square * per_w * root),
+    const fw_pair quotient = (fw_pair){p * (1 / sqrt3), w * w} / (fw_pair){root, left};
+    return (fw_depth_start){.x = sqrt(square * sqrt3 * per_w * root),
                             .nu2 = p * p * per_w2,
                             .rest = left * per_w2,
                             .per = quotient[1],
                             .unit = quotient[0]};
+}
+
+/* the worse of both roots; the sine of the first is that of its mirror image (section_core.h) */
+FW_INLINE double root_of(const fw_flexure_shape *f, const fw_crystal *k, const soft *m, double h,
+                         double nu, double bow) {
+    double x = f->fillet_ratio, Kt = f->fillet_concentration, q = fw_notch_of(Kt), u = f->curved;
+    double H = Kt * fw_root_crystal_rise(x, q, h / (h + 4 * f->width_m), nu, nu * bow, u);
+    const fw_root_crystal root = fw_root_crystal_of(k->share, x, q, u);
+    if (!k->aligned) return H * (1 + u) * (root.even + hypot(root.along, root.across));
+    double cc = k->cos4 * m->h.cos4, ss = k->sin4 * m->h.sin4;
+    double sc = k->sin4 * m->h.cos4, cs = k->cos4 * m->h.sin4;
+    return H * fw_larger(fw_root_crystal_at(&root, u, cc - ss, sc + cs),
+                         fw_root_crystal_at(&root, u, cc + ss, cs - sc));
 }
 
 /* the arc of a crystal: K = 1/C_th, kx = 1/C_xx, ky = 1/C_yy of the above,
@@ -133,7 +147,6 @@ FW_INLINE void crystal_arc(const fw_flexure_shape *f, const fw_flexure_input *in
     double K = f->golovin * depth->stiffness * I * o->per;
     fw_pair C = o->bend * depth->softness + o->slide;
     fw_pair uneven = C / (o->even_bend * depth->softness + o->even_slide);
-    double thick = fw_larger((1 + f->curved) * depth->inner, (1 - f->curved) * depth->outer);
     C *= per_A;
     out->stiffness_Nm_per_rad = K;
     out->stiffness_thin = o->youngs_Pa * I * f->per_length;
@@ -148,9 +161,9 @@ FW_INLINE void crystal_arc(const fw_flexure_shape *f, const fw_flexure_input *in
     out->offset_m[0] = o->centre_m[0] - f->centre_m, out->offset_m[1] = o->centre_m[1];
     out->youngs_Pa = o->youngs_Pa, out->poisson = o->poisson;
     out->depth_factor = depth->stiffness;
-    out->concentration =
-        f->fillet_concentration * thick * fw_crystal_rise(&in->crystal, m->h.cos4, m->h.sin4);
-    out->strain_per_rad = 0.5 * t * o->per * out->concentration / in->youngs_Pa;
+    double u = f->curved, inside = fw_larger((1 + u) * depth->inner, (1 - u) * depth->outer);
+    fw_peak_strain(f, 0.5 * t * o->per / in->youngs_Pa, inside,
+                   root_of(f, &in->crystal, m, in->depth_m, o->poisson, depth->bow), out);
 }
 
 void fw_flexure_crystal_arc(const fw_flexure_shape *f, const fw_flexure_input *in,

@@ -55,6 +55,20 @@ fw_depth fw_depth_at(double deep, double poisson) {
     return fw_depth_law(&start);
 }
 
-double fw_crystal_stress(const fw_crystal *k, double cos4, double sin4) {
-    return fw_crystal_rise(k, cos4, sin4);
+double fw_root_peak(const fw_root_case *r, const fw_crystal *k) {
+    if (r->fillet_m < 0) return 1 + fabs(r->curved);
+    double t = r->width_m, h = r->depth_m, u = fabs(r->curved), nu = r->poisson, n = nu * r->bow;
+    double x = fw_fitted_ratio(r->fillet_m / t), Kt = fw_concentration_law(x), p = h / (h + 4 * t);
+    double q = fw_notch_of(Kt);
+    x = fw_larger(x, 0.1);
+    if (!k || !k->known) return Kt * (1 + u) * fw_root_rise(x, q, p, nu, n, u);
+    const fw_root_crystal root = fw_root_crystal_of(k->share, x, q, u);
+    double G = (1 + u) * (root.even + hypot(root.along, root.across));
+    if (k->aligned) {
+        double c = cos(4 * r->angle_rad), s = sin(4 * r->angle_rad);
+        double inner = r->curved < 0 ? -r->end : r->end; /* mirrored where it turns right */
+        G = fw_root_crystal_at(&root, u, k->cos4 * c - k->sin4 * s,
+                               inner * (k->sin4 * c + k->cos4 * s));
+    }
+    return Kt * G * fw_root_crystal_rise(x, q, p, nu, n, u);
 }
