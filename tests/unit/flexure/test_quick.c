@@ -148,18 +148,18 @@ static plain form_of(const fw_flexure_input *in) {
 
 static fw_flexure_input any(int i) {
     double angle = uniform(0.35, 2 * M_PI), t = spread(1e-6, 30e-6), r = t / uniform(0.01, 0.29);
-    return (fw_flexure_input){
-        .kind = FW_FLEXURE_CSFH,
-        .length_m = r * angle,
-        .angle_rad = angle,
-        .radius_m = r,
-        .width_m = t,
-        .fillet_m = i % 7 == 0 ? -1 : t * uniform(0.02, r * angle > 30 * t ? 2 : 1),
-        .depth_m = t * spread(0.01, 40),
-        .youngs_Pa = spread(1e9, 5e11),
-        .poisson = uniform(0, 0.45),
-        .strength_Pa = spread(1e7, 1e10),
-        .safety_factor = uniform(1, 4)};
+    return (fw_flexure_input){.kind = FW_FLEXURE_CSFH,
+                              .length_m = r * angle,
+                              .angle_rad = angle,
+                              .radius_m = r,
+                              .width_m = t,
+                              .fillet_m =
+                                  i % 7 == 0 ? -1 : t * uniform(0.02, r * angle > 30 * t ? 2 : 1),
+                              .depth_m = t * spread(0.01, 40),
+                              .youngs_Pa = spread(1e9, 5e11),
+                              .poisson = uniform(0, 0.45),
+                              .strength_Pa = spread(1e7, 1e10),
+                              .safety_factor = uniform(1, 4)};
 }
 
 /* 1e-14 of each figure; where a sum cancels (short arcs, W of a full turn) of what it adds; of the
