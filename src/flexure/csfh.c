@@ -20,11 +20,11 @@ FW_INLINE void comply_evenly(const fw_flexure_shape *f, double per_D, double per
 
 /* circular arc of centre-line radius r, half-angle a, width t, depth h, L = 2 a r:
      K = 1/C_th, kx = 1/C_xx, ky = 1/C_yy of the above
-     eps/rad = t/(2 (L + 2 dL)) Kt max((1 + t/3r) F_inner, (1 - t/3r) F_outer), at the root fillet
-     crystal: sigma/rad = t/(2 int ds/E) Kt max(...) q, eps = sigma/E (fw_crystal_stress)
-   error: K 0.15-0.51 %, W 0.2 um, strain -0.2..+2.9 % against 3-D finite elements on held-out
-   shapes. Cost 45 ns with the shape at hand and its errors, a crystal 100 (bench_hinge_closed.c).
-   source: docs/theory/flexure.md eq. 1-13; test_ladder.c, test_crystal.c, test_quick.c */
+     eps/rad = t/(2 (L + 2 dL)) max(Kt (1 + t/3r) G, inside), G of fw_root_rise,
+     inside = max((1 + t/3r) F_inner, (1 - t/3r) F_outer); beside it the fit Kt inside
+   error: K 0.15-0.51 %, W 0.2 um, strain 0 to 3.2 % above 3-D finite elements. Cost 47 ns with the
+   shape at hand and its errors (bench_hinge_closed.c). Crystals: csfh_crystal.c.
+   source: docs/theory/flexure.md eq. 1-11a; test_ladder.c, test_quick.c, test_root_strain.c */
 FW_INLINE void even_arc(const fw_flexure_shape *f, const fw_flexure_input *in,
                         const fw_depth *depth, fw_flexure_result *out) {
     double t = f->width_m, E = in->youngs_Pa, EA = E * in->depth_m * t;

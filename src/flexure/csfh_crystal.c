@@ -67,7 +67,7 @@ FW_INLINE soft soft_of(const fw_crystal *k, double a, double s, double c) {
    differ. What does not hang on the depth h is here: C = (bend/D + slide)/(h t). in: shape m, 1/E
    and 1/G 1/Pa; out: W m, C h t in m^2/Pa. Valid t/r <= 0.3. Error against 3-D finite elements,
    real roots: 0.4 % in C_th, 1 % in C_xx, 1.4 % in C_yy. Cost 10 ns. source: docs/theory/flexure.md
-   eq. 1-4, 13; test_ladder.c, test_quick.c random_crystals */
+   eq. 1-4, 13; test_ladder.c, test_crystal.c crystals_beside_plain_sums */
 typedef struct flat {
     fw_pair bend, slide, even_bend, even_slide; /* xx and yy */
     double bend_xy, slide_xy, centre_m[2];
@@ -138,8 +138,8 @@ FW_INLINE double root_of(const fw_flexure_shape *f, const fw_crystal *k, const s
 }
 
 /* the arc of a crystal: K = 1/C_th, kx = 1/C_xx, ky = 1/C_yy of the above,
-     sigma/rad = t/(2 int ds/E) Kt max((1 + t/3r) F_inner, (1 - t/3r) F_outer) q, eps = sigma/E
-   docs/theory/flexure.md eq. 12-14; test_crystal.c, test_quick.c random_crystals */
+     sigma/rad = t/(2 int ds/E) max(Kt G, inside), G of the worse root, eps = sigma/E
+   docs/theory/flexure.md eq. 12-14; test_crystal.c, test_root_strain.c */
 FW_INLINE void crystal_arc(const fw_flexure_shape *f, const fw_flexure_input *in, const soft *m,
                            const flat *o, const fw_depth *depth, double per_A,
                            fw_flexure_result *out) {
