@@ -76,10 +76,11 @@ static json_t *hinge_json(const fw_ladders *all, const fw_ladder *l) {
     for (int i = 0; i < l->rows; i++)
         json_array_append_new(levels, level_json(&l->row[i]));
     json_t *whole = json_pack(
-        "{s:s, s:s?, s:o, s:o, s:[f,f], s:f, s:f, s:f, s:f, s:o}", "id", fw_ladder_id(l), "flow",
-        l->flow, "levels", levels, "axis_rad", real(h->axis_rad), "axis_offset_m", c->offset_m[0],
-        c->offset_m[1], "youngs_Pa", c->youngs_Pa, "stress_per_rad_Pa", c->stress_per_rad_Pa,
-        "strain_bound_per_rad", c->strain_bound_per_rad, "used_stiffness_Nm_per_rad",
+        "{s:s, s:s?, s:o, s:o, s:[f,f], s:f, s:f, s:f, s:f, s:f, s:o}", "id", fw_ladder_id(l),
+        "flow", l->flow, "levels", levels, "axis_rad", real(h->axis_rad), "axis_offset_m",
+        c->offset_m[0], c->offset_m[1], "youngs_Pa", c->youngs_Pa, "stress_per_rad_Pa",
+        c->stress_per_rad_Pa, "strain_bound_per_rad", c->strain_per_rad, "strain_fit_per_rad",
+        c->strain_fit_per_rad, "used_stiffness_Nm_per_rad",
         l->mechanism->pin[h->pin].stiffness_Nm_per_rad, "compliance", compliance_json(c));
     if (!whole) return NULL;
     json_object_set_new(whole, "picked", picked_json(l, all->accuracy));

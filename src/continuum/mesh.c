@@ -94,9 +94,11 @@ static void plan_across(plan *c, const fw_continuum_shape *s, double f) {
         if (fabs(c->at_across[j] - 0.28) < fabs(c->at_across[c->corner] - 0.28)) c->corner = j;
 }
 
+/* two layers at least: with one through half the depth the peak strain of a strip as deep as wide
+   came out 1.7 % too high (H3: 0.014554 with one, 0.014311 with two, 0.014282 with three) */
 static void plan_depth(plan *c, const fw_continuum_shape *s, double f, bool plane_stress) {
     double half = 0.5 * s->depth_m / s->width_m;
-    c->layers = plane_stress ? 1 : count_of((half < 1.0 ? 1.0 : half < 2.0 ? 2.0 : 3.0) * f, 1);
+    c->layers = plane_stress ? 1 : count_of((half < 2.0 ? 2.0 : 3.0) * f, 2);
     graded(c->at_depth, c->layers, c->layers > 1 ? pow(0.5, 1.0 / (c->layers - 1)) : 1.0);
 }
 

@@ -12,6 +12,7 @@ fw_crystal fw_crystal_cubic(double c11_Pa, double c12_Pa, double c44_Pa, double 
     double d = (c11_Pa - c12_Pa) * (c11_Pa + 2 * c12_Pa);
     double s11 = (c11_Pa + c12_Pa) / d, s12 = -c12_Pa / d, s44 = 1 / c44_Pa;
     double s0 = s11 - s12 - 0.5 * s44;
+    const double silicon = 0.130229; /* a1/a0 of (165.7, 63.9, 79.6) GPa */
     bool aligned = isfinite(axis_rad);
     return (fw_crystal){.known = true,
                         .aligned = aligned,
@@ -20,6 +21,7 @@ fw_crystal fw_crystal_cubic(double c11_Pa, double c12_Pa, double c44_Pa, double 
                         .g0_per_Pa = s44 + s0,
                         .g1_per_Pa = -s0,
                         .s12_per_Pa = s12,
+                        .share = 0.25 * s0 / (s11 - 0.25 * s0) / silicon,
                         .cos4 = aligned ? cos(4 * axis_rad) : 0,
                         .sin4 = aligned ? sin(4 * axis_rad) : 0};
 }

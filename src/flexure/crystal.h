@@ -11,6 +11,7 @@ typedef struct fw_crystal {
     bool aligned; /* false: the hinge's axis is not known; modulus and stress are then means and
                      worst cases over all directions */
     double a0_per_Pa, a1_per_Pa, g0_per_Pa, g1_per_Pa, s12_per_Pa;
+    double share;      /* a1/a0 over silicon's: for what was found with silicon */
     double cos4, sin4; /* of four times the angle of the hinge's symmetry axis from [100] */
 } fw_crystal;
 

@@ -25,6 +25,7 @@ void fw_flexure_flare(const fw_flexure_input *in, double flare_m, fw_flexure_res
     double strained = (1.0 + p) * sharper;
     out->concentration *= sharper;
     out->strain_per_rad *= strained;
+    out->strain_fit_per_rad *= strained;
     out->stress_per_rad_Pa *= strained;
     out->limit_angle_rad /= strained;
 }

@@ -40,12 +40,15 @@ typedef struct fw_flexure_result {
     double kx_N_per_m, ky_N_per_m; /* 1/compliance[1][1], 1/compliance[2][2] */
     double compliance[3][3];       /* of the second body at the true centre, SI: twist (theta, x, y)
                                       of wrench (M, Fx, Fy); theta has no coupling there */
-    double strain_per_rad;         /* peak, at the fillet; crystal: peak stress over youngs_Pa */
-    double strain_bound_per_rad;   /* the same on the safe side of finite elements */
-    double stress_per_rad_Pa;      /* youngs_Pa * strain_per_rad */
-    double limit_angle_rad;        /* strength / safety factor / stress_per_rad */
-    double limit_uncertainty;      /* relative standard uncertainty of limit_angle from the model */
-    double depth_factor, root_length_m, concentration; /* EI_eff/EI, dL, Kt */
+    double strain_per_rad;         /* peak, at the fillet, on the safe side of solids; crystal: peak
+                                      stress over youngs_Pa. What limits go by */
+    double strain_fit_per_rad; /* eq. 5, a fit through the middle of plane-stress solids; crystal:
+                                  of its mean modulus */
+    double stress_per_rad_Pa;  /* youngs_Pa * strain_per_rad */
+    double limit_angle_rad;    /* strength / safety factor / stress_per_rad */
+    double limit_uncertainty;  /* relative standard uncertainty of limit_angle from the model */
+    double depth_factor, root_length_m; /* EI_eff/EI, dL */
+    double concentration;      /* strain_per_rad over that of the beam, t/2 over length and roots */
     double youngs_Pa, poisson; /* effective: of this arc; nu out of the plane */
     double uneven_x, uneven_y; /* crystal: share that C_xx, C_yy have over those of a uniform
                                   modulus of the same rotational stiffness; else 0 */
@@ -69,8 +72,8 @@ typedef struct fw_flexure_shape {
     double curved, per_root_rt;    /* t/3r, 1/sqrt(r t) */
     double per_length, per_whole, per_eccentric, per_section; /* 1/L, 1/(L + 2 dL), 1/e, 12/t^2 */
     double widening;        /* of the errors: 1 inside of what was compared */
-    double safe;            /* strain_bound_per_rad over strain_per_rad */
-    bool sharp;             /* fillet below t/4 */
+    double fillet_ratio;    /* rho/t within [0.1, 2]; ideal ends: 0 */
+    bool sharp;             /* fillet below t/10 */
     bool beyond_fit;        /* of the root's concentration */
     fw_flexure_error error; /* of a path, isotropic and not too deep */
     fw_pose start;          /* of a path: first end and its tangent */
@@ -83,13 +86,12 @@ typedef struct fw_flexure_model { /* one row per kind: adding a hinge kind is on
     void (*shape)(const fw_flexure_input *in, fw_flexure_shape *shape);
     void (*closed_form)(const fw_flexure_shape *shape, const fw_flexure_input *in,
                         fw_flexure_result *out);
-    void (*at_once)(const fw_flexure_input *in,
-                    fw_flexure_result *out); /* both, isotropic; or NULL */
+    void (*at_once)(const fw_flexure_input *in, fw_flexure_result *out); /* both; or NULL */
 } fw_flexure_model;
 const fw_flexure_model *fw_flexure_models(size_t *count);
-/* 50 ns, of a crystal 120; errors included (tests/bench/bench_hinge_closed.c) */
+/* 53 ns, of a crystal 82; errors included (tests/bench/bench_hinge_closed.c) */
 void fw_flexure_closed_form(const fw_flexure_input *in, fw_flexure_result *out);
-/* the same in two steps: outline once, then everything else (45 ns) */
+/* the same in two steps: outline once, then everything else (47 and 64 ns) */
 void fw_flexure_shape_of(const fw_flexure_input *in, fw_flexure_shape *shape);
 void fw_flexure_closed_form_at(const fw_flexure_shape *shape, const fw_flexure_input *in,
                                fw_flexure_result *out);

@@ -7,8 +7,12 @@
 void fw_csfh_shape(const fw_flexure_input *in, fw_flexure_shape *shape);
 void fw_flexure_csfh(const fw_flexure_shape *shape, const fw_flexure_input *in,
                      fw_flexure_result *out);
-/* both at once, of an isotropic material; the same bits */
+/* both at once, the same to rounding */
 void fw_csfh_at_once(const fw_flexure_input *in, fw_flexure_result *out);
+/* an arc of a crystal; csfh_crystal.c */
+void fw_flexure_crystal_arc(const fw_flexure_shape *shape, const fw_flexure_input *in,
+                            fw_flexure_result *out);
+void fw_crystal_at_once(const fw_flexure_input *in, fw_flexure_result *out);
 void fw_leaf_shape(const fw_flexure_input *in, fw_flexure_shape *shape);
 void fw_flexure_leaf(const fw_flexure_shape *shape, const fw_flexure_input *in,
                      fw_flexure_result *out);

@@ -169,7 +169,7 @@ static bool beyond(const fw_course *p, double fillet_m) {
     for (int end = 0; end < 2; end++) {
         const fw_strip_piece *q = &p->shape[end ? p->n - 1 : 0].piece;
         double x = fillet_m / q->width_m[2 * end];
-        out = out || (x >= 0 && x < 0.05) || x > 1.0 + 1e-9;
+        out = out || (x >= 0 && x < 0.05) || x > 1.25 * (1.0 + 1e-9);
     }
     for (int i = 0; i < p->n; i++) {
         const fw_strip_piece *q = &p->shape[i].piece;
@@ -265,32 +265,28 @@ static fw_path_section section_of(const fw_course *p, const fw_path_stuff *m, in
     return at;
 }
 
-/* what the crystal does to the stress at a root whose tangent is known */
-static double crystal_at(const fw_flexure_input *in, double psi_rad) {
-    return in->crystal.known ? fw_crystal_stress(&in->crystal, cos(4 * psi_rad), sin(4 * psi_rad))
-                             : 1;
-}
-
 static double fibre(const fw_course *p, const fw_path_stuff *m, const fw_flexure_input *in, int i,
                     double s) {
     const fw_path_section at = section_of(p, m, i, s);
     return fw_path_fibre(&at, in->youngs_Pa, m);
 }
 
-/* largest strain per moment: at the roots with Kt, and in each piece, found on a grid and closed in
-   by golden section; concentration: over what the beam has where it is */
+/* largest strain per moment: at the roots with their fillets, and in each piece, found on a grid
+   and closed in by golden section; concentration: over what the beam has where it is; fit: by eq. 5
+ */
 static double peak(const fw_course *p, const fw_path_stuff *m, const fw_flexure_input *in,
-                   double *concentration) {
+                   double *concentration, double *fit) {
     const double part = 0.5 * (sqrt(5) - 1);
-    double best = 0, share = 1;
+    double best = 0, share = 1, roots = 0, between = 0;
     for (int end = 0; end < 2; end++) {
         int i = end ? p->n - 1 : 0;
         const fw_path_section at = section_of(p, m, i, end ? p->shape[i].piece.length_m : 0);
-        double plain = fw_path_fibre(&at, in->youngs_Pa, m);
-        double Kt = p->concentration[end] * crystal_at(in, at.pose.angle_rad);
-        if (plain * Kt <= best) continue;
-        best = plain * Kt;
-        share = Kt * fw_path_fibre_factor(&at);
+        double plain = fw_path_fibre(&at, in->youngs_Pa, m), own = fw_path_fibre_factor(&at);
+        double factor = fw_path_root_factor(in, m, end, &at);
+        roots = fmax(roots, plain * p->concentration[end]);
+        if (plain * factor <= best * own) continue;
+        best = plain * factor / own;
+        share = factor;
     }
     for (int i = 0; i < p->n; i++) {
         double L = p->shape[i].piece.length_m, h = L / PLACES, top = 0, where = 0;
@@ -308,9 +304,11 @@ static double peak(const fw_course *p, const fw_path_stuff *m, const fw_flexure_
         }
         if (!p->shape[i].uniform) top = fmax(top, fibre(p, m, in, i, 0.5 * (low + high)));
         const fw_path_section at = section_of(p, m, i, 0.5 * (low + high));
+        between = fmax(between, top);
         if (top > best) best = top, share = fw_path_fibre_factor(&at);
     }
     *concentration = share;
+    *fit = fmax(roots, between);
     return best;
 }
 
@@ -363,5 +361,7 @@ void fw_flexure_path(const fw_flexure_shape *f, const fw_flexure_input *in,
     double without[SUMS], other[2];
     measure(&p, &flat, other, without);
     out->depth_factor = without[W1] / (in->depth_m * sum[W1]);
-    out->strain_per_rad = peak(&p, &m, in, &out->concentration) / sum[W1];
+    double fit;
+    out->strain_per_rad = peak(&p, &m, in, &out->concentration, &fit) / sum[W1];
+    out->strain_fit_per_rad = fit / sum[W1];
 }

@@ -23,7 +23,7 @@ void fw_path_section_at(const fw_course *p, const fw_path_stuff *m, int i, doubl
     double R = 1 / fabs(k), u = 0.5 * t * fabs(k), h = m->depth_m > 0 ? m->depth_m : 1;
     *out = (fw_path_section){.pose = fw_strip_along(p->start[i], k, s_m),
                              .width_m = t,
-                             .depth = {1, 1, 1, 1},
+                             .depth = {1, 1, 1, 1, 1},
                              .golovin = 1};
     double psi = out->pose.angle_rad, per_E = per_youngs(m, psi), per_A = 1 / (h * t);
     double e = 0, bend = 12 * per_E * per_A / (t * t), force = bend, share = 1;
@@ -84,6 +84,20 @@ double fw_path_fibre_factor(const fw_path_section *at) {
     return fmax((1 + c) * at->depth.inner, (1 - c) * at->depth.outer);
 }
 
+double fw_path_root_factor(const fw_flexure_input *in, const fw_path_stuff *m, int end,
+                           const fw_path_section *at) {
+    if (in->fillet_m < 0) return fw_path_fibre_factor(at);
+    const fw_root_case root = {.width_m = at->width_m,
+                               .fillet_m = in->fillet_m,
+                               .depth_m = in->depth_m,
+                               .curved = at->curved,
+                               .poisson = m->poisson,
+                               .bow = at->depth.bow,
+                               .end = end ? 1 : -1,
+                               .angle_rad = at->pose.angle_rad};
+    return fw_root_peak(&root, &in->crystal);
+}
+
 /* stress M t/2/(I D g) over the modulus that strains are counted in */
 double fw_path_fibre(const fw_path_section *at, double youngs_Pa, const fw_path_stuff *m) {
     double t = at->width_m, h = m->depth_m > 0 ? m->depth_m : 1;
@@ -132,11 +146,8 @@ fw_status fw_path_strain_new(fw_arena *arena, const fw_flexure_input *in, fw_pat
             fw_path_section_at(&p, &m, i, p.shape[i].piece.length_m * k / each, &at);
             double by = 1;
             bool root = (i == 0 && k == 0) || (i == p.n - 1 && k == each);
-            if (root) {
-                double psi4 = 4 * at.pose.angle_rad;
-                by = p.concentration[k > 0];
-                if (in->crystal.known) by *= fw_crystal_stress(&in->crystal, cos(psi4), sin(psi4));
-            }
+            double between = fw_path_fibre_factor(&at);
+            if (root) by = fmax(1, fw_path_root_factor(in, &m, k > 0, &at) / between);
             out->point[out->n++] = (fw_path_point){at.pose.x_m, at.pose.y_m,
                                                    by * fw_path_fibre(&at, in->youngs_Pa, &m)};
         }

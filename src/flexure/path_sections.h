@@ -34,4 +34,9 @@ double fw_path_fibre_factor(const fw_path_section *at);
 /* strain per section moment at a section: t/2 of that over (E I D g), no fillet */
 double fw_path_fibre(const fw_path_section *at, double youngs_Pa, const fw_path_stuff *stuff);
 
+/* at a root over that of the beam there, fillet and all (fw_root_peak); ideal ends: as between them
+ */
+double fw_path_root_factor(const fw_flexure_input *in, const fw_path_stuff *stuff, int end,
+                           const fw_path_section *at);
+
 #endif

@@ -55,23 +55,20 @@ fw_depth fw_depth_at(double deep, double poisson) {
     return fw_depth_law(&start);
 }
 
-/* Peak stress at the fillet of a crystal over Kt M/Z of the same closed form:
-     q(psi) = q0 (1 - c1 cos 4 psi + c2 |sin 4 psi|),  psi the root tangent from [100]
-   the larger of both roots. Under a pure moment M/Z is the same all along the arc, the strain is
-   not; at the fillet the stress gathers where the surface turns towards the stiff <110>.
-   in: 4 psi = 4 (al0 +- a); out: 1. Calibrated on three 3-D finite elements of one silicon arc, one
-   mesh each (peak 2006, 1747, 2089 MPa/rad at 4 psi = 180, 0, 270 deg): no shape is held out, the
-   error is taken as 6 %. Other cubic crystals: scaled with a1/a0, not compared.
-   source: docs/theory/flexure.md eq. 14; test_crystal.c peak_stress_of_silicon */
-double fw_crystal_stress(const fw_crystal *k, double cos4, double sin4) {
-    static const double q0 = 1.0638, c1 = 0.0704, c2 = 0.1130, silicon = 0.130229;
-    double part = k->a1_per_Pa / k->a0_per_Pa / silicon;
-    if (!k->aligned) return 1 + (q0 * (1 + hypot(c1, c2)) - 1) * fabs(part);
-    double worst = 0;
-    for (int side = -1; side <= 1; side += 2) {
-        double c = k->cos4 * cos4 - side * k->sin4 * sin4;
-        double s = k->sin4 * cos4 + side * k->cos4 * sin4;
-        worst = fmax(worst, 1 + (q0 * (1 - c1 * c + c2 * fabs(s)) - 1) * part);
+double fw_root_peak(const fw_root_case *r, const fw_crystal *k) {
+    if (r->fillet_m < 0) return 1 + fabs(r->curved);
+    double t = r->width_m, h = r->depth_m, u = fabs(r->curved), nu = r->poisson, n = nu * r->bow;
+    double x = fw_fitted_ratio(r->fillet_m / t), Kt = fw_concentration_law(x), p = h / (h + 4 * t);
+    double q = fw_notch_of(Kt);
+    x = fw_larger(x, 0.1);
+    if (!k || !k->known) return Kt * (1 + u) * fw_root_rise(x, q, p, nu, n, u);
+    const fw_root_crystal root = fw_root_crystal_of(k->share, x, q, u);
+    double G = (1 + u) * (root.even + hypot(root.along, root.across));
+    if (k->aligned) {
+        double c = cos(4 * r->angle_rad), s = sin(4 * r->angle_rad);
+        double inner = r->curved < 0 ? -r->end : r->end; /* mirrored where it turns right */
+        G = fw_root_crystal_at(&root, u, k->cos4 * c - k->sin4 * s,
+                               inner * (k->sin4 * c + k->cos4 * s));
     }
-    return worst;
+    return Kt * G * fw_root_crystal_rise(x, q, p, nu, n, u);
 }

@@ -5,7 +5,7 @@
 #include "flexure/crystal.h"
 
 /* root length dL and fillet concentration for fillet rho and width t; rho/t is clamped to the
-   fitted range [0.05, 1]; rho < 0: an ideal end, 0 and 1 */
+   range [0.05, 2] of the laws; rho < 0: an ideal end, 0 and 1 */
 double fw_root_length_m(double width_m, double fillet_m);
 double fw_root_block_m(double width_m,
                        double fillet_m); /* what of it a fillet of no radius would leave */
@@ -20,6 +20,7 @@ double fw_golovin(double u);
 typedef struct fw_depth {
     double stiffness; /* EI_eff / EI: 1 plane stress .. 1/(1-nu^2) plane strain */
     double softness;  /* 1 over that */
+    double bow;       /* f: 1 free to bow across, plane stress .. 0 plane strain */
     double inner,
         outer; /* hoop strain over the beam's: inner fibre at mid-depth, outer at the edge */
 } fw_depth;
@@ -27,8 +28,14 @@ fw_depth fw_depth_factors(double radius_m, double width_m, double depth_m, doubl
 
 fw_depth fw_depth_at(double depth_over_root_of_radius_and_width, double poisson);
 
-/* peak stress at a root of a crystal over that of an isotropic material under the same moment;
-   cos4, sin4 of four times the half-angle of the arc */
-double fw_crystal_stress(const fw_crystal *crystal, double cos4, double sin4);
+/* peak strain (of a crystal: stress) at a root over that of the beam there, Kt and curvature
+   included, on the safe side of solids. curved: t/3R, signed to the left; end: -1 the first, 1 the
+   second, whose tangent has the angle `angle_rad` in the flexure's frame */
+typedef struct fw_root_case {
+    double width_m, fillet_m, depth_m, curved, poisson, bow;
+    int end;
+    double angle_rad;
+} fw_root_case;
+double fw_root_peak(const fw_root_case *root, const fw_crystal *crystal);
 
 #endif

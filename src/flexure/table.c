@@ -34,9 +34,13 @@ void fw_flexure_closed_form_at(const fw_flexure_shape *f, const fw_flexure_input
     fw_flexure_errors(f, in, out, &out->error);
 }
 
-bool fw_flexure_input_varies(const fw_flexure_input *in) {
+static inline bool varying(const fw_flexure_input *in) {
     return in->kind == FW_FLEXURE_PATH ||
            (in->width_middle_m > 0 && in->width_middle_m != in->width_m);
+}
+
+bool fw_flexure_input_varies(const fw_flexure_input *in) {
+    return varying(in);
 }
 
 fw_flexure_input fw_flexure_input_of(const fw_flexure *f, double fillet_m) {
@@ -59,9 +63,9 @@ void fw_flexure_shape_of(const fw_flexure_input *in, fw_flexure_shape *f) {
 }
 
 void fw_flexure_closed_form(const fw_flexure_input *in, fw_flexure_result *out) {
-    bool varies = fw_flexure_input_varies(in);
+    bool varies = varying(in);
     const fw_flexure_model *model = model_of(varies ? FW_FLEXURE_PATH : in->kind);
-    if (model->at_once && !in->crystal.known) {
+    if (model->at_once) {
         model->at_once(in, out);
         return;
     }

@@ -8,7 +8,9 @@
    closed form it is made from, and the drift's 0.006 um of 0.7 against finite elements, 1 % */
 fw_status fw_ladder_compliance(const fw_ladder_case *c, fw_report_level *row) {
     const fw_hinge_law *law = &c->hinge->law;
-    const fw_flexure_result *r = &c->hinge->closed_form;
+    fw_flexure_result own = c->hinge->closed_form;
+    const fw_flexure_result *r = &own;
+    fw_ladder_printed(&c->hinge->input, &own);
     const fw_hinge_rest rest = fw_hinge_rest_of(law);
     double limit = r->limit_angle_rad, most = 2 * (M_PI - law->half_angle_rad) / law->share;
     if (!(limit < fmin(0.95 * most, M_PI))) {

@@ -64,7 +64,9 @@ static void errors_of(const fw_ladder_case *c, const fw_elastica_result *at, fw_
    most of it the solution's tables. Test: tests/cli/test_hinge.py */
 fw_status fw_ladder_elastica(const fw_ladder_case *c, fw_report_level *row) {
     const fw_flexure_input *in = &c->hinge->input;
-    const fw_flexure_result *r = &c->hinge->closed_form;
+    fw_flexure_result own = c->hinge->closed_form;
+    const fw_flexure_result *r = &own;
+    fw_ladder_printed(in, &own);
     fw_beam beam;
     turned t = {.per_moment = r->strain_per_rad / r->stiffness_Nm_per_rad};
     FW_TRY(fw_flexure_beam(c->arena, in, r, &beam));

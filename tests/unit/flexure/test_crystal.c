@@ -160,7 +160,9 @@ static void peak_stress_of_silicon(void **state) {
         assert_near((o.centre_m + o.offset_m[0]) * 1e6, row[i].wx, o.error.centre_m * 1e6);
         assert_relative(o.kx_N_per_m, row[i].kx, o.error.kx);
         assert_relative(o.ky_N_per_m, row[i].ky, o.error.ky);
-        assert_relative(o.stress_per_rad_Pa * 1e-6, row[i].stress, 0.002);
+        /* on the safe side, but for what one mesh is off by (finer ones: 2023, 1737, 2085) */
+        assert_true(o.stress_per_rad_Pa * 1e-6 > 0.997 * row[i].stress);
+        assert_true(o.stress_per_rad_Pa * 1e-6 < 1.05 * row[i].stress);
         assert_relative(o.stress_per_rad_Pa, in.youngs_Pa * o.strain_per_rad, 1e-14);
         assert_relative(o.limit_angle_rad, 1e9 / o.stress_per_rad_Pa, 1e-14);
     }
@@ -209,7 +211,10 @@ static void agrees_with_the_isotropic_form(void **state) {
     assert_relative(o.stiffness_Nm_per_rad, p.stiffness_Nm_per_rad, 1e-12);
     assert_relative(o.kx_N_per_m, p.kx_N_per_m, 1e-12);
     assert_relative(o.ky_N_per_m, p.ky_N_per_m, 1e-12);
-    assert_relative(o.stress_per_rad_Pa, p.stress_per_rad_Pa, 1e-12);
+    assert_relative(o.strain_fit_per_rad, p.strain_fit_per_rad, 1e-12);
+    /* stress of a crystal, strain of what is isotropic: apart by plane strain in the middle */
+    assert_true(o.strain_per_rad > p.strain_per_rad);
+    assert_true(o.strain_per_rad < 1.08 / (1 - nu * nu) * p.strain_per_rad);
     assert_near(o.offset_m[0], 0, 1e-18);
     for (int i = 0; i < 5; i++) {
         double axis = 11.0 * i;
@@ -260,6 +265,98 @@ static void law_knows_the_directions(void **state) {
     }
 }
 
+/* ---- the same sums written down plainly, in long double and by the library's sines ---- */
+
+static uint64_t seed = 88172645463325252u;
+
+static double uniform(double low, double high) { /* xorshift */
+    seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17;
+    return low + (high - low) * (double)(seed >> 11) * 0x1p-53;
+}
+
+typedef long double real;
+typedef struct sums {
+    real w, x, y, xx, xy, yy;
+} sums;
+
+/* int (even + odd cos 4(al0 + b)) {1, cos, sin, cos^2, sin cos, sin^2} db, odd cos 4al0, sin 4al0
+ */
+static sums sums_of(real a, real even, real c, real s) {
+    real J[7] = {2 * a};
+    for (int n = 1; n < 7; n++)
+        J[n] = 2 * sinl(n * a) / n;
+    return (sums){.w = even * J[0] + c * J[4],
+                  .x = even * J[1] + c * (J[3] + J[5]) / 2,
+                  .y = -s * (J[3] - J[5]) / 2,
+                  .xx = even * (J[0] + J[2]) / 2 + c * (J[4] / 2 + (J[6] + J[2]) / 4),
+                  .xy = -s * (J[2] - J[6]) / 4,
+                  .yy = even * (J[0] - J[2]) / 2 + c * (J[4] / 2 - (J[6] + J[2]) / 4)};
+}
+
+typedef struct plain_arc {
+    real W[2], weight, C[3]; /* centre; r int 1/E + roots; C_xx, C_yy, C_xy times h t */
+} plain_arc;
+
+/* theory, eq. 1, 3, 4 with weights that vary; per_D: 1/D */
+static plain_arc plain_of(const fw_flexure_shape *f, const sums *S, const sums *G,
+                          const real root[2], real per_D) {
+    real r = (real)f->radius_m, rn = (real)f->neutral_m, e = (real)f->eccentric_m;
+    real a = (real)f->half_angle_rad, t = (real)f->width_m, both = root[0] + root[1];
+    real x = r * cosl(a), y = r * sinl(a);
+    plain_arc p = {.weight = r * S->w + both};
+    p.W[0] = (r * rn * S->x + x * both) / p.weight;
+    p.W[1] = (r * rn * S->y + y * (root[1] - root[0])) / p.weight;
+    real X = p.W[0], Y = p.W[1], bend = per_D / e, end = 12 / (t * t) * per_D, k = 1.2L * r;
+    real low = -y - Y, high = y - Y, ends = root[0] * low + root[1] * high;
+    p.C[0] = bend * (r * rn * S->yy - 2 * Y * rn * S->y + Y * Y * S->w) +
+             end * (root[0] * low * low + root[1] * high * high) + k * G->xx;
+    p.C[1] = bend * (r * rn * S->xx - 2 * X * rn * S->x + X * X * S->w) +
+             end * both * (x - X) * (x - X) + k * G->yy;
+    p.C[2] = -bend * (r * rn * S->xy - rn * (X * S->y + Y * S->x) + X * Y * S->w) -
+             end * (x - X) * ends + k * G->xy;
+    return p;
+}
+
+static void crystals_beside_plain_sums(void **state) {
+    (void)state;
+    for (int i = 0; i < 4000; i++) {
+        double angle = uniform(90, 360), t = uniform(2, 12), axis = uniform(-180, 180);
+        fw_flexure_input in = arc(angle, t, axis);
+        in.fillet_m = i % 7 ? t * 1e-6 * uniform(0.05, 1) : -1, in.depth_m = uniform(1e-6, 80e-6);
+        fw_flexure_result o;
+        fw_flexure_shape f;
+        fw_flexure_closed_form(&in, &o);
+        fw_flexure_shape_of(&in, &f);
+        const fw_crystal *k = &in.crystal;
+        real a = (real)angle * (real)degree / 2, four = 4 * (real)axis * (real)degree;
+        real c4 = cosl(four), s4 = sinl(four), a0 = (real)k->a0_per_Pa, a1 = (real)k->a1_per_Pa;
+        real g1 = (real)k->g1_per_Pa, dL = (real)f.root_length_m, root[2];
+        real spare = dL - (real)f.root_block_m, D = (real)o.depth_factor;
+        for (int end = 0; end < 2; end++)
+            root[end] = dL * a0 + spare * a1 * cosl(four + (end ? 4 : -4) * a);
+        const sums S = sums_of(a, a0, a1 * c4, a1 * s4);
+        const sums G = sums_of(a, (real)k->g0_per_Pa, g1 * c4, g1 * s4);
+        real E = 2 * a / S.w, nu = -(real)k->s12_per_Pa * E, mean = (root[0] + root[1]) / 2;
+        const sums mS = sums_of(a, 1 / E, 0, 0), mG = sums_of(a, 2 * (1 + nu) / E, 0, 0);
+        const plain_arc p = plain_of(&f, &S, &G, root, 1 / D);
+        const plain_arc m = plain_of(&f, &mS, &mG, (const real[2]){mean, mean}, 1 / D);
+        real per = 1 / ((real)in.depth_m * (real)in.width_m), r = (real)in.radius_m;
+        assert_relative(o.youngs_Pa, (double)E, 1e-14);
+        assert_relative(o.poisson, (double)nu, 1e-14);
+        assert_relative(
+            o.compliance[0][0],
+            (double)(p.weight * 12 * per / (real)(in.width_m * in.width_m) / D / (real)f.golovin),
+            1e-13);
+        assert_relative(o.kx_N_per_m, (double)(1 / (p.C[0] * per)), 1e-12);
+        assert_relative(o.ky_N_per_m, (double)(1 / (p.C[1] * per)), 1e-12);
+        assert_near(o.compliance[1][2], (double)(p.C[2] * per), 1e-12 * o.compliance[1][1]);
+        assert_near(o.centre_m + o.offset_m[0], (double)p.W[0], (double)(1e-14L * r));
+        assert_near(o.offset_m[1], (double)p.W[1], (double)(1e-14L * r));
+        assert_near(o.uneven_x, (double)(p.C[0] / m.C[0] - 1), 1e-12);
+        assert_near(o.uneven_y, (double)(p.C[1] / m.C[1] - 1), 1e-12);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(moduli_by_direction),
@@ -269,6 +366,7 @@ int main(void) {
         cmocka_unit_test(peak_stress_of_silicon),
         cmocka_unit_test(symmetries),
         cmocka_unit_test(agrees_with_the_isotropic_form),
+        cmocka_unit_test(crystals_beside_plain_sums),
         cmocka_unit_test(law_knows_the_directions),
     };
     return cmocka_run_group_tests_name("crystal", tests, NULL, NULL);
