@@ -3,6 +3,7 @@
 #ifndef FW_RECIPE_WORDS_H
 #define FW_RECIPE_WORDS_H
 #include "recipe/recipe.h"
+#include "schedule/words.h"
 
 /* a row of a step: a setting, an input of the time law or a derived value */
 typedef struct fw_row {
@@ -23,8 +24,6 @@ void fw_put_uncertainty(fw_text *out, double value);
 void fw_put_value(fw_text *out, double value); /* up to 6 significant digits */
 /* unit for people: um as micrometre sign, Cel as degree sign; escaped for HTML */
 void fw_put_unit(fw_text *out, const char *unit);
-/* "45 s", "16 min 40 s", "1 h 30 min" */
-void fw_put_duration(fw_text *out, double seconds);
 const char *fw_missing_list(fw_arena *arena, const fw_time *time); /* NULL: no memory */
 
 /* one step of the run sheet */
