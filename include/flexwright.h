@@ -100,6 +100,11 @@ typedef struct fw_design_options {
                                  GDSII and KLayout's files are always written */
     int32_t mask_vertices;    /* most of one GDSII boundary: 199, 4094 (default) or 8190; larger
                                  outlines are cut at vertices */
+    /* of the schedules */
+    int32_t wafers, operators;  /* 1..50; default 1 */
+    const char *day;            /* working day, default "08:00-18:00"; "none": round the clock */
+    const char *planning_times; /* times for steps whose own is not computable:
+                                   "S03=90 min,S09=20 s"; marked in the schedule */
 } fw_design_options;
 
 /* Fills `size` bytes (as the caller's header defines the struct) with the defaults. NULL options:
@@ -196,7 +201,8 @@ enum {                        /* what fw_design_write writes, added up, with a m
        FW_DESIGN_VERDICT = 1, /* verdict.json */
        FW_DESIGN_MASKS = 2,   /* masks/FLOW.gds, .svg, .lyp, .lyt, .json, .order.json, .order.txt,
                                  and options.mask_formats */
-       FW_DESIGN_RECIPES = 4, /* recipes/FLOW.html, .csv, .ics, .json */
+       FW_DESIGN_RECIPES = 4, /* recipes/FLOW.html, .csv, .ics, .json, .schedule.json,
+                                 .schedule.csv, .schedule.svg */
        FW_DESIGN_MOTION = 8,  /* motion/SCENE.csv, .svg */
        FW_DESIGN_REPORT = 16, /* report.html, device.svg, device.png */
        FW_DESIGN_EVERYTHING = 31

@@ -2,6 +2,7 @@
 #include "cli/options.h"
 #include "dynamics/dynamics.h"
 #include "mask/mask.h"
+#include "schedule/schedule.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -142,6 +143,35 @@ static const char *take_mask_vertices(fw_cli_options *o, const char *v) {
             return NULL;
         }
     return "needs 199, 4094 or 8190";
+}
+
+/* ---- of recipe and plan: the schedule ---- */
+
+static const char *whole(const char *v, int32_t *to) {
+    double n;
+    if (!fw_number_parse(v, strlen(v), &n) || n != floor(n) || !(n >= 1 && n <= 50))
+        return "needs a whole number between 1 and 50";
+    *to = (int32_t)n;
+    return NULL;
+}
+
+static const char *take_wafers(fw_cli_options *o, const char *v) {
+    return whole(v, &o->design.wafers);
+}
+
+static const char *take_operators(fw_cli_options *o, const char *v) {
+    return whole(v, &o->design.operators);
+}
+
+static const char *take_day(fw_cli_options *o, const char *v) {
+    fw_calendar day;
+    o->design.day = v;
+    return fw_calendar_parse(v, &day) ? NULL : "needs two times like 08:00-18:00, or none";
+}
+
+static const char *take_planned(fw_cli_options *o, const char *v) {
+    o->design.planning_times = v;
+    return strchr(v, '=') ? NULL : "needs STEP=TIME with commas between, like \"S03=90 min,S09=20 s\"";
 }
 
 static const char *take_at(fw_cli_options *o, const char *v) {
@@ -303,6 +333,17 @@ static const option_row table[] = {
      "cut "
      "at vertices",
      FW_OPT_FABRICATE, take_mask_vertices},
+    {"wafers", 0, "N", "wafers of the schedule, 1 to 50; default 1", FW_OPT_SCHEDULE, take_wafers},
+    {"operators", 0, "K", "people who stand at the machines, 1 to 50; default 1", FW_OPT_SCHEDULE,
+     take_operators},
+    {"day", 0, "FROM-TO",
+     "working day, Monday to Friday; default 08:00-18:00; none: round the clock. What needs nobody "
+     "may go on over night",
+     FW_OPT_SCHEDULE, take_day},
+    {"planned", 0, "LIST",
+     "planning times for steps whose own is NOT COMPUTABLE, like \"S03=90 min,S09=20 s\"; marked in "
+     "the schedule, and used for nothing else",
+     FW_OPT_SCHEDULE, take_planned},
     {"scene", 0, "NAME", "the scene; default the first",
      FW_OPT_SIMULATE | FW_OPT_MODES | FW_OPT_STATICS | FW_OPT_ASSEMBLE, take_scene},
     {"at", 0, "POSE",

@@ -38,7 +38,8 @@ enum { /* option groups */
        FW_OPT_MODES = 32,
        FW_OPT_STATICS = 64,
        FW_OPT_ASSEMBLE = 128,
-       FW_OPT_HINGE = 256
+       FW_OPT_HINGE = 256,
+       FW_OPT_SCHEDULE = 512
 };
 
 /* fills options from argv[2..]; false: wrong usage, said on stderr */

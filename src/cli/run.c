@@ -16,7 +16,8 @@ static const fw_command table[] = {
      "recipes and writes a report. Exit status 0: accepted; 1: rejected (the report says which\n"
      "parameter to change and by how much), or a flow cannot make it; 4: the error band straddles\n"
      "the limit. The directory appears complete or not at all.",
-     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_FABRICATE, fw_command_plan},
+     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_FABRICATE | FW_OPT_SCHEDULE,
+     fw_command_plan},
     {"check", "DEVICE.xml", "only the verdict: does a hinge leave its elastic range?",
      "flexwright check device.xml --set arc=\"250 deg\"",
      "Runs every scene and the required workspace and compares each hinge's peak strain with its\n"
@@ -62,12 +63,15 @@ static const fw_command table[] = {
      "flexwright mask device.xml --flow al-masked-rie -o masks-out",
      "Judges the device first: a rejected design gets no mask unless --force.",
      FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_FABRICATE, fw_command_mask},
-    {"recipe", "DEVICE.xml", "only the recipes (run sheet, CSV, calendar, JSON)",
-     "flexwright recipe device.xml --flow copper-on-porous-silicon --json",
+    {"recipe", "DEVICE.xml", "only the recipes (run sheet, CSV, calendar, JSON, schedule)",
+     "flexwright recipe device.xml --wafers 4 --operators 2 --day 08:00-18:00",
      "Judges the device first: a rejected design gets no recipe unless --force. With --json and "
      "one\n"
-     "flow the recipe is printed; with several, a document that holds them all.",
-     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_FABRICATE, fw_command_recipe},
+     "flow the recipe is printed; with several, a document that holds them all. The schedule for\n"
+     "--wafers and --operators keeps every hold window, says how far from the best possible it may\n"
+     "be, and is written as FLOW.schedule.csv, .json and .svg and into the calendar.",
+     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_FABRICATE | FW_OPT_SCHEDULE,
+     fw_command_recipe},
     {"hinge", "DEVICE.xml", "every flexure: elastic centre, stiffness, strain, limit angle",
      "flexwright hinge device.xml --svg hinges.svg",
      "Every flexure on a ladder of models, for every flow's material and thickness: elastic "

@@ -69,7 +69,7 @@ static fw_status notes_of(fw_plan *plan, const fw_plan_flow *pf, fw_mask_options
 }
 
 /* a flow whose mask cannot be made says no, first of all its reasons */
-static fw_status not_manufacturable(fw_plan *plan, fw_flow *flow, const char *why) {
+fw_status fw_plan_flow_refused(fw_plan *plan, fw_flow *flow, const char *why) {
     const char **reason = fw_arena_alloc(plan->arena, (size_t)flow->nreason + 1, sizeof *reason);
     FW_NEED(reason);
     reason[0] = why;
@@ -85,7 +85,7 @@ static fw_status not_manufacturable(fw_plan *plan, fw_flow *flow, const char *wh
 static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     if (!plan->layout) { /* dimensions that do not fit: no flow can make it */
         pf->mask_error = "the device cannot be drawn with these dimensions; see the diagnostics";
-        return not_manufacturable(plan, pf->flow, pf->mask_error);
+        return fw_plan_flow_refused(plan, pf->flow, pf->mask_error);
     }
     if (!plan->layout->drawn) {
         pf->mask_error = plan->layout->why_not ? plan->layout->why_not : "the device has no shapes";
@@ -104,7 +104,7 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     if (status != FW_GEOMETRY && status != FW_INPUT) return status;
     pf->mask = NULL;
     pf->mask_error = "the mask breaks a design rule or cannot be biased; see the diagnostics";
-    return not_manufacturable(plan, pf->flow, pf->mask_error);
+    return fw_plan_flow_refused(plan, pf->flow, pf->mask_error);
 }
 
 /* comb drives of the scenes that hold in a flow, each once: scenes may name the same one */
@@ -164,5 +164,5 @@ fw_status fw_plan_fabricate(fw_plan *plan) {
         fw_sha256(pf->gds.data, pf->gds.length, hash);
         FW_NEED(pf->mask_sha256 = fw_arena_strdup(plan->arena, hash));
     }
-    return FW_OK;
+    return fw_plan_schedules(plan);
 }

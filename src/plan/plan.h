@@ -11,6 +11,7 @@
 #include "report/assembly.h"
 #include "report/terminal.h"
 #include "report/workspace.h"
+#include "schedule/schedule.h"
 
 typedef struct fw_plan_options {
     const char *data_directory; /* packs and layer tables; NULL: installed, else source tree */
@@ -27,7 +28,8 @@ typedef struct fw_plan_options {
     bool path;           /* statics: follow the load path */
     /* for assemble: "AB.phi,BC.phi", "10 rad/s,0 rad/s", "0 rad/s^2,..."; NULL: chosen, 0, 0 */
     const char *independent, *rates, *accelerations;
-    size_t memory_cap; /* 0: 512 MiB */
+    fw_schedule_options schedule; /* wafers, operators, working day */
+    size_t memory_cap;            /* 0: 512 MiB */
 } fw_plan_options;
 fw_plan_options fw_plan_options_default(void);
 
@@ -40,6 +42,7 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     fw_text gds; /* of the mask, composed once: its hash is in recipe and certificate */
     const char *mask_error;
     const char *flow_sha256, *mask_sha256;
+    const fw_schedule *schedule; /* after fw_plan_fabricate; NULL: none was made */
 } fw_plan_flow;
 
 typedef struct fw_input_file { /* for the manifest */

@@ -19,6 +19,10 @@ fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_set *s
 fw_status fw_plan_made_of(fw_arena *arena, const fw_plan_flow *flow, fw_variant_verdict *v);
 /* times, bias and judgement of every flow, from the exact outlines */
 fw_status fw_plan_compute_flows(fw_plan *plan);
+/* who does what when, of every flow that will be written */
+fw_status fw_plan_schedules(fw_plan *plan);
+/* the flow cannot make it: `why` becomes the first of its reasons */
+fw_status fw_plan_flow_refused(fw_plan *plan, fw_flow *flow, const char *why);
 /* once per plan, after judging */
 fw_status fw_plan_assumptions(fw_plan *plan);
 fw_status fw_plan_manifest(const fw_plan *plan, const fw_output_file *file, size_t count,

@@ -210,6 +210,7 @@ fw_status fw_recipe_write_html(const fw_flow *flow, const fw_recipe_header *head
     front(flow, header, out);
     judgement(flow, out);
     summary(flow, out);
+    fw_html_schedule(header, out);
     fw_text_add(out, "<h3>Step by step</h3>\n");
     for (int i = 0; i < flow->nstep; i++)
         fw_html_step(flow, i, out);

@@ -2,9 +2,9 @@
 #include "recipe/words.h"
 #include <string.h>
 
-static void string(fw_text *out, const char *text) {
+void fw_put_json(fw_text *out, const char *text) {
     fw_text_add(out, "\"");
-    for (const char *c = text; *c; c++) {
+    for (const char *c = text ? text : ""; *c; c++) {
         unsigned char byte = (unsigned char)*c;
         if (byte == '"' || byte == '\\')
             fw_text_printf(out, "\\%c", *c);
@@ -18,13 +18,13 @@ static void string(fw_text *out, const char *text) {
 
 static void key(fw_text *out, const char *name, bool first) {
     if (!first) fw_text_add(out, ",");
-    string(out, name);
+    fw_put_json(out, name);
     fw_text_add(out, ":");
 }
 
 static void named(fw_text *out, const char *name, const char *value, bool first) {
     key(out, name, first);
-    string(out, value ? value : "");
+    fw_put_json(out, value ? value : "");
 }
 
 static void number(fw_text *out, const char *name, double value, bool first) {
@@ -58,7 +58,7 @@ static void strings(fw_text *out, const char *name, const char **list, int n) {
     fw_text_add(out, "[");
     for (int i = 0; i < n; i++) {
         fw_text_add(out, i ? "," : "");
-        string(out, list[i]);
+        fw_put_json(out, list[i]);
     }
     fw_text_add(out, "]");
 }

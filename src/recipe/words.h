@@ -26,6 +26,17 @@ void fw_put_value(fw_text *out, double value); /* up to 6 significant digits */
 void fw_put_unit(fw_text *out, const char *unit);
 const char *fw_missing_list(fw_arena *arena, const fw_time *time); /* NULL: no memory */
 
+void fw_put_json(fw_text *out, const char *text);    /* quoted and escaped; NULL is "" */
+void fw_put_csv(fw_text *out, const char *text);     /* quoted where needed */
+void fw_put_moment(fw_text *out, double seconds);    /* "day 2, 13:05" */
+void fw_put_wafers(fw_text *out, const fw_run *run); /* "3" or "1-6" */
+/* sentences about a schedule: how long, how good, what is not known; escaped for XML and HTML */
+void fw_put_schedule_summary(fw_text *out, const fw_schedule *s);
+/* "safe stopping points" of the flow, with the longest pause at each; escaped */
+void fw_put_stops(fw_text *out, const fw_schedule *s);
+/* the section about it in the run sheet; nothing without a schedule */
+void fw_html_schedule(const fw_recipe_header *header, fw_text *out);
+
 /* one step of the run sheet */
 void fw_html_step(const fw_flow *flow, int index, fw_text *out);
 /* "[3]": number of the source in the list at the end; other text as it is */

@@ -64,9 +64,10 @@ static double operator_bound(const fw_shop *shop, const double *earliest_s) {
 /* Each bound holds for every schedule, windows and days included: people and machines only delay a
    wafer alone, fitting into the day never makes a later start earlier, and where a window forbids
    loads that are counted here, the truth is later still. Test: test_schedule.c, brute_force. */
-void fw_bounds(const fw_shop *shop, const double *earliest_s, double start_s, fw_bound *b) {
+void fw_bounds(const fw_shop *shop, const double *earliest_s, double start_s,
+               fw_schedule_bound *b) {
     int last = shop->ntask - 1;
-    *b = (fw_bound){.path_s = earliest_s[last] + shop->task[last].duration_s - start_s};
+    *b = (fw_schedule_bound){.path_s = earliest_s[last] + shop->task[last].duration_s - start_s};
     for (int m = 0; m < shop->nmachine; m++) {
         double at = machine_bound(shop, m, earliest_s) - start_s;
         if (at <= b->machine_s) continue;

@@ -5,6 +5,7 @@
 #include "schedule/schedule.h"
 
 /* earliest_s (ntask) of a wafer alone, from fw_network_earliest with start_s */
-void fw_bounds(const fw_shop *shop, const double *earliest_s, double start_s, fw_bound *bound);
+void fw_bounds(const fw_shop *shop, const double *earliest_s, double start_s,
+               fw_schedule_bound *bound);
 
 #endif

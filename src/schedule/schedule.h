@@ -34,6 +34,7 @@ typedef struct fw_task { /* a step of the flow as it is planned */
 typedef struct fw_hold { /* min <= start of `to` - end of `from` <= max, for every wafer */
     int from, to;        /* tasks */
     double min_s, max_s; /* -INFINITY, INFINITY: none */
+    bool implied;        /* not of the pack: two steps that nobody does alone, on the same day */
 } fw_hold;
 
 typedef struct fw_shop { /* the problem */
@@ -62,13 +63,13 @@ typedef struct fw_run {     /* one load of one step */
     fw_wait waits_for;
 } fw_run;
 
-typedef struct fw_bound { /* no schedule can end earlier, after the first start */
-    double path_s;        /* of one wafer alone, with its holds and the working day */
-    double machine_s;     /* of the busiest machine */
-    double operator_s;    /* of everybody's attended time */
-    double best_s;        /* the largest */
-    int machine;          /* whose bound machine_s is */
-} fw_bound;
+typedef struct fw_schedule_bound { /* no schedule can end earlier, after the first start */
+    double path_s;                 /* of one wafer alone, with its holds and the working day */
+    double machine_s;              /* of the busiest machine */
+    double operator_s;             /* of everybody's attended time */
+    double best_s;                 /* the largest */
+    int machine;                   /* whose bound machine_s is */
+} fw_schedule_bound;
 
 typedef struct fw_schedule {
     const fw_shop *shop;
@@ -79,7 +80,7 @@ typedef struct fw_schedule {
     int nrun, unknown;     /* unknown: tasks without a time */
     double start_s;        /* of the working day: where makespan and bounds count from */
     double makespan_s;
-    fw_bound bound;
+    fw_schedule_bound bound;
     double gap;       /* makespan/bound - 1 */
     bool optimal;     /* the gap is 0 */
     const char *rule; /* how it was found */

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { MOST_WORK = 150000 }; /* runs placed while improving: about a second at most */
 enum { MOST_WAFERS = 50, MOST_OPERATORS = 50, MOST_TASKS = 200 };
 
 typedef struct best {
@@ -91,7 +92,8 @@ static void change(search *s) {
 static void improve(search *s, int effort) {
     fw_placing *p = &s->placing;
     const size_t loads = (size_t)s->shop->ntask * sizeof *p->load;
-    for (int i = 0; i < effort && !done(s); i++) {
+    const long most = p->work + MOST_WORK;
+    for (int i = 0; i < effort && p->work < most && !done(s); i++) {
         memcpy(p->priority, s->best.priority, cells(s) * sizeof *p->priority);
         memcpy(p->load, s->best.load, loads);
         p->tied = uniform(s) < 0.2 ? !s->best.tied : s->best.tied;
@@ -130,7 +132,6 @@ static fw_status name_operators(fw_arena *arena, const fw_shop *shop, fw_run *ru
     return FW_OK;
 }
 
-/* tries that take about as long as 100 000 runs placed: some 0.1 s */
 static int usual_effort(const fw_shop *shop) {
     int runs = shop->ntask * shop->wafers;
     int n = shop->wafers == 1 ? 100 : 100000 / (runs > 0 ? runs : 1);

@@ -102,8 +102,14 @@ static fw_status planned(making *m, const char *list) {
     return FW_OK;
 }
 
+/* a pause this long is never over night */
+static double same_day_s(const making *m) {
+    const fw_calendar *c = &m->shop->calendar;
+    return fw_calendar_round(c) ? 8.0 * 3600.0 : 86400.0 - (c->close_s - c->open_s) - 1.0;
+}
+
 static fw_status make_holds(making *m, fw_hold **list) {
-    int n = 0;
+    int n = m->flow->nstep;
     for (int i = 0; i < m->flow->nstep; i++)
         n += m->flow->step[i].nlag;
     FW_NEED(*list = fw_arena_array(m->arena, fw_hold, (size_t)n));
@@ -114,8 +120,11 @@ static fw_status make_holds(making *m, fw_hold **list) {
             if (from < 0) continue; /* the pack was refused for it */
             (*list)[m->shop->nhold++] =
                 (fw_hold){from, i, isnan(lag->min_s) ? -(double)INFINITY : lag->min_s,
-                          isnan(lag->max_s) ? (double)INFINITY : lag->max_s};
+                          isnan(lag->max_s) ? (double)INFINITY : lag->max_s, false};
         }
+    for (int i = 0; i + 1 < m->flow->nstep; i++)
+        if (m->task[i].by_day && m->task[i + 1].by_day)
+            (*list)[m->shop->nhold++] = (fw_hold){i, i + 1, -(double)INFINITY, same_day_s(m), true};
     return FW_OK;
 }
 
