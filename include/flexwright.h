@@ -105,6 +105,8 @@ typedef struct fw_design_options {
     const char *day;            /* working day, default "08:00-18:00"; "none": round the clock */
     const char *planning_times; /* times for steps whose own is not computable:
                                    "S03=90 min,S09=20 s"; marked in the schedule */
+    const char *laboratory; /* files of laboratory packs, commas between: their values replace those
+                               of the process packs by id, and every one is named */
 } fw_design_options;
 
 /* Fills `size` bytes (as the caller's header defines the struct) with the defaults. NULL options:

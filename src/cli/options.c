@@ -169,9 +169,16 @@ static const char *take_day(fw_cli_options *o, const char *v) {
     return fw_calendar_parse(v, &day) ? NULL : "needs two times like 08:00-18:00, or none";
 }
 
+static const char *take_lab(fw_cli_options *o, const char *v) {
+    o->design.laboratory = v;
+    return *v ? NULL : "needs the name of a laboratory pack";
+}
+
 static const char *take_planned(fw_cli_options *o, const char *v) {
     o->design.planning_times = v;
-    return strchr(v, '=') ? NULL : "needs STEP=TIME with commas between, like \"S03=90 min,S09=20 s\"";
+    return strchr(v, '=')
+               ? NULL
+               : "needs STEP=TIME with commas between, like \"S03=90 min,S09=20 s\"";
 }
 
 static const char *take_at(fw_cli_options *o, const char *v) {
@@ -344,6 +351,14 @@ static const option_row table[] = {
      "planning times for steps whose own is NOT COMPUTABLE, like \"S03=90 min,S09=20 s\"; marked in "
      "the schedule, and used for nothing else",
      FW_OPT_SCHEDULE, take_planned},
+    {"lab", 0, "FILE",
+     "laboratory pack (or several with commas between): its values replace those of the process "
+     "packs by id, and every one is named in run sheet and report; calibrate writes one",
+     FW_OPT_PLAN, take_lab},
+    {"output", 'o', "FILE", "the laboratory pack; default standard output", FW_OPT_CALIBRATE,
+     take_output},
+    {"flow", 0, "NAME", "the process flow that the coupons went through", FW_OPT_CALIBRATE,
+     take_flow},
     {"scene", 0, "NAME", "the scene; default the first",
      FW_OPT_SIMULATE | FW_OPT_MODES | FW_OPT_STATICS | FW_OPT_ASSEMBLE, take_scene},
     {"at", 0, "POSE",

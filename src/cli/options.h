@@ -39,7 +39,8 @@ enum { /* option groups */
        FW_OPT_STATICS = 64,
        FW_OPT_ASSEMBLE = 128,
        FW_OPT_HINGE = 256,
-       FW_OPT_SCHEDULE = 512
+       FW_OPT_SCHEDULE = 512,
+       FW_OPT_CALIBRATE = 1024
 };
 
 /* fills options from argv[2..]; false: wrong usage, said on stderr */

@@ -135,7 +135,8 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     const char **text[] = {&o.data_directory, &o.flow,         &o.scene,         &o.effects,
                            &o.method,         &o.integrator,   &o.stabilise,     &o.at,
                            &o.independent,    &o.rates,        &o.accelerations, &o.corners,
-                           &o.hinge_model,    &o.mask_formats, &o.day,           &o.planning_times};
+                           &o.hinge_model,    &o.mask_formats, &o.day,           &o.planning_times,
+                           &o.laboratory};
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
         FW_TRY(keep(arena, text[i]));
     d->wrong_option = wrong_option(&o);
@@ -147,6 +148,7 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     p->mask_tolerance_m = o.mask_tolerance_m;
     p->mask_formats = o.mask_formats;
     p->mask_vertices = o.mask_vertices;
+    p->laboratory = o.laboratory;
     p->schedule = (fw_schedule_options){
         .wafers = o.wafers, .operators = o.operators, .day = o.day, .planned = o.planning_times};
     p->force = o.force != 0;

@@ -28,6 +28,7 @@ typedef struct fw_plan_options {
     bool path;           /* statics: follow the load path */
     /* for assemble: "AB.phi,BC.phi", "10 rad/s,0 rad/s", "0 rad/s^2,..."; NULL: chosen, 0, 0 */
     const char *independent, *rates, *accelerations;
+    const char *laboratory;       /* files of laboratory packs, commas between; NULL: none */
     fw_schedule_options schedule; /* wafers, operators, working day */
     size_t memory_cap;            /* 0: 512 MiB */
 } fw_plan_options;
@@ -68,6 +69,8 @@ typedef struct fw_plan {
                         */
     fw_input_file input[16];
     int ninput;
+    struct fw_plan_lab *lab; /* (nlab) laboratory packs as read */
+    int nlab;
     const char *base_file, *base_xml;
     size_t base_length;
 } fw_plan;

@@ -34,6 +34,8 @@ void fw_put_wafers(fw_text *out, const fw_run *run); /* "3" or "1-6" */
 void fw_put_schedule_summary(fw_text *out, const fw_schedule *s);
 /* "safe stopping points" of the flow, with the longest pause at each; escaped */
 void fw_put_stops(fw_text *out, const fw_schedule *s);
+/* the table of values that a laboratory replaced; nothing without */
+void fw_html_overrides(const fw_flow *flow, fw_text *out);
 /* the section about it in the run sheet; nothing without a schedule */
 void fw_html_schedule(const fw_recipe_header *header, fw_text *out);
 
