@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "process/fit.h"
 #include <math.h>
+#include <stdbool.h>
 
 /* m = sum(y/s^2)/sum(1/s^2), u = 1/sqrt(sum(1/s^2)), chi^2 = sum((y - m)^2/s^2). Any one unit.
    Source: textbook, e.g. Bevington and Robinson, ch. 4. Test: test_fit.c, mean. */
@@ -83,11 +84,12 @@ fw_fit fw_fit_plane(const double *y, const double *s, const double *p, const dou
    Stegun 26.4.4 and 26.4.5. Error 1e-14. Test: test_fit.c, chi_square (table 26.8). */
 double fw_chi_square_above(double x, int n) {
     if (n <= 0) return 1.0;
-    double h = 0.5 * x, odd = n % 2, sum = odd ? erfc(sqrt(h)) : 0.0;
+    bool odd = n % 2 == 1;
+    double h = 0.5 * x, sum = odd ? erfc(sqrt(h)) : 0.0;
     double term = odd ? exp(-h) * sqrt(h) / (0.5 * sqrt(acos(-1.0))) : exp(-h);
     for (int k = 0; k < n / 2; k++) {
         sum += term;
-        term *= h / (k + 1.0 + 0.5 * odd);
+        term *= h / (k + (odd ? 1.5 : 1.0));
     }
     return fmin(sum, 1.0);
 }

@@ -47,6 +47,10 @@ enum { CU_ROWS = sizeof cu_rows / sizeof cu_rows[0], SI_ROWS = sizeof si_rows / 
 
 static const fw_calendar round_the_clock = {0.0, 86400.0, true};
 
+static inline fw_hold hold_of(int from, int to, double min_s, double max_s) {
+    return (fw_hold){.from = from, .to = to, .min_s = min_s, .max_s = max_s};
+}
+
 static inline int find_row(const row *rows, int n, const char *id) {
     for (int i = 0; i < n; i++)
         if (strcmp(rows[i].id, id) == 0) return i;

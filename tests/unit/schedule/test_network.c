@@ -16,8 +16,8 @@ static int teardown(void **state) {
 }
 
 static fw_hold hold(const char *from, const char *to, double min_min, double max_min) {
-    return (fw_hold){find_row(cu_rows, CU_ROWS, from), find_row(cu_rows, CU_ROWS, to),
-                     60.0 * min_min, 60.0 * max_min};
+    return hold_of(find_row(cu_rows, CU_ROWS, from), find_row(cu_rows, CU_ROWS, to), 60.0 * min_min,
+                   60.0 * max_min);
 }
 
 /* wet transfer, rehydration and descum: feasible, and one wafer takes 444.04 min; with the seed
@@ -52,7 +52,8 @@ static void chains(void **state) {
     const row rows[] = {
         {"A", "a", 1, 5, 0}, {"B", "b", 1, 7, 0}, {"C", "c", 1, 3, 0}, {"D", "d", 1, 2, 0}};
     fw_shop shop = shop_of(arena, rows, 4, 1, 0);
-    fw_hold holds[] = {{0, 2, 0.0, 600.0}, {1, 3, 0.0, 200.0}, {0, 3, 900.0, (double)INFINITY}};
+    fw_hold holds[] = {hold_of(0, 2, 0.0, 600.0), hold_of(1, 3, 0.0, 200.0),
+                       hold_of(0, 3, 900.0, (double)INFINITY)};
     const char *why;
     shop.hold = holds;
     shop.nhold = 3;
@@ -70,7 +71,7 @@ static void chains(void **state) {
     assert_string_equal(why,
                         "C must start within 10 min of the end of A, but what lies between takes "
                         "11 min (B 11 min): 60 s too long");
-    fw_hold later = {2, 1, 0.0, 60.0};
+    fw_hold later = hold_of(2, 1, 0.0, 60.0);
     shop.hold = &later;
     shop.nhold = 1;
     assert_int_equal(fw_network_conflict(arena, &shop, false, &why), FW_OK);
@@ -121,7 +122,7 @@ static void random_networks(void **state) {
         for (int k = 0; k < shop.nhold; k++) {
             int from = below(N - 1), to = from + 1 + below(N - 1 - from);
             double least = 60.0 * below(8);
-            holds[k] = (fw_hold){from, to, least, least + 60.0 * below(20)};
+            holds[k] = hold_of(from, to, least, least + 60.0 * below(20));
         }
         const char *why;
         double d[N][N], earliest[N], pause[N];
@@ -155,7 +156,7 @@ static void days(void **state) {
     (void)state;
     const row rows[] = {{"A", "a", 1, 60, 60}, {"B", "b", 1, 700, 1}, {"C", "c", 1, 5, 5}};
     fw_shop shop = shop_of(arena, rows, 3, 1, 1);
-    fw_hold holds[] = {{1, 2, 0.0, 600.0}};
+    fw_hold holds[] = {hold_of(1, 2, 0.0, 600.0)};
     double at[3];
     bool ok;
     int failing;

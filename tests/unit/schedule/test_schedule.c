@@ -134,7 +134,7 @@ static void random_small(small *s) {
     for (int k = 0; k < s->shop.nhold; k++) {
         int from = below(TASKS - 1), to = from + 1 + below(TASKS - 1 - from);
         int between = to > from + 1 ? run_min(s, from + 1) : 0;
-        s->hold[k] = (fw_hold){from, to, below(2) ? 60.0 : 0.0, 60.0 * (between + 1 + below(3))};
+        s->hold[k] = hold_of(from, to, below(2) ? 60.0 : 0.0, 60.0 * (between + 1 + below(3)));
     }
 }
 
@@ -188,7 +188,7 @@ static void random_shops(void **state) {
         for (int k = 0; k < shop.nhold; k++) {
             int from = below(7), to = from + 1 + below(7 - from < 2 ? 7 - from : 2);
             double between = to > from + 1 ? shop.task[from + 1].duration_s : 0.0;
-            hold[k] = (fw_hold){from, to, -(double)INFINITY, between + 60.0 * below(300)};
+            hold[k] = hold_of(from, to, -(double)INFINITY, between + 60.0 * below(300));
         }
         if (below(2)) shop.calendar = (fw_calendar){8 * 3600.0, 18 * 3600.0, below(2) == 0};
         fw_schedule got;
