@@ -8,9 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-static const double tight_s = 4.0 * 3600.0; /* windows up to this tie tasks into a block */
 static const double tiny_s = 1e-6, horizon_s = 400.0 * 86400.0;
-enum { MOST_SHIFTS = 400, MOST_RESTARTS = 60 };
+enum { MOST_SHIFTS = 400, MOST_RESTARTS = 25 };
 
 typedef enum answer { PLACED, LATE, FAILED } answer;
 
@@ -27,7 +26,7 @@ static fw_status new_line(fw_arena *arena, size_t most, int places, fw_line *lin
 
 fw_status fw_placing_new(fw_arena *arena, const fw_shop *shop, fw_placing *p) {
     size_t all = (size_t)shop->ntask * (size_t)shop->wafers;
-    *p = (fw_placing){.shop = shop, .start_s = shop->calendar.open_s, .tied = true};
+    *p = (fw_placing){.shop = shop, .start_s = shop->calendar.open_s, .tie_s = FW_TIE_S};
     FW_NEED(p->load = fw_arena_array(arena, int, (size_t)shop->ntask));
     FW_NEED(p->priority = fw_arena_array(arena, double, all));
     FW_NEED(p->release_s = fw_arena_array(arena, double, all));
@@ -50,13 +49,15 @@ fw_status fw_placing_new(fw_arena *arena, const fw_shop *shop, fw_placing *p) {
 }
 
 /* last task of the block that starts with `from` */
-static int block_end(const fw_shop *shop, int from) {
+static int block_end(const fw_shop *shop, int from, double tie_s) {
     int to = from;
     for (bool grown = true; grown;) {
         grown = false;
         for (int i = 0; i < shop->nhold; i++) {
             const fw_hold *h = &shop->hold[i];
-            if (h->max_s > tight_s || h->from > to || h->to <= to || h->from < from) continue;
+            if (h->max_s > tie_s || isinf(h->max_s) || h->from > to || h->to <= to ||
+                h->from < from)
+                continue;
             to = h->to;
             grown = true;
         }
@@ -68,7 +69,7 @@ static void make_units(fw_placing *p) {
     const fw_shop *shop = p->shop;
     p->nunit = 0;
     for (int from = 0; from < shop->ntask;) {
-        int to = p->tied ? block_end(shop, from) : from, group = 1;
+        int to = block_end(shop, from, p->tie_s), group = 1;
         for (int i = from; i <= to; i++)
             group = p->load[i] > group ? p->load[i] : group;
         for (int w = 0; w < shop->wafers; w += group) {
@@ -126,8 +127,8 @@ static void undo_to(fw_placing *p, int nrun) {
     while (p->nrun > nrun) {
         const fw_run *r = &p->run[--p->nrun];
         const fw_task *t = &p->shop->task[r->task];
-        if (r->end_s > r->start_s) p->machine[t->machine].n--;
-        if (r->start_s + t->attended_s > r->start_s) p->people.n--;
+        fw_line_remove(&p->machine[t->machine], r->start_s, r->end_s);
+        fw_line_remove(&p->people, r->start_s, r->start_s + t->attended_s);
     }
 }
 
@@ -216,8 +217,11 @@ static fw_group *choose(fw_placing *p, fw_rule rule) {
 
 static void begin(fw_placing *p) {
     p->nrun = p->people.n = 0;
-    for (int m = 0; m < p->shop->nmachine; m++)
+    p->people.longest_s = 0.0;
+    for (int m = 0; m < p->shop->nmachine; m++) {
         p->machine[m].n = 0;
+        p->machine[m].longest_s = 0.0;
+    }
     for (int w = 0; w < p->shop->wafers; w++)
         p->next[w] = 0;
     for (int i = 0; i < p->nunit; i++)
@@ -261,6 +265,10 @@ bool fw_place_all(fw_placing *p, fw_rule rule) {
             fw_group *u = choose(p, rule);
             if (!u) return false;
             result = place_unit(p, u);
+            if (result != PLACED) {
+                p->failed_from = u->from;
+                p->failed_to = u->to;
+            }
             if (result == FAILED) {
                 if (!smaller_load(p, u)) return false;
                 make_units(p);

@@ -8,8 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_WORK = 150000 }; /* runs placed while improving: about a second at most */
+enum { MOST_WORK = 500000 }; /* runs placed while improving: about a second at most */
 enum { MOST_WAFERS = 50, MOST_OPERATORS = 50, MOST_TASKS = 200 };
+
+static const double ties_s[] = {FW_TIE_S, (double)INFINITY, -1.0};
+enum { TIES = sizeof ties_s / sizeof ties_s[0] };
 
 typedef struct best {
     fw_run *run;
@@ -18,7 +21,8 @@ typedef struct best {
     int nrun;
     double makespan_s, sum_s;
     fw_rule rule;
-    bool any, tied;
+    double tie_s;
+    bool any;
 } best;
 
 typedef struct search {
@@ -59,7 +63,7 @@ static bool try_rule(search *s, fw_rule rule) {
         return false;
     b->any = true;
     b->rule = rule;
-    b->tied = p->tied;
+    b->tie_s = p->tie_s;
     b->makespan_s = p->makespan_s;
     b->sum_s = p->sum_s;
     b->nrun = p->nrun;
@@ -96,7 +100,7 @@ static void improve(search *s, int effort) {
     for (int i = 0; i < effort && p->work < most && !done(s); i++) {
         memcpy(p->priority, s->best.priority, cells(s) * sizeof *p->priority);
         memcpy(p->load, s->best.load, loads);
-        p->tied = uniform(s) < 0.2 ? !s->best.tied : s->best.tied;
+        p->tie_s = uniform(s) < 0.2 ? ties_s[below(s, TIES)] : s->best.tie_s;
         change(s);
         try_rule(s, FW_RULE_LIST);
     }
@@ -134,22 +138,28 @@ static fw_status name_operators(fw_arena *arena, const fw_shop *shop, fw_run *ru
 
 static int usual_effort(const fw_shop *shop) {
     int runs = shop->ntask * shop->wafers;
-    int n = shop->wafers == 1 ? 100 : 100000 / (runs > 0 ? runs : 1);
+    int n = shop->wafers == 1 ? 100 : 250000 / (runs > 0 ? runs : 1);
     return n > 4000 ? 4000 : n;
 }
 
 static fw_status solve(fw_arena *arena, const fw_shop *shop, int effort, fw_schedule *out) {
     search s = {.shop = shop, .state = 20250106, .bound_s = out->bound.best_s};
     FW_TRY(room(arena, &s));
-    for (int r = 0; r < 2 * FW_RULES && !done(&s); r++) {
-        s.placing.tied = r < FW_RULES;
+    for (int r = 0; r < TIES * FW_RULES && !done(&s); r++) {
+        s.placing.tie_s = ties_s[r / FW_RULES];
         for (int i = 0; i < shop->ntask; i++)
             s.placing.load[i] = shop->task[i].load;
         try_rule(&s, (fw_rule)(r % FW_RULES));
     }
     if (!s.best.any) {
-        out->why = "no order was found that keeps all windows with these people and this working "
-                   "day; fewer wafers, more operators or a longer day may help";
+        const fw_task *from = &shop->task[s.placing.failed_from],
+                      *to = &shop->task[s.placing.failed_to];
+        FW_NEED(
+            out->why = fw_arena_printf(
+                arena,
+                "no order was found that keeps all windows with these people and this working "
+                "day; it failed at %s%s%s. Fewer wafers, more operators or a longer day may help",
+                from->id, from == to ? "" : " to ", from == to ? "" : to->id));
         return FW_OK;
     }
     improve(&s, effort > 0 ? effort : usual_effort(shop));
@@ -181,8 +191,12 @@ static const char *day_too_short(fw_arena *arena, const fw_shop *shop) {
 
 fw_status fw_schedule_solve(fw_arena *arena, const fw_shop *shop, int effort, fw_schedule *out) {
     *out = (fw_schedule){.shop = shop, .start_s = shop->calendar.open_s};
-    if (shop->wafers > MOST_WAFERS || shop->operators > MOST_OPERATORS || shop->ntask > MOST_TASKS)
-        return FW_LIMIT;
+    if (shop->wafers > MOST_WAFERS || shop->operators > MOST_OPERATORS) return FW_LIMIT;
+    if (shop->ntask > MOST_TASKS) {
+        FW_NEED(out->pause_s = fw_arena_array(arena, double, (size_t)shop->ntask));
+        FW_NEED(out->why = fw_arena_printf(arena, "it has more than %d steps", MOST_TASKS));
+        return FW_OK;
+    }
     for (int i = 0; i < shop->ntask; i++)
         out->unknown += shop->task[i].unknown;
     FW_TRY(fw_network_conflict(arena, shop, false, &out->why));

@@ -207,7 +207,7 @@ static void line(void **state) {
     (void)state;
     for (int round = 0; round < 2000; round++) {
         double start[9], end[9];
-        fw_line l = {start, end, 0, 1 + below(3)};
+        fw_line l = {.start_s = start, .end_s = end, .places = 1 + below(3)};
         for (int i = 0; i < 9; i++) {
             int t = below(30), n = below(8);
             double at = fw_line_fit(&l, t, n);
