@@ -102,6 +102,13 @@ typedef struct fw_design_options {
                                  outlines are cut at vertices */
     const char *mask_flatten; /* "inside" (default): vertices on the arcs; "equal-area": chords
                                  that enclose the area of the arc */
+    /* of the schedules */
+    int32_t wafers, operators;  /* 1..50; default 1 */
+    const char *day;            /* working day, default "08:00-18:00"; "none": round the clock */
+    const char *planning_times; /* times for steps whose own is not computable:
+                                   "S03=90 min,S09=20 s"; marked in the schedule */
+    const char *laboratory; /* files of laboratory packs, commas between: their values replace those
+                               of the process packs by id, and every one is named */
 } fw_design_options;
 
 /* Fills `size` bytes (as the caller's header defines the struct) with the defaults. NULL options:
@@ -198,7 +205,8 @@ enum {                        /* what fw_design_write writes, added up, with a m
        FW_DESIGN_VERDICT = 1, /* verdict.json */
        FW_DESIGN_MASKS = 2,   /* masks/FLOW.gds, .svg, .lyp, .lyt, .json, .order.json, .order.txt,
                                  and options.mask_formats */
-       FW_DESIGN_RECIPES = 4, /* recipes/FLOW.html, .csv, .ics, .json */
+       FW_DESIGN_RECIPES = 4, /* recipes/FLOW.html, .csv, .ics, .json, .schedule.json,
+                                 .schedule.csv, .schedule.svg */
        FW_DESIGN_MOTION = 8,  /* motion/SCENE.csv, .svg */
        FW_DESIGN_REPORT = 16, /* report.html, device.svg, device.png */
        FW_DESIGN_EVERYTHING = 31

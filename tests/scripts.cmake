@@ -25,6 +25,7 @@ fw_script_test(cli.rest COMMAND ${Python3_EXECUTABLE} tests/cli/test_rest.py ${F
 fw_script_test(cli.workspace COMMAND ${Python3_EXECUTABLE} tests/cli/test_workspace.py ${FW_PROGRAM})
 fw_script_test(cli.assemble COMMAND ${Python3_EXECUTABLE} tests/cli/test_assemble.py ${FW_PROGRAM})
 fw_script_test(cli.effects COMMAND ${Python3_EXECUTABLE} tests/cli/test_effects.py ${FW_PROGRAM})
+fw_script_test(cli.schedule COMMAND ${Python3_EXECUTABLE} tests/cli/test_schedule.py ${FW_PROGRAM})
 fw_script_test(cli.limits COMMAND ${Python3_EXECUTABLE} tests/cli/test_limits.py ${FW_PROGRAM})
 fw_script_test(cli.hinge COMMAND ${Python3_EXECUTABLE} tests/cli/test_hinge.py ${FW_PROGRAM})
 fw_script_test(cli.pictures COMMAND ${Python3_EXECUTABLE} tests/cli/test_pictures.py ${FW_PROGRAM})

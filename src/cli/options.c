@@ -1,21 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/options.h"
+#include "cli/option_rows.h"
 #include "dynamics/dynamics.h"
 #include "mask/mask.h"
+#include "schedule/schedule.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-typedef struct option_row {
-    const char *name;     /* without the dashes */
-    char letter;          /* 0: none */
-    const char *argument; /* NULL: none */
-    const char *help;
-    unsigned group;
-    const char *(*take)(fw_cli_options *o, const char *value); /* NULL or what is wrong */
-} option_row;
 
 int fw_cli_usage(const char *format, ...) {
     va_list arguments;
@@ -149,6 +141,41 @@ static const char *take_mask_vertices(fw_cli_options *o, const char *v) {
             return NULL;
         }
     return "needs 199, 4094 or 8190";
+}
+
+/* ---- of recipe and plan: the schedule ---- */
+
+static const char *whole(const char *v, int32_t *to) {
+    double n;
+    if (!fw_number_parse(v, strlen(v), &n) || n != floor(n) || !(n >= 1 && n <= 50))
+        return "needs a whole number between 1 and 50";
+    *to = (int32_t)n;
+    return NULL;
+}
+
+static const char *take_wafers(fw_cli_options *o, const char *v) {
+    return whole(v, &o->design.wafers);
+}
+
+static const char *take_operators(fw_cli_options *o, const char *v) {
+    return whole(v, &o->design.operators);
+}
+
+static const char *take_day(fw_cli_options *o, const char *v) {
+    fw_calendar day;
+    o->design.day = v;
+    return fw_calendar_parse(v, &day) ? NULL : "needs two times like 08:00-18:00, or none";
+}
+
+static const char *take_lab(fw_cli_options *o, const char *v) {
+    o->design.laboratory = v;
+    return *v ? NULL : "needs the name of a laboratory pack";
+}
+
+static const char *take_planned(fw_cli_options *o, const char *v) {
+    o->design.planning_times = v;
+    return strchr(v, '=') ? NULL
+                          : "needs STEP=TIME with commas between, like \"S03=90 min,S09=20 s\"";
 }
 
 static const char *take_at(fw_cli_options *o, const char *v) {
@@ -288,7 +315,7 @@ static const char *take_lot(fw_cli_options *o, const char *v) {
     return *v && strlen(v) <= 100 ? NULL : "needs 1 to 100 characters";
 }
 
-static const option_row table[] = {
+static const fw_option_row table[] = {
     {"output", 'o', "DIR", "directory of the results; it appears whole or not at all",
      FW_OPT_OUTPUT, take_output},
     {"json", 0, NULL, "one JSON document on standard output", FW_OPT_PLAN, take_json},
@@ -332,6 +359,26 @@ static const option_row table[] = {
      "cut "
      "at vertices",
      FW_OPT_FABRICATE, take_mask_vertices},
+    {"wafers", 0, "N", "wafers of the schedule, 1 to 50; default 1", FW_OPT_SCHEDULE, take_wafers},
+    {"operators", 0, "K", "people who stand at the machines, 1 to 50; default 1", FW_OPT_SCHEDULE,
+     take_operators},
+    {"day", 0, "FROM-TO",
+     "working day, Monday to Friday; default 08:00-18:00; none: round the clock. What needs nobody "
+     "may go on over night",
+     FW_OPT_SCHEDULE, take_day},
+    {"planned", 0, "LIST",
+     "planning times for steps whose own is NOT COMPUTABLE, like \"S03=90 min,S09=20 s\"; marked "
+     "in "
+     "the schedule, and used for nothing else",
+     FW_OPT_SCHEDULE, take_planned},
+    {"lab", 0, "FILE",
+     "laboratory pack (or several with commas between): its values replace those of the process "
+     "packs by id, and every one is named in run sheet and report; calibrate writes one",
+     FW_OPT_PLAN, take_lab},
+    {"output", 'o', "FILE", "the laboratory pack; default standard output", FW_OPT_CALIBRATE,
+     take_output},
+    {"flow", 0, "NAME", "the process flow that the coupons went through", FW_OPT_CALIBRATE,
+     take_flow},
     {"scene", 0, "NAME", "the scene; default the first",
      FW_OPT_SIMULATE | FW_OPT_MODES | FW_OPT_STATICS | FW_OPT_ASSEMBLE, take_scene},
     {"at", 0, "POSE",
@@ -399,7 +446,13 @@ static const option_row table[] = {
 };
 enum { NOPTION = sizeof table / sizeof table[0] };
 
-static const option_row *find(const fw_command *command, const char *name, size_t n, char letter) {
+const fw_option_row *fw_option_rows(size_t *count) {
+    *count = NOPTION;
+    return table;
+}
+
+static const fw_option_row *find(const fw_command *command, const char *name, size_t n,
+                                 char letter) {
     for (size_t i = 0; i < NOPTION; i++) {
         if (!(table[i].group & command->options)) continue;
         if (letter ? table[i].letter == letter
@@ -424,7 +477,7 @@ static bool unknown_option(const fw_command *command, const char *argument) {
 static bool one_option(const fw_command *command, int argc, char **argv, int *i,
                        fw_cli_options *o) {
     const char *argument = argv[*i], *value = NULL;
-    const option_row *row;
+    const fw_option_row *row;
     if (argument[1] == '-') {
         size_t n = strcspn(argument + 2, "=");
         row = find(command, argument + 2, n, 0);
@@ -495,81 +548,4 @@ bool fw_cli_parse(const fw_command *command, int argc, char **argv, fw_cli_optio
         return false;
     }
     return o->help || one_document(command, o);
-}
-
-/* ---- help ---- */
-
-static void print_options(unsigned groups, FILE *to) {
-    for (size_t i = 0; i < NOPTION; i++) {
-        if (!(table[i].group & groups)) continue;
-        char left[64];
-        snprintf(left, sizeof left, "%s%c%s--%s%s%s", table[i].letter ? "-" : " ",
-                 table[i].letter ? table[i].letter : ' ', table[i].letter ? ", " : "  ",
-                 table[i].name, table[i].argument ? " " : "",
-                 table[i].argument ? table[i].argument : "");
-        fprintf(to, "  %-26s %s\n", left, table[i].help);
-    }
-}
-
-void fw_cli_help(void) {
-    size_t n;
-    const fw_command *command = fw_command_table(&n);
-    fputs(
-        "flexwright - from one description of a compliant micromanipulator to a verdict, masks "
-        "and\n"
-        "fabrication recipes\n\n"
-        "  flexwright plan device.xml -o out       everything, for every flow of the device\n"
-        "  flexwright check device.xml             only: does a hinge leave its elastic range?\n\n"
-        "Commands:\n",
-        stdout);
-    for (size_t i = 0; i < n; i++)
-        printf("  %-9s %s\n", command[i].name, command[i].summary);
-    fputs(
-        "\n  flexwright COMMAND --help              options of a command, with an example\n"
-        "  flexwright --version\n\n"
-        "Exit status: 0 accepted or done, 1 design rejected, 2 wrong usage, 3 invalid input,\n"
-        "4 inconclusive, 5 input or output failed, 6 out of memory or another limit,\n"
-        "7 no numerical solution, 70 internal error, 130 and 143 on signals.\n"
-        "Results go to standard output, messages to standard error.\n\n"
-        "FLEXWRIGHT_DATA names the directory that holds processes/ and masks/ (then only that one\n"
-        "is used); NO_COLOR and FORCE_COLOR as usual. No other setting changes a result.\n",
-        stdout);
-}
-
-static void print_rows(const char *title, fw_method_row (*at)(size_t)) {
-    puts(title);
-    for (size_t i = 0; at(i).name; i++)
-        printf("  %-24s %s\n", at(i).name, at(i).summary);
-}
-
-void fw_cli_command_help(const fw_command *command) {
-    printf("flexwright %s%s%s [options]\n\n  %s\n\n%s\n\nOptions:\n", command->name,
-           command->argument ? " " : "", command->argument ? command->argument : "",
-           command->example, command->text);
-    print_options(command->options, stdout);
-    if (command->options & FW_OPT_SIMULATE) {
-        print_rows("\nMethods:", fw_method_at);
-        print_rows("Integrators:", fw_integrator_at);
-        print_rows("Stabilisation:", fw_stabilisation_at);
-    }
-}
-
-void fw_cli_reference(fw_text *out) {
-    size_t n;
-    const fw_command *command = fw_command_table(&n);
-    fw_text_add(out, "# Command line\n\nGenerated from the option table; do not edit.\n");
-    for (size_t i = 0; i < n; i++) {
-        fw_text_printf(out, "\n## flexwright %s%s%s\n\n%s\n\n    %s\n\n%s\n\n", command[i].name,
-                       command[i].argument ? " " : "",
-                       command[i].argument ? command[i].argument : "", command[i].summary,
-                       command[i].example, command[i].text);
-        fw_text_add(out, "| option | meaning |\n|---|---|\n");
-        for (size_t k = 0; k < NOPTION; k++)
-            if (table[k].group & command[i].options)
-                fw_text_printf(out, "| `%s%.*s%s--%s%s%s` | %s |\n", table[k].letter ? "-" : "",
-                               table[k].letter ? 1 : 0, &table[k].letter,
-                               table[k].letter ? "`, `" : "", table[k].name,
-                               table[k].argument ? " " : "",
-                               table[k].argument ? table[k].argument : "", table[k].help);
-    }
 }

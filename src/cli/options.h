@@ -40,7 +40,9 @@ enum { /* option groups */
        FW_OPT_STATICS = 64,
        FW_OPT_ASSEMBLE = 128,
        FW_OPT_HINGE = 256,
-       FW_OPT_LOG = 4096
+       FW_OPT_SCHEDULE = 512,
+       FW_OPT_CALIBRATE = 1024,
+       FW_OPT_LOG = 2048
 };
 
 /* fills options from argv[2..]; false: wrong usage, said on stderr */

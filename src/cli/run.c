@@ -16,7 +16,8 @@ static const fw_command table[] = {
      "recipes and writes a report. Exit status 0: accepted; 1: rejected (the report says which\n"
      "parameter to change and by how much), or a flow cannot make it; 4: the error band straddles\n"
      "the limit. The directory appears complete or not at all.",
-     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_FABRICATE, fw_command_plan},
+     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_FABRICATE | FW_OPT_SCHEDULE,
+     fw_command_plan},
     {"check", "DEVICE.xml", "only the verdict: does a hinge leave its elastic range?",
      "flexwright check device.xml --set arc=\"250 deg\"",
      "Runs every scene and the required workspace and compares each hinge's peak strain with its\n"
@@ -63,12 +64,16 @@ static const fw_command table[] = {
      "flexwright mask device.xml --flow al-masked-rie -o masks-out",
      "Judges the device first: a rejected design gets no mask unless --force.",
      FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_FABRICATE, fw_command_mask},
-    {"recipe", "DEVICE.xml", "only the recipes (run sheet, CSV, calendar, JSON)",
-     "flexwright recipe device.xml --flow copper-on-porous-silicon --json",
+    {"recipe", "DEVICE.xml", "only the recipes (run sheet, CSV, calendar, JSON, schedule)",
+     "flexwright recipe device.xml --wafers 4 --operators 2 --day 08:00-18:00",
      "Judges the device first: a rejected design gets no recipe unless --force. With --json and "
      "one\n"
-     "flow the recipe is printed; with several, a document that holds them all.",
-     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_FABRICATE, fw_command_recipe},
+     "flow the recipe is printed; with several, a document that holds them all. The schedule for\n"
+     "--wafers and --operators keeps every hold window, says how far from the best possible it "
+     "may\n"
+     "be, and is written as FLOW.schedule.csv, .json and .svg and into the calendar.",
+     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_FABRICATE | FW_OPT_SCHEDULE,
+     fw_command_recipe},
     {"log", "DEVICE.xml", "what was done, beside what was planned",
      "flexwright log device.xml --flow copper-on-porous-silicon --run lot7.log",
      "Keeps the as-run log of one flow: a text file that only grows, begun for the hash of its "
@@ -104,6 +109,16 @@ static const fw_command table[] = {
      "other\n"
      "programs can verify. It reports and does not judge: check has the verdict.",
      FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT, fw_command_workspace},
+    {"calibrate", "MEASURED.csv", "measured coupons in, laboratory pack out",
+     "flexwright calibrate lot7.csv --flow al-masked-rie -o lab.xml",
+     "Reads widths, depths, thicknesses and masses measured on the coupons of a mask and finds "
+     "the\n"
+     "numbers of the process with their uncertainty: anisotropy, lag, rates, efficiency, edges, "
+     "spin\n"
+     "curve. Data that contradict the law of their coupon are refused (exit status 3). The pack is "
+     "for\n"
+     "plan --lab: times, bias and verdict follow it.",
+     FW_OPT_COMMON | FW_OPT_CALIBRATE, fw_command_calibrate},
     {"init", "[NAME]", "a starter device on standard output",
      "flexwright init my-device > device.xml",
      "Prints a small six-bar with comments; every command accepts it as it is.", FW_OPT_COMMON,
@@ -116,7 +131,7 @@ static const fw_command table[] = {
 };
 
 /* named in the contract, not in this version: say so instead of "unknown" */
-static const char *const later[] = {"tradeoff", "study", "calibrate", "serve"};
+static const char *const later[] = {"tradeoff", "study", "serve"};
 
 const fw_command *fw_command_table(size_t *count) {
     *count = sizeof table / sizeof table[0];

@@ -194,6 +194,7 @@ fw_status fw_plan_assumptions(fw_plan *plan) {
     for (int i = 0; i < plan->verdict.nvariant; i++)
         FW_TRY(of_variant(plan, &plan->verdict.variant[i]));
     FW_TRY(strength_override(plan));
+    FW_TRY(fw_plan_lab_assumptions(plan));
     FW_TRY(fw_plan_assume(plan, "Safety factor %s on the strength (%s:%d:%d).",
                           fw_number_text(sf, sizeof sf, plan->device->safety_factor, 4),
                           fw_place_file(plan->device->limits_place),

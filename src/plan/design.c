@@ -89,6 +89,11 @@ static const char *wrong_option(const fw_design_options *o) {
     if (o->mask_vertices != 0 && o->mask_vertices != 199 && o->mask_vertices != 4094 &&
         o->mask_vertices != 8190)
         return "mask_vertices must be 0 (default), 199, 4094 or 8190";
+    fw_calendar day;
+    if (o->day && !fw_calendar_parse(o->day, &day))
+        return "day must be like \"08:00-18:00\", or \"none\" for round the clock";
+    if (o->wafers < 0 || o->wafers > 50 || o->operators < 0 || o->operators > 50)
+        return "wafers and operators must be 0 (default) or between 1 and 50";
     if (!known(o->method, fw_method_at)) return "method is not known in this version";
     if (!known(o->integrator, fw_integrator_at)) return "integrator is not known in this version";
     if (!known(o->stabilise, fw_stabilisation_at)) return "there is no such stabilisation";
@@ -134,7 +139,8 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     const char **text[] = {&o.data_directory, &o.flow,         &o.scene,         &o.effects,
                            &o.method,         &o.integrator,   &o.stabilise,     &o.at,
                            &o.independent,    &o.rates,        &o.accelerations, &o.corners,
-                           &o.hinge_model,    &o.mask_formats, &o.mask_flatten};
+                           &o.hinge_model,    &o.mask_formats, &o.mask_flatten,  &o.day,
+                           &o.planning_times, &o.laboratory};
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
         FW_TRY(keep(arena, text[i]));
     d->wrong_option = wrong_option(&o);
@@ -147,6 +153,9 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     p->mask_formats = o.mask_formats;
     p->mask_vertices = o.mask_vertices;
     p->mask_flatten = o.mask_flatten;
+    p->laboratory = o.laboratory;
+    p->schedule = (fw_schedule_options){
+        .wafers = o.wafers, .operators = o.operators, .day = o.day, .planned = o.planning_times};
     p->force = o.force != 0;
     p->path = o.path != 0;
     p->at_equilibrium = o.at && strcmp(o.at, "equilibrium") == 0;

@@ -82,7 +82,8 @@ fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *
                               .flow_sha256 = pf->flow_sha256,
                               .mask_sha256 = pf->mask_sha256,
                               .program_version = FW_VERSION,
-                              .rejected = plan->verdict.decision == FW_REJECT};
+                              .rejected = plan->verdict.decision == FW_REJECT,
+                              .schedule = pf->schedule};
 }
 
 /* one flow: its recipe; several: a document that holds them all */

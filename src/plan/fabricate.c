@@ -20,7 +20,7 @@ static fw_status notes_of(fw_plan *plan, const fw_plan_flow *pf, fw_mask_options
 }
 
 /* a flow whose mask cannot be made says no, first of all its reasons */
-static fw_status not_manufacturable(fw_plan *plan, fw_flow *flow, const char *why) {
+fw_status fw_plan_flow_refused(fw_plan *plan, fw_flow *flow, const char *why) {
     const char **reason = fw_arena_alloc(plan->arena, (size_t)flow->nreason + 1, sizeof *reason);
     FW_NEED(reason);
     reason[0] = why;
@@ -87,7 +87,7 @@ static fw_status edges_of(fw_plan *plan, const fw_flow *flow, const fw_mask_edge
 static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     if (!plan->layout) { /* dimensions that do not fit: no flow can make it */
         pf->mask_error = "the device cannot be drawn with these dimensions; see the diagnostics";
-        return not_manufacturable(plan, pf->flow, pf->mask_error);
+        return fw_plan_flow_refused(plan, pf->flow, pf->mask_error);
     }
     if (!plan->layout->drawn) {
         pf->mask_error = plan->layout->why_not ? plan->layout->why_not : "the device has no shapes";
@@ -118,7 +118,7 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     pf->mask = status == FW_OK || (mask && mask->whole && plan->options.force) ? mask : NULL;
     if (status == FW_OK) return FW_OK;
     pf->mask_error = "the mask breaks a design rule or cannot be biased; see the diagnostics";
-    return not_manufacturable(plan, pf->flow, pf->mask_error);
+    return fw_plan_flow_refused(plan, pf->flow, pf->mask_error);
 }
 
 fw_status fw_plan_compute_flows(fw_plan *plan) {
@@ -159,5 +159,6 @@ fw_status fw_plan_fabricate(fw_plan *plan) {
         FW_NEED(pf->mask_sha256 = fw_arena_strdup(plan->arena, hash));
         if (plan->options.dies == 0) FW_TRY(fw_plan_coupons(plan, pf)); /* one test die will do */
     }
-    return fw_plan_wafers(plan);
+    FW_TRY(fw_plan_wafers(plan));
+    return fw_plan_schedules(plan);
 }

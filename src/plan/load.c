@@ -31,7 +31,7 @@ void fw_plan_free(fw_plan *plan) {
     fw_arena_free(plan->arena);
 }
 
-static fw_status remember_input(fw_plan *plan, const char *name, const char *data, size_t n) {
+fw_status fw_plan_remember(fw_plan *plan, const char *name, const char *data, size_t n) {
     if (plan->ninput == (int)(sizeof plan->input / sizeof plan->input[0])) return FW_OK;
     char hash[65];
     fw_sha256(data, n, hash);
@@ -55,7 +55,7 @@ static fw_status read_data(fw_plan *plan, const char *name, fw_place asked, char
         return FW_INPUT;
     }
     FW_TRY(fw_input_read(plan->arena, path, MOST_BYTES, &plan->diags, data, n));
-    return remember_input(plan, name, *data, *n);
+    return fw_plan_remember(plan, name, *data, *n);
 }
 
 fw_status fw_plan_need_material(fw_plan *plan) {
@@ -201,6 +201,7 @@ static fw_status load_flow(fw_plan *plan, fw_plan_flow *pf) {
     pf->flow_sha256 = plan->input[plan->ninput - 1].sha256;
     FW_TRY(fw_flow_read(plan->arena, plan->base_file, plan->base_xml, plan->base_length, name, xml,
                         n, &plan->diags, &pf->flow));
+    FW_TRY(fw_plan_lab(plan, pf->flow));
     name = fw_arena_printf(plan->arena, "masks/%s.xml", pf->use->ref);
     FW_NEED(name);
     FW_TRY(read_data(plan, name, pf->use->place, &xml, &n));
@@ -319,7 +320,7 @@ fw_status fw_plan_load_memory(fw_plan *plan, const char *file, const char *xml, 
     plan->source = xml;
     plan->source_length = n;
     const char *base = strrchr(file, '/');
-    FW_TRY(remember_input(plan, base ? base + 1 : file, xml, n));
+    FW_TRY(fw_plan_remember(plan, base ? base + 1 : file, xml, n));
     const fw_device *device = NULL;
     fw_status read = fw_device_read(plan->arena, file, xml, n, plan->options.set,
                                     plan->options.nset, &plan->diags, &device);
@@ -335,5 +336,6 @@ fw_status fw_plan_load_memory(fw_plan *plan, const char *file, const char *xml, 
     if (read != FW_OK) return read; /* a device with mistakes is for nobody else */
     FW_TRY(references);
     plan->device = device;
-    return load_flows(plan);
+    FW_TRY(load_flows(plan));
+    return fw_plan_lab_used(plan);
 }

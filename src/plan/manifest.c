@@ -29,14 +29,18 @@ static json_t *option_list(const fw_plan *plan) {
             set, json_pack("{s:s, s:s}", "path", o->set[i].path, "value", o->set[i].value));
     const fw_effect_choice *e = &o->verdict.motion.effects;
     double tolerance_nm = o->mask_tolerance_m > 0 ? o->mask_tolerance_m * 1e9 : 5.0;
+    const fw_schedule_options *c = &o->schedule;
+    json_t *schedule = json_pack("{s:i, s:i, s:s, s:s?}", "wafers", c->wafers ? c->wafers : 1,
+                                 "operators", c->operators ? c->operators : 1, "day",
+                                 c->day ? c->day : "08:00-18:00", "planning_times", c->planned);
     return json_pack(
-        "{s:f, s:s?, s:i, s:f, s:s, s:s, s:s?, s:b, s:s?, s:s?, s:s?, s:o}", "mask_tolerance_nm",
-        tolerance_nm, "mask_formats", o->mask_formats, "mask_vertices",
+        "{s:f, s:s?, s:i, s:f, s:s, s:s, s:s?, s:b, s:s?, s:s?, s:s?, s:o, s:o}",
+        "mask_tolerance_nm", tolerance_nm, "mask_formats", o->mask_formats, "mask_vertices",
         o->mask_vertices ? o->mask_vertices : 4094, "accuracy", o->verdict.motion.accuracy,
         "effects", e->mode == FW_EFFECTS_LIST && e->list ? e->list : effects[e->mode],
         "hinge_model", fw_hinge_model_text(e->hinge), "flow", o->flow, "force", (int)o->force,
         "method", o->verdict.motion.method, "integrator", o->verdict.motion.integrator, "stabilise",
-        o->verdict.motion.stabilise, "set", set);
+        o->verdict.motion.stabilise, "set", set, "schedule", schedule);
 }
 
 /* hash of every input and output, the options, the version; no clock, no machine */

@@ -12,6 +12,7 @@
 #include "report/assembly.h"
 #include "report/terminal.h"
 #include "report/workspace.h"
+#include "schedule/schedule.h"
 
 typedef struct fw_plan_options {
     const char *data_directory; /* packs and layer tables; NULL: installed, else source tree */
@@ -30,7 +31,9 @@ typedef struct fw_plan_options {
     bool path;           /* statics: follow the load path */
     /* for assemble: "AB.phi,BC.phi", "10 rad/s,0 rad/s", "0 rad/s^2,..."; NULL: chosen, 0, 0 */
     const char *independent, *rates, *accelerations;
-    size_t memory_cap; /* 0: 512 MiB */
+    const char *laboratory;       /* files of laboratory packs, commas between; NULL: none */
+    fw_schedule_options schedule; /* wafers, operators, working day */
+    size_t memory_cap;            /* 0: 512 MiB */
 } fw_plan_options;
 fw_plan_options fw_plan_options_default(void);
 
@@ -51,6 +54,7 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     const fw_wafer *wafer; /* NULL: none asked for, or no mask */
     fw_text wafer_gds;     /* composed once, as above */
     const char *wafer_sha256;
+    const fw_schedule *schedule; /* after fw_plan_fabricate; NULL: none was made */
 } fw_plan_flow;
 
 typedef struct fw_input_file { /* for the manifest */
@@ -77,6 +81,8 @@ typedef struct fw_plan {
                         */
     fw_input_file input[16];
     int ninput;
+    struct fw_plan_lab *lab; /* (nlab) laboratory packs as read */
+    int nlab;
     const char *base_file, *base_xml;
     size_t base_length;
     struct fw_plan **step; /* (nstep) plans of the steps of a wafer's sweeps; NULL: not planned */

@@ -6,6 +6,14 @@
 #include "plan/plan.h"
 
 const char *fw_plan_material_names(fw_plan *plan);
+/* an input file, for the manifest */
+fw_status fw_plan_remember(fw_plan *plan, const char *name, const char *data, size_t n);
+/* the laboratory packs of the options, into one flow */
+fw_status fw_plan_lab(fw_plan *plan, fw_flow *flow);
+/* a sentence for every value that they replace */
+fw_status fw_plan_lab_assumptions(fw_plan *plan);
+/* after all flows were read: warns of packs that no flow of the device took */
+fw_status fw_plan_lab_used(fw_plan *plan);
 /* FW_INPUT when the device names no material: what is judged or made needs one, a motion does not
  */
 fw_status fw_plan_need_material(fw_plan *plan);
@@ -31,6 +39,10 @@ fw_status fw_plan_compute_flows(fw_plan *plan);
 fw_status fw_plan_wafers(fw_plan *plan);
 /* plan->dies, from what <wafer> asks for */
 fw_status fw_plan_count_dies(fw_plan *plan);
+/* who does what when, of every flow that will be written */
+fw_status fw_plan_schedules(fw_plan *plan);
+/* the flow cannot make it: `why` becomes the first of its reasons */
+fw_status fw_plan_flow_refused(fw_plan *plan, fw_flow *flow, const char *why);
 /* once per plan, after judging */
 fw_status fw_plan_assumptions(fw_plan *plan);
 fw_status fw_plan_manifest(const fw_plan *plan, const fw_output_file *file, size_t count,

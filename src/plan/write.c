@@ -146,13 +146,18 @@ static fw_status write_recipe(writer *w, const fw_plan_flow *pf) {
     static const struct {
         const char *ending;
         fw_status (*write)(const fw_flow *flow, const fw_recipe_header *header, fw_text *out);
-    } format[] = {{".html", fw_recipe_write_html},
-                  {".csv", fw_recipe_write_csv},
-                  {".ics", fw_recipe_write_ics},
-                  {".json", fw_recipe_write_json}};
+        bool of_schedule;
+    } format[] = {{".html", fw_recipe_write_html, false},
+                  {".csv", fw_recipe_write_csv, false},
+                  {".ics", fw_recipe_write_ics, false},
+                  {".json", fw_recipe_write_json, false},
+                  {".schedule.json", fw_recipe_write_schedule_json, true},
+                  {".schedule.csv", fw_recipe_write_schedule_csv, true},
+                  {".schedule.svg", fw_recipe_write_schedule_svg, true}};
     fw_recipe_header header = fw_plan_recipe_header(w->plan, pf);
     for (size_t i = 0; i < sizeof format / sizeof format[0]; i++) {
         fw_text text = fw_text_new(w->scratch);
+        if (format[i].of_schedule && !header.schedule) continue;
         FW_TRY(format[i].write(pf->flow, &header, &text));
         FW_TRY(put(w, "recipes/", pf->use->ref, format[i].ending, &text));
     }

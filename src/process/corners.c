@@ -39,6 +39,9 @@ static void read_corner(fw_pack *pack, const fw_element *e) {
                      .q = quantity(pack, e, "q", of),
                      .assumed = quantity(pack, e, "assumed", of),
                      .place = e->place};
+    const fw_quantity *layer = f->thickness;
+    if (of == FW_CORNER_THICKNESS && layer && c->q != layer && !layer->unknown)
+        c->aim_m = layer->value;
     if ((of == FW_CORNER_YOUNGS) == (fw_pack_get(e, "q") != NULL))
         fw_diag_error(pack->diags, 260, e->place,
                       of == FW_CORNER_YOUNGS
@@ -116,7 +119,8 @@ static bool fill(const fw_fixed_point *p, const fw_corner *c, const fw_variant *
         if (!anisotropy(p, c, in)) return false;
         break;
     case FW_CORNER_THICKNESS:
-        scale_range(in, v->thickness_m / q->value); /* the device may ask for another one */
+        /* the device may ask for another one; what is measured may lie beside what was aimed at */
+        scale_range(in, v->thickness_m / (c->aim_m > 0.0 ? c->aim_m : q->value));
         in->thickness = 1.0 / v->thickness_m;
         in->drawn = v->thickness_m;
         break;

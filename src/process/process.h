@@ -146,8 +146,13 @@ typedef struct fw_corner { /* <corner of q assumed>: an input of what stands in 
     const char *name;           /* "printed edge" */
     const fw_quantity *q;       /* its range; NULL: the material's own (youngs) */
     const fw_quantity *assumed; /* range taken where q is unknown; may be NULL */
+    double aim_m; /* of a thickness: what the flow aims at, which its range is about; 0: q itself */
     fw_place place;
 } fw_corner;
+
+typedef struct fw_override {            /* a value of the laboratory in the place of the pack's */
+    const char *id, *was, *is, *source; /* "0.97 +- 0.02 (assumed)" */
+} fw_override;
 
 typedef struct fw_flow {
     const char *id, *version, *title, *file, *sha256;
@@ -175,6 +180,8 @@ typedef struct fw_flow {
     int nprocess_material, nopen_point, ncorner;
     int count[FW_ASSUMED + 1]; /* quantities that the steps use, by status */
     int unknown;               /* ... and that are unknown */
+    fw_override *override;     /* (noverride) */
+    int noverride;
     fw_place place;
 } fw_flow;
 

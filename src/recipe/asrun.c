@@ -75,7 +75,7 @@ static const fw_step *step_of(const reader *r, const char *id) {
     return NULL;
 }
 
-static fw_status read_measure(const reader *r, fw_run_entry *e, const char *name,
+static fw_status read_measure(const reader *r, fw_asrun_entry *e, const char *name,
                               const char *value) {
     enum { MOST_NAMES = 40 };
     const char *known[MOST_NAMES] = {"start", "end", "by", "second", "tool", "bath", "note"};
@@ -101,7 +101,8 @@ static fw_status read_measure(const reader *r, fw_run_entry *e, const char *name
     return FW_OK;
 }
 
-static fw_status read_word(const reader *r, fw_run_entry *e, const char *name, const char *value) {
+static fw_status read_word(const reader *r, fw_asrun_entry *e, const char *name,
+                           const char *value) {
     const struct {
         const char *name;
         const char **text;
@@ -126,7 +127,7 @@ static fw_status read_word(const reader *r, fw_run_entry *e, const char *name, c
 }
 
 /* what no entry may lack */
-static fw_status check_entry(const reader *r, const fw_run_entry *e) {
+static fw_status check_entry(const reader *r, const fw_asrun_entry *e) {
     const char *lacks = !e->start ? "start" : !e->end ? "end" : !e->by ? "by" : NULL;
     if (lacks)
         return fw_diag_error(r->diags, 282, r->place, "the entry of step %s lacks %s=", e->step->id,
@@ -143,10 +144,10 @@ static fw_status check_entry(const reader *r, const fw_run_entry *e) {
 
 /* cuts a copy of the words at `separator`; the first is the step, the others are name=value */
 static fw_status read_entry(const reader *r, const char *words, size_t n, char separator,
-                            fw_run_entry *e) {
+                            fw_asrun_entry *e) {
     char *copy = fw_arena_strndup(r->arena, words, n);
     FW_NEED(copy);
-    *e = (fw_run_entry){.start_s = (double)NAN, .end_s = (double)NAN, .line = r->place.line};
+    *e = (fw_asrun_entry){.start_s = (double)NAN, .end_s = (double)NAN, .line = r->place.line};
     size_t most = 1;
     for (const char *s = copy; *s; s++)
         most += *s == separator;
@@ -210,7 +211,7 @@ static const char *value_of(fw_arena *arena, const char *line, size_t n, const c
 }
 
 static fw_status read_first(const reader *r, const char *plan, const char *line, size_t n,
-                            fw_run *run) {
+                            fw_asrun *run) {
     size_t words;
     if (n < sizeof first_words || strncmp(line, first_words, sizeof first_words - 1) != 0)
         return damaged(r, "it does not begin with 'flexwright as-run 1'");
@@ -230,14 +231,15 @@ static fw_status read_first(const reader *r, const char *plan, const char *line,
     return FW_OK;
 }
 
-fw_status fw_run_read(fw_arena *arena, const fw_flow *flow, const char *plan_sha256,
-                      const char *file, const char *text, size_t n, fw_diags *diags, fw_run *run) {
+fw_status fw_asrun_read(fw_arena *arena, const fw_flow *flow, const char *plan_sha256,
+                        const char *file, const char *text, size_t n, fw_diags *diags,
+                        fw_asrun *run) {
     reader r = {arena, flow, diags, {file, 1, 1}};
     size_t lines = 1;
-    *run = (fw_run){0};
+    *run = (fw_asrun){0};
     for (size_t i = 0; i < n; i++)
         lines += text[i] == '\n';
-    FW_NEED(run->entry = fw_arena_array(arena, fw_run_entry, lines));
+    FW_NEED(run->entry = fw_arena_array(arena, fw_asrun_entry, lines));
     if (n == 0 || text[n - 1] != '\n') return damaged(&r, "its last line is not complete");
     if (memchr(text, '\0', n)) return damaged(&r, "it holds a NUL byte");
     for (const char *line = text; line < text + n; r.place.line++) {
@@ -259,8 +261,8 @@ static bool writable(const char *s) {
     return true;
 }
 
-fw_status fw_run_begin(fw_arena *arena, const fw_flow *flow, const char *plan_sha256,
-                       const char *lot, const char **line) {
+fw_status fw_asrun_begin(fw_arena *arena, const fw_flow *flow, const char *plan_sha256,
+                         const char *lot, const char **line) {
     char chain[65];
     const char *words = fw_arena_printf(arena, "%s\tflow=%s\tplan=%s%s%s", first_words, flow->id,
                                         plan_sha256, lot ? "\tlot=" : "", lot ? lot : "");
@@ -271,9 +273,9 @@ fw_status fw_run_begin(fw_arena *arena, const fw_flow *flow, const char *plan_sh
 }
 
 /* what is odd, and may still be true */
-static void ask(const reader *r, const fw_run *run, const fw_run_entry *e) {
+static void ask(const reader *r, const fw_asrun *run, const fw_asrun_entry *e) {
     int index = (int)(e->step - r->flow->step);
-    const fw_run_entry *last = run->nentry > 0 ? &run->entry[run->nentry - 1] : NULL;
+    const fw_asrun_entry *last = run->nentry > 0 ? &run->entry[run->nentry - 1] : NULL;
     bool before = index == 0;
     for (int i = 0; i < run->nentry && !before; i++)
         before = run->entry[i].step == e->step - 1;
@@ -290,10 +292,10 @@ static void ask(const reader *r, const fw_run *run, const fw_run_entry *e) {
                         e->step->naccept, e->step->id);
 }
 
-fw_status fw_run_add(fw_arena *arena, const fw_flow *flow, const fw_run *run, const char *words,
-                     fw_diags *diags, const char **line) {
+fw_status fw_asrun_add(fw_arena *arena, const fw_flow *flow, const fw_asrun *run, const char *words,
+                       fw_diags *diags, const char **line) {
     reader r = {arena, flow, diags, {"entry", 1, 1}};
-    fw_run_entry e;
+    fw_asrun_entry e;
     char chain[65];
     size_t n = strlen(words);
     if (n > LONGEST_WORDS || !writable(words))

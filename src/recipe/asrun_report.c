@@ -7,8 +7,8 @@
 #include <string.h>
 
 /* the last entry of a step counts; NULL: none */
-static const fw_run_entry *last_of(const fw_run *run, const fw_step *step, int *times) {
-    const fw_run_entry *found = NULL;
+static const fw_asrun_entry *last_of(const fw_asrun *run, const fw_step *step, int *times) {
+    const fw_asrun_entry *found = NULL;
     *times = 0;
     for (int i = 0; i < run->nentry; i++)
         if (run->entry[i].step == step) {
@@ -39,12 +39,12 @@ static bool accepted(const fw_accept *a, const fw_measured *m) {
 }
 
 /* waited from the end of the step that the lag names; NaN: that step is not in the log */
-static double waited(const fw_flow *flow, const fw_run *run, const fw_lag *lag,
-                     const fw_run_entry *e) {
+static double waited(const fw_flow *flow, const fw_asrun *run, const fw_lag *lag,
+                     const fw_asrun_entry *e) {
     for (int i = 0; i < flow->nstep; i++) {
         int times;
         if (strcmp(flow->step[i].id, lag->from) != 0) continue;
-        const fw_run_entry *from = last_of(run, &flow->step[i], &times);
+        const fw_asrun_entry *from = last_of(run, &flow->step[i], &times);
         return from ? e->start_s - from->end_s : (double)NAN;
     }
     return (double)NAN;
@@ -55,7 +55,7 @@ static bool wait_is_fine(const fw_lag *lag, double wait_s) {
 }
 
 /* what is out of its limits in one entry */
-static int deviations(const fw_flow *flow, const fw_run *run, const fw_run_entry *e) {
+static int deviations(const fw_flow *flow, const fw_asrun *run, const fw_asrun_entry *e) {
     double actual = e->end_s - e->start_s;
     const char *judged = in_time(&e->step->time, actual);
     int n = strcmp(judged, "short") == 0 || strcmp(judged, "long") == 0;
@@ -80,7 +80,8 @@ static void put_cell(fw_text *out, double seconds, int width) {
     fw_text_printf(out, "%*s", width, cell.data);
 }
 
-static void details(const fw_flow *flow, const fw_run *run, const fw_run_entry *e, fw_text *out) {
+static void details(const fw_flow *flow, const fw_asrun *run, const fw_asrun_entry *e,
+                    fw_text *out) {
     for (int i = 0; i < e->nmeasured; i++) {
         const fw_measured *m = &e->measured[i];
         const fw_accept *a = accept_of(e->step, m->measure);
@@ -117,11 +118,11 @@ typedef struct total {
     double planned_s, actual_s;
 } total;
 
-static total sum_up(const fw_flow *flow, const fw_run *run) {
+static total sum_up(const fw_flow *flow, const fw_asrun *run) {
     total t = {0};
     for (int i = 0; i < flow->nstep; i++) {
         int times;
-        const fw_run_entry *e = last_of(run, &flow->step[i], &times);
+        const fw_asrun_entry *e = last_of(run, &flow->step[i], &times);
         if (!e) continue;
         t.logged++;
         t.repeated += times - 1;
@@ -132,7 +133,7 @@ static total sum_up(const fw_flow *flow, const fw_run *run) {
     return t;
 }
 
-fw_status fw_run_write_text(const fw_flow *flow, const fw_run *run, fw_text *out) {
+fw_status fw_asrun_write_text(const fw_flow *flow, const fw_asrun *run, fw_text *out) {
     fw_text_printf(out, "as run: flow %s%s%s, plan %.12s\n\n", flow->id, run->lot ? ", lot " : "",
                    run->lot ? run->lot : "", run->plan);
     fw_text_printf(out, "%-5s %14s %14s %14s %14s  %-9s %s\n", "step", "planned", "first look",
@@ -140,7 +141,7 @@ fw_status fw_run_write_text(const fw_flow *flow, const fw_run *run, fw_text *out
     for (int i = 0; i < flow->nstep; i++) {
         const fw_step *s = &flow->step[i];
         int times;
-        const fw_run_entry *e = last_of(run, s, &times);
+        const fw_asrun_entry *e = last_of(run, s, &times);
         const double cell[] = {
             s->time.computable ? s->time.nominal_s : (double)NAN,
             s->time.computable ? s->time.first_look_s : (double)NAN,
@@ -180,7 +181,7 @@ static void put_text(fw_text *out, const char *name, const char *value) {
     fw_put_json(out, value);
 }
 
-static void entry_json(const fw_flow *flow, const fw_run *run, const fw_run_entry *e,
+static void entry_json(const fw_flow *flow, const fw_asrun *run, const fw_asrun_entry *e,
                        fw_text *out) {
     put_text(out, "start", e->start);
     put_text(out, "end", e->end);
@@ -221,7 +222,7 @@ static void entry_json(const fw_flow *flow, const fw_run *run, const fw_run_entr
     fw_text_add(out, "]");
 }
 
-fw_status fw_run_write_json(const fw_flow *flow, const fw_run *run, fw_text *out) {
+fw_status fw_asrun_write_json(const fw_flow *flow, const fw_asrun *run, fw_text *out) {
     fw_text_add(out, "{\"schema\":\"flexwright.as-run/1\"");
     put_text(out, "flow", flow->id);
     put_text(out, "lot", run->lot);
@@ -232,7 +233,7 @@ fw_status fw_run_write_json(const fw_flow *flow, const fw_run *run, fw_text *out
         const fw_step *s = &flow->step[i];
         const fw_time *p = &s->time;
         int times;
-        const fw_run_entry *e = last_of(run, s, &times);
+        const fw_asrun_entry *e = last_of(run, s, &times);
         fw_text_add(out, i ? ",\n{\"id\":" : "\n{\"id\":");
         fw_put_json(out, s->id);
         put_number(out, "planned_s", p->computable ? p->nominal_s : (double)NAN);

@@ -4,7 +4,7 @@
 
 /* RFC 4180: quoted where needed; what a spreadsheet would take for a formula gets a quote in front
  */
-static void field(fw_text *out, const char *text) {
+void fw_put_csv(fw_text *out, const char *text) {
     bool formula = text[0] && strchr("=+-@\t", text[0]) != NULL;
     if (!formula && !strpbrk(text, ",\"\r\n")) {
         fw_text_add(out, text);
@@ -17,11 +17,11 @@ static void field(fw_text *out, const char *text) {
 }
 
 static void head(fw_text *out, const fw_step *s, const char *name) {
-    field(out, s->id);
+    fw_put_csv(out, s->id);
     fw_text_add(out, ",");
-    field(out, s->title);
+    fw_put_csv(out, s->title);
     fw_text_add(out, ",");
-    field(out, name);
+    fw_put_csv(out, name);
     fw_text_add(out, ",");
 }
 
@@ -30,13 +30,13 @@ static void quantity_row(fw_text *out, const fw_step *s, const fw_row *row) {
     head(out, s, row->name);
     if (!q->unknown) fw_put_plain(out, fw_quantity_in_unit(q));
     fw_text_add(out, ",");
-    field(out, q->unit);
+    fw_put_csv(out, q->unit);
     fw_text_add(out, ",");
     if (!q->unknown) fw_put_uncertainty(out, fw_row_uncertainty(q));
     fw_text_add(out, ",");
-    field(out, q->unknown ? "unknown" : fw_value_status_text(q->status));
+    fw_put_csv(out, q->unknown ? "unknown" : fw_value_status_text(q->status));
     fw_text_add(out, ",");
-    field(out, q->unknown && q->note ? q->note : q->source ? q->source : "");
+    fw_put_csv(out, q->unknown && q->note ? q->note : q->source ? q->source : "");
     fw_text_add(out, "\n");
 }
 
@@ -56,7 +56,7 @@ static fw_status time_rows(fw_text *out, const fw_step *s) {
         FW_NEED(text);
         head(out, s, "time, nominal");
         fw_text_add(out, ",s,,NOT COMPUTABLE,");
-        field(out, text);
+        fw_put_csv(out, text);
         fw_text_add(out, "\n");
         return FW_OK;
     }

@@ -209,7 +209,9 @@ fw_status fw_recipe_write_html(const fw_flow *flow, const fw_recipe_header *head
                     "fabricate.</div>\n");
     front(flow, header, out);
     judgement(flow, out);
+    fw_html_overrides(flow, out);
     summary(flow, out);
+    fw_html_schedule(header, out);
     fw_text_add(out, "<h3>Step by step</h3>\n");
     for (int i = 0; i < flow->nstep; i++)
         fw_html_step(flow, i, out);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 static const char stamp[] = "20250101T000000Z";
+static const long midnight = 20094L * 86400L; /* 2025-01-06, a Monday */
 
 /* CRLF, and a break with one space before the 75th byte; never inside a UTF-8 character */
 static void line(fw_text *out, const char *text) {
@@ -85,15 +86,36 @@ static fw_status description(fw_text *out, const fw_step *s) {
     return property(out, "DESCRIPTION", text.data, true);
 }
 
+typedef struct load { /* which wafers, and who: where there are several */
+    const fw_run *run;
+    bool wafers, people;
+} load;
+
+/* ", wafers 1-6, operator 2" */
+static const char *of_load(fw_arena *arena, const load *l, bool event) {
+    fw_text text = fw_text_new(arena);
+    fw_text_add(&text, "");
+    if (l && l->wafers) {
+        fw_text_add(&text, l->run->count > 1 ? ", wafers " : ", wafer ");
+        fw_put_wafers(&text, l->run);
+    }
+    if (l && l->people && event) fw_text_printf(&text, ", operator %d", l->run->operator_ + 1);
+    return fw_text_end(&text) == FW_OK ? text.data : NULL;
+}
+
 static fw_status entry(fw_text *out, const fw_flow *flow, const fw_recipe_header *header,
-                       const fw_step *s, bool event, long start, long end) {
+                       const fw_step *s, const load *l, bool event, long start, long end) {
     fw_arena *arena = out->arena;
+    const char *which = of_load(arena, l, event);
+    const char *wafer = l && l->wafers ? fw_arena_printf(arena, "-%d", l->run->first + 1) : "";
+    FW_NEED(which ? wafer : NULL);
     const char *kind = event ? "VEVENT" : "VTODO";
-    const char *uid = fw_arena_printf(arena, "%s-%s-%.16s-%.16s@flexwright.invalid", s->id,
+    const char *uid = fw_arena_printf(arena, "%s%s-%s-%.16s-%.16s@flexwright.invalid", s->id, wafer,
                                       event ? "attended" : "step", flow->sha256,
                                       header->mask_sha256 ? header->mask_sha256 : "");
-    const char *summary = fw_arena_printf(arena, "%s%s %s%s", header->rejected ? "REJECTED: " : "",
-                                          s->id, s->title, event ? " (attended)" : "");
+    const char *summary =
+        fw_arena_printf(arena, "%s%s %s%s%s", header->rejected ? "REJECTED: " : "", s->id, s->title,
+                        which, event ? " (attended)" : "");
     FW_NEED(uid && summary);
     FW_TRY(property(out, "BEGIN", kind, false));
     FW_TRY(property(out, "UID", uid, false));
@@ -106,8 +128,38 @@ static fw_status entry(fw_text *out, const fw_flow *flow, const fw_recipe_header
     return property(out, "END", kind, false);
 }
 
+/* every load of the schedule, and somebody's time for it */
+static fw_status scheduled(fw_text *out, const fw_flow *flow, const fw_recipe_header *header) {
+    const fw_schedule *plan = header->schedule;
+    for (int i = 0; i < plan->nrun; i++) {
+        const fw_run *r = &plan->run[i];
+        const fw_step *s = &flow->step[r->task];
+        long start = midnight + lround(r->start_s), end = midnight + lround(ceil(r->end_s));
+        load l = {r, plan->shop->wafers > 1, plan->shop->operators > 1};
+        FW_TRY(entry(out, flow, header, s, &l, false, start, end));
+        if (r->operator_ < 0) continue;
+        end = start + lround(ceil(plan->shop->task[r->task].attended_s));
+        FW_TRY(entry(out, flow, header, s, &l, true, start, end));
+    }
+    return FW_OK;
+}
+
+/* one wafer, one step after the other */
+static fw_status in_a_row(fw_text *out, const fw_flow *flow, const fw_recipe_header *header) {
+    long at = midnight + 8L * 3600L;
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_step *s = &flow->step[i];
+        double run = s->time.computable ? fmin(s->time.nominal_s, 1e8) : 0.0;
+        long lasts = lround(ceil(run)), attended = lround(fmin(s->attended_s, 1e8));
+        long end = at + (lasts > attended ? lasts : attended);
+        FW_TRY(entry(out, flow, header, s, NULL, false, at, end));
+        if (attended > 0) FW_TRY(entry(out, flow, header, s, NULL, true, at, at + attended));
+        at = end;
+    }
+    return FW_OK;
+}
+
 fw_status fw_recipe_write_ics(const fw_flow *flow, const fw_recipe_header *header, fw_text *out) {
-    long at = 20094L * 86400L + 8L * 3600L; /* 2025-01-06, a Monday, 08:00 */
     const char *name = fw_arena_printf(out->arena, "%s%s: %s", header->rejected ? "REJECTED " : "",
                                        flow->title, header->device ? header->device : "");
     FW_NEED(name);
@@ -115,15 +167,8 @@ fw_status fw_recipe_write_ics(const fw_flow *flow, const fw_recipe_header *heade
     FW_TRY(property(out, "VERSION", "2.0", false));
     FW_TRY(property(out, "PRODID", "-//Flexwright//Run sheet//EN", false));
     FW_TRY(property(out, "X-WR-CALNAME", name, true));
-    for (int i = 0; i < flow->nstep; i++) {
-        const fw_step *s = &flow->step[i];
-        double run = s->time.computable ? fmin(s->time.nominal_s, 1e8) : 0.0;
-        long lasts = lround(ceil(run)), attended = lround(fmin(s->attended_s, 1e8));
-        long end = at + (lasts > attended ? lasts : attended);
-        FW_TRY(entry(out, flow, header, s, false, at, end));
-        if (attended > 0) FW_TRY(entry(out, flow, header, s, true, at, at + attended));
-        at = end;
-    }
+    bool planned = header->schedule && header->schedule->feasible;
+    FW_TRY(planned ? scheduled(out, flow, header) : in_a_row(out, flow, header));
     FW_TRY(property(out, "END", "VCALENDAR", false));
     return fw_text_end(out);
 }

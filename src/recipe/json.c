@@ -4,7 +4,7 @@
 
 void fw_put_json(fw_text *out, const char *text) {
     fw_text_add(out, "\"");
-    for (const char *c = text; *c; c++) {
+    for (const char *c = text ? text : ""; *c; c++) {
         unsigned char byte = (unsigned char)*c;
         if (byte == '"' || byte == '\\')
             fw_text_printf(out, "\\%c", *c);
@@ -122,6 +122,18 @@ fw_status fw_recipe_write_json(const fw_flow *flow, const fw_recipe_header *head
                    : flow->manufacturable > 0 ? "true"
                                               : "false");
     strings(out, "reasons", flow->reason, flow->nreason);
+    key(out, "overrides", false);
+    fw_text_add(out, "[");
+    for (int i = 0; i < flow->noverride; i++) {
+        const fw_override *o = &flow->override[i];
+        fw_text_add(out, i ? ",{" : "{");
+        named(out, "id", o->id, true);
+        named(out, "was", o->was, false);
+        named(out, "is", o->is, false);
+        named(out, "source", o->source, false);
+        fw_text_add(out, "}");
+    }
+    fw_text_add(out, "]");
     number(out, "bias_m", flow->bias_m, false);
     named(out, "bias_note", flow->bias_note, false);
     fw_recipe_edges_json(flow, out);

@@ -3,6 +3,7 @@
 #ifndef FW_RECIPE_WORDS_H
 #define FW_RECIPE_WORDS_H
 #include "recipe/recipe.h"
+#include "schedule/words.h"
 
 /* a row of a step: a setting, an input of the time law or a derived value */
 typedef struct fw_row {
@@ -23,14 +24,22 @@ void fw_put_uncertainty(fw_text *out, double value);
 void fw_put_value(fw_text *out, double value); /* up to 6 significant digits */
 /* unit for people: um as micrometre sign, Cel as degree sign; escaped for HTML */
 void fw_put_unit(fw_text *out, const char *unit);
-/* "45 s", "16 min 40 s", "1 h 30 min" */
-void fw_put_duration(fw_text *out, double seconds);
 const char *fw_missing_list(fw_arena *arena, const fw_time *time); /* NULL: no memory */
 
-/* a JSON string with its quotes */
-void fw_put_json(fw_text *out, const char *text);
 /* ,"edges":{...} of the recipe's JSON: bias, gaps and edges */
 void fw_recipe_edges_json(const fw_flow *flow, fw_text *out);
+void fw_put_json(fw_text *out, const char *text);    /* quoted and escaped; NULL is "" */
+void fw_put_csv(fw_text *out, const char *text);     /* quoted where needed */
+void fw_put_moment(fw_text *out, double seconds);    /* "day 2, 13:05" */
+void fw_put_wafers(fw_text *out, const fw_run *run); /* "3" or "1-6" */
+/* sentences about a schedule: how long, how good, what is not known; escaped for XML and HTML */
+void fw_put_schedule_summary(fw_text *out, const fw_schedule *s);
+/* "safe stopping points" of the flow, with the longest pause at each; escaped */
+void fw_put_stops(fw_text *out, const fw_schedule *s);
+/* the table of values that a laboratory replaced; nothing without */
+void fw_html_overrides(const fw_flow *flow, fw_text *out);
+/* the section about it in the run sheet; nothing without a schedule */
+void fw_html_schedule(const fw_recipe_header *header, fw_text *out);
 
 /* one step of the run sheet */
 void fw_html_step(const fw_flow *flow, int index, fw_text *out);

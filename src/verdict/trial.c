@@ -128,7 +128,6 @@ static fw_verdict_options quiet(const fw_verdict_options *options) {
     fw_verdict_options o = *options;
     o.with_advice = false;
     if (o.corners == FW_CORNERS_AUTO) o.corners = FW_CORNERS_FIRST;
-    o.motion.samples = 65; /* stability is looked at between them */
     return o;
 }
 

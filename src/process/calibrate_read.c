@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of measurements: CSV as RFC 4180, without line breaks inside fields. */
+#include "process/calibrate.h"
+#include <math.h>
+#include <string.h>
+
+enum { COUPON, FEATURE, DRAWN, MEASURED, U, UNIT, AT, U_AT, AT_UNIT, COLUMNS, MOST_ROWS = 5000 };
+static const char *const column[COLUMNS] = {"coupon", "feature", "drawn_um", "measured", "u",
+                                            "unit",   "at",      "u_at",     "at_unit"};
+
+typedef struct table {
+    fw_arena *arena;
+    fw_diags *diags;
+    fw_place place;     /* of the line */
+    int where[COLUMNS]; /* column of the file, -1: not there */
+} table;
+
+/* the next field of a line, unquoted, without blanks around; *at moves behind its comma */
+static const char *field(table *t, const char **at, bool *more) {
+    const char *c = *at;
+    fw_text out = fw_text_new(t->arena);
+    fw_text_add(&out, "");
+    while (*c == ' ' || *c == '\t')
+        c++;
+    if (*c == '"') {
+        for (c++; *c && !(*c == '"' && c[1] != '"'); c++) {
+            fw_text_bytes(&out, c, 1);
+            c += *c == '"';
+        }
+        c += *c == '"';
+        c += strcspn(c, ",");
+    } else {
+        size_t n = strcspn(c, ","), kept = n;
+        while (kept > 0 && (c[kept - 1] == ' ' || c[kept - 1] == '\t'))
+            kept--;
+        fw_text_bytes(&out, c, kept);
+        c += n;
+    }
+    *more = *c == ',';
+    *at = c + (*c == ',');
+    return fw_text_end(&out) == FW_OK ? out.data : NULL;
+}
+
+enum { MOST_FIELDS = 32 };
+static fw_status fields(table *t, const char *line, const char *list[MOST_FIELDS], int *n) {
+    bool more = true;
+    for (*n = 0; more && *n < MOST_FIELDS; ++*n)
+        FW_NEED(list[*n] = field(t, &line, &more));
+    return FW_OK;
+}
+
+static fw_status header(table *t, const char *line) {
+    const char *name[MOST_FIELDS];
+    int n;
+    FW_TRY(fields(t, line, name, &n));
+    for (int k = 0; k < COLUMNS; k++)
+        t->where[k] = -1;
+    fw_status status = FW_OK;
+    for (int i = 0; i < n; i++) {
+        int k = 0;
+        while (k < COLUMNS && strcmp(column[k], name[i]) != 0)
+            k++;
+        if (k < COLUMNS)
+            t->where[k] = i;
+        else
+            status = fw_diag_error(t->diags, 211, t->place,
+                                   "unknown column '%s'; the header is coupon,feature,drawn_um,"
+                                   "measured,u,unit,at,u_at,at_unit",
+                                   name[i]);
+    }
+    for (int k = 0; k <= UNIT; k++)
+        if (t->where[k] < 0 && k != FEATURE && k != DRAWN)
+            status = fw_diag_error(t->diags, 211, t->place, "the header lacks the column '%s'",
+                                   column[k]);
+    return status;
+}
+
+/* false: there is something that is no number */
+static bool number(table *t, const char *text, int k, double *value) {
+    *value = (double)NAN;
+    if (!*text || fw_number_parse(text, strlen(text), value)) return true;
+    fw_diag_error(t->diags, 211, t->place, "%s='%s' is not a number", column[k], text);
+    return false;
+}
+
+/* value and standard uncertainty with a unit, to SI; false: said what is wrong */
+static bool amount(table *t, const char *const *cell, int value_at, double *value, double *u,
+                   fw_dimension *dimension) {
+    fw_unit unit;
+    const char *of = cell[value_at + 2];
+    if (!number(t, cell[value_at], value_at, value) ||
+        !number(t, cell[value_at + 1], value_at + 1, u))
+        return false;
+    if (isnan(*value) && isnan(*u) && !*of) return true;
+    if (isnan(*value) || !fw_unit_parse(of, strlen(of), &unit, NULL, NULL)) {
+        fw_diag_error(t->diags, 211, t->place,
+                      "%s='%s' with %s='%s': a number and its unit are needed", column[value_at],
+                      cell[value_at], column[value_at + 2], of);
+        return false;
+    }
+    if (isnan(*u)) *u = value_at == AT ? 0.0 : -1.0;
+    if (value_at == MEASURED ? !(*u > 0.0) : !(*u >= 0.0)) {
+        fw_diag_error(t->diags, 211, t->place, "%s: a standard uncertainty %s is needed",
+                      column[value_at + 1], value_at == MEASURED ? "above 0" : "of 0 or more");
+        return false;
+    }
+    *value = fw_unit_to_si(&unit, *value);
+    unit.offset = 0.0;
+    *u = fw_unit_to_si(&unit, *u);
+    *dimension = unit.dimension;
+    return true;
+}
+
+static fw_status one_row(table *t, const char *line, fw_measurement *r, bool *good) {
+    const char *name[MOST_FIELDS], *cell[COLUMNS];
+    int n;
+    FW_TRY(fields(t, line, name, &n));
+    for (int k = 0; k < COLUMNS; k++)
+        cell[k] = t->where[k] >= 0 && t->where[k] < n ? name[t->where[k]] : "";
+    *r = (fw_measurement){.coupon = cell[COUPON], .feature = cell[FEATURE], .place = t->place};
+    /* a line of the ladder that is gone or stands was looked at, not measured */
+    bool seen = strcmp(cell[FEATURE], "gone") == 0 || strcmp(cell[FEATURE], "stands") == 0;
+    if (seen && !*cell[MEASURED])
+        *r = (fw_measurement){.coupon = cell[COUPON],
+                              .feature = cell[FEATURE],
+                              .place = t->place,
+                              .uncertainty = 1.0,
+                              .dimension = {.m = 1}};
+    *good = number(t, cell[DRAWN], DRAWN, &r->drawn_m);
+    r->drawn_m *= 1e-6;
+    if (!(seen && !*cell[MEASURED]))
+        *good = amount(t, cell, MEASURED, &r->value, &r->uncertainty, &r->dimension) && *good;
+    *good = amount(t, cell, AT, &r->at, &r->at_uncertainty, &r->at_dimension) && *good;
+    if (*good && !seen && isnan(r->value)) {
+        fw_diag_error(t->diags, 211, t->place, "a row needs measured, u and unit");
+        *good = false;
+    }
+    return FW_OK;
+}
+
+static bool blank(const char *line) {
+    return line[strspn(line, " \t,")] == '\0' || line[strspn(line, " \t")] == '#';
+}
+
+fw_status fw_measurements_read(fw_arena *arena, const char *file, const char *text, size_t n,
+                               fw_diags *diags, fw_measurement **row, int *nrow) {
+    table t = {.arena = arena, .diags = diags, .place = {.file = file}};
+    size_t before = diags->errors, lines = 1;
+    bool headed = false;
+    const char *end = text + n, *at = text;
+    *nrow = 0;
+    if (memchr(text, '\0', n))
+        return fw_diag_error(diags, 211, t.place, "a NUL byte: this is not a table of text");
+    if (n >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) at += 3; /* a spreadsheet's mark of UTF-8 */
+    for (const char *c = at; c < end; c++)
+        lines += *c == '\n';
+    if (lines > MOST_ROWS)
+        return fw_diag_error(diags, 211, t.place, "more than %d lines", MOST_ROWS);
+    FW_NEED(*row = fw_arena_array(arena, fw_measurement, lines));
+    while (at < end) {
+        const char *stop = memchr(at, '\n', (size_t)(end - at));
+        size_t length = (size_t)((stop ? stop : end) - at);
+        if (length > 0 && at[length - 1] == '\r') length--;
+        const char *line = fw_arena_strndup(arena, at, length);
+        FW_NEED(line);
+        t.place.line++;
+        t.place.column = 1;
+        at = stop ? stop + 1 : end;
+        if (blank(line)) continue;
+        if (!headed) {
+            FW_TRY(header(&t, line));
+            headed = true;
+            continue;
+        }
+        bool good;
+        FW_TRY(one_row(&t, line, &(*row)[*nrow], &good));
+        *nrow += good;
+    }
+    if (diags->failed) return FW_NOMEM;
+    return diags->errors > before ? FW_INPUT : FW_OK;
+}

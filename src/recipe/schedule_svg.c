@@ -1,0 +1,370 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The schedule as a picture: a panel per working day, in it a row for every machine in use, for
+   every operator and for every hold window. The night behind a day is a narrow strip of its panel,
+   so that no run is outside the picture. */
+#include "recipe/words.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { LABELS = 190, DAY = 900, NIGHT = 70, ROW = 20, LANE = 6, MOST_ROWS = 512 };
+static const int width_px = LABELS + DAY + NIGHT + 20;
+
+/* light enough for black lettering, different in lightness too */
+static const char *const colour[] = {"#7fb8e6", "#f2b04c", "#8fcf9b", "#e79bc0",
+                                     "#d9d35a", "#b9a3e3", "#f08a6c", "#6fd0cf",
+                                     "#c9b18a", "#a8c94f", "#9aa7b8", "#ffc7c7"};
+enum { COLOURS = sizeof colour / sizeof colour[0] };
+
+typedef enum row_kind { MACHINE, PERSON, HOLD } row_kind;
+
+typedef struct row {
+    row_kind kind;
+    int index;
+    double y, height;
+} row;
+
+typedef struct picture {
+    const fw_schedule *s;
+    fw_text *out;
+    double open_s, close_s, next_s; /* of the panel; the night lies between close and next */
+    row row[MOST_ROWS];
+    int nrow;
+    double y; /* where the next panel begins */
+} picture;
+
+static double px(const picture *p, double t) {
+    if (t <= p->open_s) return LABELS;
+    if (t <= p->close_s) return LABELS + DAY * (t - p->open_s) / (p->close_s - p->open_s);
+    if (t >= p->next_s || p->next_s <= p->close_s)
+        return LABELS + DAY + (p->next_s > p->close_s ? NIGHT : 0);
+    return LABELS + DAY + NIGHT * (t - p->close_s) / (p->next_s - p->close_s);
+}
+
+static bool meets(const picture *p, double start, double end) {
+    return start < p->next_s - 1e-6 && end > p->open_s + 1e-6;
+}
+
+static void at(fw_text *out, const char *name, double value) {
+    fw_text_printf(out, " %s=\"", name);
+    fw_text_fixed(out, value, 2);
+    fw_text_add(out, "\"");
+}
+
+static void rectangle(fw_text *out, double x, double y, double w, double h, const char *style) {
+    fw_text_add(out, "<rect");
+    at(out, "x", x);
+    at(out, "y", y);
+    at(out, "width", fmax(w, 0.6));
+    at(out, "height", h);
+    fw_text_printf(out, " %s", style);
+}
+
+static void label(fw_text *out, double x, double y, const char *style, const char *text) {
+    fw_text_add(out, "<text");
+    at(out, "x", x);
+    at(out, "y", y);
+    fw_text_printf(out, "%s%s>", *style ? " " : "", style);
+    fw_text_escaped(out, text);
+    fw_text_add(out, "</text>\n");
+}
+
+static void hover(fw_text *out, const fw_schedule *s, const fw_run *r) {
+    const fw_task *t = &s->shop->task[r->task];
+    fw_text_add(out, "><title>");
+    fw_text_escaped(out, t->id);
+    fw_text_add(out, " ");
+    fw_text_escaped(out, t->title);
+    fw_text_add(out, "; wafer ");
+    fw_put_wafers(out, r);
+    fw_text_add(out, "; ");
+    fw_put_moment(out, r->start_s);
+    fw_text_add(out, " to ");
+    fw_put_moment(out, r->end_s);
+    if (t->unknown) fw_text_add(out, "; time unknown");
+    fw_text_add(out, "</title></rect>\n");
+}
+
+/* one bar: a band of colour for every wafer of the load */
+static void bar(const picture *p, const fw_run *r, double start, double end, double y,
+                double height) {
+    const fw_task *t = &p->s->shop->task[r->task];
+    double x = px(p, start), w = px(p, end) - x, band = height / r->count;
+    for (int i = 0; i < r->count; i++) {
+        char fill[64];
+        snprintf(fill, sizeof fill, "fill=\"%s\"/>\n", colour[(r->first + i) % COLOURS]);
+        rectangle(p->out, x, y + band * i, w, band, fill);
+    }
+    rectangle(p->out, x, y, w, height,
+              t->unknown
+                  ? "fill=\"none\" stroke=\"#000\" stroke-width=\"1\" stroke-dasharray=\"3 2\" "
+                    "pointer-events=\"all\""
+                  : "fill=\"none\" stroke=\"#333\" stroke-width=\"0.5\" pointer-events=\"all\"");
+    hover(p->out, p->s, r);
+    if (height < 12.0 || w < 6.2 * (double)strlen(t->id) + 2.0) return;
+    label(p->out, x + w / 2.0, y + height / 2.0 + 3.5, "class=\"b\"", t->id);
+}
+
+static int lanes_of(const picture *p, const row *r) {
+    const fw_shop *shop = p->s->shop;
+    if (r->kind == HOLD) return shop->wafers;
+    return r->kind == MACHINE && shop->machine[r->index].places > 1 ? shop->wafers : 0;
+}
+
+/* when wafer w waited: from the end of one step to the start of the other */
+static void waited(const picture *p, const fw_hold *h, int w, double *from, double *to) {
+    for (int i = 0; i < p->s->nrun; i++) {
+        const fw_run *run = &p->s->run[i];
+        if (w < run->first || w >= run->first + run->count) continue;
+        if (run->task == h->from) *from = run->end_s;
+        if (run->task == h->to) *to = run->start_s;
+    }
+}
+
+/* a moment is in the panel too */
+static bool in_panel(const picture *p, double from, double to) {
+    return from < p->next_s - 1e-6 && to >= p->open_s - 1e-6;
+}
+
+/* is anything of the row in the panel? */
+static bool in_use(const picture *p, const row *r) {
+    const fw_shop *shop = p->s->shop;
+    if (r->kind == PERSON) return true;
+    for (int w = 0; r->kind == HOLD && w < shop->wafers; w++) {
+        double from = 0.0, to = 0.0;
+        waited(p, &shop->hold[r->index], w, &from, &to);
+        if (in_panel(p, from, to)) return true;
+    }
+    for (int i = 0; r->kind == MACHINE && i < p->s->nrun; i++) {
+        const fw_run *run = &p->s->run[i];
+        if (shop->task[run->task].machine == r->index && meets(p, run->start_s, run->end_s))
+            return true;
+    }
+    return false;
+}
+
+static void add_row(picture *p, row_kind kind, int index) {
+    row *r = &p->row[p->nrow];
+    *r = (row){.kind = kind, .index = index};
+    if (p->nrow == MOST_ROWS || !in_use(p, r)) return;
+    int lanes = lanes_of(p, r);
+    r->height = lanes * LANE + 4.0 > ROW ? lanes * LANE + 4.0 : ROW;
+    r->y = p->nrow ? p->row[p->nrow - 1].y + p->row[p->nrow - 1].height : p->y + 34.0;
+    if (p->nrow && p->row[p->nrow - 1].kind != kind) r->y += 5.0;
+    p->nrow++;
+}
+
+static void rows_of(picture *p) {
+    const fw_shop *shop = p->s->shop;
+    p->nrow = 0;
+    for (int i = 0; i < shop->nmachine; i++)
+        add_row(p, MACHINE, i);
+    for (int i = 0; i < shop->operators; i++)
+        add_row(p, PERSON, i);
+    for (int i = 0; i < shop->nhold; i++)
+        if (isfinite(shop->hold[i].max_s) && !shop->hold[i].implied) add_row(p, HOLD, i);
+}
+
+static void row_label(const picture *p, const row *r) {
+    const fw_shop *shop = p->s->shop;
+    fw_text text = fw_text_new(p->out->arena);
+    if (r->kind == MACHINE) {
+        const char *title = shop->machine[r->index].title;
+        size_t n = strcspn(title, ","); /* the whole of it is in the CSV */
+        fw_text_bytes(&text, title, n < 32 ? n : 32);
+    } else if (r->kind == PERSON)
+        fw_text_printf(&text, "operator %d", r->index + 1);
+    else {
+        const fw_hold *h = &shop->hold[r->index];
+        fw_text_printf(&text, "%s \xe2\x86\x92 %s within ", shop->task[h->from].id,
+                       shop->task[h->to].id);
+        fw_put_duration(&text, h->max_s);
+    }
+    if (fw_text_end(&text) != FW_OK) {
+        p->out->failed = 1;
+        return;
+    }
+    label(p->out, LABELS - 6, r->y + r->height / 2.0 + 3.5, "class=\"l\"", text.data);
+}
+
+/* what a wafer waited, in its colour, and what it might still have waited */
+static void windows(const picture *p, const row *r) {
+    const fw_shop *shop = p->s->shop;
+    const fw_hold *h = &shop->hold[r->index];
+    for (int w = 0; w < shop->wafers; w++) {
+        double from = 0.0, to = 0.0, y = r->y + 2.0 + LANE * w;
+        waited(p, h, w, &from, &to);
+        if (!in_panel(p, from, to)) continue;
+        double deadline = fmin(from + h->max_s, p->s->start_s + p->s->makespan_s);
+        char fill[80];
+        snprintf(fill, sizeof fill, "fill=\"%s\"/>\n", colour[w % COLOURS]);
+        if (deadline > to && in_panel(p, to, to)) {
+            rectangle(p->out, px(p, to), y + 1.0, px(p, deadline) - px(p, to), LANE - 3.0,
+                      "fill=\"none\" stroke=\"#999\" stroke-width=\"0.5\"/>\n");
+        }
+        if (meets(p, from, to) && to > from)
+            rectangle(p->out, px(p, from), y, px(p, to) - px(p, from), LANE - 1.0, fill);
+    }
+}
+
+static void draw_row(const picture *p, const row *r) {
+    row_label(p, r);
+    if (r->kind == HOLD) {
+        windows(p, r);
+        return;
+    }
+    for (int i = 0; i < p->s->nrun; i++) {
+        const fw_run *run = &p->s->run[i];
+        const fw_task *t = &p->s->shop->task[run->task];
+        double end = r->kind == PERSON ? run->start_s + t->attended_s : run->end_s;
+        bool here = r->kind == PERSON ? run->operator_ == r->index : t->machine == r->index;
+        if (!here || !meets(p, run->start_s, end)) continue;
+        if (lanes_of(p, r))
+            bar(p, run, run->start_s, end, r->y + 2.0 + LANE * run->first,
+                (double)LANE * run->count);
+        else
+            bar(p, run, run->start_s, end, r->y + 2.0, r->height - 4.0);
+    }
+}
+
+static void grid(const picture *p, double bottom, const char *title) {
+    fw_text *out = p->out;
+    double top = p->y + 30.0, hour = 3600.0 * ((p->close_s - p->open_s) > 16 * 3600.0 ? 2.0 : 1.0);
+    label(out, 10, p->y + 24.0, "class=\"d\"", title);
+    if (p->next_s > p->close_s) {
+        rectangle(out, LABELS + DAY, top, NIGHT, bottom - top, "fill=\"#e9ebef\"/>\n");
+        label(out, LABELS + DAY + NIGHT / 2.0, p->y + 24.0, "class=\"t\"", "night");
+    }
+    for (double t = ceil(p->open_s / hour) * hour; t <= p->close_s + 1e-6; t += hour) {
+        char text[16];
+        long minutes = lround(t / 60.0) % 1440;
+        snprintf(text, sizeof text, "%02ld:%02ld", minutes / 60, minutes % 60);
+        fw_text_add(out, "<path class=\"g\" d=\"M");
+        fw_text_fixed(out, px(p, t), 2);
+        fw_text_add(out, " ");
+        fw_text_fixed(out, top, 2);
+        fw_text_add(out, "V");
+        fw_text_fixed(out, bottom, 2);
+        fw_text_add(out, "\"/>\n");
+        label(out, px(p, t), p->y + 24.0, "class=\"t\"", text);
+    }
+    for (int i = 0; i < p->nrow; i++) {
+        const row *r = &p->row[i];
+        rectangle(out, LABELS, r->y, width_px - 20 - LABELS - (p->next_s > p->close_s ? 0 : NIGHT),
+                  r->height, "fill=\"none\" stroke=\"#ddd\" stroke-width=\"0.5\"/>\n");
+    }
+}
+
+static void panel(picture *p, const char *title) {
+    rows_of(p);
+    double bottom = p->nrow ? p->row[p->nrow - 1].y + p->row[p->nrow - 1].height : p->y + 40.0;
+    grid(p, bottom, title);
+    for (int i = 0; i < p->nrow; i++)
+        draw_row(p, &p->row[i]);
+    p->y = bottom + 16.0;
+}
+
+static bool anything(const picture *p) {
+    for (int i = 0; i < p->s->nrun; i++)
+        if (p->s->run[i].start_s < p->next_s - 1e-6 && p->s->run[i].end_s > p->open_s + 1e-6)
+            return true;
+    return false;
+}
+
+/* working days with their nights, or pieces of twelve hours round the clock */
+static void panels(picture *p) {
+    static const char *const name[] = {"Monday", "Tuesday",  "Wednesday", "Thursday",
+                                       "Friday", "Saturday", "Sunday"};
+    const fw_calendar *c = &p->s->shop->calendar;
+    double end = p->s->start_s + p->s->makespan_s;
+    if (fw_calendar_round(c)) {
+        double piece = fmin(12.0, fmax(1.0, ceil(end / 3600.0))) * 3600.0;
+        for (double t = 0.0; t < end - 1e-6; t += piece) {
+            char title[40];
+            p->open_s = t;
+            p->close_s = p->next_s = t + piece;
+            snprintf(title, sizeof title, "day %d", (int)(t / 86400.0) + 1);
+            if (anything(p)) panel(p, title);
+        }
+        return;
+    }
+    for (double t = fw_calendar_fit(c, 0.0, 1.0); t < end - 1e-6; t = p->next_s) {
+        char title[40];
+        int day = (int)(t / 86400.0);
+        p->open_s = t;
+        p->close_s = day * 86400.0 + c->close_s;
+        p->next_s = fw_calendar_fit(c, p->close_s, 1.0);
+        snprintf(title, sizeof title, "day %d, %s", day + 1, name[day % 7]);
+        if (anything(p)) panel(p, title);
+    }
+}
+
+/* sentences broken to lines of the picture's width */
+static double paragraph(fw_text *out, double y, const char *text) {
+    const size_t most = 175;
+    while (*text) {
+        size_t n = strlen(text), cut = n;
+        if (n > most)
+            for (cut = most; cut > 0 && text[cut] != ' ';)
+                cut--;
+        if (cut == 0) cut = n;
+        fw_text_add(out, "<text x=\"10\" class=\"p\"");
+        at(out, "y", y);
+        fw_text_add(out, ">");
+        fw_text_bytes(out, text, cut); /* escaped already */
+        fw_text_add(out, "</text>\n");
+        text += cut + (text[cut] == ' ');
+        y += 15.0;
+    }
+    return y;
+}
+
+static void legend(fw_text *out, int wafers, double y) {
+    label(out, 10, y + 10.0, "class=\"p\"", "wafer");
+    for (int w = 0; w < wafers; w++) {
+        char fill[64], text[16];
+        snprintf(fill, sizeof fill, "fill=\"%s\" stroke=\"#333\" stroke-width=\"0.5\"/>\n",
+                 colour[w % COLOURS]);
+        snprintf(text, sizeof text, "%d", w + 1);
+        rectangle(out, 52.0 + 24.0 * w, y, 22.0, 14.0, fill);
+        label(out, 63.0 + 24.0 * w, y + 11.0, "class=\"b\"", text);
+    }
+    label(
+        out, 66.0 + 24.0 * wafers, y + 10.0, "class=\"p\"",
+        "a load has a band for every wafer; dashed: the time is not known; below: windows, waited "
+        "and allowed");
+}
+
+fw_status fw_recipe_write_schedule_svg(const fw_flow *flow, const fw_recipe_header *header,
+                                       fw_text *out) {
+    const fw_schedule *s = header->schedule;
+    fw_text body = fw_text_new(out->arena), words = fw_text_new(out->arena);
+    picture *p = fw_arena_one(out->arena, picture);
+    FW_NEED(p);
+    *p = (picture){.s = s, .out = &body};
+    fw_text_add(&words, "");
+    fw_put_schedule_summary(&words, s);
+    FW_TRY(fw_text_end(&words));
+    const char *title = fw_arena_printf(
+        out->arena, "%sSchedule: %s%s%s", header->rejected ? "REJECTED. " : "", flow->title,
+        header->device ? ", " : "", header->device ? header->device : "");
+    FW_NEED(title);
+    label(&body, 10, 24, "class=\"h\"", title);
+    p->y = paragraph(&body, 44, words.data);
+    legend(&body, s->shop->wafers, p->y);
+    p->y += 16.0;
+    panels(p);
+    FW_TRY(fw_text_end(&body));
+    fw_text_printf(
+        out,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" "
+        "height=\"%d\">\n<style>text{font:11px Helvetica,Arial,sans-serif}.h{font-size:15px;"
+        "font-weight:bold}.l{text-anchor:end}.t,.b{text-anchor:middle}.b{font-size:10px;"
+        "pointer-events:none}.d{font-weight:bold}.t{fill:#555;font-size:10px}"
+        ".g{stroke:#ddd;stroke-width:0.5;fill:none}</style>\n"
+        "<rect width=\"100%%\" height=\"100%%\" fill=\"#fff\"/>\n",
+        width_px, (int)p->y, width_px, (int)p->y);
+    fw_text_add(out, body.data);
+    fw_text_add(out, "</svg>\n");
+    return fw_text_end(out);
+}

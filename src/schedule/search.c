@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Every rule once, then small changes of the best order, kept where they are no worse. The random
+   numbers are always the same, so that the same shop gives the same schedule. */
+#include "schedule/bound.h"
+#include "schedule/place.h"
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_WORK = 500000 }; /* runs placed while improving: about a second at most */
+enum { MOST_WAFERS = 50, MOST_OPERATORS = 50, MOST_TASKS = 200 };
+
+static const double ties_s[] = {FW_TIE_S, (double)INFINITY, -1.0};
+enum { TIES = sizeof ties_s / sizeof ties_s[0] };
+
+typedef struct best {
+    fw_run *run;
+    double *priority; /* (ntask x wafers) starts */
+    int *load;
+    int nrun;
+    double makespan_s, sum_s;
+    fw_rule rule;
+    double tie_s;
+    bool any;
+} best;
+
+typedef struct search {
+    const fw_shop *shop;
+    fw_placing placing;
+    best best;
+    uint64_t state;
+    double bound_s;
+} search;
+
+/* splitmix64: Steele, Lea, Flood, OOPSLA 2014 */
+static double uniform(search *s) {
+    uint64_t z = (s->state += 0x9E3779B97F4A7C15u);
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+static int below(search *s, int n) {
+    int k = (int)(uniform(s) * n);
+    return k < n ? k : n - 1;
+}
+
+static size_t cells(const search *s) {
+    return (size_t)s->shop->ntask * (size_t)s->shop->wafers;
+}
+
+static bool done(const search *s) {
+    return s->best.any && s->best.makespan_s <= s->bound_s * (1.0 + 1e-9) + 1e-6;
+}
+
+static bool try_rule(search *s, fw_rule rule) {
+    fw_placing *p = &s->placing;
+    best *b = &s->best;
+    if (!fw_place_all(p, rule)) return false;
+    if (b->any && (p->makespan_s > b->makespan_s + 1e-6 ||
+                   (p->makespan_s > b->makespan_s - 1e-6 && p->sum_s > b->sum_s + 1e-6)))
+        return false;
+    b->any = true;
+    b->rule = rule;
+    b->tie_s = p->tie_s;
+    b->makespan_s = p->makespan_s;
+    b->sum_s = p->sum_s;
+    b->nrun = p->nrun;
+    memcpy(b->run, p->run, (size_t)p->nrun * sizeof *p->run);
+    memcpy(b->priority, p->begin_s, cells(s) * sizeof *p->begin_s);
+    memcpy(b->load, p->load, (size_t)s->shop->ntask * sizeof *p->load);
+    return true;
+}
+
+/* a few wafers earlier or later at a step, and perhaps in all that follows; or another load */
+static void change(search *s) {
+    const fw_shop *shop = s->shop;
+    fw_placing *p = &s->placing;
+    int changes = 1 + below(s, 3), batch = below(s, shop->ntask);
+    double size = s->best.makespan_s * (uniform(s) < 0.5 ? 0.05 : 0.3);
+    for (int i = 0; i < changes; i++) {
+        int task = below(s, shop->ntask), wafer = below(s, shop->wafers);
+        double by = (2.0 * uniform(s) - 1.0) * size;
+        int last = uniform(s) < 0.5 ? task : shop->ntask - 1;
+        for (int k = task; k <= last; k++)
+            p->priority[k * shop->wafers + wafer] += by;
+    }
+    const fw_task *t = &shop->task[batch];
+    if (!t->lot && t->load > 1 && uniform(s) < 0.5) {
+        int most = t->load < shop->wafers ? t->load : shop->wafers;
+        p->load[batch] = 1 + below(s, most);
+    }
+}
+
+static void improve(search *s, int effort) {
+    fw_placing *p = &s->placing;
+    const size_t loads = (size_t)s->shop->ntask * sizeof *p->load;
+    const long most = p->work + MOST_WORK;
+    for (int i = 0; i < effort && p->work < most && !done(s); i++) {
+        memcpy(p->priority, s->best.priority, cells(s) * sizeof *p->priority);
+        memcpy(p->load, s->best.load, loads);
+        p->tie_s = uniform(s) < 0.2 ? ties_s[below(s, TIES)] : s->best.tie_s;
+        change(s);
+        try_rule(s, FW_RULE_LIST);
+    }
+}
+
+static fw_status room(fw_arena *arena, search *s) {
+    FW_TRY(fw_placing_new(arena, s->shop, &s->placing));
+    FW_NEED(s->best.run = fw_arena_array(arena, fw_run, cells(s)));
+    FW_NEED(s->best.priority = fw_arena_array(arena, double, cells(s)));
+    FW_NEED(s->best.load = fw_arena_array(arena, int, (size_t)s->shop->ntask));
+    return FW_OK;
+}
+
+static int by_start(const void *a, const void *b) {
+    const fw_run *r = a, *s = b;
+    if (r->start_s != s->start_s) return r->start_s < s->start_s ? -1 : 1;
+    return r->task != s->task ? r->task - s->task : r->first - s->first;
+}
+
+/* spans that overlap at most K times can always be given to K people, first come first served */
+static fw_status name_operators(fw_arena *arena, const fw_shop *shop, fw_run *run, int n) {
+    double *free_s = fw_arena_array(arena, double, (size_t)shop->operators);
+    FW_NEED(free_s);
+    for (int i = 0; i < n; i++) {
+        const fw_task *t = &shop->task[run[i].task];
+        if (!(t->attended_s > 0.0)) continue;
+        int who = 0;
+        while (who < shop->operators - 1 && free_s[who] > run[i].start_s + 2e-6)
+            who++;
+        run[i].operator_ = who;
+        free_s[who] = run[i].start_s + t->attended_s;
+    }
+    return FW_OK;
+}
+
+static int usual_effort(const fw_shop *shop) {
+    int runs = shop->ntask * shop->wafers;
+    int n = shop->wafers == 1 ? 100 : 250000 / (runs > 0 ? runs : 1);
+    return n > 4000 ? 4000 : n;
+}
+
+static fw_status solve(fw_arena *arena, const fw_shop *shop, int effort, fw_schedule *out) {
+    search s = {.shop = shop, .state = 20250106, .bound_s = out->bound.best_s};
+    FW_TRY(room(arena, &s));
+    for (int r = 0; r < TIES * FW_RULES && !done(&s); r++) {
+        s.placing.tie_s = ties_s[r / FW_RULES];
+        for (int i = 0; i < shop->ntask; i++)
+            s.placing.load[i] = shop->task[i].load;
+        try_rule(&s, (fw_rule)(r % FW_RULES));
+    }
+    if (!s.best.any) {
+        const fw_task *from = &shop->task[s.placing.failed_from],
+                      *to = &shop->task[s.placing.failed_to];
+        FW_NEED(
+            out->why = fw_arena_printf(
+                arena,
+                "no order was found that keeps all windows with these people and this working "
+                "day; it failed at %s%s%s. Fewer wafers, more operators or a longer day may help",
+                from->id, from == to ? "" : " to ", from == to ? "" : to->id));
+        return FW_OK;
+    }
+    improve(&s, effort > 0 ? effort : usual_effort(shop));
+    out->feasible = true;
+    out->rule = fw_rule_text(s.best.rule);
+    out->nrun = s.best.nrun;
+    out->makespan_s = s.best.makespan_s;
+    out->optimal = done(&s);
+    out->gap = out->bound.best_s > 0.0 ? out->makespan_s / out->bound.best_s - 1.0 : 0.0;
+    if (out->optimal) out->gap = 0.0;
+    qsort(s.best.run, (size_t)s.best.nrun, sizeof *s.best.run, by_start);
+    out->run = s.best.run;
+    return name_operators(arena, shop, s.best.run, s.best.nrun);
+}
+
+/* NULL, or why nobody can ever stand there long enough */
+static const char *day_too_short(fw_arena *arena, const fw_shop *shop) {
+    for (int i = 0; i < shop->ntask; i++) {
+        const fw_task *t = &shop->task[i];
+        double there = t->by_day ? t->duration_s : t->attended_s;
+        if (isfinite(fw_calendar_fit(&shop->calendar, 0.0, there))) continue;
+        fw_text text = fw_text_new(arena);
+        fw_text_printf(&text, "%s %s longer than the working day", t->id,
+                       t->by_day ? "must not run without people, and takes" : "needs somebody for");
+        return text.failed ? "" : text.data;
+    }
+    return NULL;
+}
+
+fw_status fw_schedule_solve(fw_arena *arena, const fw_shop *shop, int effort, fw_schedule *out) {
+    *out = (fw_schedule){.shop = shop, .start_s = shop->calendar.open_s};
+    if (shop->wafers > MOST_WAFERS || shop->operators > MOST_OPERATORS) return FW_LIMIT;
+    if (shop->ntask > MOST_TASKS) {
+        FW_NEED(out->pause_s = fw_arena_array(arena, double, (size_t)shop->ntask));
+        FW_NEED(out->why = fw_arena_printf(arena, "it has more than %d steps", MOST_TASKS));
+        return FW_OK;
+    }
+    for (int i = 0; i < shop->ntask; i++)
+        out->unknown += shop->task[i].unknown;
+    FW_TRY(fw_network_conflict(arena, shop, false, &out->why));
+    if (out->why) return FW_OK;
+    double *pause_s = fw_arena_array(arena, double, (size_t)shop->ntask);
+    double *earliest_s = fw_arena_array(arena, double, (size_t)shop->ntask);
+    FW_NEED(pause_s ? earliest_s : NULL);
+    FW_TRY(fw_network_conflict(arena, shop, true, &out->late));
+    FW_TRY(fw_network_pauses(arena, shop, pause_s));
+    out->pause_s = pause_s;
+    out->why = day_too_short(arena, shop);
+    if (out->why) return FW_OK;
+    bool ok;
+    int failing;
+    FW_TRY(fw_network_earliest(shop, out->start_s, earliest_s, &ok, &failing));
+    if (!ok) {
+        FW_NEED(out->why = fw_arena_printf(
+                    arena, "the windows about %s (%s) cannot be kept within the working day",
+                    shop->task[failing].id, shop->task[failing].title));
+        return FW_OK;
+    }
+    fw_bounds(shop, earliest_s, out->start_s, &out->bound);
+    return solve(arena, shop, effort, out);
+}

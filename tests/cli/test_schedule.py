@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Schedules and calibration as a user meets them: options, files, exit statuses, what follows."""
+import csv
+import io
+import json
+import pathlib
+import tempfile
+import unittest
+import xml.dom.minidom
+
+from common import FLOWS, GALLERY, run
+
+SILICON, COPPER = FLOWS
+COUPONS = """# lot 7, wafer 3
+coupon,feature,drawn_um,measured,u,unit,at,u_at,at_unit
+arde-slots,,4,41.9,0.2,um,90,0.2,min
+arde-slots,,10,45.6,0.2,um,90,0.2,min
+arde-slots,,100,49.4,0.2,um,90,0.2,min
+undercut-ladder,gone,3.5,,,,50,0.3,um
+undercut-ladder,stands,4,,,,50,0.3,um
+undercut-ladder,width,20,16.2,0.15,um,50,0.3,um
+cd-lines,line,10,7.95,0.1,um
+cd-lines,space,10,12.1,0.1,um
+etch-rate,pan.R,,0.90,0.02,um,20,0.1,min
+"""
+
+
+class InTemporary(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.here = pathlib.Path(self.temporary.name)
+
+    def expect(self, result, status=0):
+        self.assertEqual(result.returncode, status, result.stdout[-2000:] + result.stderr[-4000:])
+        return result
+
+    def recipe(self, name, *arguments):
+        self.expect(run("recipe", GALLERY, *arguments, "-o", self.here / name, "-q"))
+        return self.here / name / "recipes"
+
+
+class Schedule(InTemporary):
+    def test_files(self):
+        recipes = self.recipe("out", "--wafers", "4", "--operators", "2")
+        for flow in FLOWS:
+            plan = json.loads((recipes / f"{flow}.schedule.json").read_text())
+            self.assertEqual((plan["schema"], plan["wafers"], plan["operators"]), ("flexwright.schedule/1", 4, 2))
+            self.assertTrue(plan["feasible"])
+            self.assertGreaterEqual(plan["makespan_s"], plan["lower_bound_s"] - 1e-6)
+            last = max(r["end_s"] for r in plan["runs"])
+            self.assertAlmostEqual(last - plan["day_open_s"], plan["makespan_s"], places=5)
+            end = {}
+            step = {s["id"]: i for i, s in enumerate(plan["steps"])}
+            for r in plan["runs"]:  # every wafer goes through every step, in order
+                for w in range(r["first_wafer"], r["first_wafer"] + r["wafers"]):
+                    end.setdefault(w, {})[step[r["step"]]] = (r["start_s"], r["end_s"])
+            self.assertEqual(sorted(end), [1, 2, 3, 4])
+            for times in end.values():
+                self.assertEqual(sorted(times), list(range(len(step))))
+                for i in range(1, len(step)):
+                    self.assertGreaterEqual(times[i][0], times[i - 1][1] - 1e-6)
+                for hold in plan["holds"]:
+                    waited = times[step[hold["to"]]][0] - times[step[hold["from"]]][1]
+                    self.assertLessEqual(waited, hold["max_s"] + 1e-5)
+            rows = list(csv.DictReader(io.StringIO((recipes / f"{flow}.schedule.csv").read_text())))
+            self.assertEqual(len(rows), len(plan["runs"]))
+            xml.dom.minidom.parse(str(recipes / f"{flow}.schedule.svg"))
+            html = (recipes / f"{flow}.html").read_text()
+            self.assertIn("4 wafers, 2 operators, 08:00 to 18:00", html)
+            self.assertIn("Safe stopping points", html)
+
+    def test_days_and_planning_times(self):
+        def hours(name, *arguments):
+            text = (self.recipe(name, "--flow", SILICON, *arguments) / f"{SILICON}.schedule.json").read_text()
+            return json.loads(text)["makespan_s"] / 3600
+        alone = hours("a")
+        self.assertLess(alone, 10)
+        self.assertAlmostEqual(hours("b", "--planned", "S03=90 min,S09=8 min"), alone + 1.25, places=6)
+        self.assertGreater(hours("c", "--day", "08:00-12:00"), 24)
+        self.assertAlmostEqual(hours("d", "--day", "none"), alone, places=6)
+
+    def test_wrong_options(self):
+        for bad in (("--wafers", "0"), ("--wafers", "51"), ("--operators", "1.5"), ("--day", "8-18"),
+                    ("--day", "18:00-08:00"), ("--planned", "S03"), ("--planned", "S03=90"),
+                    ("--planned", "S99=1 h"), ("--planned", "S03=9 um")):
+            result = self.expect(run("recipe", GALLERY, *bad, "-o", self.here / "bad"), 2)
+            self.assertRegex(result.stderr, r"FW-D(230|199)")
+            self.assertFalse((self.here / "bad").exists())
+        self.expect(run("check", GALLERY, "--wafers", "2"), 2)
+
+
+class Calibrate(InTemporary):
+    def coupons(self, text=COUPONS):
+        path = self.here / "lot7.csv"
+        path.write_text(text)
+        return path
+
+    def calibrated(self):
+        lab = self.here / "lab.xml"
+        self.expect(run("calibrate", self.coupons(), "--flow", SILICON, "-o", lab))
+        return lab
+
+    def test_times_bias_and_verdict_follow(self):
+        lab = self.calibrated()
+        values = {q.getAttribute("id"): q for q in xml.dom.minidom.parse(str(lab)).getElementsByTagName("q")}
+        self.assertEqual(sorted(values), ["made.al-edge", "pan.R", "rie.A", "rie.R", "rie.S"])
+        self.assertTrue(all(q.getAttribute("status") == "measured" for q in values.values()))
+        out = {}
+        for name, more in (("without", ()), ("with", ("--lab", lab))):
+            self.expect(run("plan", GALLERY, "--flow", SILICON, *more, "-o", self.here / name, "-q"))
+            recipe = json.loads((self.here / name / f"recipes/{SILICON}.json").read_text())
+            verdict = json.loads((self.here / name / "verdict.json").read_text())
+            out[name] = recipe, verdict, (self.here / name / "report.html").read_text()
+        time = {n: {s["id"]: s["time_s"] for s in out[n][0]["steps"]} for n in out}
+        self.assertAlmostEqual(time["without"]["S14"]["nominal"], 1000, places=6)
+        self.assertAlmostEqual(time["with"]["S14"]["nominal"], 1e-6 / (0.9e-6 / 1200), delta=2)
+        self.assertGreater(out["with"][0]["bias_m"], out["without"][0]["bias_m"] + 1e-7)
+        self.assertNotEqual(out["with"][1]["hinges"][0]["as_fabricated"],
+                            out["without"][1]["hinges"][0]["as_fabricated"])
+        self.assertEqual(len(out["with"][0]["overrides"]), 5)
+        self.assertEqual(out["without"][0]["overrides"], [])
+        self.assertRegex(out["with"][2], "laboratory.{1,6}s rie.A = 0.98")
+        inputs = json.loads((self.here / "with/manifest.json").read_text())["inputs"]
+        self.assertIn("lab.xml", [i["name"] for i in inputs])
+        html = (self.here / f"with/recipes/{SILICON}.html").read_text()
+        self.assertIn("Values of the laboratory: 5", html)
+
+    def test_a_thickness_beside_its_aim(self):
+        lab = self.here / "pads.xml"
+        lab.write_text('<process xmlns="urn:flexwright:process:1" id="lab" version="1" title="x" flow="' + COPPER +
+                       '"><source id="s" kind="measured">pads</source><q id="made.cu" value="10.8" u="0.1" unit="um" '
+                       'status="measured" src="s"/></process>')
+        made = {}
+        for name, more in (("pack", ()), ("lab", ("--lab", lab))):
+            verdict = json.loads(self.expect(run("check", GALLERY, "--flow", COPPER, "--json", *more)).stdout)
+            made[name] = verdict["hinges"][0]["as_fabricated"]
+        self.assertIn("thickness 8.1 um", made["pack"]["corner"])
+        self.assertIn("thickness 10.6 um", made["lab"]["corner"])
+        # a force bends what is thicker less: the stress goes with 1/h, 9/10.8 = 0.833
+        self.assertAlmostEqual(made["lab"]["nominal"] / made["pack"]["nominal"], 9 / 10.8, delta=0.005)
+
+    def test_refusals(self):
+        lab = self.here / "lab.xml"
+        wrong = COUPONS.replace("undercut-ladder,width,20,16.2", "undercut-ladder,width,20,12.2")
+        result = self.expect(run("calibrate", self.coupons(wrong), "--flow", SILICON, "-o", lab), 3)
+        self.assertIn("FW-D212", result.stderr)
+        self.assertFalse(lab.exists())
+        result = self.expect(run("calibrate", self.coupons(COUPONS.replace("arde-slots,,4,", "arde-slots,,,")),
+                                 "--flow", SILICON, "-o", lab), 3)
+        self.assertIn("lot7.csv:3:1: error: arde-slots needs drawn_um", result.stderr)
+        self.expect(run("calibrate", self.coupons()), 2)
+        self.expect(run("calibrate", self.coupons(), "--flow", "no-such-flow"), 3)
+        self.expect(run("calibrate", self.here / "none.csv", "--flow", SILICON), 5)
+        good = self.calibrated().read_text()
+        lab.write_text(good.replace('id="rie.A"', 'id="rie.B"'))
+        result = self.expect(run("check", GALLERY, "--lab", lab), 3)
+        self.assertIn("did you mean 'rie.", result.stderr)
+
+    def test_standard_output(self):
+        result = self.expect(run("calibrate", self.coupons(), "--flow", SILICON))
+        self.assertTrue(result.stdout.startswith("<?xml"))
+        self.assertIn("rie.A", result.stderr)
+        lab = self.calibrated()
+        result = self.expect(run("check", GALLERY, "--lab", lab, "--flow", COPPER))
+        self.assertIn("FW-D211", result.stderr)  # nothing of it is used
+
+
+if __name__ == "__main__":
+    unittest.main()

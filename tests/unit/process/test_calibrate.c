@@ -1,0 +1,410 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Coupons made up from a known truth, measured with known errors: the truth lies within two
+   standard uncertainties in 93 to 97 % of the cases. Data that contradict the law are refused. What
+   is found is written as a pack, and the pack changes times and bias. */
+#include "packs.h"
+#include "process/calibrate.h"
+#include "process/law.h"
+#include <stdlib.h>
+
+static fw_arena *arena;
+static fw_diags diags;
+static fw_flow *copper, *silicon;
+
+static int setup(void **state) {
+    (void)state;
+    arena = fw_arena_new(0);
+    if (!arena) return -1;
+    diags = fw_diags_new(arena);
+    copper = read_pack(arena, COPPER, NULL, NULL, &diags);
+    silicon = read_pack(arena, SILICON, NULL, NULL, &diags);
+    return copper && silicon ? 0 : -1;
+}
+static int teardown(void **state) {
+    (void)state;
+    fw_arena_free(arena);
+    return 0;
+}
+
+static uint64_t seed = 5;
+static double uniform(void) {
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)((seed >> 11) + 1) * 0x1p-53;
+}
+static double gauss(void) {
+    return sqrt(-2.0 * log(uniform())) * cos(2.0 * acos(-1.0) * uniform());
+}
+static double between(double low, double high) {
+    return low + (high - low) * uniform();
+}
+
+/* ---- rows ---- */
+
+static fw_measurement rows[20];
+static int nrow;
+
+static void put(const char *coupon, const char *feature, double drawn_um, fw_dimension d,
+                double value, double u, fw_dimension at_d, double at, double u_at) {
+    rows[nrow++] =
+        (fw_measurement){coupon, feature, drawn_um * 1e-6, value, u, at, u_at, d, at_d, {0}};
+}
+
+#define LENGTH (fw_dimension) FW_DIM_LENGTH
+#define TIME   (fw_dimension) FW_DIM_TIME
+
+typedef struct truth { /* of one case */
+    const char *id;
+    double value;
+} truth;
+
+static double slot_depth(double w, double t, double R, double S) { /* bisection */
+    double low = 0.0, high = R * t;
+    for (int i = 0; i < 80; i++) {
+        double d = 0.5 * (low + high);
+        if ((d + S * fw_arde_integral(w, d, false)) / R < t)
+            low = d;
+        else
+            high = d;
+    }
+    return low;
+}
+
+static void slots(truth *t) {
+    static const double width[] = {4, 5, 7, 10, 20, 50, 100};
+    double R = between(0.3, 0.8) * 1e-6 / 60.0, S = between(0.03, 0.3),
+           time = 60.0 * between(40, 90);
+    double u_t = 10.0, measured_t = time + u_t * gauss();
+    for (int i = 0; i < 7; i++) {
+        double D = slot_depth(width[i] * 1e-6, time, R, S), u = between(0.1, 0.4) * 1e-6;
+        put("arde-slots", "", width[i], LENGTH, D + u * gauss(), u, TIME, measured_t, u_t);
+    }
+    t[0] = (truth){"rie.R", R};
+    t[1] = (truth){"rie.S", S};
+}
+
+static void ladder_widths(truth *t) {
+    double A = between(0.9, 0.985), E = between(40, 60) * 1e-6, u_E = 0.5e-6;
+    double measured_E = E + u_E * gauss(),
+           edge = 0.11e-6 * gauss(); /* as the pack has made.al-edge */
+    for (int i = 0; i < 6; i++) {
+        double w = 14.0 + 2.0 * i, u = between(0.05, 0.2) * 1e-6;
+        double top = w * 1e-6 - 2.0 * (1.1e-6 - edge) - 2.0 * (1.0 - A) * E;
+        put("undercut-ladder", "width", w, LENGTH, top + u * gauss(), u, LENGTH, measured_E, u_E);
+    }
+    t[0] = (truth){"rie.A", A};
+}
+
+static void cd_lines(truth *t) {
+    double edge = between(-0.3, 0.3) * 1e-6;
+    for (int i = 0; i < 6; i++) {
+        double w = 4.0 + 2.0 * i, u = between(0.05, 0.1) * 1e-6, sign = i % 2 ? 1.0 : -1.0;
+        put("cd-lines", i % 2 ? "line" : "space", w, LENGTH,
+            w * 1e-6 + 2.0 * sign * (edge - 1.1e-6) + u * gauss(), u, TIME, (double)NAN,
+            (double)NAN);
+    }
+    t[0] = (truth){"made.al-edge", edge};
+}
+
+static void rate(truth *t) {
+    double R = between(5, 20) * 1e-10;
+    for (int i = 0; i < 5; i++) {
+        double time = 100.0 + 150.0 * i, d = R * time, u = 0.03 * d, u_t = 3.0;
+        put("etch-rate", "pan.R", 0, LENGTH, d + u * gauss(), u, TIME, time + u_t * gauss(), u_t);
+    }
+    t[0] = (truth){"pan.R", R};
+}
+
+static void step_height(truth *t) {
+    double S = between(60, 150);
+    for (int i = 0; i < 4; i++) {
+        double D = (20.0 + 10.0 * i) * 1e-6, a = D / S, u = 0.01e-6, u_D = 0.2e-6;
+        put("al-step", "", 0, LENGTH, a + u * gauss(), u, LENGTH, D + u_D * gauss(), u_D);
+    }
+    t[0] = (truth){"rie.selectivity", S};
+}
+
+static void mass(truth *t) {
+    double eta = between(0.93, 0.99);
+    for (int i = 0; i < 4; i++) {
+        double Q = 200.0 + 60.0 * i, m = eta * 63.546e-3 * Q / (2.0 * 96485.33212), u = 0.2e-6;
+        put("plating-mass", "", 0, (fw_dimension)FW_DIM_MASS, m + u * gauss(), u,
+            (fw_dimension)FW_DIM_CHARGE, Q + 1.0 * gauss(), 1.0);
+    }
+    t[0] = (truth){"cu.eta", eta};
+}
+
+static void pads(truth *t) {
+    static const double width[] = {10, 30, 100, 300, 1000, 1000, 1000};
+    double eta = between(0.93, 0.97), f = between(0.95, 1.1), q = 25e4, u_q = 0.01 * q;
+    double measured_q = q + u_q * gauss();
+    for (int i = 0; i < 7; i++) {
+        double d = eta * 63.546e-3 * q / (2.0 * 96485.33212 * 8960.0), u = 0.08e-6;
+        d *= width[i] <= 30 ? f : 1.0;
+        put("plating-pads", "", width[i], LENGTH, d + u * gauss(), u,
+            (fw_dimension)FW_DIM(-2, 0, 1, 1, 0, 0, 0), measured_q, u_q);
+    }
+    t[0] = (truth){"cu.eta", eta};
+    t[1] = (truth){"made.cu", 9e-6 * f};
+}
+
+static void spin(truth *t) {
+    double a = between(0.4, 0.7), d0 = between(1.2, 8) * 1e-6, rpm = 2.0 * acos(-1.0) / 60.0;
+    for (int i = 0; i < 5; i++) {
+        double w = (2000.0 + 800.0 * i) * rpm, d = d0 * pow(4000.0 * rpm / w, a), u = 0.01 * d;
+        put("spin", "", 0, LENGTH, d + u * gauss(), u, (fw_dimension)FW_DIM_ROTATION,
+            w + 20.0 * rpm * gauss(), 20.0 * rpm);
+    }
+    t[0] = (truth){"resist.d0", d0};
+    t[1] = (truth){"resist.a", a};
+}
+
+static const fw_calibrated *found(const fw_calibration *c, const char *id) {
+    for (int i = 0; i < c->count; i++)
+        if (strcmp(c->item[i].id, id) == 0) return &c->item[i];
+    fail_msg("nothing for %s", id);
+    return NULL;
+}
+
+static void coverage(void **state) {
+    (void)state;
+    static const struct {
+        void (*make)(truth *);
+        bool silicon;
+        int n;
+    } kind[] = {{slots, true, 2}, {ladder_widths, true, 1}, {cd_lines, true, 1},
+                {rate, true, 1},  {step_height, true, 1},   {mass, false, 1},
+                {pads, false, 2}, {spin, false, 2}};
+    for (size_t k = 0; k < sizeof kind / sizeof kind[0]; k++) {
+        int inside[2] = {0, 0}, refused = 0, cases = 1000;
+        double sum[2] = {0, 0};
+        for (int i = 0; i < cases; i++) {
+            truth t[2] = {{0}};
+            fw_calibration c;
+            fw_mark mark = fw_arena_mark(arena);
+            fw_diags said = fw_diags_new(arena);
+            nrow = 0;
+            kind[k].make(t);
+            fw_status status =
+                fw_calibrate(arena, kind[k].silicon ? silicon : copper, rows, nrow, &said, &c);
+            refused += status != FW_OK;
+            for (int j = 0; status == FW_OK && j < kind[k].n; j++) {
+                const fw_calibrated *got = found(&c, t[j].id);
+                double off = (got->value - t[j].value) / got->uncertainty;
+                inside[j] += fabs(off) <= 2.0;
+                sum[j] += off;
+            }
+            fw_arena_rewind(arena, mark);
+        }
+        assert_true(refused <= 6); /* one in a thousand by chance, and a lag below zero */
+        for (int j = 0; j < kind[k].n; j++) {
+            double share = (double)inside[j] / (cases - refused);
+            if (!(share >= 0.93 && share <= 0.97))
+                fail_msg("kind %d, value %d: %g", (int)k, j, share);
+            assert_true(fabs(sum[j]) / (cases - refused) < 0.1); /* 3 standard errors of the mean */
+        }
+    }
+}
+
+/* the example of docs/theory/process.md: 45.0 um in 10 um, 48.5 um in 100 um after 90 min */
+static void two_slots(void **state) {
+    (void)state;
+    fw_calibration c;
+    nrow = 0;
+    put("arde-slots", "", 10, LENGTH, 45.0e-6, 0.1e-6, TIME, 5400.0, 0.0);
+    put("arde-slots", "", 100, LENGTH, 48.5e-6, 0.1e-6, TIME, 5400.0, 0.0);
+    assert_int_equal(fw_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_OK);
+    /* there J was taken at 50 um; here at the depths measured, which the law asks for */
+    double J1 = fw_arde_integral(10e-6, 45e-6, false),
+           J2 = fw_arde_integral(100e-6, 48.5e-6, false);
+    double S = 3.5e-6 / (J1 - J2);
+    assert_relative(found(&c, "rie.S")->value, S, 1e-9);
+    assert_relative(found(&c, "rie.R")->value, (45e-6 + S * J1) / 5400.0, 1e-9);
+    assert_int_equal(found(&c, "rie.R")->freedom, 0);
+}
+
+/* gone and standing lines: 7.0 gone, 7.5 stands; 1.1 um lost in the aluminium */
+static void survivors(void **state) {
+    (void)state;
+    fw_calibration c;
+    nrow = 0;
+    put("undercut-ladder", "gone", 6.5, LENGTH, 0, 1, LENGTH, 50e-6, 0.0);
+    put("undercut-ladder", "gone", 7.0, LENGTH, 0, 1, LENGTH, 50e-6, 0.0);
+    put("undercut-ladder", "stands", 7.5, LENGTH, 0, 1, LENGTH, 50e-6, 0.0);
+    assert_int_equal(fw_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_OK);
+    double u = 0.5 * 7.25e-6 - 1.1e-6;
+    assert_relative(found(&c, "rie.A")->value, 1.0 - u / 50e-6, 1e-9);
+    assert_relative(found(&c, "rie.A")->uncertainty, hypot(0.25e-6 / sqrt(12.0), 0.11e-6) / 50e-6,
+                    1e-9);
+    rows[2].drawn_m = 6.9e-6;
+    assert_int_equal(fw_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_INPUT);
+}
+
+static int last_number(const fw_diags *d) {
+    return d->count ? d->item[d->count - 1].number : 0;
+}
+
+static void contradictions(void **state) {
+    (void)state;
+    fw_calibration c;
+    truth t[2];
+    nrow = 0;
+    spin(t);
+    rows[2].value *= 1.2; /* twenty standard uncertainties */
+    assert_int_equal(fw_calibrate(arena, copper, rows, nrow, &diags, &c), FW_INPUT);
+    assert_int_equal(last_number(&diags), 212);
+    nrow = 0;
+    for (int i = 0; i < 2; i++) /* two coupons, two rates */
+        put("etch-rate", "rie.R", 0, LENGTH, 50e-6, 0.5e-6, TIME, 5400.0, 1.0);
+    put("arde-slots", "", 10, LENGTH, 30e-6, 0.1e-6, TIME, 5400.0, 0.0);
+    put("arde-slots", "", 100, LENGTH, 35e-6, 0.1e-6, TIME, 5400.0, 0.0);
+    assert_int_equal(fw_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_INPUT);
+    assert_int_equal(last_number(&diags), 212);
+    nrow = 0; /* narrow slots deeper */
+    put("arde-slots", "", 10, LENGTH, 45e-6, 0.1e-6, TIME, 5400.0, 0.0);
+    put("arde-slots", "", 100, LENGTH, 40e-6, 0.1e-6, TIME, 5400.0, 0.0);
+    assert_int_equal(fw_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_INPUT);
+    assert_int_equal(last_number(&diags), 211);
+    nrow = 0; /* more copper than charge */
+    put("plating-mass", "", 0, (fw_dimension)FW_DIM_MASS, 1e-3, 1e-6, (fw_dimension)FW_DIM_CHARGE,
+        250, 1);
+    assert_int_equal(fw_calibrate(arena, copper, rows, nrow, &diags, &c), FW_INPUT);
+    nrow = 0; /* a coupon that the flow has no number for */
+    put("plating-mass", "", 0, (fw_dimension)FW_DIM_MASS, 1e-4, 1e-6, (fw_dimension)FW_DIM_CHARGE,
+        500, 1);
+    assert_int_equal(fw_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_INPUT);
+    /* two rates that agree become one */
+    nrow = 0;
+    put("etch-rate", "rie.R", 0, LENGTH, 50.5e-6, 0.5e-6, TIME, 5400.0, 0.0);
+    put("arde-slots", "", 10, LENGTH, 45e-6, 0.1e-6, TIME, 5400.0, 0.0);
+    put("arde-slots", "", 100, LENGTH, 48.5e-6, 0.1e-6, TIME, 5400.0, 0.0);
+    assert_int_equal(fw_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_OK);
+    assert_int_equal(c.count, 2);
+    assert_int_equal(found(&c, "rie.R")->rows, 3);
+    assert_int_equal(found(&c, "rie.R")->freedom, 1);
+}
+
+/* ---- the table as text, the pack, and what follows from it ---- */
+
+static const char good[] = "\xef\xbb\xbf# lot 7, wafer 3\r\n"
+                           "coupon,feature,drawn_um,measured,u,unit,at,u_at,at_unit\r\n"
+                           "arde-slots,,10,45.0,0.2,um,90,0.1,min\r\n"
+                           "\"arde-slots\", , 100 ,48.5,0.2,um,90,0.1,min\r\n\r\n"
+                           "undercut-ladder,gone,7.0,,,,50.5,0.3,um\n"
+                           "undercut-ladder,stands,7.5,,,,50.5,0.3,um\n"
+                           "etch-rate,pan.R,,0.98,0.02,um,16.5,0.1,min\n"
+                           "cd-lines,line,10,7.9,0.1,um,,,\n"
+                           "cd-lines,space,10,12.1,0.1,um\n";
+
+static void round_trip(void **state) {
+    (void)state;
+    fw_measurement *row;
+    fw_calibration c;
+    int n;
+    fw_text pack = fw_text_new(arena), text = fw_text_new(arena);
+    assert_int_equal(
+        fw_measurements_read(arena, "lot7.csv", good, sizeof good - 1, &diags, &row, &n), FW_OK);
+    assert_int_equal(n, 7);
+    assert_relative(row[0].at, 5400.0, 1e-14);
+    assert_int_equal(fw_calibrate(arena, silicon, row, n, &diags, &c), FW_OK);
+    assert_int_equal(fw_calibration_pack(silicon, &c, "lot7.csv", "0123456789abcdef", &pack),
+                     FW_OK);
+    assert_int_equal(fw_calibration_text(silicon, &c, &text), FW_OK);
+    assert_non_null(strstr(text.data, "was unknown"));
+    fw_flow *before = read_pack(arena, SILICON, NULL, NULL, &diags);
+    fw_flow *after = read_pack(arena, SILICON, NULL, NULL, &diags);
+    assert_int_equal(fw_lab_apply(arena, "lab.xml", pack.data, pack.length, after, &diags), FW_OK);
+    assert_int_equal(after->noverride, c.count);
+    for (int i = 0; i < c.count; i++) {
+        const fw_quantity *q = fw_flow_quantity(after, c.item[i].id);
+        assert_false(q->unknown);
+        assert_int_equal(q->status, FW_MEASURED);
+        assert_near(q->value, c.item[i].value, 1e-8 * fabs(c.item[i].value) + 1e-15);
+        assert_near(q->uncertainty, c.item[i].uncertainty, 1e-3 * c.item[i].uncertainty);
+        assert_non_null(strstr(q->source, "lot7.csv"));
+    }
+    /* times and bias follow: S14 at the measured rate, the mask adds the undercut of the plasma */
+    assert_int_equal(fw_flow_compute(arena, before, &plain_facts, &diags), FW_OK);
+    assert_int_equal(fw_flow_compute(arena, after, &plain_facts, &diags), FW_OK);
+    double R = fw_flow_quantity(after, "pan.R")->value;
+    assert_relative(step_of(after, "S14")->time.nominal_s, 1e-6 / R, 1e-9);
+    assert_near(step_of(before, "S14")->time.nominal_s, 1000.0, 1e-9);
+    double A = fw_flow_quantity(after, "rie.A")->value;
+    assert_true(A < 0.99 && after->bias_m > before->bias_m + (1.0 - A) * 25e-6);
+    /* a pack for another flow changes nothing */
+    fw_flow *other = read_pack(arena, COPPER, NULL, NULL, &diags);
+    assert_int_equal(fw_lab_apply(arena, "lab.xml", pack.data, pack.length, other, &diags), FW_OK);
+    assert_int_equal(other->noverride, 0);
+}
+
+static void wrong_tables(void **state) {
+    (void)state;
+    static const char *const bad[] = {
+        "",
+        "nothing",
+        "coupon,measured,u\nspin,1,1\n",
+        "coupon,feature,drawn_um,measured,u,unit,colour\nspin,,,1,1,um,red\n",
+        "coupon,measured,u,unit,at,u_at,at_unit\nspin,1,0,um,4000,20,rpm\n",
+        "coupon,measured,u,unit,at,u_at,at_unit\nspin,1,,um,4000,20,rpm\n",
+        "coupon,measured,u,unit,at,u_at,at_unit\nspin,1,0.1,furlong,4000,20,rpm\n",
+        "coupon,measured,u,unit,at,u_at,at_unit\nspin,one,0.1,um,4000,20,rpm\n",
+        "coupon,measured,u,unit,at,u_at,at_unit\nspin,1,0.1,um,4000,-1,rpm\n",
+        "coupon,measured,u,unit,at,u_at,at_unit\nspin,1,0.1,um,4000,20,\n",
+        "coupon,measured,u,unit,at,u_at,at_unit\nspinn,1,0.1,um,4000,20,rpm\n",
+        "coupon,measured,u,unit,at,u_at,at_unit\nspin,1,0.1,s,4000,20,rpm\n",
+        "coupon,measured,u,unit,at,u_at,at_unit\nspin,1,0.1,um,4000,20,um\n",
+        "coupon,measured,u,unit,at,u_at,at_unit\narde-slots,45,0.1,um,90,1,min\n",
+        "coupon,feature,measured,u,unit,at,u_at,at_unit\netch-rate,no.R,1,0.1,um,90,1,min\n",
+        "coupon,feature,drawn_um,measured,u,unit\ncd-lines,dot,10,9,0.1,um\n"};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        fw_measurement *row;
+        fw_calibration c;
+        int n;
+        fw_diags said = fw_diags_new(arena);
+        fw_status status =
+            fw_measurements_read(arena, "t.csv", bad[i], strlen(bad[i]), &said, &row, &n);
+        if (status == FW_OK) status = fw_calibrate(arena, silicon, row, n, &said, &c);
+        assert_int_equal(status, FW_INPUT);
+        assert_int_equal(last_number(&said), 211);
+    }
+}
+
+static void wrong_packs(void **state) {
+    (void)state;
+    static const struct {
+        const char *inside;
+        int number;
+    } bad[] = {
+        {"<q id=\"rie.AA\" value=\"0.9\" u=\"0.1\" unit=\"1\" status=\"measured\" src=\"s\"/>",
+         211},
+        {"<q id=\"rie.A\" value=\"0.9\" u=\"0.1\" unit=\"um\" status=\"measured\" src=\"s\"/>",
+         211},
+        {"<q id=\"mask.dies\" value=\"3\" u=\"0\" unit=\"1\" status=\"measured\" src=\"s\"/>", 211},
+        {"<q id=\"rie.t-slot\" value=\"3\" u=\"0\" unit=\"min\" status=\"measured\" src=\"s\"/>",
+         211},
+        {"<q value=\"0.9\" u=\"0.1\" unit=\"1\" status=\"measured\" src=\"s\"/>", 43},
+        {"<step id=\"S99\"/>", 211},
+        {"<q id=\"rie.A\" value=\"0.9\" unit=\"1\" status=\"measured\" src=\"s\"/>", 71},
+        {"<q id=\"rie.A\" value=\"0.9\" u=\"0.1\" unit=\"1\" status=\"measured\" src=\"t\"/>", 46}};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        fw_diags said = fw_diags_new(arena);
+        fw_flow *f = read_pack(arena, SILICON, NULL, NULL, &said);
+        const char *xml = fw_arena_printf(
+            arena,
+            "<process xmlns=\"urn:flexwright:process:1\" id=\"lab\" version=\"1\" title=\"x\" "
+            "flow=\"al-masked-rie\"><source id=\"s\" kind=\"measured\">x</source>%s</process>",
+            bad[i].inside);
+        said = fw_diags_new(arena);
+        assert_int_equal(fw_lab_apply(arena, "l.xml", xml, strlen(xml), f, &said), FW_INPUT);
+        assert_int_equal(last_number(&said), bad[i].number);
+        assert_int_equal(f->noverride, 0);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(coverage),   cmocka_unit_test(two_slots),
+        cmocka_unit_test(survivors),  cmocka_unit_test(contradictions),
+        cmocka_unit_test(round_trip), cmocka_unit_test(wrong_tables),
+        cmocka_unit_test(wrong_packs)};
+    return cmocka_run_group_tests(tests, setup, teardown);
+}

@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Schedules: an independent greedy schedule of both flows, every rule of a schedule on random
+   shops, small shops against all schedules there are. */
+#include "schedule/line.h"
+#include "shops.h"
+
+static fw_arena *arena;
+static int setup(void **state) {
+    (void)state;
+    arena = fw_arena_new(0);
+    return arena ? 0 : -1;
+}
+static int teardown(void **state) {
+    (void)state;
+    fw_arena_free(arena);
+    return 0;
+}
+
+static uint64_t seed = 11;
+static int below(int n) {
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    return (int)((seed >> 33) % (uint64_t)n);
+}
+
+/* non-delay list schedules computed by another program (Python), minutes; the first rule here is
+   the same one. What is returned is never worse, and never better than the bound. */
+static void greedy_reference(void **state) {
+    (void)state;
+    static const int wafers[] = {1, 2, 3, 4, 6, 10};
+    static const double cu[2][6] = {{444.04, 538.08, 607.08, 676.08, 814.08, 1114.04},
+                                    {444.04, 563.04, 721.04, 902.08, 1173.08, 1907.12}};
+    static const double si[2][6] = {{533.67, 722.34, 911.01, 1102.00, 1516.67, 2072.00},
+                                    {533.67, 781.34, 1029.01, 1274.68, 1860.02, 2825.70}};
+    for (int people = 0; people < 2; people++)
+        for (int i = 0; i < 6; i++)
+            for (int flow = 0; flow < 2; flow++) {
+                fw_shop shop = flow ? shop_of(arena, si_rows, SI_ROWS, wafers[i], people)
+                                    : shop_of(arena, cu_rows, CU_ROWS, wafers[i], people);
+                double want = 60.0 * (flow ? si : cu)[people][i];
+                fw_placing p;
+                fw_schedule s;
+                assert_int_equal(fw_placing_new(arena, &shop, &p), FW_OK);
+                assert_true(fw_place_all(&p, FW_RULE_EARLIEST_ADVANCED));
+                assert_near(p.makespan_s, want, 1e-6);
+                assert_int_equal(fw_schedule_solve(arena, &shop, 10, &s), FW_OK);
+                assert_true(s.feasible);
+                assert_true(s.makespan_s <= want + 1e-6);
+                check_schedule(&s);
+                if (wafers[i] == 1) assert_true(s.optimal);
+            }
+}
+
+/* ---- small shops, all schedules ---- */
+
+enum { TASKS = 3, MOST = 14 }; /* minutes of the horizon */
+
+typedef struct small {
+    fw_shop shop;
+    row rows[TASKS];
+    fw_hold hold[2];
+    int start[TASKS * 3]; /* minutes, task * wafers + wafer; -1: not yet */
+    int best, wafers;
+} small;
+
+static int run_min(const small *s, int task) {
+    return (int)s->rows[task].run_min;
+}
+
+/* does (task, wafer) at t fit with what was put before? loads are equal starts of one task */
+static bool fits(const small *s, int task, int wafer, int t, int upto) {
+    const fw_task *k = &s->shop.task[task];
+    int together = 1, people = k->attended_s > 0;
+    if (task > 0 && t < s->start[(task - 1) * s->wafers + wafer] + run_min(s, task - 1))
+        return false;
+    for (int h = 0; h < s->shop.nhold; h++)
+        if (s->hold[h].to == task) {
+            double w = 60.0 * (t - s->start[s->hold[h].from * s->wafers + wafer] -
+                               run_min(s, s->hold[h].from));
+            if (w > s->hold[h].max_s + 1e-9 || w < s->hold[h].min_s - 1e-9) return false;
+        }
+    for (int i = 0; i < upto; i++) {
+        int other = i / s->wafers, at = s->start[i];
+        const fw_task *o = &s->shop.task[other];
+        bool same_run = other == task && at == t;
+        together += same_run;
+        if (same_run) continue;
+        if (o->machine == k->machine && at < t + run_min(s, task) && t < at + run_min(s, other))
+            return false;
+    }
+    if (together > k->load) return false;
+    if (!people) return true;
+    /* people: at every minute at most so many loads are attended; loads count once */
+    int attended = (int)s->rows[task].attended_min;
+    for (int m = t; m < t + attended; m++) {
+        int busy = 1;
+        for (int i = 0; i < upto; i++) {
+            int other = i / s->wafers, at = s->start[i];
+            bool counted = other == task && at == t;
+            for (int j = 0; j < i && !counted; j++)
+                counted = j / s->wafers == other && s->start[j] == at;
+            if (!counted && at <= m && m < at + (int)s->rows[other].attended_min) busy++;
+        }
+        if (busy > s->shop.operators) return false;
+    }
+    return true;
+}
+
+static void all_schedules(small *s, int cell, int latest) {
+    if (latest >= s->best) return;
+    if (cell == TASKS * s->wafers) {
+        s->best = latest;
+        return;
+    }
+    int task = cell / s->wafers, wafer = cell % s->wafers;
+    int from = task > 0 ? s->start[cell - s->wafers] + run_min(s, task - 1) : 0;
+    for (int t = from; t + run_min(s, task) < s->best; t++) {
+        if (!fits(s, task, wafer, t, cell)) continue;
+        s->start[cell] = t;
+        int end = t + run_min(s, task);
+        all_schedules(s, cell + 1, end > latest ? end : latest);
+    }
+}
+
+static void random_small(small *s) {
+    static const char *const id[] = {"A", "B", "C"}, *const machine[] = {"x", "y"};
+    s->wafers = 2 + below(2);
+    for (int i = 0; i < TASKS; i++) {
+        int run = 1 + below(3);
+        s->rows[i] = (row){id[i], machine[below(2)], 1 + below(2), run, below(run + 1)};
+    }
+    s->shop = shop_of(arena, s->rows, TASKS, s->wafers, 1 + below(2));
+    s->shop.nhold = below(3);
+    s->shop.hold = s->hold;
+    for (int k = 0; k < s->shop.nhold; k++) {
+        int from = below(TASKS - 1), to = from + 1 + below(TASKS - 1 - from);
+        int between = to > from + 1 ? run_min(s, from + 1) : 0;
+        s->hold[k] = hold_of(from, to, below(2) ? 60.0 : 0.0, 60.0 * (between + 1 + below(3)));
+    }
+}
+
+/* 120 shops of two or three wafers: never better than the best of all schedules, and nearly always
+   equal; the bound never above it. A batch may start together only. */
+static void brute_force(void **state) {
+    (void)state;
+    int optimal = 0, all = 0, held = 0;
+    for (int round = 0; round < 120; round++) {
+        small s = {.best = 3 * MOST};
+        fw_schedule got;
+        random_small(&s);
+        all_schedules(&s, 0, 0);
+        assert_int_equal(fw_schedule_solve(arena, &s.shop, 300, &got), FW_OK);
+        if (s.best == 3 * MOST) continue; /* beyond the horizon of this search */
+        all++;
+        held += s.shop.nhold > 0;
+        if (!got.feasible) {
+            print_message("not found: best %d, %s\n", s.best, got.why);
+            continue;
+        }
+        check_schedule(&got);
+        assert_true(got.makespan_s >= 60.0 * s.best - 1e-6);
+        assert_true(got.bound.best_s <= 60.0 * s.best + 1e-6);
+        assert_true(!got.optimal || fabs(got.makespan_s - 60.0 * s.best) < 1e-6);
+        optimal += got.makespan_s <= 60.0 * s.best + 1e-6;
+    }
+
+    assert_true(all > 90 && held > 50);
+    assert_true(optimal >= 0.97 * all);
+}
+
+/* random larger shops with batches, holds, days and people: every rule of a schedule holds */
+static void random_shops(void **state) {
+    (void)state;
+    static const char *const id[] = {"A", "B", "C", "D", "E", "F", "G", "H"};
+    static const char *const machine[] = {"m", "n", "o", "p", "shelf"};
+    int found = 0;
+    for (int round = 0; round < 120; round++) {
+        row rows[8];
+        fw_hold hold[4];
+        for (int i = 0; i < 8; i++) {
+            double run = 1 + below(200);
+            rows[i] = (row){id[i], machine[below(5)], below(8) ? 1 + below(4) : 99, run,
+                            below(4) ? below((int)run + 1) : 0};
+            if (strcmp(rows[i].machine, "shelf") == 0) rows[i].attended_min = 0;
+        }
+        fw_shop shop = shop_of(arena, rows, 8, 1 + below(8), 1 + below(3));
+        shop.nhold = below(4);
+        shop.hold = hold;
+        for (int k = 0; k < shop.nhold; k++) {
+            int from = below(7), to = from + 1 + below(7 - from < 2 ? 7 - from : 2);
+            double between = to > from + 1 ? shop.task[from + 1].duration_s : 0.0;
+            hold[k] = hold_of(from, to, -(double)INFINITY, between + 60.0 * below(300));
+        }
+        if (below(2)) shop.calendar = (fw_calendar){8 * 3600.0, 18 * 3600.0, below(2) == 0};
+        fw_schedule got;
+        assert_int_equal(fw_schedule_solve(arena, &shop, 20, &got), FW_OK);
+        assert_true(got.feasible || got.why);
+        if (!got.feasible) continue;
+        check_schedule(&got);
+        found++;
+    }
+
+    assert_true(found > 90);
+}
+
+/* places for three, against counting at every second */
+static void line(void **state) {
+    (void)state;
+    for (int round = 0; round < 2000; round++) {
+        double start[9], end[9];
+        fw_line l = {.start_s = start, .end_s = end, .places = 1 + below(3)};
+        for (int i = 0; i < 9; i++) {
+            int t = below(30), n = below(8);
+            double at = fw_line_fit(&l, t, n);
+            bool full = true;
+            for (double x = t; full && x <= at; x += 1.0) {
+                full = false;
+                for (double y = x; y < x + n; y += 1.0) {
+                    int busy = 0;
+                    for (int k = 0; k < l.n; k++)
+                        busy += start[k] <= y && end[k] > y;
+                    full = full || busy >= l.places;
+                }
+                if (!full) assert_near(at, x, 0);
+            }
+            assert_false(full);
+            fw_line_add(&l, at, at + n);
+        }
+    }
+}
+
+/* the same shop gives the same schedule */
+static void repeatable(void **state) {
+    (void)state;
+    fw_shop shop = shop_of(arena, si_rows, SI_ROWS, 5, 2);
+    fw_schedule a, b;
+    assert_int_equal(fw_schedule_solve(arena, &shop, 0, &a), FW_OK);
+    assert_int_equal(fw_schedule_solve(arena, &shop, 0, &b), FW_OK);
+    assert_int_equal(a.nrun, b.nrun);
+    assert_memory_equal(a.run, b.run, (size_t)a.nrun * sizeof *a.run);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(greedy_reference), cmocka_unit_test(brute_force),
+        cmocka_unit_test(random_shops), cmocka_unit_test(line), cmocka_unit_test(repeatable)};
+    return cmocka_run_group_tests(tests, setup, teardown);
+}
