@@ -13,4 +13,4 @@ FLOWS = ("al-masked-rie", "copper-on-porous-silicon")
 def run(*arguments, **options):
     options.setdefault("cwd", ROOT)
     return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
-                          timeout=60, **options)
+                          timeout=240, **options)
