@@ -175,7 +175,7 @@ static void coverage(void **state) {
                 {rate, true, 1},  {step_height, true, 1},   {mass, false, 1},
                 {pads, false, 2}, {spin, false, 2}};
     for (size_t k = 0; k < sizeof kind / sizeof kind[0]; k++) {
-        int inside[2] = {0, 0}, refused = 0, cases = 1000;
+        int inside[2] = {0, 0}, refused = 0, cases = 3000; /* share +- 0.4 % */
         double sum[2] = {0, 0};
         for (int i = 0; i < cases; i++) {
             truth t[2] = {{0}};
@@ -195,7 +195,7 @@ static void coverage(void **state) {
             }
             fw_arena_rewind(arena, mark);
         }
-        assert_true(refused <= 6); /* one in a thousand by chance, and a lag below zero */
+        assert_true(refused <= 18); /* one in a thousand by chance, and a lag below zero */
         for (int j = 0; j < kind[k].n; j++) {
             double share = (double)inside[j] / (cases - refused);
             if (!(share >= 0.93 && share <= 0.97))
