@@ -3,64 +3,12 @@
    one XY record, texts, all dates zero. Record = length u16, type u8, data type u8, payload,
    big-endian (Calma GDSII Stream Format Manual, release 6). */
 #include "mask/notes.h"
+#include "mask/records.h"
 #include "mask/stream.h"
 #include <math.h>
 #include <string.h>
 
-enum {
-    HEADER = 0x0002,
-    BGNLIB = 0x0102,
-    LIBNAME = 0x0206,
-    UNITS = 0x0305,
-    ENDLIB = 0x0400,
-    BGNSTR = 0x0502,
-    STRNAME = 0x0606,
-    ENDSTR = 0x0700,
-    BOUNDARY = 0x0800,
-    TEXT = 0x0c00,
-    LAYER = 0x0d02,
-    DATATYPE = 0x0e02,
-    XY = 0x1003,
-    ENDEL = 0x1100,
-    TEXTTYPE = 0x1602,
-    STRING = 0x1906,
-    VERSION = 600,
-    LINE_PITCH_DBU = 60000,
-};
-
-static void u16(fw_text *out, unsigned value) {
-    unsigned char b[2] = {(unsigned char)(value >> 8 & 0xff), (unsigned char)(value & 0xff)};
-    fw_text_bytes(out, b, sizeof b);
-}
-
-static unsigned char *put_i32(unsigned char *at, int32_t value) {
-    uint32_t v = (uint32_t)value;
-    at[0] = (unsigned char)(v >> 24), at[1] = (unsigned char)(v >> 16 & 0xff);
-    at[2] = (unsigned char)(v >> 8 & 0xff), at[3] = (unsigned char)(v & 0xff);
-    return at + 4;
-}
-
-static void point(fw_text *out, int32_t x, int32_t y) {
-    unsigned char *at = fw_text_room(out, 8);
-    if (at) put_i32(put_i32(at, x), y);
-}
-
-static void record(fw_text *out, unsigned type, size_t payload) {
-    u16(out, (unsigned)(payload + 4));
-    u16(out, type);
-}
-
-static void number(fw_text *out, unsigned type, int value) {
-    record(out, type, 2);
-    u16(out, (unsigned)value & 0xffff);
-}
-
-static void string(fw_text *out, unsigned type, const char *s) {
-    size_t n = strlen(s), odd = n & 1;
-    record(out, type, n + odd);
-    fw_text_bytes(out, s, n);
-    fw_text_bytes(out, "", odd);
-}
+enum { VERSION = 600, LINE_PITCH_DBU = 60000 };
 
 /* real8: sign, 7 bits exponent of 16 plus 64, 56 bits fraction f in [1/16, 1): value = f 16^e.
    In: finite, 16^-64 <= |value| < 16^63, or 0. Out: 8 bytes. Exact for every such double (53 bits
@@ -80,9 +28,9 @@ static void real8(fw_text *out, double value) {
 }
 
 static void zero_dates(fw_text *out, unsigned type) {
-    record(out, type, 24);
+    fw_gds_record(out, type, 24);
     for (int i = 0; i < 12; i++)
-        u16(out, 0);
+        fw_gds_u16(out, 0);
 }
 
 /* Both numbers of a point at once: the eight bytes turned round, and their halves exchanged. */
@@ -98,23 +46,23 @@ static unsigned char *put_points(unsigned char *at, const fw_point *p, size_t n)
 }
 
 void fw_gds_boundary(fw_text *out, const fw_mask_layer *layer, const fw_polygon *polygon) {
-    record(out, BOUNDARY, 0);
-    number(out, LAYER, layer->layer);
-    number(out, DATATYPE, layer->datatype);
-    record(out, XY, 8 * ((size_t)polygon->count + 1));
+    fw_gds_record(out, FW_GDS_BOUNDARY, 0);
+    fw_gds_number(out, FW_GDS_LAYER, layer->layer);
+    fw_gds_number(out, FW_GDS_DATATYPE, layer->datatype);
+    fw_gds_record(out, FW_GDS_XY, 8 * ((size_t)polygon->count + 1));
     unsigned char *at = fw_text_room(out, 8 * ((size_t)polygon->count + 1));
     if (at) put_points(put_points(at, polygon->vertex, (size_t)polygon->count), polygon->vertex, 1);
-    record(out, ENDEL, 0);
+    fw_gds_record(out, FW_GDS_ENDEL, 0);
 }
 
 static void text(fw_text *out, const fw_mask_layer *layer, int32_t x, int32_t y, const char *line) {
-    record(out, TEXT, 0);
-    number(out, LAYER, layer->layer);
-    number(out, TEXTTYPE, layer->datatype);
-    record(out, XY, 8);
-    point(out, x, y);
-    string(out, STRING, line);
-    record(out, ENDEL, 0);
+    fw_gds_record(out, FW_GDS_TEXT, 0);
+    fw_gds_number(out, FW_GDS_LAYER, layer->layer);
+    fw_gds_number(out, FW_GDS_TEXTTYPE, layer->datatype);
+    fw_gds_record(out, FW_GDS_XY, 8);
+    fw_gds_point(out, x, y);
+    fw_gds_string(out, FW_GDS_STRING, line);
+    fw_gds_record(out, FW_GDS_ENDEL, 0);
 }
 
 static fw_status texts(const fw_mask *mask, fw_text *out) {
@@ -134,17 +82,17 @@ static fw_status texts(const fw_mask *mask, fw_text *out) {
 /* ---- a library of several cells ---- */
 
 void fw_gds_begin(fw_text *out, const char *library) {
-    number(out, HEADER, VERSION);
-    zero_dates(out, BGNLIB);
-    string(out, LIBNAME, library);
-    record(out, UNITS, 16);
+    fw_gds_number(out, FW_GDS_HEADER, VERSION);
+    zero_dates(out, FW_GDS_BGNLIB);
+    fw_gds_string(out, FW_GDS_LIBNAME, library);
+    fw_gds_record(out, FW_GDS_UNITS, 16);
     real8(out, 1e-3); /* user unit 1 um */
     real8(out, 1e-9);
 }
 
 void fw_gds_cell_begin(fw_text *out, const char *name) {
-    zero_dates(out, BGNSTR);
-    string(out, STRNAME, name);
+    zero_dates(out, FW_GDS_BGNSTR);
+    fw_gds_string(out, FW_GDS_STRNAME, name);
 }
 
 void fw_gds_shapes(fw_text *out, const fw_mask *mask) {
@@ -157,11 +105,11 @@ void fw_gds_shapes(fw_text *out, const fw_mask *mask) {
 }
 
 void fw_gds_cell_end(fw_text *out) {
-    record(out, ENDSTR, 0);
+    fw_gds_record(out, FW_GDS_ENDSTR, 0);
 }
 
 void fw_gds_end(fw_text *out) {
-    record(out, ENDLIB, 0);
+    fw_gds_record(out, FW_GDS_ENDLIB, 0);
 }
 
 fw_status fw_mask_write_gds(const fw_mask *mask, fw_text *out) {
