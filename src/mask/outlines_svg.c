@@ -360,13 +360,16 @@ static void title(const page *p) {
     fw_text_add(p->out, ": as drawn, on the mask, as fabricated</title>\n");
 }
 
+/* as wide as a screen: at its own size a device is a dot */
+static const double PICTURE_MM = 280;
+
 static void head(const page *p, double width, double height) {
     fw_text_add(p->out, p->part ? "" : "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     fw_text_add(p->out, "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\"");
     const double side_um[] = {width, height};
     for (int i = 0; i < 2 && !p->part; i++) {
         fw_text_printf(p->out, " %s=\"", i ? "height" : "width");
-        fw_text_fixed(p->out, side_um[i] / 1000, 6);
+        fw_text_fixed(p->out, side_um[i] * PICTURE_MM / width, 3);
         fw_text_add(p->out, "mm\"");
     }
     fw_text_add(p->out,
@@ -376,10 +379,9 @@ static void head(const page *p, double width, double height) {
     fw_text_fixed(p->out, height, 4);
     fw_text_add(p->out, "\" font-family=\"sans-serif\">\n");
     title(p);
-    fw_text_add(p->out,
-                "<desc>1 unit = 1 um; a picture, not for writing masks; flexwright " FW_VERSION
-                "</desc>\n<rect width=\"100%\" height=\"100%\" "
-                "fill=\"#ffffff\"/>\n");
+    fw_text_add(p->out, "<desc>1 unit of the view box = 1 um; a picture, not for writing masks; "
+                        "flexwright " FW_VERSION "</desc>\n<rect width=\"100%\" height=\"100%\" "
+                        "fill=\"#ffffff\"/>\n");
 }
 
 static page page_of(const fw_mask *mask, fw_text *out) {
