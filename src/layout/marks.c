@@ -32,12 +32,10 @@ static fw_status add_points(const sheet *s, const fw_vec2 *p, int n, bool revers
     return fw_layout_add(s->arena, item, s->piece, s->npiece, s->capacity);
 }
 
-/* four equal arms, each coarse near the centre (half width w, length a) and fine at the tip (f, b):
-   the coarse part is found by eye, the fine one is lined up */
-static fw_status add_cross(const sheet *s, fw_vec2 centre, double w, double a, double f, double b) {
+void fw_layout_cross(fw_vec2 centre, double w, double a, double f, double b,
+                     fw_vec2 p[FW_LAYOUT_CROSS]) {
     const fw_vec2 arm[] = {{w, -w}, {a, -w}, {a, -f}, {b, -f}, {b, f}, {a, f}, {a, w}};
     enum { PER_ARM = sizeof arm / sizeof arm[0] };
-    fw_vec2 p[4 * PER_ARM];
     for (int k = 0; k < 4; k++)
         for (int i = 0; i < PER_ARM; i++) {
             fw_vec2 v = arm[i];
@@ -45,8 +43,13 @@ static fw_status add_cross(const sheet *s, fw_vec2 centre, double w, double a, d
                 v = (fw_vec2){-v.y, v.x};
             p[k * PER_ARM + i] = (fw_vec2){centre.x + v.x, centre.y + v.y};
         }
+}
+
+static fw_status add_cross(const sheet *s, fw_vec2 centre, double w, double a, double f, double b) {
+    fw_vec2 p[FW_LAYOUT_CROSS];
+    fw_layout_cross(centre, w, a, f, b, p);
     fw_piece item = {FW_ROLE_MARK, FW_NONE - 1, FW_NONE, "alignment cross", {0}};
-    return add_points(s, p, 4 * PER_ARM, false, item);
+    return add_points(s, p, FW_LAYOUT_CROSS, false, item);
 }
 
 /* L whose outer corner is at `at` and whose arms point along (sx, sy) */

@@ -24,6 +24,11 @@ fw_status fw_layout_text(fw_arena *arena, const char *string, fw_vec2 origin, do
 
 double fw_layout_to_grid(double x_m); /* nearest multiple of 1 nm */
 
+/* four equal arms, each coarse near the centre (half width w, length a) and fine at the tip (f, b):
+   the coarse part is found by eye, the fine one is lined up. Counter-clockwise. */
+enum { FW_LAYOUT_CROSS = 28 };
+void fw_layout_cross(fw_vec2 centre, double w, double a, double f, double b,
+                     fw_vec2 p[FW_LAYOUT_CROSS]);
 /* appends one piece, growing the array */
 fw_status fw_layout_add(fw_arena *arena, fw_piece item, fw_piece **piece, int *npiece,
                         int *capacity);

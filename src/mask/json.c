@@ -3,21 +3,10 @@
 #include <math.h>
 
 void fw_mask_json_string(fw_text *out, const char *s) {
-    if (!s) {
+    if (s)
+        fw_text_json(out, s);
+    else
         fw_text_add(out, "null");
-        return;
-    }
-    fw_text_add(out, "\"");
-    for (; *s; s++) {
-        unsigned char c = (unsigned char)*s;
-        if (c == '"' || c == '\\')
-            fw_text_printf(out, "\\%c", c);
-        else if (c < 0x20)
-            fw_text_printf(out, "\\u%04x", c);
-        else
-            fw_text_bytes(out, s, 1);
-    }
-    fw_text_add(out, "\"");
 }
 
 void fw_mask_json_text(fw_text *out, const char *key, const char *value) {

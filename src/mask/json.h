@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Members of the JSON that this room writes by hand, in a fixed order. Private to the room. */
+/* Members of the JSON that this room writes by hand, in a fixed order. For this room and
+   wafer/, whose certificate reads like those of masks. */
 #ifndef FW_MASK_JSON_H
 #define FW_MASK_JSON_H
 #include "base/text.h"

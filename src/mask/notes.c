@@ -15,15 +15,19 @@ typedef struct lines {
     int count;
 } lines;
 
-/* other bytes become '?': two of the common readers stop at non-ASCII text */
-static fw_status add(lines *l, const char *key, const char *value) {
-    char *text = fw_arena_printf(l->arena, "%s%s%s", key, *key ? "=" : "", value);
+fw_status fw_mask_note(fw_arena *arena, const char *key, const char *value, const char **line) {
+    FW_NEED(value);
+    char *text = fw_arena_printf(arena, "%s%s%s", key, *key ? "=" : "", value);
     FW_NEED(text);
     for (char *s = text; *s; s++)
         if ((unsigned char)*s < 0x20 || (unsigned char)*s > 0x7e) *s = '?';
     if (strlen(text) > FW_MASK_NOTE_MOST) text[FW_MASK_NOTE_MOST] = '\0';
-    l->line[l->count++] = text;
+    *line = text;
     return FW_OK;
+}
+
+static fw_status add(lines *l, const char *key, const char *value) {
+    return fw_mask_note(l->arena, key, value, &l->line[l->count++]);
 }
 
 static fw_status add_layers(lines *l, const fw_mask_table *table) {

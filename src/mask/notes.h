@@ -5,6 +5,9 @@
 #include "mask/mask.h"
 
 enum { FW_MASK_NOTE_MOST = 512 };
+/* one line, "key=value" or the value alone where the key is ""; other bytes than ASCII become '?':
+   two of the common readers stop at them */
+fw_status fw_mask_note(fw_arena *arena, const char *key, const char *value, const char **line);
 /* ASCII, at most 512 characters each, in a fixed order, from the writer's arena */
 fw_status fw_mask_notes(fw_arena *arena, const fw_mask *mask, const char ***line, int *count);
 /* index of the documentation layer, or -1 */

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The test die of a flow, as large as the device's. What keeps it from being drawn never keeps the
    device's own mask. */
-#include "base/hash.h"
 #include "plan/stages.h"
 
 fw_status fw_plan_coupons(fw_plan *plan, fw_plan_flow *pf) {
@@ -34,10 +33,7 @@ fw_status fw_plan_coupons(fw_plan *plan, fw_plan_flow *pf) {
                      "%zu of %d test patterns of flow %s find no room on a die of this size; "
                      "masks/%s-coupons.json says which",
                      left_out, pf->coupons->content->ncoupon, pf->use->ref, pf->use->ref);
-    char hash[65];
     pf->coupons_gds = fw_text_new(plan->arena);
     FW_TRY(fw_mask_write_gds(pf->coupons->mask, &pf->coupons_gds));
-    fw_sha256(pf->coupons_gds.data, pf->coupons_gds.length, hash);
-    FW_NEED(pf->coupons_sha256 = fw_arena_strdup(plan->arena, hash));
-    return FW_OK;
+    return fw_plan_hash(plan, &pf->coupons_gds, &pf->coupons_sha256);
 }

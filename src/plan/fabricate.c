@@ -4,6 +4,13 @@
 #include <math.h>
 #include <string.h>
 
+fw_status fw_plan_hash(fw_plan *plan, const fw_text *text, const char **sha256) {
+    char hash[65];
+    fw_sha256(text->data, text->length, hash);
+    FW_NEED(*sha256 = fw_arena_strdup(plan->arena, hash));
+    return FW_OK;
+}
+
 /* what the mask room does not know itself */
 static fw_status notes_of(fw_plan *plan, const fw_plan_flow *pf, fw_mask_options *options) {
     char thickness[32];
@@ -16,19 +23,6 @@ static fw_status notes_of(fw_plan *plan, const fw_plan_flow *pf, fw_mask_options
     FW_NEED(options->note = fw_arena_alloc(plan->arena, (size_t)options->nnote, sizeof *line));
     for (int i = 0; i < options->nnote; i++)
         FW_NEED(options->note[i] = line[i]);
-    return FW_OK;
-}
-
-/* a flow whose mask cannot be made says no, first of all its reasons */
-fw_status fw_plan_flow_refused(fw_plan *plan, fw_flow *flow, const char *why) {
-    const char **reason = fw_arena_alloc(plan->arena, (size_t)flow->nreason + 1, sizeof *reason);
-    FW_NEED(reason);
-    reason[0] = why;
-    for (int i = 0; i < flow->nreason; i++)
-        reason[i + 1] = flow->reason[i];
-    flow->reason = reason;
-    flow->nreason++;
-    flow->manufacturable = 0;
     return FW_OK;
 }
 
@@ -87,7 +81,7 @@ static fw_status edges_of(fw_plan *plan, const fw_flow *flow, const fw_mask_edge
 static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     if (!plan->layout) { /* dimensions that do not fit: no flow can make it */
         pf->mask_error = "the device cannot be drawn with these dimensions; see the diagnostics";
-        return fw_plan_flow_refused(plan, pf->flow, pf->mask_error);
+        return fw_flow_add_reason(plan->arena, pf->flow, 0, pf->mask_error);
     }
     if (!plan->layout->drawn) {
         pf->mask_error = plan->layout->why_not ? plan->layout->why_not : "the device has no shapes";
@@ -118,7 +112,7 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     pf->mask = status == FW_OK || (mask && mask->whole && plan->options.force) ? mask : NULL;
     if (status == FW_OK) return FW_OK;
     pf->mask_error = "the mask breaks a design rule or cannot be biased; see the diagnostics";
-    return fw_plan_flow_refused(plan, pf->flow, pf->mask_error);
+    return fw_flow_add_reason(plan->arena, pf->flow, 0, pf->mask_error);
 }
 
 fw_status fw_plan_compute_flows(fw_plan *plan) {
@@ -153,10 +147,8 @@ fw_status fw_plan_fabricate(fw_plan *plan) {
         FW_TRY(build_mask(plan, pf, rejected));
         if (!pf->mask) continue;
         pf->gds = fw_text_new(plan->arena);
-        char hash[65];
         FW_TRY(fw_mask_write_gds(pf->mask, &pf->gds));
-        fw_sha256(pf->gds.data, pf->gds.length, hash);
-        FW_NEED(pf->mask_sha256 = fw_arena_strdup(plan->arena, hash));
+        FW_TRY(fw_plan_hash(plan, &pf->gds, &pf->mask_sha256));
         if (plan->options.dies == 0) FW_TRY(fw_plan_coupons(plan, pf)); /* one test die will do */
     }
     FW_TRY(fw_plan_wafers(plan));

@@ -32,15 +32,16 @@ static json_t *option_list(const fw_plan *plan) {
     const fw_schedule_options *c = &o->schedule;
     json_t *schedule = json_pack("{s:i, s:i, s:s, s:s?}", "wafers", c->wafers ? c->wafers : 1,
                                  "operators", c->operators ? c->operators : 1, "day",
-                                 c->day ? c->day : "08:00-18:00", "planning_times", c->planned);
+                                 c->day ? c->day : FW_WORKING_DAY, "planning_times", c->planned);
     return json_pack(
-        "{s:f, s:s?, s:i, s:f, s:s, s:s, s:s?, s:b, s:s?, s:s?, s:s?, s:o, s:o}",
+        "{s:f, s:s?, s:i, s:f, s:s, s:s, s:s?, s:b, s:s?, s:s?, s:s?, s:o, s:o, s:s}",
         "mask_tolerance_nm", tolerance_nm, "mask_formats", o->mask_formats, "mask_vertices",
         o->mask_vertices ? o->mask_vertices : 4094, "accuracy", o->verdict.motion.accuracy,
         "effects", e->mode == FW_EFFECTS_LIST && e->list ? e->list : effects[e->mode],
         "hinge_model", fw_hinge_model_text(e->hinge), "flow", o->flow, "force", (int)o->force,
         "method", o->verdict.motion.method, "integrator", o->verdict.motion.integrator, "stabilise",
-        o->verdict.motion.stabilise, "set", set, "schedule", schedule);
+        o->verdict.motion.stabilise, "set", set, "schedule", schedule, "mask_flatten",
+        o->mask_flatten && *o->mask_flatten ? o->mask_flatten : "inside");
 }
 
 /* hash of every input and output, the options, the version; no clock, no machine */
@@ -50,9 +51,6 @@ fw_status fw_plan_manifest(const fw_plan *plan, const fw_output_file *file, size
                              "flexwright.manifest/1", "program", "flexwright", "version",
                              FW_VERSION, "device", plan->device->name, "options", option_list(plan),
                              "inputs", file_list(plan), "outputs", output_list(file, count));
-    const char *flatten = plan->options.mask_flatten;
-    json_object_set_new(json_object_get(json, "options"), "mask_flatten",
-                        json_string(flatten && *flatten ? flatten : "inside"));
     if (plan->verdict.decision == FW_REJECT)
         json_object_set_new(json, "banner", json_string("REJECTED"));
     char *text = json ? json_dumps(json, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) : NULL;

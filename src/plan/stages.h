@@ -41,8 +41,7 @@ fw_status fw_plan_wafers(fw_plan *plan);
 fw_status fw_plan_count_dies(fw_plan *plan);
 /* who does what when, of every flow that will be written */
 fw_status fw_plan_schedules(fw_plan *plan);
-/* the flow cannot make it: `why` becomes the first of its reasons */
-fw_status fw_plan_flow_refused(fw_plan *plan, fw_flow *flow, const char *why);
+fw_status fw_plan_hash(fw_plan *plan, const fw_text *text, const char **sha256);
 /* once per plan, after judging */
 fw_status fw_plan_assumptions(fw_plan *plan);
 fw_status fw_plan_manifest(const fw_plan *plan, const fw_output_file *file, size_t count,

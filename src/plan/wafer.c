@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The wafer of every flow. Each step of its sweeps is a plan of its own over the same description
    with one or two parameters set: laid out, judged and drawn like any other. */
-#include "base/hash.h"
 #include "plan/stages.h"
 #include <math.h>
 #include <string.h>
@@ -151,10 +150,7 @@ static fw_status make(fw_plan *plan, int flow, const double (*value)[2], const c
     FW_TRY(fw_wafer_build(plan->arena, &input, &plan->diags, &pf->wafer));
     pf->wafer_gds = fw_text_new(plan->arena);
     FW_TRY(fw_wafer_write_gds(pf->wafer, &pf->wafer_gds));
-    char hash[65];
-    fw_sha256(pf->wafer_gds.data, pf->wafer_gds.length, hash);
-    FW_NEED(pf->wafer_sha256 = fw_arena_strdup(plan->arena, hash));
-    return FW_OK;
+    return fw_plan_hash(plan, &pf->wafer_gds, &pf->wafer_sha256);
 }
 
 fw_status fw_plan_wafers(fw_plan *plan) {

@@ -19,6 +19,31 @@ double fw_judge_known(const fw_quantity *q) {
     return q && !q->unknown ? q->value : (double)NAN;
 }
 
+static fw_status append(fw_arena *arena, fw_flow *f, const char *why) {
+    const char **grown =
+        fw_arena_grow(arena, f->reason, (size_t)f->nreason, (size_t)f->nreason + 1, sizeof *grown);
+    FW_NEED(why && grown);
+    f->reason = grown;
+    f->reason[f->nreason++] = why;
+    return FW_OK;
+}
+
+/* the reasons from `from` on come before all others, in their order */
+static void to_the_front(fw_flow *f, int from) {
+    for (int i = from; i < f->nreason; i++) {
+        const char *why = f->reason[i];
+        memmove(f->reason + i - from + 1, f->reason + i - from, (size_t)from * sizeof *f->reason);
+        f->reason[i - from] = why;
+    }
+}
+
+fw_status fw_flow_add_reason(fw_arena *arena, fw_flow *flow, int manufacturable, const char *why) {
+    FW_TRY(append(arena, flow, why));
+    if (manufacturable == 0) to_the_front(flow, flow->nreason - 1);
+    if (manufacturable == 0 || flow->manufacturable != 0) flow->manufacturable = manufacturable;
+    return FW_OK;
+}
+
 fw_status fw_judge_say(fw_judge *j, fw_answer weight, const char *format, ...) {
     char text[1200];
     va_list arguments;
@@ -31,13 +56,7 @@ fw_status fw_judge_say(fw_judge *j, fw_answer weight, const char *format, ...) {
             end--;
         memcpy(text + end, "...", 4);
     }
-    fw_flow *f = j->flow;
-    const char **grown = fw_arena_grow(j->arena, f->reason, (size_t)f->nreason,
-                                       (size_t)f->nreason + 1, sizeof *f->reason);
-    FW_NEED(grown);
-    f->reason = grown;
-    FW_NEED(f->reason[f->nreason] = fw_arena_strdup(j->arena, text));
-    f->nreason++;
+    FW_TRY(append(j->arena, j->flow, fw_arena_strdup(j->arena, text)));
     if (weight < j->verdict) j->verdict = weight;
     return FW_OK;
 }
@@ -259,12 +278,7 @@ fw_status fw_flow_judge_drives(fw_arena *arena, fw_flow *flow, bool insulating_c
             told = drive[k].gap_m == drive[i].gap_m;
         if (!told) FW_TRY(drive_gap(&j, &drive[i], diags));
     }
-    for (int i = before; i < flow->nreason; i++) { /* what refuses comes first */
-        const char *reason = flow->reason[i];
-        memmove(flow->reason + i - before + 1, flow->reason + i - before,
-                (size_t)before * sizeof *flow->reason);
-        flow->reason[i - before] = reason;
-    }
+    to_the_front(flow, before); /* what refuses comes first */
     flow->manufacturable = j.verdict == FW_ANSWER_NO ? 0 : j.verdict == FW_ANSWER_OPEN ? -1 : 1;
     return diags->failed ? FW_NOMEM : FW_OK;
 }

@@ -5,20 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-/* what refuses (weight 0) comes first, what is open (-1) last */
-static fw_status add_reason(fw_arena *arena, fw_flow *flow, const char *why, int weight) {
-    const char **grown = fw_arena_grow(arena, flow->reason, (size_t)flow->nreason,
-                                       (size_t)flow->nreason + 1, sizeof *flow->reason);
-    FW_NEED(why);
-    FW_NEED(grown);
-    if (weight == 0) memmove(grown + 1, grown, (size_t)flow->nreason * sizeof *grown);
-    grown[weight == 0 ? 0 : flow->nreason] = why;
-    flow->reason = grown;
-    flow->nreason++;
-    if (weight == 0 || flow->manufacturable != 0) flow->manufacturable = weight;
-    return FW_OK;
-}
-
 /* thickness of what lies on top of a column and is all of one material; NaN: a part is unknown */
 static double top_layer(const fw_stack *stack, int column, const char *material) {
     double sum = 0.0;
@@ -87,7 +73,7 @@ static fw_status lint_loss(fw_arena *arena, fw_flow *flow, int index, const fw_e
         needed, gap, gap[0] ? q->unit : "",
         loss >= least ? "Nearest change: a thicker layer, or another etch"
                       : "Measure it before the first wafer");
-    return add_reason(arena, flow, why, loss >= least ? 0 : -1);
+    return fw_flow_add_reason(arena, flow, loss >= least ? 0 : -1, why);
 }
 
 /* Plating beyond the mould's top closes its gaps: d f <= h, with d m the mean thickness, f the
@@ -109,14 +95,13 @@ static fw_status lint_mould(fw_arena *arena, fw_flow *flow, int index, const fw_
     fw_number_text(high, sizeof high, height * 1e6, 4);
     fw_diag_warning(diags, 273, c->place, "step %s plates %s um into a mould of %s um",
                     flow->step[index].id, up, high);
-    return add_reason(
-        arena, flow,
+    return fw_flow_add_reason(
+        arena, flow, 0,
         fw_arena_printf(arena,
                         "step %s plates up to %s um where the mould of %s is %s um high: "
                         "the metal grows over it and closes the gaps. Nearest change: a "
                         "mould above %s um, or thinner plating",
-                        flow->step[index].id, up, fw_flow_material_name(flow, mould), high, up),
-        0);
+                        flow->step[index].id, up, fw_flow_material_name(flow, mould), high, up));
 }
 
 fw_status fw_lint_computed(fw_arena *arena, fw_flow *flow, fw_diags *diags) {

@@ -222,6 +222,9 @@ fw_status fw_flow_compute(fw_arena *arena, fw_flow *flow, const fw_mask_facts *f
    Warns with FW-D207 and FW-D208. */
 fw_status fw_flow_judge_drives(fw_arena *arena, fw_flow *flow, bool insulating_carrier,
                                const fw_drive_facts *drive, int n, fw_diags *diags);
+/* one reason more of the judgement. 0: the flow cannot make the device, said before all others; -1:
+   not guaranteed, said behind them. `why` is kept. */
+fw_status fw_flow_add_reason(fw_arena *arena, fw_flow *flow, int manufacturable, const char *why);
 /* the range of a corner: lo to hi where the pack gives that, else two standard uncertainties either
    way; SI */
 void fw_quantity_range(const fw_quantity *q, double *low, double *high);

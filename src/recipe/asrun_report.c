@@ -169,10 +169,7 @@ fw_status fw_asrun_write_text(const fw_flow *flow, const fw_asrun *run, fw_text 
 /* ---- JSON ---- */
 static void put_number(fw_text *out, const char *name, double value) {
     fw_text_printf(out, ",\"%s\":", name);
-    if (isfinite(value))
-        fw_put_plain(out, value);
-    else
-        fw_text_add(out, "null");
+    fw_put_or_null(out, value);
 }
 
 static void put_text(fw_text *out, const char *name, const char *value) {

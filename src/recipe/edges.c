@@ -5,10 +5,7 @@
 
 static void number(fw_text *out, const char *name, double value, bool first) {
     fw_text_printf(out, "%s\"%s\":", first ? "" : ",", name);
-    if (isfinite(value))
-        fw_put_plain(out, value);
-    else
-        fw_text_add(out, "null");
+    fw_put_or_null(out, value);
 }
 
 static void face(fw_text *out, const char *name, double known_m, double low_m, double high_m) {

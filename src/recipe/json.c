@@ -1,19 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "recipe/words.h"
+#include <math.h>
 #include <string.h>
 
 void fw_put_json(fw_text *out, const char *text) {
-    fw_text_add(out, "\"");
-    for (const char *c = text ? text : ""; *c; c++) {
-        unsigned char byte = (unsigned char)*c;
-        if (byte == '"' || byte == '\\')
-            fw_text_printf(out, "\\%c", *c);
-        else if (byte < 0x20)
-            fw_text_printf(out, "\\u%04x", byte);
-        else
-            fw_text_bytes(out, c, 1);
-    }
-    fw_text_add(out, "\"");
+    fw_text_json(out, text ? text : "");
+}
+
+void fw_put_or_null(fw_text *out, double value) {
+    if (isfinite(value))
+        fw_put_plain(out, value);
+    else
+        fw_text_add(out, "null");
 }
 
 static void key(fw_text *out, const char *name, bool first) {

@@ -13,10 +13,7 @@ static void name(fw_text *out, const char *key, const char *value) {
 static void number(fw_text *out, const char *key, double value) {
     fw_put_json(out, key);
     fw_text_add(out, ":");
-    if (isfinite(value))
-        fw_put_plain(out, value);
-    else
-        fw_text_add(out, "null");
+    fw_put_or_null(out, value);
     fw_text_add(out, ",");
 }
 

@@ -29,6 +29,7 @@ const char *fw_missing_list(fw_arena *arena, const fw_time *time); /* NULL: no m
 /* ,"edges":{...} of the recipe's JSON: bias, gaps and edges */
 void fw_recipe_edges_json(const fw_flow *flow, fw_text *out);
 void fw_put_json(fw_text *out, const char *text);    /* quoted and escaped; NULL is "" */
+void fw_put_or_null(fw_text *out, double value);     /* plain; null where it is not finite */
 void fw_put_csv(fw_text *out, const char *text);     /* quoted where needed */
 void fw_put_moment(fw_text *out, double seconds);    /* "day 2, 13:05" */
 void fw_put_wafers(fw_text *out, const fw_run *run); /* "3" or "1-6" */

@@ -87,9 +87,10 @@ typedef struct fw_schedule {
     const char *late; /* the chain that breaks when every step runs to its stop time; NULL */
 } fw_schedule;
 
+#define FW_WORKING_DAY "08:00-18:00"
 typedef struct fw_schedule_options {
     int wafers, operators; /* 0: 1 */
-    const char *day;       /* "08:00-18:00"; NULL: that; "none": round the clock */
+    const char *day;       /* as FW_WORKING_DAY; NULL: that; "none": round the clock */
     const char *planned;   /* times for steps, "S03=90 min,S09=20 s"; NULL: none */
     int effort;            /* schedules tried; 0: by size */
 } fw_schedule_options;

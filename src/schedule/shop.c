@@ -135,7 +135,7 @@ fw_status fw_schedule_shop(fw_arena *arena, const fw_flow *flow, const fw_schedu
     FW_NEED(m.shop = fw_arena_one(arena, fw_shop));
     m.shop->wafers = options->wafers > 0 ? options->wafers : 1;
     m.shop->operators = options->operators > 0 ? options->operators : 1;
-    if (!fw_calendar_parse(options->day ? options->day : "08:00-18:00", &m.shop->calendar)) {
+    if (!fw_calendar_parse(options->day ? options->day : FW_WORKING_DAY, &m.shop->calendar)) {
         fw_diag_error(diags, 199, (fw_place){0},
                       "working day '%s' is not like 08:00-18:00, or none for round the clock",
                       options->day);

@@ -126,19 +126,9 @@ fw_status fw_wafer_plate(fw_wafer_maker *m) {
 /* a block of 0.6 of the die, 2 mm at most, with a cross of five fine arms' lengths: coarse near the
    middle to be found, fine at the tips to be lined up */
 static fw_status add_target(fw_wafer_sheet *s, fw_role role, fw_vec2 o, double q) {
-    const double fine = 0.3 * q;
-    const fw_vec2 arm[] = {{q, -q},       {3 * q, -q},   {3 * q, -fine}, {5 * q, -fine},
-                           {5 * q, fine}, {3 * q, fine}, {3 * q, q}};
-    enum { PER_ARM = sizeof arm / sizeof arm[0] };
-    fw_vec2 p[4 * PER_ARM];
-    for (int k = 0; k < 4; k++)
-        for (int i = 0; i < PER_ARM; i++) {
-            fw_vec2 v = arm[i];
-            for (int turn = 0; turn < k; turn++)
-                v = (fw_vec2){-v.y, v.x};
-            p[k * PER_ARM + i] = (fw_vec2){o.x + v.x, o.y + v.y};
-        }
-    return fw_wafer_sheet_add(s, role, "alignment site", p, 4 * PER_ARM);
+    fw_vec2 p[FW_LAYOUT_CROSS];
+    fw_layout_cross(o, q, 3 * q, 0.3 * q, 5 * q, p);
+    return fw_wafer_sheet_add(s, role, "alignment site", p, FW_LAYOUT_CROSS);
 }
 
 fw_status fw_wafer_alignment_mask(fw_wafer_maker *m, const fw_mask **mask) {

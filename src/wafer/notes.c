@@ -50,14 +50,7 @@ typedef struct lines {
 } lines;
 
 static fw_status add(lines *l, const char *key, const char *value) {
-    FW_NEED(value);
-    char *text = fw_arena_printf(l->arena, "%s=%s", key, value);
-    FW_NEED(text);
-    for (char *s = text; *s; s++)
-        if ((unsigned char)*s < 0x20 || (unsigned char)*s > 0x7e) *s = '?';
-    if (strlen(text) > FW_MASK_NOTE_MOST) text[FW_MASK_NOTE_MOST] = '\0';
-    l->line[l->count++] = text;
-    return FW_OK;
+    return fw_mask_note(l->arena, key, value, &l->line[l->count++]);
 }
 
 static fw_status add_mm(lines *l, const char *key, double m) {
