@@ -58,7 +58,7 @@ FW_INLINE void fw_isotropic_errors(const fw_flexure_shape *f, const fw_flexure_i
 
 /* A crystal: K 1.4 %, kx 1 %, ky 1.6 % more (linear finite elements of two arcs, three directions
    each, ideal ends), W twice, strain 3 % more, 9 % with fillets
-   below t/5, where none was fitted (two held out: 7 and 11 % above their solids);
+   below t/5, where none was fitted (theory);
    where its direction is not known the spread over
    all of them. source: docs/theory/flexure.md; test_crystal.c */
 FW_INLINE void fw_crystal_errors(const fw_flexure_shape *f, const fw_crystal *k, double wide,
@@ -107,7 +107,7 @@ FW_INLINE void fw_peak_strain(const fw_flexure_shape *f, double beam, double ins
 }
 
 /* limit angle = strength / safety factor / (E eps/rad); its relative standard uncertainty is that
-   of the strain: 0 to 3.2 % (crystal: 4.7 %) above solids that scatter by 1 %; 2 % more for fillets
+   of the strain: 0 to 3.2 % (crystal: 4.3 %) above solids that scatter by 1 %; 2 % more for fillets
    below t/10, 5 % more where the fillet lies outside the fitted range or the arc is thick (t/r >
    0.3) */
 FW_INLINE void fw_stiffness_and_limit(const fw_flexure_shape *f, const fw_flexure_input *in,

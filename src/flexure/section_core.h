@@ -140,27 +140,28 @@ FW_INLINE fw_heading fw_turned_back(double cosine, double sine, double e) {
 
 /* The same of a crystal's stress, over M t/2/(I D) Kt, as an upper bound:
      G = H max((1 + u)(A + B c + C s), (1 - u)(A + B c - C s))
-     H = 1 + n p (2.404 p^2 - 0.8677) + nu q p^2 (1.441 - 1.783 p) + 0.0059 nu x p^3
-           + u (0.842 x - 0.3491 q)
+     H = 1 + n p (3.3447 p^2 - 1.4352) + nu q p^2 (1.8501 - 2.4344 p)
+           + nu x p^2 (0.8857 - 1.2631 p) + u (0.8806 x - 0.2102 q)
    A, B, C linear in x and q; c, s cosine and sine of 4 psi' with psi' the direction of the strip
-   from [100] 1.4 rho/R before the root. s > 0: the fillet on the inside of the arc turns towards
+   from [100] 1.5 rho/R before the root. s > 0: the fillet on the inside of the arc turns towards
    the stiff <110>, the other one away from it; a straight strip has one on either side. Of an
    unknown direction the worst.
    in: heading of 4 psi at the root, its sine such that s is as above; share: a1/a0 over silicon's,
    by which B and C go for other crystals (not compared); x, q, p, n, u as above, nu out of the
-   plane, of the mean modulus; out: 1. Fitted to 114 solids of silicon, x 0.2 to 1.25, h/t 1.2 to
-   10: above all of them by 0 to 4.7 %; 24 with x = 2: by -3 to 9 %.
+   plane, of the mean modulus; out: 1. Fitted (Chebyshev) to 138 solids of silicon, x 0.2 to 2, h/t
+   1.2 to 10: above all of them by 0 to 4.3 %; fitted to 70 % of them it is -0.9
+   to 5.6 % above the others.
    source: docs/theory/flexure.md eq. 14; test_root_strain.c, test_crystal.c peak_stress_of_silicon
  */
 typedef struct fw_root_crystal {
-    double even, along, across, shift; /* A, B, C, 5.6 rho/R */
+    double even, along, across, shift; /* A, B, C, 6 rho/R */
 } fw_root_crystal;
 
 FW_INLINE fw_root_crystal fw_root_crystal_of(double share, double x, double q, double u) {
-    return (fw_root_crystal){.even = 1.1093 - 0.0408 * x - 0.0002 * q,
-                             .along = share * (-0.0939 + 0.0128 * x + 0.0255 * q),
-                             .across = share * (0.0228 + 0.0449 * x + 0.0498 * q),
-                             .shift = 16.8 * x * u};
+    return (fw_root_crystal){.even = 1.1247 - 0.0307 * x + 0.0018 * q,
+                             .along = share * (-0.0625 + 0.0006 * x + 0.0117 * q),
+                             .across = share * (0.1261 - 0.0401 * x + 0.0158 * q),
+                             .shift = 18 * x * u};
 }
 
 FW_INLINE double fw_root_crystal_at(const fw_root_crystal *r, double u, double cosine,
@@ -172,8 +173,9 @@ FW_INLINE double fw_root_crystal_at(const fw_root_crystal *r, double u, double c
 
 FW_INLINE double fw_root_crystal_rise(double x, double q, double p, double nu, double n, double u) {
     double p2 = p * p;
-    return 1 + n * p * (2.404 * p2 - 0.8677) +
-           nu * p2 * (q * (1.441 - 1.783 * p) + 0.0059 * x * p) + u * (0.842 * x - 0.3491 * q);
+    return 1 + n * p * (3.3447 * p2 - 1.4352) +
+           nu * p2 * (q * (1.8501 - 2.4344 * p) + x * (0.8857 - 1.2631 * p)) +
+           u * (0.8806 * x - 0.2102 * q);
 }
 
 #endif
