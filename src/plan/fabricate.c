@@ -146,6 +146,7 @@ fw_status fw_plan_fabricate(fw_plan *plan) {
         }
         FW_TRY(build_mask(plan, pf, rejected));
         if (!pf->mask) continue;
+        FW_TRY(fw_plan_cut(plan, pf));
         pf->gds = fw_text_new(plan->arena);
         FW_TRY(fw_mask_write_gds(pf->mask, &pf->gds));
         FW_TRY(fw_plan_hash(plan, &pf->gds, &pf->mask_sha256));

@@ -59,6 +59,10 @@ fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *
 fw_status fw_plan_start(fw_plan *plan, const fw_mechanism **mechanism, const fw_scene **scene,
                         double *moved_m);
 
+/* where the wafer of a flow whose mask is made is cut open: what the options ask for, else through
+   the narrowest gap of a hinge; stays NULL where there is neither (sections.c) */
+fw_status fw_plan_cut(fw_plan *plan, fw_plan_flow *pf);
+
 /* the test die of a flow whose mask is made (coupons.c) */
 fw_status fw_plan_coupons(fw_plan *plan, fw_plan_flow *pf);
 

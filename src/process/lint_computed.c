@@ -21,7 +21,7 @@ static double top_layer(const fw_stack *stack, int column, const char *material)
    r m/s, T the step's nominal time s, d m the depth that the step removes; l m. NaN when an input
    is not known. Source: docs/theory/process.md, What a step takes along. Test: test_lint.c, loss.
  */
-static double loss_of(const fw_step *s, const fw_exposed *x, double *most_m) {
+double fw_exposed_loss(const fw_step *s, const fw_exposed *x, double *most_m) {
     double loss = (double)NAN, relative = 0.0;
     if (x->rate && !x->rate->unknown && s->time.computable) {
         loss = x->rate->value * s->time.nominal_s * (1.0 + s->overrun);
@@ -42,7 +42,7 @@ static double loss_of(const fw_step *s, const fw_exposed *x, double *most_m) {
 static fw_status lint_loss(fw_arena *arena, fw_flow *flow, int index, const fw_exposed *x,
                            fw_diags *diags) {
     const fw_step *s = &flow->step[index];
-    double most, loss = loss_of(s, x, &most), least = (double)INFINITY;
+    double most, loss = fw_exposed_loss(s, x, &most), least = (double)INFINITY;
     for (int k = index - 1; k <= index; k++) { /* open from the start, or laid open by the step */
         fw_stack stack;
         FW_TRY(fw_flow_stack(arena, flow, k, &stack, NULL));

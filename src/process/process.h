@@ -57,6 +57,8 @@ typedef struct fw_change {
     bool isotropic;                /* undercuts the mask by thickness (1 + overrun) per edge */
     const fw_quantity *anisotropy; /* of a masked etch, A = 1 - lateral/vertical; may be NULL */
     const fw_quantity *spread; /* of a plating, largest local thickness over mean; may be NULL */
+    const fw_quantity *reach;  /* of a removal: so far sideways from every opening, below what stays;
+                                  may be NULL */
     fw_face compensate;        /* the face that the mask brings to where it is drawn */
     fw_place place;
 } fw_change;

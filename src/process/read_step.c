@@ -182,6 +182,7 @@ static void read_change(fw_pack *pack, const fw_element *e, fw_change *c) {
                      .isotropic = strcmp(fw_pack_text(e, "profile"), "isotropic") == 0,
                      .anisotropy = quantity_of(pack, e, "anisotropy"),
                      .spread = quantity_of(pack, e, "spread"),
+                     .reach = quantity_of(pack, e, "reach"),
                      .compensate = face_of(fw_pack_text(e, "compensate")),
                      .place = e->place};
     if (material) fw_pack_find(pack, material, FW_ID_MATERIAL);
@@ -191,6 +192,11 @@ static void read_change(fw_pack *pack, const fw_element *e, fw_change *c) {
         fw_diag_error(pack->diags, 162, e->place, "<change kind='convert'> needs 'from'");
     if (c->thickness && !fw_dimension_equal(c->thickness->dimension, (fw_dimension)FW_DIM_LENGTH))
         fw_diag_error(pack->diags, 169, e->place, "the thickness of <change> is not a length");
+    if (c->reach && !fw_dimension_equal(c->reach->dimension, (fw_dimension)FW_DIM_LENGTH))
+        fw_diag_error(pack->diags, 169, e->place, "the reach of <change> is not a length");
+    if (c->reach && strcmp(c->kind, "remove") != 0)
+        fw_diag_error(pack->diags, 161, e->place,
+                      "reach is how far a removal goes sideways: it belongs to kind='remove' only");
     if (c->isotropic && !c->thickness)
         fw_diag_error(pack->diags, 162, e->place, "profile='isotropic' needs a thickness");
 }

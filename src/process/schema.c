@@ -27,7 +27,9 @@ static const rule rules[] = {
     {"step", "id! op! title! equipment! in-source! mask batch second-signature attended",
      "purpose! change exposed set time! derive endpoint! accept! hazard-ref on-fail! lag"},
     {"purpose", "", ""},
-    {"change", "kind! material! thickness where from side profile anisotropy compensate spread",
+    {"change",
+     "kind! material! thickness where from side profile anisotropy compensate spread "
+     "reach",
      ""},
     {"exposed", "material! rate selectivity", ""},
     {"set", "name! q! tol-lo! tol-hi!", ""},
