@@ -122,14 +122,17 @@ static fw_status refuse(fw_plan *plan, const char *why) {
 
 /* a number alone is in um */
 static fw_status length_of(fw_plan *plan, const char *text, size_t n, double *m) {
+    for (; n > 0 && *text == ' '; n--)
+        text++;
+    while (n > 0 && text[n - 1] == ' ')
+        n--;
     if (fw_number_parse(text, n, m)) {
         *m *= 1e-6;
         return FW_OK;
     }
     fw_names none = {0};
     fw_expression_error error = {0};
-    return fw_expression_evaluate(plan->arena, text, n, &none, (fw_dimension){.m = 1}, m,
-                                  &error);
+    return fw_expression_evaluate(plan->arena, text, n, &none, (fw_dimension){.m = 1}, m, &error);
 }
 
 static fw_status by_points(fw_plan *plan, fw_recipe_cut *cut) {

@@ -174,14 +174,15 @@ static fw_status drawn_height(maker *m, const fw_change *c, double *height_m, bo
     return FW_OK;
 }
 
-/* the wall between a film that grows in `column` from z on and what stands beside it */
-static double wall_beside(const maker *m, int column, double z_m) {
+/* the wall at z between a film that grows in `column` and what stands beside it at `beside_m` */
+static double wall_beside(const maker *m, int column, double beside_m, double z_m) {
     double best = printed_m(m), near = (double)INFINITY;
     for (int i = 0; i < m->films->n; i++) {
         const fw_film *f = &m->films->film[i];
         if (f->in[0] == f->in[1]) continue;
-        bool beside = f->in[OTHER - column] && f->bottom_m <= z_m + TOUCH_M && f->top_m > z_m;
-        double far = beside ? -1.0 : fabs(f->top_m - z_m);
+        bool beside =
+            f->in[OTHER - column] && f->bottom_m <= beside_m + TOUCH_M && f->top_m > beside_m;
+        double far = beside ? -1.0 : fabs(f->top_m - beside_m);
         if (far >= near) continue;
         near = far;
         best = beside ? wall_at(f, z_m) : f->head_m;
@@ -199,8 +200,8 @@ static fw_status add_front(maker *m, const fw_change *c, fw_film film, double he
         if (whole) f.in[OTHER - column] = true;
         f.bottom_m = top[column];
         f.top_m = f.bottom_m + height_m;
-        f.foot_m = wall_beside(m, column, f.bottom_m);
-        f.head_m = wall_beside(m, column, f.top_m - TOUCH_M);
+        f.foot_m = wall_beside(m, column, f.bottom_m, f.bottom_m);
+        f.head_m = wall_beside(m, column, f.top_m - TOUCH_M, f.top_m);
         FW_TRY(add_film(m, f));
         if (whole) break;
     }
