@@ -10,6 +10,8 @@ typedef struct fw_outline_at { /* the plate's shapes near the cut, moved; one ed
     double edge_m;             /* outside the drawn edge */
     fw_contour *contour;       /* (nshape) of the slicer; count 0: nothing is left of it */
     fw_slices inside;          /* along the line: the structure */
+    fw_slices gap;             /* openings before, between and behind it; ends at infinity */
+    double *width_m;           /* (gap.n) across; NaN: not asked for yet */
 } fw_outline_at;
 
 typedef struct fw_slicer {
@@ -43,10 +45,9 @@ fw_status fw_slicer_start(fw_arena *arena, const fw_mask *mask, const fw_recipe_
 fw_status fw_slicer_at(fw_slicer *slicer, double edge_m, const fw_outline_at **at);
 /* from a point of the cut to the nearest edge of the structure; m, HUGE_VAL beyond FW_NEAR_M */
 double fw_slicer_distance(const fw_slicer *slicer, const fw_outline_at *at, double s_m);
-/* width of an opening between two edges along the cut: twice the distance of its middle from the
-   nearest edge, so that a slot that is cut askew has its own width */
-double fw_slicer_opening(const fw_slicer *slicer, const fw_outline_at *at, double from_m,
-                         double to_m);
+/* width of opening g: the largest circle in it with its middle on the cut. So a slot that is cut
+   askew has its own width. INFINITY where it has no end. */
+double fw_slicer_opening(const fw_slicer *slicer, const fw_outline_at *at, int g);
 #define FW_NEAR_M 400e-6
 
 /* how much farther out feet beside an opening of w_m stand than beside the open field; m */

@@ -255,11 +255,12 @@ void fw_section_scale_bar(const fw_section_scale *scale, double width, double y,
     fw_text_add(out, "\" y=\"");
     fw_text_fixed(out, y + 9.5, 1);
     fw_text_add(out, "\">");
-    fw_text_number(out, m * 1e6, 3);
+    fw_text_fixed(out, m < 1e-3 ? m * 1e6 : m * 1e3, 0);
+    fw_text_add(out, m < 1e-3 ? " µm" : " mm");
     if (scale->exaggeration == 1.0)
-        fw_text_add(out, " µm, heights to scale</text>\n");
+        fw_text_add(out, ", heights to scale</text>\n");
     else {
-        fw_text_add(out, " µm, heights × ");
+        fw_text_add(out, ", heights × ");
         fw_text_number(out, scale->exaggeration, 3);
         fw_text_add(out, "</text>\n");
     }

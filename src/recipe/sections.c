@@ -56,9 +56,8 @@ static fw_status width_at(fw_slicer *slicer, double edge_m, int g, int n, double
     const fw_outline_at *at;
     FW_TRY(fw_slicer_at(slicer, edge_m, &at));
     *width_m = (double)NAN;
-    if (at->inside.n != n) return FW_OK; /* a part is gone there */
-    *width_m =
-        fw_slicer_opening(slicer, at, at->inside.item[g].to_m, at->inside.item[g + 1].from_m);
+    if (at->inside.n != n) return FW_OK;             /* a part is gone there */
+    *width_m = fw_slicer_opening(slicer, at, g + 1); /* opening 0 lies before the first part */
     return FW_OK;
 }
 

@@ -11,8 +11,7 @@ typedef struct fw_section_part { /* a piece as drawn, within the window */
 
 typedef struct fw_section_opening { /* between two parts of the structure */
     double from_m, to_m;            /* along the cut, as drawn */
-    /* width across, that is twice the distance of the middle from the nearest edge. NaN: a part is
-       gone there, or the flow makes no such film */
+    /* width across, fw_slicer_opening. NaN: a part is gone there, or the flow makes no such film */
     double drawn_m, mask_m, top_m, bottom_m;
     double depth_m; /* of the cut through the device layer; NaN: there is none */
 } fw_section_opening;
