@@ -57,9 +57,9 @@ typedef struct fw_change {
     bool isotropic;                /* undercuts the mask by thickness (1 + overrun) per edge */
     const fw_quantity *anisotropy; /* of a masked etch, A = 1 - lateral/vertical; may be NULL */
     const fw_quantity *spread; /* of a plating, largest local thickness over mean; may be NULL */
-    const fw_quantity *reach;  /* of a removal: so far sideways from every opening, below what stays;
-                                  may be NULL */
-    fw_face compensate;        /* the face that the mask brings to where it is drawn */
+    const fw_quantity *reach; /* of a removal: so far sideways from every opening, below what stays;
+                                 may be NULL */
+    fw_face compensate;       /* the face that the mask brings to where it is drawn */
     fw_place place;
 } fw_change;
 
@@ -92,6 +92,7 @@ typedef struct fw_derive { /* <derive>: another law on the way, for orientation 
     int nargument;
     fw_dimension dimension;
     fw_quantity *q; /* when it has an id: where the value goes, so that later laws can use it */
+    const fw_quantity *most; /* above it the plan warns (FW-D279); may be NULL */
 } fw_derive;
 
 typedef struct fw_time { /* what a law returns */

@@ -152,6 +152,10 @@ static fw_status read_derive(fw_pack *pack, const fw_element *e, fw_derive *d) {
         fw_diag_error(pack->diags, 169, unit->place, "'%s' is not a unit", unit->value);
     d->dimension = parsed.dimension;
     if (id) d->q = fw_pack_find(pack, id, FW_ID_QUANTITY);
+    d->most = quantity_of(pack, e, "most");
+    if (d->most && !fw_dimension_equal(d->most->dimension, d->dimension))
+        fw_diag_error(pack->diags, 169, e->place, "most='%s' is no limit for something in '%s'",
+                      d->most->id, d->unit);
     FW_TRY(read_arguments(pack, e, "arg", &d->argument, &d->nargument));
     if (!law) return FW_OK;
     d->law = law->name;

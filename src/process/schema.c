@@ -34,7 +34,7 @@ static const rule rules[] = {
     {"exposed", "material! rate selectivity", ""},
     {"set", "name! q! tol-lo! tol-hi!", ""},
     {"time", "law! overrun! k! shape", "arg needs expr"},
-    {"derive", "name! unit! law! shape id", "arg expr"},
+    {"derive", "name! unit! law! shape id most", "arg expr"},
     {"arg", "name! q!", ""},
     {"needs", "name! q!", ""},
     {"expr", "", ""},
