@@ -195,6 +195,9 @@ typedef struct fw_mask_facts { /* what the mask hands to the flow */
     double narrowest_slot_m, narrowest_line_m; /* as drawn; INFINITY: none */
     double deepest_hinge_width_m;              /* narrowest flexure, as drawn; 0: none */
     int dies;                                  /* on the wafer or coupon */
+    /* of all that the wafer's plate places, test dies and alignment sites too; 0: so many times the
+       die's own */
+    double wafer_structure_m2, wafer_area_m2, wafer_perimeter_m;
     double device_thickness_m; /* as the device file wants it; 0 or NaN: the pack's own */
     const fw_mask_gap *gap;    /* (ngap) openings by name, as drawn; the narrowest slot need not be
                                   among them */
