@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "process/films.h"
 #include "process/lint.h"
+#include "process/wear.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -398,11 +399,13 @@ static fw_status take_away(maker *m, const fw_step *s, const fw_change *c) {
     return FW_OK;
 }
 
-/* what the step's chemical takes of films that lie open on top; fw_exposed_loss */
+/* what the step's chemical takes of films that lie open on top (fw_exposed_loss), and of the
+   device's walls where it is a liquid (wear.h) */
 static fw_status wear(maker *m, const fw_step *s, const fw_exposed *x) {
     double most, loss = fw_exposed_loss(s, x, &most);
     double top[] = {top_of(m->films, 0), top_of(m->films, 1)};
-    bool open = false;
+    bool open = false, walls = fw_step_is_wet(s) && x->rate && m->flow->material &&
+                               same(x->material, m->flow->material);
     for (int i = m->films->n - 1; i >= 0; i--) {
         fw_film *f = &m->films->film[i];
         bool up = (f->in[0] && fabs(f->top_m - top[0]) <= TOUCH_M) ||
@@ -418,6 +421,9 @@ static fw_status wear(maker *m, const fw_step *s, const fw_exposed *x) {
         f->head_m = wall_at(f, f->top_m - loss);
         f->top_m -= loss;
         f->thickness_m -= loss;
+        if (!walls || f->in[FW_STACK_FIELD]) continue;
+        f->foot_m -= loss;
+        f->head_m -= loss;
     }
     if (!open || !isnan(loss)) return FW_OK;
     return note(m, fw_arena_printf(m->arena, "How much %s step %s takes is not known",
