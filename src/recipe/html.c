@@ -2,7 +2,6 @@
 /* The run sheet: one file, no scripts, made for A4 and a pen. */
 #include "recipe/profile.h"
 #include "recipe/words.h"
-#include <math.h>
 #include <string.h>
 
 static const char style[] =
@@ -195,30 +194,6 @@ static void sources(const fw_flow *flow, fw_text *out) {
     fw_text_add(out, "</ol>\n");
 }
 
-/* what is made, seen from above, and what the sections of the steps show */
-static fw_status pictures(const fw_flow *flow, const fw_recipe_header *header, fw_slicer *slicer,
-                          const fw_section_scale *scale, fw_text *out) {
-    double height;
-    fw_text body = fw_text_new(out->arena);
-    FW_TRY(fw_block_draw(slicer, flow, scale, flow->nstep - 1, 420.0, &body, &height));
-    FW_TRY(fw_text_end(&body));
-    fw_text_add(out, "<h3>What is made</h3>\n<div class=\"pair\"><div><p>Sections: ");
-    fw_text_escaped(out, header->cut->name);
-    fw_text_add(out,
-                ", to scale along the cut, heights as each picture says. Walls stand where mask, "
-                "printing and etches leave them. Hatched: nobody stated its thickness. A zigzag: "
-                "drawn thinner than it is. The picture shows the finished wafer behind the same "
-                "cut, seen from above.</p></div><div>");
-    int whole = (int)ceil(height);
-    fw_text_printf(out,
-                   "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 420 %d\" width=\"420\" "
-                   "height=\"%d\" role=\"img\">\n<title>finished wafer at the cut</title>\n",
-                   whole, whole);
-    fw_text_add(out, body.data);
-    fw_text_add(out, "</svg></div></div>\n");
-    return FW_OK;
-}
-
 fw_status fw_recipe_write_html(const fw_flow *flow, const fw_recipe_header *header, fw_text *out) {
     fw_text_add(out, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
@@ -244,7 +219,7 @@ fw_status fw_recipe_write_html(const fw_flow *flow, const fw_recipe_header *head
     if (cut) {
         FW_TRY(fw_slicer_start(out->arena, header->mask, header->cut, &slicer));
         FW_TRY(fw_section_scale_of(out->arena, flow, header->cut, &scale));
-        FW_TRY(pictures(flow, header, &slicer, &scale, out));
+        FW_TRY(fw_html_pictures(flow, header, &slicer, &scale, out));
     }
     fw_text_add(out, "<h3>Step by step</h3>\n");
     for (int i = 0; i < flow->nstep; i++)

@@ -8,11 +8,19 @@
 static const double MOST_PART = 0.42; /* of the width that heights may take */
 static const double HATCH = 7.0;      /* between the lines through what nobody stated */
 
+/* 1, 2, 5, 10, 20 ... */
+static double round_number(int i) {
+    static const double step[] = {1, 2, 5};
+    double number = step[i % 3];
+    for (int k = 0; k < i / 3; k++)
+        number *= 10.0;
+    return number;
+}
+
 /* Heights over the whole flow, and the largest factor of 1, 2, 5, 10 ... that keeps them below
    MOST_PART of the window's width; what is higher without a factor is drawn as it is. */
 fw_status fw_section_scale_of(fw_arena *arena, const fw_flow *flow, const fw_recipe_cut *cut,
                               fw_section_scale *scale) {
-    static const double step[] = {1, 2, 5};
     *scale = (fw_section_scale){cut->length_m, 0.0, 0.0, 1.0};
     for (int i = 0; i < flow->nstep; i++) {
         fw_films films;
@@ -25,7 +33,7 @@ fw_status fw_section_scale_of(fw_arena *arena, const fw_flow *flow, const fw_rec
     }
     double high = scale->high_m - scale->low_m;
     for (int i = 0; i < 12 && high > 0.0; i++) {
-        double factor = step[i % 3] * pow(10.0, i / 3);
+        double factor = round_number(i);
         if (factor * high > MOST_PART * cut->length_m) break;
         scale->exaggeration = factor;
     }
@@ -234,10 +242,9 @@ static void legend(const fw_flow *flow, const entry *e, double x, double y, fw_t
 
 /* the longest of 1, 2, 5, 10 ... um that is at most a quarter of the window */
 static double bar_m(double window_m) {
-    static const double step[] = {1, 2, 5};
     double best = 1e-6;
     for (int i = 0; i < 15; i++) {
-        double m = step[i % 3] * pow(10.0, i / 3) * 1e-6;
+        double m = round_number(i) * 1e-6;
         if (m <= 0.25 * window_m) best = m;
     }
     return best;

@@ -174,6 +174,38 @@ static void floors_and_conservation(void **state) {
     scene_free(b.s);
 }
 
+/* lettering is taken out of the plate: "1/0 NOT 2/0". It is not biased, so that what the wet etch
+   takes makes its holes wider */
+static void lettering(void **state) {
+    (void)state;
+    const double letter[4][2] = {{200, -5}, {210, -5}, {210, 5}, {200, 5}};
+    bench b = start(SILICON, 1.0, 0.0);
+    scene_add(b.s, FW_ROLE_TEXT, "letter", polygon(b.s->arena, letter, 4));
+    b.s->table.plate = "1/0 NOT 2/0";
+    assert_int_equal(scene_build(b.s, &b.mask), FW_OK);
+    b.cut.length_m = 280 * UM; /* to x = 260 um */
+    begin(&b);
+    static const struct {
+        const char *step, *material;
+        double hole_um;
+    } at[] = {{"S11", "resist", 10.0}, {"S16", "aluminium", 12.2}, {"S23", "silicon-100", 12.2}};
+    for (int i = 0; i < 3; i++) {
+        fw_cross_section p = section(&b, at[i].step);
+        double left = 0.0, right = 0.0;
+        for (int k = 0; k < p.n; k++) { /* the last bar, in two parts */
+            const fw_patch *q = &p.patch[k];
+            if (strcmp(q->film->material, at[i].material) != 0 || q->high_m[0] < 170 * UM) continue;
+            if (left == 0.0)
+                left = q->high_m[1];
+            else
+                right = q->high_m[0];
+        }
+        assert_near(right - left, at[i].hole_um * UM, 1e-14);
+        assert_near(0.5 * (left + right), 225 * UM, 1e-14);
+    }
+    scene_free(b.s);
+}
+
 /* oxide stays where it is farther than 24 um from every edge: below bars of 100 um and 146 um */
 static void released(void **state) {
     (void)state;
@@ -273,9 +305,13 @@ static void walls(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plated_volume),           cmocka_unit_test(etched_by_hand),
-        cmocka_unit_test(floors_and_conservation), cmocka_unit_test(released),
-        cmocka_unit_test(the_same_again),          cmocka_unit_test(walls),
+        cmocka_unit_test(plated_volume),
+        cmocka_unit_test(etched_by_hand),
+        cmocka_unit_test(floors_and_conservation),
+        cmocka_unit_test(lettering),
+        cmocka_unit_test(released),
+        cmocka_unit_test(the_same_again),
+        cmocka_unit_test(walls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
