@@ -33,13 +33,13 @@ static double rounded(double m) { /* to 1 nm: what a microscope can tell, and mo
 static void openings(const fw_section_plan *plan, fw_text *out) {
     enum { MOST = 6 };
     if (plan->nopening == 0 || plan->nopening > MOST) return;
-    fw_text_add(out, "<table class=\"small\"><tr><th>Opening, µm</th><th class=\"n\">drawn</th>"
+    fw_text_add(out, "<table class=\"small\"><tr><th>Opening at, µm</th><th class=\"n\">drawn</th>"
                      "<th class=\"n\">mask</th><th class=\"n\">top</th><th class=\"n\">bottom"
                      "</th><th class=\"n\">deep</th></tr>\n");
     for (int i = 0; i < plan->nopening; i++) {
         const fw_section_opening *o = &plan->opening[i];
         const double value[] = {o->drawn_m, o->mask_m, o->top_m, o->bottom_m, o->depth_m};
-        fw_text_add(out, "<tr><td>at ");
+        fw_text_add(out, "<tr><td>");
         fw_put_value(out, rounded(0.5 * (o->from_m + o->to_m)) * 1e6);
         fw_text_add(out, "</td>");
         for (int k = 0; k < 5; k++)

@@ -272,6 +272,30 @@ static void the_same_again(void **state) {
     }
 }
 
+/* memory that runs out anywhere is said, and nothing else happens */
+static void out_of_memory(void **state) {
+    (void)state;
+    fw_status (*const write[])(const fw_flow *, const fw_recipe_header *, fw_text *) = {
+        fw_recipe_write_html, fw_recipe_write_sections_svg, fw_recipe_write_sections_json,
+        fw_recipe_write_stack_svg};
+    bench b = start("soi-deep-rie", 0.0, 0.2);
+    begin(&b);
+    for (int w = 0; w < 4; w++) {
+        long n = 1;
+        for (fw_status status = FW_NOMEM; status != FW_OK; n += 1 + n / 8) {
+            fw_arena *own = fw_arena_new(0);
+            fw_text text = fw_text_new(own);
+            fw_arena_fail_at(n, 1);
+            status = write[w](b.flow, &b.header, &text);
+            fw_arena_fail_at(0, 0);
+            assert_true(status == FW_NOMEM || status == FW_OK);
+            fw_arena_free(own);
+        }
+        assert_true(n > 30);
+    }
+    scene_free(b.s);
+}
+
 /* random disjoint walls: none comes before one that it hides; witness by rays */
 static void walls(void **state) {
     (void)state;
@@ -312,6 +336,7 @@ int main(void) {
         cmocka_unit_test(released),
         cmocka_unit_test(the_same_again),
         cmocka_unit_test(walls),
+        cmocka_unit_test(out_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
