@@ -123,7 +123,7 @@ static void read_flow(const fw_flow *flow, double thickness_m, fw_fixed_point *p
     }
     fw_wear wear = fw_flow_wear(flow);
     p->worn_m = wear.loss_m;
-    p->worn_open = wear.open;
+    p->worn_open = wear.missing != NULL;
     read_corners(flow, thickness_m > 0.0 ? thickness_m : known(flow->thickness), p);
 }
 

@@ -63,13 +63,12 @@ static fw_status worn(fw_judge *j) {
             "%sstep %s takes %s um of every open face of the device: the mask adds them at "
             "every edge, and the layer ends as much thinner",
             next(j), w.step->id, fw_judge_um(&t, w.loss_m));
-    if (!w.open) return FW_OK;
+    if (!w.missing) return FW_OK;
     return fw_judge_say(
         j, FW_ANSWER_OPEN,
         "step %s takes %s from every open face of the device; how much is not known "
         "(%s), and not compensated",
-        w.step->id, fw_flow_material_name(j->flow, w.exposed->material),
-        w.exposed->rate->id ? w.exposed->rate->id : "rate");
+        w.step->id, fw_flow_material_name(j->flow, w.exposed->material), w.missing);
 }
 
 /* ---- an anisotropy that nobody knows ---- */

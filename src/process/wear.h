@@ -7,8 +7,8 @@
 
 typedef struct fw_wear {
     double loss_m, uncertainty_m; /* of every open face, all such steps: the known part */
-    bool open;                    /* a step takes some, and nobody knows how much */
-    const fw_step *step;          /* the first of them; NULL: there is none */
+    const char *missing; /* what must be known to say how much a step takes; NULL: nothing */
+    const fw_step *step; /* the first of them; NULL: there is none */
     const fw_exposed *exposed;
 } fw_wear;
 

@@ -44,12 +44,13 @@ static void loss(void **state) {
     fw_wear w = fw_flow_wear(copper(0.3e-6, 0.0));
     assert_near(w.loss_m, 0.36e-6, 1e-21);
     assert_near(w.uncertainty_m, 0.036e-6, 1e-21);
-    assert_false(w.open);
+    assert_null(w.missing);
     w = fw_flow_wear(copper(0.3e-6, 5e-9));
     assert_near(w.loss_m, 0.36e-6, 1e-21);
     assert_near(w.uncertainty_m, 0.036e-6, 1e-21);
     w = fw_flow_wear(copper(0.0, 5e-9));
-    assert_true(w.open && w.loss_m == 0.0);
+    assert_string_equal(w.missing, "seed.d");
+    assert_near(w.loss_m, 0.0, 0);
     assert_string_equal(w.step->id, "C25");
     /* another rate for the plated copper: 0.36 um times 2/5, errors in quadrature */
     fw_flow *f = copper(0.3e-6, 5e-9);
@@ -74,7 +75,7 @@ static void mask_and_films(void **state) {
     assert_non_null(strstr(f->bias_note, "step C25 takes 0.36 um"));
     bool said = false;
     for (int i = 0; i < plain->nreason; i++)
-        said = said || strstr(plain->reason[i], "step C25 takes copper");
+        said = said || strstr(plain->reason[i], "not known (seed.d)");
     assert_true(said);
     fw_films films;
     assert_int_equal(fw_flow_films(arena, f, f->nstep - 1, &films), FW_OK);
