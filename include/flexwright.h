@@ -109,6 +109,8 @@ typedef struct fw_design_options {
                                    "S03=90 min,S09=20 s"; marked in the schedule */
     const char *laboratory; /* files of laboratory packs, commas between: their values replace those
                                of the process packs by id, and every one is named */
+    const char *cut; /* where recipes cut the wafer open: "x1,y1,x2,y2" (um, or lengths with unit) or
+                        "flexure:ID"; default: radially through the narrowest gap of a hinge */
 } fw_design_options;
 
 /* Fills `size` bytes (as the caller's header defines the struct) with the defaults. NULL options:

@@ -31,6 +31,7 @@ fw_script_test(cli.hinge COMMAND ${Python3_EXECUTABLE} tests/cli/test_hinge.py $
 fw_script_test(cli.pictures COMMAND ${Python3_EXECUTABLE} tests/cli/test_pictures.py ${FW_PROGRAM})
 fw_script_test(cli.reproducible COMMAND ${Python3_EXECUTABLE} tests/cli/test_reproducible.py ${FW_PROGRAM})
 fw_script_test(cli.third_flow COMMAND ${Python3_EXECUTABLE} tests/cli/test_third_flow.py ${FW_PROGRAM})
+fw_script_test(cli.sections COMMAND ${Python3_EXECUTABLE} tests/cli/test_sections.py ${FW_PROGRAM})
 fw_script_test(cli.violations COMMAND ${Python3_EXECUTABLE} tests/cli/test_violations.py ${FW_PROGRAM})
 fw_script_test(cli.mask_certificate COMMAND ${Python3_EXECUTABLE} tests/cli/test_mask_certificate.py ${FW_PROGRAM})
 fw_script_test(fault.files COMMAND ${Python3_EXECUTABLE} tests/fault/test_faults.py ${FW_PROGRAM})

@@ -178,6 +178,11 @@ static const char *take_planned(fw_cli_options *o, const char *v) {
                           : "needs STEP=TIME with commas between, like \"S03=90 min,S09=20 s\"";
 }
 
+static const char *take_cut(fw_cli_options *o, const char *v) {
+    o->design.cut = v;
+    return *v ? NULL : "needs \"x1,y1,x2,y2\" in um or with units, or flexure:ID";
+}
+
 static const char *take_at(fw_cli_options *o, const char *v) {
     o->design.at = v;
     return strcmp(v, "rest") == 0 || strcmp(v, "equilibrium") == 0 ? NULL
@@ -371,6 +376,10 @@ static const fw_option_row table[] = {
      "in "
      "the schedule, and used for nothing else",
      FW_OPT_SCHEDULE, take_planned},
+    {"cut", 0, "LINE",
+     "where the sections of the run sheet cut the wafer: \"x1,y1,x2,y2\" in um or as lengths with "
+     "units, or flexure:ID; default radially through the narrowest gap of a hinge",
+     FW_OPT_SCHEDULE, take_cut},
     {"lab", 0, "FILE",
      "laboratory pack (or several with commas between): its values replace those of the process "
      "packs by id, and every one is named in run sheet and report; calibrate writes one",

@@ -64,14 +64,19 @@ static const fw_command table[] = {
      "flexwright mask device.xml --flow al-masked-rie -o masks-out",
      "Judges the device first: a rejected design gets no mask unless --force.",
      FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_FABRICATE, fw_command_mask},
-    {"recipe", "DEVICE.xml", "only the recipes (run sheet, CSV, calendar, JSON, schedule)",
+    {"recipe", "DEVICE.xml",
+     "only the recipes (run sheet, sections, CSV, calendar, JSON, schedule)",
      "flexwright recipe device.xml --wafers 4 --operators 2 --day 08:00-18:00",
      "Judges the device first: a rejected design gets no recipe unless --force. With --json and "
      "one\n"
      "flow the recipe is printed; with several, a document that holds them all. The schedule for\n"
      "--wafers and --operators keeps every hold window, says how far from the best possible it "
      "may\n"
-     "be, and is written as FLOW.schedule.csv, .json and .svg and into the calendar.",
+     "be, and is written as FLOW.schedule.csv, .json and .svg and into the calendar. The run sheet "
+     "shows\n"
+     "the wafer after every step, cut along --cut; FLOW.sections.svg and .stack.svg are these "
+     "pictures\n"
+     "by themselves.",
      FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_FABRICATE | FW_OPT_SCHEDULE,
      fw_command_recipe},
     {"log", "DEVICE.xml", "what was done, beside what was planned",

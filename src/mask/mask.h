@@ -5,6 +5,7 @@
 #include "base/diag.h"
 #include "base/output.h"
 #include "geometry/contour.h"
+#include "geometry/slice.h"
 #include "geometry/tessellate.h"
 #include "layout/content.h"
 
@@ -131,6 +132,15 @@ typedef struct fw_mask {
     int nbroken; /* of them those that forbid the mask */
     bool whole;  /* every polygon is there and proven */
 } fw_mask;
+
+typedef struct fw_plate_term { /* a layer, and how it joins what stands before it; the first: OR */
+    int layer;
+    fw_set_rule rule;
+} fw_plate_term;
+/* what the plate draws, from the left: the terms of table->plate, or the biased layers where it is
+   not said */
+fw_status fw_mask_plate_terms(fw_arena *arena, const fw_mask_table *table, fw_plate_term **term,
+                              int *n);
 
 fw_status fw_mask_table_read(fw_arena *arena, const char *file, const char *xml, size_t n,
                              fw_diags *diags, fw_mask_table *table);

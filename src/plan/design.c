@@ -136,11 +136,25 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     if (d->wrong_option) return FW_OK;
     if (given) memcpy(&o, given, given->size < sizeof o ? given->size : sizeof o);
     fw_arena *arena = d->plan->arena;
-    const char **text[] = {&o.data_directory, &o.flow,         &o.scene,         &o.effects,
-                           &o.method,         &o.integrator,   &o.stabilise,     &o.at,
-                           &o.independent,    &o.rates,        &o.accelerations, &o.corners,
-                           &o.hinge_model,    &o.mask_formats, &o.mask_flatten,  &o.day,
-                           &o.planning_times, &o.laboratory};
+    const char **text[] = {&o.data_directory,
+                           &o.flow,
+                           &o.scene,
+                           &o.effects,
+                           &o.method,
+                           &o.integrator,
+                           &o.stabilise,
+                           &o.at,
+                           &o.independent,
+                           &o.rates,
+                           &o.accelerations,
+                           &o.corners,
+                           &o.hinge_model,
+                           &o.mask_formats,
+                           &o.mask_flatten,
+                           &o.day,
+                           &o.planning_times,
+                           &o.laboratory,
+                           &o.cut};
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
         FW_TRY(keep(arena, text[i]));
     d->wrong_option = wrong_option(&o);
@@ -154,6 +168,7 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     p->mask_vertices = o.mask_vertices;
     p->mask_flatten = o.mask_flatten;
     p->laboratory = o.laboratory;
+    p->cut = o.cut;
     p->schedule = (fw_schedule_options){
         .wafers = o.wafers, .operators = o.operators, .day = o.day, .planned = o.planning_times};
     p->force = o.force != 0;

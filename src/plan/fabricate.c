@@ -63,7 +63,7 @@ static fw_status edges_of(fw_plan *plan, const fw_flow *flow, const fw_mask_edge
     e->bottom_m = field->edge.bottom_m;
     e->least_m = field->low.top_m;
     e->most_m = field->high.top_m;
-    e->known_part = p->open || p->wet_open;
+    e->known_part = p->open || p->wet_open || p->worn_open;
     FW_TRY(range_of(plan, flow, &e->range));
     double more = narrow->low.bottom_m - field->low.bottom_m;
     if (!(more > 1e-9)) return FW_OK;
@@ -115,22 +115,37 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     return fw_flow_add_reason(plan->arena, pf->flow, 0, pf->mask_error);
 }
 
-fw_status fw_plan_compute_flows(fw_plan *plan) {
+fw_status fw_plan_compute_flow(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags) {
     bool drawn = plan->layout && plan->layout->drawn;
+    fw_mask_facts facts;
+    FW_TRY(fw_plan_mask_facts(plan->arena, plan->device, plan->layout, &pf->variant, pf->table,
+                              fw_plan_insulated(pf), &facts));
+    facts.dies = plan->dies;
+    if (pf->wafer) FW_TRY(fw_plan_wafer_facts(plan->arena, pf->wafer, &facts));
+    FW_TRY(fw_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, diags));
+    fw_drive_facts *drive;
+    int n;
+    FW_TRY(fw_plan_drives(plan->arena, plan->device, pf->variant.flow, &drive, &n));
+    return fw_flow_judge_drives(plan->arena, pf->flow, pf->use && pf->use->insulating_carrier,
+                                drive, n, diags);
+}
+
+fw_status fw_plan_compute_flows(fw_plan *plan) {
     FW_TRY(fw_plan_count_dies(plan));
+    for (int i = 0; i < plan->nflow; i++)
+        if (plan->flow[i].flow) FW_TRY(fw_plan_compute_flow(plan, &plan->flow[i], &plan->diags));
+    return FW_OK;
+}
+
+/* once the plate is laid out: currents and rates for what is really on it. What there is to say of
+   the flow has been said. */
+static fw_status compute_wafers(fw_plan *plan) {
     for (int i = 0; i < plan->nflow; i++) {
         fw_plan_flow *pf = &plan->flow[i];
-        if (!pf->flow) continue;
-        fw_mask_facts facts;
-        FW_TRY(fw_plan_mask_facts(plan->arena, plan->device, plan->layout, &pf->variant, pf->table,
-                                  fw_plan_insulated(pf), &facts));
-        facts.dies = plan->dies;
-        FW_TRY(fw_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, &plan->diags));
-        fw_drive_facts *drive;
-        int n;
-        FW_TRY(fw_plan_drives(plan->arena, plan->device, pf->variant.flow, &drive, &n));
-        FW_TRY(fw_flow_judge_drives(plan->arena, pf->flow, pf->use && pf->use->insulating_carrier,
-                                    drive, n, &plan->diags));
+        if (!pf->flow || !pf->wafer) continue;
+        fw_diags said = fw_diags_new(plan->arena);
+        FW_TRY(fw_plan_compute_flow(plan, pf, &said));
+        if (pf->mask_error) FW_TRY(fw_flow_add_reason(plan->arena, pf->flow, 0, pf->mask_error));
     }
     return FW_OK;
 }
@@ -146,11 +161,13 @@ fw_status fw_plan_fabricate(fw_plan *plan) {
         }
         FW_TRY(build_mask(plan, pf, rejected));
         if (!pf->mask) continue;
+        FW_TRY(fw_plan_cut(plan, pf));
         pf->gds = fw_text_new(plan->arena);
         FW_TRY(fw_mask_write_gds(pf->mask, &pf->gds));
         FW_TRY(fw_plan_hash(plan, &pf->gds, &pf->mask_sha256));
         if (plan->options.dies == 0) FW_TRY(fw_plan_coupons(plan, pf)); /* one test die will do */
     }
     FW_TRY(fw_plan_wafers(plan));
+    FW_TRY(compute_wafers(plan));
     return fw_plan_schedules(plan);
 }

@@ -88,6 +88,33 @@ fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_
     return name_gaps(arena, device, layout, variant->flow, facts);
 }
 
+/* what one mask leaves standing, as drawn: + where a term of the plate draws, - where it takes away
+   (lettering and marks lie within what they are taken out of) */
+static void add_mask(const fw_mask *mask, const fw_plate_term *term, int nterm, int times,
+                     fw_mask_facts *facts) {
+    for (int t = 0; t < nterm; t++)
+        for (int i = 0; i < mask->nshape; i++) {
+            const fw_contour *c = &mask->shape[i].piece->contour;
+            if (mask->shape[i].layer != term[t].layer) continue;
+            double sign = term[t].rule == FW_SET_NOT ? -1.0 : 1.0;
+            facts->wafer_structure_m2 += sign * times * fw_contour_area(c);
+            facts->wafer_perimeter_m += times * free_perimeter(c);
+        }
+}
+
+fw_status fw_plan_wafer_facts(fw_arena *arena, const fw_wafer *wafer, fw_mask_facts *facts) {
+    fw_plate_term *term;
+    int n;
+    FW_TRY(fw_mask_plate_terms(arena, wafer->table, &term, &n));
+    facts->wafer_structure_m2 = facts->wafer_perimeter_m = 0.0;
+    for (int i = 0; i < wafer->ncell; i++)
+        if (wafer->cell[i].mask)
+            add_mask(wafer->cell[i].mask, term, n, wafer->cell[i].placed, facts);
+    facts->wafer_area_m2 =
+        (double)wafer->grid.nsite * wafer->grid.width * wafer->grid.height * 1e-18;
+    return FW_OK;
+}
+
 fw_status fw_plan_drives(fw_arena *arena, const fw_device *d, const char *flow,
                          fw_drive_facts **drive, int *n) {
     size_t most = 0;

@@ -12,6 +12,7 @@
 #include "report/assembly.h"
 #include "report/terminal.h"
 #include "report/workspace.h"
+#include "recipe/recipe.h"
 #include "schedule/schedule.h"
 
 typedef struct fw_plan_options {
@@ -34,6 +35,7 @@ typedef struct fw_plan_options {
     const char *laboratory;       /* files of laboratory packs, commas between; NULL: none */
     fw_schedule_options schedule; /* wafers, operators, working day */
     size_t memory_cap;            /* 0: 512 MiB */
+    const char *cut; /* of the sections: "x1,y1,x2,y2" or "flexure:ID"; NULL: the narrowest gap */
 } fw_plan_options;
 fw_plan_options fw_plan_options_default(void);
 
@@ -55,6 +57,7 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     fw_text wafer_gds;     /* composed once, as above */
     const char *wafer_sha256;
     const fw_schedule *schedule; /* after fw_plan_fabricate; NULL: none was made */
+    const fw_recipe_cut *cut;    /* the same; NULL: there is nothing to cut */
 } fw_plan_flow;
 
 typedef struct fw_input_file { /* for the manifest */

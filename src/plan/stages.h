@@ -26,10 +26,15 @@ fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_set *s
 /* the variant of a flow, and what that may make of a device that is not drawn yet */
 fw_status fw_plan_made_of(fw_arena *arena, const fw_plan_flow *flow, fw_variant_verdict *v);
 bool fw_plan_insulated(const fw_plan_flow *pf);
+/* what the plate of a wafer places, added to the facts of its die: exact areas and edges as drawn
+ */
+fw_status fw_plan_wafer_facts(fw_arena *arena, const fw_wafer *wafer, fw_mask_facts *facts);
 /* areas, edges and openings of one die, from the exact outlines; layout NULL or not drawn: zeros */
 fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_variant *variant, const fw_mask_table *table, bool insulated,
                              fw_mask_facts *facts);
+/* facts of a flow, computed with them; the wafer's own where it is laid out */
+fw_status fw_plan_compute_flow(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags);
 /* comb drives of the scenes that hold in a flow, each once: scenes may name the same one */
 fw_status fw_plan_drives(fw_arena *arena, const fw_device *device, const char *flow,
                          fw_drive_facts **drive, int *n);
@@ -58,6 +63,10 @@ fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *
  */
 fw_status fw_plan_start(fw_plan *plan, const fw_mechanism **mechanism, const fw_scene **scene,
                         double *moved_m);
+
+/* where the wafer of a flow whose mask is made is cut open: what the options ask for, else through
+   the narrowest gap of a hinge; stays NULL where there is neither (sections.c) */
+fw_status fw_plan_cut(fw_plan *plan, fw_plan_flow *pf);
 
 /* the test die of a flow whose mask is made (coupons.c) */
 fw_status fw_plan_coupons(fw_plan *plan, fw_plan_flow *pf);

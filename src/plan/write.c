@@ -146,18 +146,22 @@ static fw_status write_recipe(writer *w, const fw_plan_flow *pf) {
     static const struct {
         const char *ending;
         fw_status (*write)(const fw_flow *flow, const fw_recipe_header *header, fw_text *out);
-        bool of_schedule;
-    } format[] = {{".html", fw_recipe_write_html, false},
-                  {".csv", fw_recipe_write_csv, false},
-                  {".ics", fw_recipe_write_ics, false},
-                  {".json", fw_recipe_write_json, false},
-                  {".schedule.json", fw_recipe_write_schedule_json, true},
-                  {".schedule.csv", fw_recipe_write_schedule_csv, true},
-                  {".schedule.svg", fw_recipe_write_schedule_svg, true}};
+        bool of_schedule, of_cut;
+    } format[] = {{".html", fw_recipe_write_html, .of_cut = false},
+                  {".csv", fw_recipe_write_csv, .of_cut = false},
+                  {".ics", fw_recipe_write_ics, .of_cut = false},
+                  {".json", fw_recipe_write_json, .of_cut = false},
+                  {".schedule.json", fw_recipe_write_schedule_json, .of_schedule = true},
+                  {".schedule.csv", fw_recipe_write_schedule_csv, .of_schedule = true},
+                  {".schedule.svg", fw_recipe_write_schedule_svg, .of_schedule = true},
+                  {".sections.svg", fw_recipe_write_sections_svg, .of_cut = true},
+                  {".sections.json", fw_recipe_write_sections_json, .of_cut = true},
+                  {".stack.svg", fw_recipe_write_stack_svg, .of_cut = true}};
     fw_recipe_header header = fw_plan_recipe_header(w->plan, pf);
     for (size_t i = 0; i < sizeof format / sizeof format[0]; i++) {
         fw_text text = fw_text_new(w->scratch);
         if (format[i].of_schedule && !header.schedule) continue;
+        if (format[i].of_cut && !header.cut) continue;
         FW_TRY(format[i].write(pf->flow, &header, &text));
         FW_TRY(put(w, "recipes/", pf->use->ref, format[i].ending, &text));
     }

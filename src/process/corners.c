@@ -2,6 +2,7 @@
 /* Corners of a flow: read from the pack, and handed to the verdict as independent inputs. */
 #include "process/made.h"
 #include "process/pack.h"
+#include "process/wear.h"
 #include <math.h>
 #include <string.h>
 
@@ -132,6 +133,27 @@ static bool fill(const fw_fixed_point *p, const fw_corner *c, const fw_variant *
     return in->high > in->low;
 }
 
+/* what wet steps take of every open face, l: the mask adds the known l at the edges, and the layer
+   ends l thinner. Edges move by -(x - l), thickness by -x/t. Test: test_wear.c. */
+static bool wear_input(const fw_wear *w, const fw_variant *v, fw_made_input *in) {
+    if (!(w->loss_m > 0.0) || !(v->thickness_m > 0.0)) return false;
+    *in = (fw_made_input){.name = "wet steps on the device",
+                          .q = {.id = w->exposed->rate->id,
+                                .value = w->loss_m,
+                                .uncertainty = w->uncertainty_m,
+                                .dimension = FW_DIM_LENGTH,
+                                .unit = "um",
+                                .status = w->exposed->rate->status,
+                                .source = w->exposed->rate->source,
+                                .place = w->exposed->place}};
+    set_range(in, &in->q);
+    in->low = fmax(in->low, 0.0);
+    in->edge_m = -1.0;
+    in->even = w->loss_m;
+    in->thickness = -1.0 / v->thickness_m;
+    return true;
+}
+
 fw_status fw_flow_made(fw_arena *arena, const fw_flow *flow, const fw_mask_facts *facts,
                        const fw_variant *variant, const fw_made_input **input, int *ninput) {
     fw_made_input *list = fw_arena_array(arena, fw_made_input, FW_MADE_INPUTS);
@@ -141,6 +163,8 @@ fw_status fw_flow_made(fw_arena *arena, const fw_flow *flow, const fw_mask_facts
     *ninput = 0;
     for (int i = 0; i < flow->ncorner && *ninput < FW_MADE_INPUTS; i++)
         *ninput += fill(edges, &flow->corner[i], variant, &list[*ninput]);
+    fw_wear wear = fw_flow_wear(flow);
+    if (*ninput < FW_MADE_INPUTS) *ninput += wear_input(&wear, variant, &list[*ninput]);
     *input = list;
     return FW_OK;
 }

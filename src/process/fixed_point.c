@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "process/fixed_point.h"
 #include "process/law.h"
+#include "process/wear.h"
 #include <math.h>
 #include <string.h>
 
@@ -120,6 +121,9 @@ static void read_flow(const fw_flow *flow, double thickness_m, fw_fixed_point *p
                 read_cut(flow, s, c, depth, &p->cut[p->ncut++]);
         }
     }
+    fw_wear wear = fw_flow_wear(flow);
+    p->worn_m = wear.loss_m;
+    p->worn_open = wear.missing != NULL;
     read_corners(flow, thickness_m > 0.0 ? thickness_m : known(flow->thickness), p);
 }
 
@@ -245,7 +249,8 @@ static bool newton(fw_fixed_point *p, const double *A, double gap_m, double fiel
 static bool solvable(const fw_fixed_point *p, const double *A, double gap_m) {
     fw_fixed_point trial = *p;
     double m, W = fmax(reference_m(p), gap_m);
-    return newton(&trial, A, gap_m, W, &m) && gap_m > 2.0 * (m + p->wet_m + p->printed_m);
+    return newton(&trial, A, gap_m, W, &m) &&
+           gap_m > 2.0 * (m + p->wet_m + p->printed_m + p->worn_m);
 }
 
 /* by bisection: the least of x in [bad, good] that has a solution; NaN when `good` has none */
@@ -266,7 +271,8 @@ static double least(const fw_fixed_point *p, const double *A, double bad, double
 
 static void nearest_change(fw_fixed_point *p, const double *A) {
     if (p->ncls == 0) return;
-    double g = p->cls[0].drawn_m, widest = 1e3 * (g + 2.0 * (p->wet_m + fabs(p->printed_m)));
+    double g = p->cls[0].drawn_m,
+           widest = 1e3 * (g + 2.0 * (p->wet_m + p->worn_m + fabs(p->printed_m)));
     for (int k = 0; k < p->ncut; k++)
         widest += 1e3 * p->cut[k].depth_m;
     p->least_gap_m = least(p, A, g, widest, true);
@@ -343,7 +349,8 @@ static double bias_at(const fw_fixed_point *p, const double *A, double gap_m, do
     double m;
     for (int k = 0; k < p->ncut; k++)
         if (isnan(A[k])) return (double)NAN;
-    return newton(&other, A, gap_m, field_m, &m) ? m + p->wet_m + p->printed_m : (double)NAN;
+    return newton(&other, A, gap_m, field_m, &m) ? m + p->wet_m + p->printed_m + p->worn_m
+                                                 : (double)NAN;
 }
 
 fw_status fw_fixed_point_solve(fw_arena *arena, const fw_flow *flow, const fw_mask_facts *facts,
@@ -366,7 +373,7 @@ fw_status fw_fixed_point_solve(fw_arena *arena, const fw_flow *flow, const fw_ma
         cut_at(&p->cut[k], A[k], gap, field, &slope);
         p->cut[k].mask_m = 0.0;
     }
-    p->bias_m = p->etch_m + p->wet_m + p->printed_m;
+    p->bias_m = p->etch_m + p->wet_m + p->printed_m + p->worn_m;
     for (int k = 0; k < p->ncut; k++)
         p->open = p->open || isnan(A[k]) || isnan(p->cut[k].etched_m);
     if (!p->solved) nearest_change(p, A);

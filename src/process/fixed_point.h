@@ -73,10 +73,12 @@ enum { FW_CUTS = 4 };
 
 typedef struct fw_fixed_point {
     bool solved;          /* false: no mask brings the edges to where they are drawn */
-    double bias_m;        /* of the mask, per edge outward: sum of the next three */
+    double bias_m;        /* of the mask, per edge outward: sum of printed, wet, etch and worn */
     double printed_m;     /* against what is known of printing */
     double wet_m, etch_m; /* against isotropic etches, against cuts of known anisotropy */
     bool wet_open;        /* the depth of an isotropic etch is not known */
+    double worn_m;        /* against what wet steps take of the walls that stand */
+    bool worn_open;       /* such a step takes some, and nobody knows how much */
     bool open;            /* an anisotropy is not known (or the time of its cut) */
     double low_m, high_m; /* bias that the ends of what is assumed would ask for; NaN: none */
     double slope;         /* F' at the solution: below 1, what a plain iteration contracts by */

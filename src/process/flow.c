@@ -75,13 +75,24 @@ static void fill(fw_flow *flow, const char *id, double value, double uncertainty
     q->source = "this device's own mask";
 }
 
+/* everything that is on the wafer at once */
+static double all_structure(const fw_mask_facts *m) {
+    return m->wafer_area_m2 > 0.0 ? m->wafer_structure_m2 : m->structure_area_m2 * m->dies;
+}
+static double all_perimeter(const fw_mask_facts *m) {
+    return m->wafer_area_m2 > 0.0 ? m->wafer_perimeter_m : m->perimeter_m * m->dies;
+}
+static double all_area(const fw_mask_facts *m) {
+    return m->wafer_area_m2 > 0.0 ? m->wafer_area_m2 : m->die_area_m2 * m->dies;
+}
+
 /* A = n A_die + ring + thief; u^2 = (P u_edge)^2 + u_ring^2 + u_thief^2, since A(b) = A + P b for
    an edge that prints b further out. The mask's own area is exact. All m2. */
 static void fill_plated(fw_flow *flow, const fw_mask_facts *m) {
     static const char *const extra[] = {"ring.area", "thief.area"};
     const fw_quantity *edge = find(flow, "litho.edge");
-    double area = m->structure_area_m2 * m->dies;
-    double u = edge && !edge->unknown ? edge->uncertainty * m->perimeter_m * m->dies : 0.0;
+    double area = all_structure(m);
+    double u = edge && !edge->unknown ? edge->uncertainty * all_perimeter(m) : 0.0;
     fw_value_status worst = FW_DERIVED;
     for (int i = 0; i < 2; i++) {
         const fw_quantity *q = find(flow, extra[i]);
@@ -101,9 +112,9 @@ static void fill_mask(fw_flow *flow, const fw_mask_facts *m) {
     const fw_quantity *edge = find(flow, "litho.edge");
     double u = edge && !edge->unknown ? 2.0 * edge->uncertainty : 0.0; /* of a width: two edges */
     double flexure = usable(m->deepest_hinge_width_m) ? m->deepest_hinge_width_m : (double)NAN;
-    fill(flow, "mask.structure-area", m->structure_area_m2 * m->dies, 0.0);
-    fill(flow, "mask.open-area", (m->die_area_m2 - m->structure_area_m2) * m->dies, 0.0);
-    fill(flow, "mask.perimeter", m->perimeter_m * m->dies, 0.0);
+    fill(flow, "mask.structure-area", all_structure(m), 0.0);
+    fill(flow, "mask.open-area", all_area(m) - all_structure(m), 0.0);
+    fill(flow, "mask.perimeter", all_perimeter(m), 0.0);
     fill(flow, "mask.dies", m->dies, 0.0);
     fill(flow, "mask.narrowest-slot", m->narrowest_slot_m, u);
     fill(flow, "mask.narrowest-line", m->narrowest_line_m, u);

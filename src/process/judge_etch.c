@@ -2,6 +2,7 @@
 /* What etches do to edges and gaps, in words: the numbers are those of the fixed point. */
 #include "process/judge.h"
 #include "process/undercut.h"
+#include "process/wear.h"
 #include <math.h>
 
 static bool has_flexure(const fw_judge *j) {
@@ -48,6 +49,26 @@ static void printed(fw_judge *j) {
         "%sedges are known to come out %s um %s where they are drawn and the mask %s that", next(j),
         fw_judge_um(&t, fabs(by)), by < 0.0 ? "outside" : "inside",
         by < 0.0 ? "takes back" : "adds");
+}
+
+/* what wet steps take of the device when it stands: known, so compensated in width, not in
+ * thickness */
+static fw_status worn(fw_judge *j) {
+    fw_numbers t = {0};
+    fw_wear w = fw_flow_wear(j->flow);
+    if (!w.step) return FW_OK;
+    if (w.loss_m > 0.0)
+        fw_text_printf(
+            &j->note,
+            "%sstep %s takes %s um of every open face of the device: the mask adds them at "
+            "every edge, and the layer ends as much thinner",
+            next(j), w.step->id, fw_judge_um(&t, w.loss_m));
+    if (!w.missing) return FW_OK;
+    return fw_judge_say(
+        j, FW_ANSWER_OPEN,
+        "step %s takes %s from every open face of the device; how much is not known "
+        "(%s), and not compensated",
+        w.step->id, fw_flow_material_name(j->flow, w.exposed->material), w.missing);
 }
 
 /* ---- an anisotropy that nobody knows ---- */
@@ -265,6 +286,7 @@ fw_status fw_judge_etching(fw_judge *j) {
     const fw_fixed_point *p = &j->flow->edges;
     FW_TRY(wet(j));
     printed(j);
+    FW_TRY(worn(j));
     FW_TRY(unsolved(j));
     for (int k = 0; k < p->ncut; k++) {
         const fw_cut *c = &p->cut[k];

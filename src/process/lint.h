@@ -18,8 +18,12 @@ fw_status fw_lint_contamination(fw_pack *pack);
 fw_status fw_lint_exposure(fw_pack *pack);
 fw_status fw_lint_masking(fw_pack *pack);
 
-/* after fw_flow_judge: adds to its reasons what the steps' times do to the layers (FW-D270,
-   FW-D273) */
+/* what a step takes of a material that lies open, nominal and at two standard uncertainties; m, NaN
+   when an input is not known */
+double fw_exposed_loss(const fw_step *step, const fw_exposed *exposed, double *most_m);
+
+/* after fw_flow_judge: adds to its reasons what the steps' times do to the layers, and derived
+   values above their limits (FW-D270, FW-D273, FW-D279) */
 fw_status fw_lint_computed(fw_arena *arena, fw_flow *flow, fw_diags *diags);
 
 #endif

@@ -21,7 +21,7 @@ static double top_layer(const fw_stack *stack, int column, const char *material)
    r m/s, T the step's nominal time s, d m the depth that the step removes; l m. NaN when an input
    is not known. Source: docs/theory/process.md, What a step takes along. Test: test_lint.c, loss.
  */
-static double loss_of(const fw_step *s, const fw_exposed *x, double *most_m) {
+double fw_exposed_loss(const fw_step *s, const fw_exposed *x, double *most_m) {
     double loss = (double)NAN, relative = 0.0;
     if (x->rate && !x->rate->unknown && s->time.computable) {
         loss = x->rate->value * s->time.nominal_s * (1.0 + s->overrun);
@@ -42,7 +42,7 @@ static double loss_of(const fw_step *s, const fw_exposed *x, double *most_m) {
 static fw_status lint_loss(fw_arena *arena, fw_flow *flow, int index, const fw_exposed *x,
                            fw_diags *diags) {
     const fw_step *s = &flow->step[index];
-    double most, loss = loss_of(s, x, &most), least = (double)INFINITY;
+    double most, loss = fw_exposed_loss(s, x, &most), least = (double)INFINITY;
     for (int k = index - 1; k <= index; k++) { /* open from the start, or laid open by the step */
         fw_stack stack;
         FW_TRY(fw_flow_stack(arena, flow, k, &stack, NULL));
@@ -104,11 +104,40 @@ static fw_status lint_mould(fw_arena *arena, fw_flow *flow, int index, const fw_
                         flow->step[index].id, up, fw_flow_material_name(flow, mould), high, up));
 }
 
+static const fw_quantity *derived_named(const fw_step *s, const char *name) {
+    for (int i = 0; i < s->nderived; i++)
+        if (s->derived[i]->id && strcmp(s->derived[i]->id, name) == 0) return s->derived[i];
+    return NULL;
+}
+
+/* A derived value above what the pack allows it (<derive most>): what a bath gives to one wafer,
+   for example. Test: test_lint.c, most. */
+static fw_status lint_most(fw_arena *arena, fw_flow *flow, const fw_step *s, const fw_derive *d,
+                           fw_diags *diags) {
+    const fw_quantity *q = derived_named(s, d->name);
+    if (!q || q->unknown || !d->most || d->most->unknown || q->value <= d->most->value)
+        return FW_OK;
+    char is[32], most[32];
+    fw_quantity limit = *d->most;
+    limit.unit = q->unit;
+    fw_number_text(is, sizeof is, fw_quantity_in_unit(q), 4);
+    fw_number_text(most, sizeof most, fw_quantity_in_unit(&limit), 4);
+    const char *gap = strcmp(q->unit, "1") == 0 ? "" : " ", *unit = gap[0] ? q->unit : "";
+    fw_diag_warning(diags, 279, s->place, "step %s: %s is %s%s%s, above the %s%s%s of %s", s->id,
+                    d->name, is, gap, unit, most, gap, unit, d->most->id);
+    const char *why = fw_arena_printf(
+        arena, "step %s: %s is %s%s%s, above the limit of %s%s%s (%s; %s)", s->id, d->name, is, gap,
+        unit, most, gap, unit, d->most->id, fw_value_status_text(d->most->status));
+    return fw_flow_add_reason(arena, flow, -1, why);
+}
+
 fw_status fw_lint_computed(fw_arena *arena, fw_flow *flow, fw_diags *diags) {
     for (int i = 0; i < flow->nstep; i++) {
         const fw_step *s = &flow->step[i];
         for (int k = 0; k < s->nexposed; k++)
             FW_TRY(lint_loss(arena, flow, i, &s->exposed[k], diags));
+        for (int k = 0; k < s->nderive; k++)
+            FW_TRY(lint_most(arena, flow, s, &s->derive[k], diags));
         for (int k = 0; k < s->nchange && strcmp(s->op, "plate") == 0; k++)
             if (strcmp(s->change[k].kind, "add") == 0 && strcmp(s->change[k].where, "all") != 0)
                 FW_TRY(lint_mould(arena, flow, i, &s->change[k], diags));

@@ -57,7 +57,9 @@ typedef struct fw_change {
     bool isotropic;                /* undercuts the mask by thickness (1 + overrun) per edge */
     const fw_quantity *anisotropy; /* of a masked etch, A = 1 - lateral/vertical; may be NULL */
     const fw_quantity *spread; /* of a plating, largest local thickness over mean; may be NULL */
-    fw_face compensate;        /* the face that the mask brings to where it is drawn */
+    const fw_quantity *reach; /* of a removal: so far sideways from every opening, below what stays;
+                                 may be NULL */
+    fw_face compensate;       /* the face that the mask brings to where it is drawn */
     fw_place place;
 } fw_change;
 
@@ -90,6 +92,7 @@ typedef struct fw_derive { /* <derive>: another law on the way, for orientation 
     int nargument;
     fw_dimension dimension;
     fw_quantity *q; /* when it has an id: where the value goes, so that later laws can use it */
+    const fw_quantity *most; /* above it the plan warns (FW-D279); may be NULL */
 } fw_derive;
 
 typedef struct fw_time { /* what a law returns */
@@ -192,6 +195,9 @@ typedef struct fw_mask_facts { /* what the mask hands to the flow */
     double narrowest_slot_m, narrowest_line_m; /* as drawn; INFINITY: none */
     double deepest_hinge_width_m;              /* narrowest flexure, as drawn; 0: none */
     int dies;                                  /* on the wafer or coupon */
+    /* of all that the wafer's plate places, test dies and alignment sites too; 0: so many times the
+       die's own */
+    double wafer_structure_m2, wafer_area_m2, wafer_perimeter_m;
     double device_thickness_m; /* as the device file wants it; 0 or NaN: the pack's own */
     const fw_mask_gap *gap;    /* (ngap) openings by name, as drawn; the narrowest slot need not be
                                   among them */

@@ -152,6 +152,10 @@ static fw_status read_derive(fw_pack *pack, const fw_element *e, fw_derive *d) {
         fw_diag_error(pack->diags, 169, unit->place, "'%s' is not a unit", unit->value);
     d->dimension = parsed.dimension;
     if (id) d->q = fw_pack_find(pack, id, FW_ID_QUANTITY);
+    d->most = quantity_of(pack, e, "most");
+    if (d->most && !fw_dimension_equal(d->most->dimension, d->dimension))
+        fw_diag_error(pack->diags, 169, e->place, "most='%s' is no limit for something in '%s'",
+                      d->most->id, d->unit);
     FW_TRY(read_arguments(pack, e, "arg", &d->argument, &d->nargument));
     if (!law) return FW_OK;
     d->law = law->name;
@@ -182,6 +186,7 @@ static void read_change(fw_pack *pack, const fw_element *e, fw_change *c) {
                      .isotropic = strcmp(fw_pack_text(e, "profile"), "isotropic") == 0,
                      .anisotropy = quantity_of(pack, e, "anisotropy"),
                      .spread = quantity_of(pack, e, "spread"),
+                     .reach = quantity_of(pack, e, "reach"),
                      .compensate = face_of(fw_pack_text(e, "compensate")),
                      .place = e->place};
     if (material) fw_pack_find(pack, material, FW_ID_MATERIAL);
@@ -191,6 +196,11 @@ static void read_change(fw_pack *pack, const fw_element *e, fw_change *c) {
         fw_diag_error(pack->diags, 162, e->place, "<change kind='convert'> needs 'from'");
     if (c->thickness && !fw_dimension_equal(c->thickness->dimension, (fw_dimension)FW_DIM_LENGTH))
         fw_diag_error(pack->diags, 169, e->place, "the thickness of <change> is not a length");
+    if (c->reach && !fw_dimension_equal(c->reach->dimension, (fw_dimension)FW_DIM_LENGTH))
+        fw_diag_error(pack->diags, 169, e->place, "the reach of <change> is not a length");
+    if (c->reach && strcmp(c->kind, "remove") != 0)
+        fw_diag_error(pack->diags, 161, e->place,
+                      "reach is how far a removal goes sideways: it belongs to kind='remove' only");
     if (c->isotropic && !c->thickness)
         fw_diag_error(pack->diags, 162, e->place, "profile='isotropic' needs a thickness");
 }

@@ -32,9 +32,10 @@ static void opening(fw_text *out, const fw_edge_class *c) {
 void fw_recipe_edges_json(const fw_flow *flow, fw_text *out) {
     const fw_fixed_point *p = &flow->edges;
     fw_text_printf(out, ",\"edges\":{\"solved\":%s,\"open\":%s", p->solved ? "true" : "false",
-                   p->open || p->wet_open ? "true" : "false");
+                   p->open || p->wet_open || p->worn_open ? "true" : "false");
     number(out, "printed_m", p->printed_m, false);
     number(out, "wet_m", p->wet_m, false);
+    number(out, "worn_m", p->worn_m, false);
     number(out, "etch_m", p->etch_m, false);
     number(out, "least_bias_m", p->low_m, false);
     number(out, "most_bias_m", p->high_m, false);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The run sheet: one file, no scripts, made for A4 and a pen. */
+#include "recipe/profile.h"
 #include "recipe/words.h"
 #include <string.h>
 
@@ -212,9 +213,17 @@ fw_status fw_recipe_write_html(const fw_flow *flow, const fw_recipe_header *head
     fw_html_overrides(flow, out);
     summary(flow, out);
     fw_html_schedule(header, out);
+    fw_slicer slicer;
+    fw_section_scale scale;
+    bool cut = header->mask && header->cut;
+    if (cut) {
+        FW_TRY(fw_slicer_start(out->arena, header->mask, header->cut, &slicer));
+        FW_TRY(fw_section_scale_of(out->arena, flow, header->cut, &scale));
+        FW_TRY(fw_html_pictures(flow, header, &slicer, &scale, out));
+    }
     fw_text_add(out, "<h3>Step by step</h3>\n");
     for (int i = 0; i < flow->nstep; i++)
-        fw_html_step(flow, i, out);
+        fw_html_step(flow, i, cut ? &slicer : NULL, &scale, out);
     sources(flow, out);
     fw_text_add(out, "</body>\n</html>\n");
     return fw_text_end(out);

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "recipe/profile.h"
 #include "recipe/words.h"
 #include <math.h>
 #include <string.h>
@@ -268,13 +269,31 @@ static void actuals(const fw_step *s, fw_text *out) {
         s->second_signature ? "<b>Second signature</b>" : "Remarks");
 }
 
-void fw_html_step(const fw_flow *flow, int index, fw_text *out) {
+/* what the section of this step cannot know, where the step before had not said it */
+static fw_status section_notes(const fw_flow *flow, int index, fw_text *out) {
+    fw_films now, before;
+    FW_TRY(fw_flow_films(out->arena, flow, index, &now));
+    FW_TRY(fw_flow_films(out->arena, flow, index - 1, &before));
+    for (int i = 0; i < now.nnote; i++) {
+        if (!fw_films_is_new(&now, &before, i)) continue;
+        fw_text_add(out, "<p class=\"small muted\">");
+        fw_text_escaped(out, now.note[i]);
+        fw_text_add(out, ".</p>\n");
+    }
+    return FW_OK;
+}
+
+void fw_html_step(const fw_flow *flow, int index, fw_slicer *slicer, const fw_section_scale *scale,
+                  fw_text *out) {
     const fw_step *s = &flow->step[index];
     fw_text_add(out, "<section class=\"step\" id=\"");
     fw_text_escaped(out, s->id);
     fw_text_add(out, "\">\n");
     step_head(s, out);
-    if (fw_recipe_section_svg(flow, index, out) != FW_OK) out->failed = 1;
+    fw_status drawn = slicer ? fw_section_exact(slicer, flow, scale, index, out)
+                             : fw_recipe_section_svg(flow, index, out);
+    if (drawn == FW_OK && slicer) drawn = section_notes(flow, index, out);
+    if (drawn != FW_OK) out->failed = 1;
     fw_text_add(out, "</div></div>\n");
     holds(s, out);
     exposures(flow, s, out);

@@ -3,13 +3,22 @@
 #ifndef FW_RECIPE_RECIPE_H
 #define FW_RECIPE_RECIPE_H
 #include "base/text.h"
+#include "mask/mask.h"
 #include "process/process.h"
 #include "schedule/schedule.h"
+
+typedef struct fw_recipe_cut { /* where the wafer is cut open, and how much of it is shown */
+    fw_cut_line line;          /* shown from 0 to length_m along it */
+    double length_m, depth_m;  /* depth to the left of the line: of the view from above */
+    const char *name;          /* "hinge C, radially through its gap" */
+} fw_recipe_cut;
 
 typedef struct fw_recipe_header {
     const char *device, *flow_sha256, *mask_sha256, *program_version;
     bool rejected;
     const fw_schedule *schedule; /* NULL: none was asked for */
+    const fw_mask *mask;         /* NULL: none was made; then the layers are drawn not to scale */
+    const fw_recipe_cut *cut;    /* NULL: the same */
 } fw_recipe_header;
 
 fw_status fw_recipe_write_html(const fw_flow *flow, const fw_recipe_header *header, fw_text *out);
@@ -24,7 +33,15 @@ fw_status fw_recipe_write_schedule_json(const fw_flow *flow, const fw_recipe_hea
 /* machines, people and hold windows over the days */
 fw_status fw_recipe_write_schedule_svg(const fw_flow *flow, const fw_recipe_header *header,
                                        fw_text *out);
-/* cross-section of the wafer after step `index`, as an SVG fragment */
+/* only with header->mask and header->cut: the section after every step below each other; the same
+   as JSON; what stands around the cut after the steps that change the wafer, seen from above */
+fw_status fw_recipe_write_sections_svg(const fw_flow *flow, const fw_recipe_header *header,
+                                       fw_text *out);
+fw_status fw_recipe_write_sections_json(const fw_flow *flow, const fw_recipe_header *header,
+                                        fw_text *out);
+fw_status fw_recipe_write_stack_svg(const fw_flow *flow, const fw_recipe_header *header,
+                                    fw_text *out);
+/* layers of the wafer after step `index`, not to scale, as an SVG fragment */
 fw_status fw_recipe_section_svg(const fw_flow *flow, int index, fw_text *out);
 
 #endif

@@ -2,6 +2,7 @@
 /* Cross-section of the wafer, not to scale: a narrow and a wide part of the structure between
  * fields. */
 #include "process/stack.h"
+#include "recipe/profile.h"
 #include "recipe/words.h"
 #include <math.h>
 #include <string.h>
@@ -10,23 +11,6 @@ enum { WIDTH = 310, SECTION = 150, HEIGHT = 118, BANDS = 7 };
 /* which column each band shows, and its width; two flexures, their slot, a body */
 static const int band_column[BANDS] = {1, 0, 1, 0, 1, 0, 1};
 static const int band_width[BANDS] = {26, 9, 12, 9, 16, 52, 26};
-
-static const struct {
-    const char *material, *fill;
-} palette[] = {
-    {"silicon-100", "#b9c2cf"},   {"silicon-substrate", "#b9c2cf"}, {"porous-silicon", "#e9dfc6"},
-    {"copper-plated", "#d98a52"}, {"copper-seed", "#8c4a21"},       {"aluminium", "#7d868f"},
-    {"resist", "#f4c4cc"},        {"carrier-wax", "#f3eaa5"},       {"carrier", "#e2e2e2"}};
-
-static const char *fill_of(const char *material) {
-    static const char *const others[] = {"#c7dcc1", "#d5c9e3", "#c6e0e4", "#eed2bb"};
-    unsigned sum = 0;
-    for (size_t i = 0; i < sizeof palette / sizeof palette[0]; i++)
-        if (strcmp(palette[i].material, material) == 0) return palette[i].fill;
-    for (const char *c = material; *c; c++)
-        sum = 31 * sum + (unsigned char)*c;
-    return others[sum % 4];
-}
 
 /* lowest and highest drawn edge over the whole flow, so that the picture does not jump */
 static fw_status extent(fw_arena *arena, const fw_flow *flow, double *low, double *high) {
@@ -91,8 +75,7 @@ static void draw_bands(fw_text *out, const fw_stack *s, double high, double scal
             bool edge = band == 0 || band == BANDS - 1;
             bool same = has_cell(s, 1 - column, c);
             if (!lines) {
-                rectangle(out, x, top, w, floor_y - top,
-                          c->exposed ? "#fdeef0" : fill_of(c->material));
+                rectangle(out, x, top, w, floor_y - top, fw_paint_fill(c->material, c->exposed));
                 continue;
             }
             stroke(out, x, top, x + w, top);
@@ -144,19 +127,9 @@ static void label(fw_text *out, const fw_flow *flow, const legend *l, int y) {
     fw_text_printf(out,
                    "<rect x=\"%d\" y=\"%d\" width=\"9\" height=\"9\" fill=\"%s\" stroke=\"#222\" "
                    "stroke-width=\"0.5\"/>\n<text x=\"%d\" y=\"%d\">",
-                   SECTION + 10, y, l->exposed ? "#fdeef0" : fill_of(l->material), SECTION + 23,
-                   y + 8);
-    const char *name = l->exposed ? l->material : fw_flow_material_name(flow, l->material);
-    size_t n = strcspn(name, ",(");
-    char shown[27];
-    while (n > 0 && name[n - 1] == ' ')
-        n--;
-    if (n > sizeof shown - 1) n = sizeof shown - 1;
-    while (n > 0 && ((unsigned char)name[n] & 0xC0) == 0x80)
-        n--;
-    memcpy(shown, name, n);
-    shown[n] = '\0';
-    fw_text_escaped(out, shown);
+                   SECTION + 10, y, fw_paint_fill(l->material, l->exposed), SECTION + 23, y + 8);
+    char shown[32];
+    fw_text_escaped(out, l->exposed ? l->material : fw_paint_name(flow, l->material, shown));
     fw_text_add(out, l->exposed ? ", exposed" : "");
     if (isnan(l->thickness_m))
         fw_text_add(out, " ?");

@@ -42,8 +42,15 @@ void fw_html_overrides(const fw_flow *flow, fw_text *out);
 /* the section about it in the run sheet; nothing without a schedule */
 void fw_html_schedule(const fw_recipe_header *header, fw_text *out);
 
-/* one step of the run sheet */
-void fw_html_step(const fw_flow *flow, int index, fw_text *out);
+/* one step of the run sheet; slicer NULL: nothing is cut, its layers are drawn not to scale */
+struct fw_slicer;
+struct fw_section_scale;
+/* what is made: the block behind the cut, the parts and openings along it */
+fw_status fw_html_pictures(const fw_flow *flow, const fw_recipe_header *header,
+                           struct fw_slicer *slicer, const struct fw_section_scale *scale,
+                           fw_text *out);
+void fw_html_step(const fw_flow *flow, int index, struct fw_slicer *slicer,
+                  const struct fw_section_scale *scale, fw_text *out);
 /* "[3]": number of the source in the list at the end; other text as it is */
 void fw_html_source(const fw_flow *flow, const char *source, fw_text *out);
 

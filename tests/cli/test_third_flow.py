@@ -43,8 +43,13 @@ class ThirdFlow(unittest.TestCase):
         verdict, _, out, done = self.plan(text)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual([f["id"] for f in verdict["flows"]], [FLOW])
-        for name in (".gds", ".svg", ".lyp", "-coupons.gds", ".html", ".csv", ".ics"):
+        for name in (".gds", ".svg", ".lyp", "-coupons.gds", ".html", ".csv", ".ics", ".sections.svg", ".stack.svg"):
             self.assertIn(FLOW + name, out)
+        sections = json.loads(out[FLOW + ".sections.json"])  # what the vapour does to the oxide is XML alone, too
+        film = {s["id"]: [f["material"] for f in s["films"]] for s in sections["steps"] if s["changes"]}
+        self.assertEqual(film["D07"], ["silicon-substrate", "buried-oxide", "silicon-100", "resist"])
+        self.assertIn("buried-oxide", film["D10"])
+        self.assertNotIn("buried-oxide", film["D12"])  # everything in the window is nearer than its reach
         recipe = self.recipe(text)
         self.assertEqual(len(recipe["steps"]), 13)
         for step in recipe["steps"]:  # a time, or what is missing for it

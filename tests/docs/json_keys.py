@@ -91,6 +91,7 @@ with tempfile.TemporaryDirectory() as here:
                    timeout=120)
     walk(json.loads((pathlib.Path(here) / "o/manifest.json").read_text()), "manifest")
     walk(json.loads((pathlib.Path(here) / "o/masks/al-masked-rie.order.json").read_text()), "order")
+    walk(json.loads((pathlib.Path(here) / "o/recipes/al-masked-rie.sections.json").read_text()), "sections")
     subprocess.run([program, "mask", "tests/data/wafer/leaf-wafer.xml", "-q", "-o", f"{here}/w"], cwd=ROOT, capture_output=True,
                    timeout=120)
     walk(json.loads((pathlib.Path(here) / "w/masks/al-masked-rie-wafer.json").read_text()), "wafer")

@@ -37,7 +37,8 @@ for device in docs/gallery/*/device.xml; do
         esac
         [ -f "$file" ] && keep "$file" "masks/gallery/$name/$(basename "$file")"
     done
-    for file in "$work/$name"/recipes/*.html "$work/$name"/recipes/*.csv; do
+    for file in "$work/$name"/recipes/*.html "$work/$name"/recipes/*.csv "$work/$name"/recipes/*.sections.svg \
+        "$work/$name"/recipes/*.stack.svg; do
         [ -f "$file" ] && keep "$file" "recipes/gallery/$name/$(basename "$file")"
     done
 done

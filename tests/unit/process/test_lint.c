@@ -236,8 +236,47 @@ static void mould(void **state) {
     assert_int_equal(reasons(f, "plates up to 18 um"), 1); /* twice the mean */
 }
 
+/* n = rho d A/M against c V: docs/theory/process.md, knowledge of Faraday's law: 1.269 mmol for 9
+   um on 10 cm2 */
+static void bath(void **state) {
+    (void)state;
+    static const struct {
+        const char *concentration;
+        bool warns;
+    } cases[] = {{"value=\"0.75\" u=\"0.02\"", true},
+                 {"value=\"7.5\" u=\"0.02\"", false},
+                 {"unknown=\"true\"", false}};
+    for (int i = 0; i < 3; i++) {
+        diags = fw_diags_new(arena);
+        const char *to = fw_arena_printf(arena, "<q id=\"cu.bath-c\" %s", cases[i].concentration);
+        fw_flow *f = read_pack(arena, COPPER, "<q id=\"cu.bath-c\" unknown=\"true\"", to, &diags);
+        assert_non_null(f);
+        ((fw_quantity *)fw_flow_quantity(f, "ring.area"))->value = 0.0;
+        fw_mask_facts facts = plain_facts;
+        facts.structure_area_m2 = 1e-3 / facts.dies; /* 10 cm2 in all */
+        facts.die_area_m2 = 2e-3 / facts.dies;
+        ((fw_quantity *)fw_flow_quantity(f, "cu.bath-V"))->value = 0.02e-3; /* 20 mL */
+        assert_int_equal(fw_flow_compute(arena, f, &facts, &diags), FW_OK);
+        const fw_quantity *taken = fw_flow_quantity(f, "cu.taken");
+        assert_near(taken->value, 1.269e-3, 1e-6);
+        const fw_diag *d = found(279, "C22");
+        assert_int_equal(d != NULL, cases[i].warns);
+        if (!d) continue;
+        assert_non_null(strstr(d->message, "8.46")); /* 1.269 mmol of 15 mmol, in % */
+        bool said = false;
+        for (int k = 0; k < f->nreason; k++)
+            said = said || strstr(f->reason[k], "share of the bath's copper");
+        assert_true(said);
+    }
+    /* a limit of another kind */
+    diags = fw_diags_new(arena);
+    assert_null(read_pack(arena, COPPER, "most=\"cu.bath-fall\"", "most=\"cu.bath-V\"", &diags));
+    expect(169, "is no limit");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(bath, setup, teardown),
         cmocka_unit_test_setup_teardown(mistakes_of_a_flow, setup, teardown),
         cmocka_unit_test_setup_teardown(replaced_values_keep_their_range, setup, teardown),
         cmocka_unit_test_setup_teardown(shared_hazards, setup, teardown),

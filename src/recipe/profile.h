@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Where the films of a wafer lie along a straight cut: the mask's exact outlines, each moved to
+   where a film's wall stands, cut by the line in closed form. Private to recipe/. */
+#ifndef FW_RECIPE_PROFILE_H
+#define FW_RECIPE_PROFILE_H
+#include "process/films.h"
+#include "recipe/recipe.h"
+
+typedef struct fw_outline_at { /* the plate's shapes near the cut, moved; one edge of the cache */
+    double edge_m;             /* outside the drawn edge */
+    fw_contour *contour;       /* (nshape) of the slicer; count 0: nothing is left of it */
+    fw_slices inside;          /* along the line: the structure */
+    fw_slices gap;             /* openings before, between and behind it; ends at infinity */
+    double *width_m;           /* (gap.n) across; NaN: not asked for yet */
+} fw_outline_at;
+
+typedef struct fw_slicer {
+    fw_arena *arena;
+    const fw_mask *mask;
+    const fw_recipe_cut *cut;
+    const fw_plate_term *term; /* (nterm) */
+    int nterm;
+    const fw_mask_shape **shape; /* (nshape) of the plate, near the window */
+    int *term_of;                /* (nshape) */
+    int nshape;
+    fw_outline_at *at; /* (nat) */
+    int nat, capacity;
+} fw_slicer;
+
+typedef struct fw_patch { /* a film in the section: a trapezium */
+    const fw_film *film;
+    double low_m[2], high_m[2]; /* from and to, at the bottom and at the top; 0 to cut->length_m */
+    double bottom_m, top_m;     /* drawn heights */
+} fw_patch;
+
+typedef struct fw_cross_section {
+    fw_films films;
+    fw_patch *patch; /* (n) bottom first */
+    int n, capacity;
+} fw_cross_section;
+
+fw_status fw_slicer_start(fw_arena *arena, const fw_mask *mask, const fw_recipe_cut *cut,
+                          fw_slicer *slicer);
+/* the structure with its edges so far outside the drawn ones */
+fw_status fw_slicer_at(fw_slicer *slicer, double edge_m, const fw_outline_at **at);
+/* from a point of the cut to the nearest edge of the structure; m, HUGE_VAL beyond FW_NEAR_M */
+double fw_slicer_distance(const fw_slicer *slicer, const fw_outline_at *at, double s_m);
+/* width of opening g: the largest circle in it with its middle on the cut. So a slot that is cut
+   askew has its own width. INFINITY where it has no end. */
+double fw_slicer_opening(const fw_slicer *slicer, const fw_outline_at *at, int g);
+#define FW_NEAR_M 400e-6
+
+/* how much farther out feet beside an opening of w_m stand than beside the open field; m */
+double fw_foot_more(const fw_flow *flow, const fw_cut *cut, double w_m);
+
+/* the wafer after step `index` along the cut */
+fw_status fw_cross_section_of(fw_slicer *slicer, const fw_flow *flow, int index,
+                              fw_cross_section *profile);
+
+/* ---- how it is painted: paint.c ---- */
+const char *fw_paint_fill(const char *material, bool exposed);
+/* "silicon (100)" of "silicon (100), single crystal"; at most 26 bytes, ends of UTF-8 kept */
+const char *fw_paint_name(const fw_flow *flow, const char *material, char shown[32]);
+
+/* one scale for all pictures of a flow */
+typedef struct fw_section_scale {
+    double window_m;      /* along the cut */
+    double low_m, high_m; /* heights, over all steps */
+    double exaggeration;  /* of heights: 1, 2, 5, ... */
+} fw_section_scale;
+fw_status fw_section_scale_of(fw_arena *arena, const fw_flow *flow, const fw_recipe_cut *cut,
+                              fw_section_scale *scale);
+/* parts of the picture: the films (height out), a scale bar, a legend in columns (rows out) */
+void fw_section_draw(const fw_cross_section *profile, const fw_section_scale *scale, double width,
+                     fw_text *out, double *height);
+void fw_section_scale_bar(const fw_section_scale *scale, double width, double y, fw_text *out);
+int fw_section_legend(const fw_flow *flow, const fw_films *films, double width, int columns,
+                      double y, fw_text *out);
+/* the section after a step as an SVG fragment, 310 wide */
+fw_status fw_section_exact(fw_slicer *slicer, const fw_flow *flow, const fw_section_scale *scale,
+                           int index, fw_text *out);
+/* the block behind the cut after a step, seen from above; drawn into a group at (0, 0), size out */
+fw_status fw_block_draw(fw_slicer *slicer, const fw_flow *flow, const fw_section_scale *scale,
+                        int index, double width, fw_text *out, double *height);
+
+#endif

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The block behind the cut after every step that changes the wafer: two in a row. */
+#include "recipe/sections.h"
+#include <math.h>
+#include <stdlib.h>
+
+fw_status fw_recipe_write_stack_svg(const fw_flow *flow, const fw_recipe_header *header,
+                                    fw_text *out) {
+    enum { COLUMNS = 2 };
+    const double whole = 800.0, own = 385.0, across = whole / COLUMNS;
+    fw_slicer slicer;
+    fw_section_scale scale;
+    FW_TRY(fw_slicer_start(out->arena, header->mask, header->cut, &slicer));
+    FW_TRY(fw_section_scale_of(out->arena, flow, header->cut, &scale));
+    fw_text body = fw_text_new(out->arena);
+    fw_section_head(flow, header, "what stands behind the cut", &body);
+    fw_section_scale_bar(&scale, own * cos(0.5), 44.0, &body);
+    double y = 70.0, row = 0.0;
+    int column = 0;
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_step *s = &flow->step[i];
+        double height;
+        fw_films films;
+        if (!fw_step_changes(s)) continue;
+        fw_text_add(&body, "<g transform=\"translate(");
+        fw_text_fixed(&body, across * column, 1);
+        fw_text_add(&body, " ");
+        fw_text_fixed(&body, y, 1);
+        fw_text_add(&body, ")\">\n<text y=\"12\" font-size=\"13\" font-weight=\"bold\">");
+        fw_text_escaped(&body, s->id);
+        fw_text_add(&body, "&#160; ");
+        fw_text_escaped(&body, s->title);
+        fw_text_add(&body, "</text>\n<g transform=\"translate(0 20)\">\n");
+        FW_TRY(fw_block_draw(&slicer, flow, &scale, i, own, &body, &height));
+        FW_TRY(fw_flow_films(out->arena, flow, i, &films));
+        int rows = fw_section_legend(flow, &films, own, 2, height + 4.0, &body);
+        fw_text_add(&body, "</g></g>\n");
+        row = fmax(row, height + 44.0 + 14.0 * rows);
+        if (++column < COLUMNS) continue;
+        column = 0;
+        y += row;
+        row = 0.0;
+    }
+    return fw_section_page(&body, y + row, "what stands behind the cut", out);
+}
