@@ -3,12 +3,17 @@
 #include "plan/live_request.h"
 #include "report/preview.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 fw_live *fw_live_new(const fw_live_settings *settings) {
-    fw_live *live = calloc(1, sizeof *live);
-    if (live && settings) live->settings = *settings;
+    fw_arena *self = fw_arena_new(0);
+    fw_live *live = self ? fw_arena_one(self, fw_live) : NULL;
+    if (!live) {
+        fw_arena_free(self);
+        return NULL;
+    }
+    *live = (fw_live){.self = self};
+    if (settings) live->settings = *settings;
     return live;
 }
 
@@ -16,7 +21,7 @@ void fw_live_free(fw_live *live) {
     if (!live) return;
     fw_live_posed_free(live->posed);
     fw_arena_free(live->answer);
-    free(live);
+    fw_arena_free(live->self);
 }
 
 /* ---- reading ---- */

@@ -7,22 +7,20 @@
 #include "plan/live_pose.h"
 #include "plan/live_request.h"
 #include "plan/stages.h"
+#include "report/json_common.h"
 #include "report/preview.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct fw_live_posed {
-    fw_design *design; /* its arena holds the mechanisms */
+    fw_design *design; /* its arena holds this struct and the mechanisms */
     char key[65];      /* of text, sets and options */
     fw_status status;  /* of reading and building: FW_OK, or the description is no good */
     const fw_mechanism **mechanism; /* (nflow) closed */
 } fw_live_posed;
 
 void fw_live_posed_free(fw_live_posed *posed) {
-    if (!posed) return;
-    fw_design_free(posed->design);
-    free(posed);
+    if (posed) fw_design_free(posed->design);
 }
 
 /* ---- the mechanisms of a text ---- */
@@ -46,15 +44,12 @@ static fw_status build(fw_design *d, void *argument) {
 }
 
 static fw_status key_of(const fw_live_request *r, char key[65]) {
-    char *set = json_dumps(r->set, JSON_COMPACT), *options = json_dumps(r->options, JSON_COMPACT);
     fw_text all = fw_text_new(r->arena);
     fw_text_bytes(&all, r->text, r->length);
     fw_text_add(&all, "\n");
-    fw_text_add(&all, set ? set : "");
+    if (r->set) FW_TRY(fw_json_write(json_incref(r->set), false, &all));
     fw_text_add(&all, "\n");
-    fw_text_add(&all, options ? options : "");
-    free(set);
-    free(options);
+    if (r->options) FW_TRY(fw_json_write(json_incref(r->options), false, &all));
     FW_TRY(fw_text_end(&all));
     fw_sha256(all.data, all.length, key);
     return FW_OK;
@@ -66,9 +61,16 @@ static fw_status prepare(fw_live *live, fw_live_request *r) {
     FW_TRY(key_of(r, key));
     if (live->posed && strcmp(live->posed->key, key) == 0) return FW_OK;
     fw_live_posed_free(live->posed);
-    FW_NEED(live->posed = calloc(1, sizeof *live->posed));
-    fw_live_posed *posed = live->posed;
-    FW_TRY(fw_live_design(live, r, &posed->design));
+    live->posed = NULL;
+    fw_design *design;
+    FW_TRY(fw_live_design(live, r, &design));
+    fw_live_posed *posed = fw_arena_one(fw_design_plan(design)->arena, fw_live_posed);
+    if (!posed) {
+        fw_design_free(design);
+        return FW_NOMEM;
+    }
+    posed->design = design;
+    live->posed = posed;
     int status = fw_design_read_memory(posed->design, "device.xml", r->text, r->length);
     if (status == FW_STATUS_OK) status = fw_design_run(posed->design, build, posed);
     if (status == FW_STATUS_USAGE) return fw_live_wrong(r, "an option is wrong", NULL);

@@ -16,6 +16,7 @@ enum {
 };
 
 struct fw_live {
+    fw_arena *self; /* holds this struct */
     fw_live_settings settings;
     fw_arena *answer;            /* of the last one, NULL: none */
     struct fw_live_posed *posed; /* the mechanism that was last posed, NULL: none */
