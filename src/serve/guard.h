@@ -32,6 +32,8 @@ typedef struct fw_guard_facts {
     bool repeated;     /* one of these headers is there twice */
     const char *entry; /* value of ?token= */
     bool query;        /* there is a query */
+    size_t head_bytes; /* of the whole head */
+    size_t seen_bytes; /* of its parts as texts, with one blank before each value */
 } fw_guard_facts;
 
 typedef struct fw_refusal {

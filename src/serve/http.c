@@ -40,6 +40,7 @@ static enum MHD_Result one_header(void *context, enum MHD_ValueKind kind, const 
                                   const char *value) {
     (void)kind;
     fw_guard_facts *facts = context;
+    facts->seen_bytes += strlen(name) + 2 + (value ? strlen(value) : 0) + 2;
     for (size_t i = 0; i < sizeof headers / sizeof headers[0]; i++) {
         if (strcasecmp(name, headers[i].name) != 0) continue;
         const char **field = (const char **)(void *)((char *)facts + headers[i].offset);
@@ -55,6 +56,7 @@ static enum MHD_Result one_argument(void *context, enum MHD_ValueKind kind, cons
     fw_guard_facts *facts = context;
     if (facts->query) facts->repeated = true; /* one argument at most */
     facts->query = true;
+    facts->seen_bytes += 1 + strlen(name) + (value ? 1 + strlen(value) : 0);
     if (strcmp(name, "token") == 0) facts->entry = value ? value : "";
     return MHD_YES;
 }
@@ -104,6 +106,11 @@ static void admit(fw_request *r, struct MHD_Connection *mhd, const char *path, c
     fw_guard_facts facts = {.version = version, .method = method, .path = path};
     MHD_get_connection_values(mhd, MHD_HEADER_KIND, one_header, &facts);
     MHD_get_connection_values(mhd, MHD_GET_ARGUMENT_KIND, one_argument, &facts);
+    /* "GET /path HTTP/1.1" with its two spaces and line end, and the empty line */
+    facts.seen_bytes += strlen(method) + strlen(path) + strlen(version) + 4 + 2;
+    const union MHD_ConnectionInfo *info =
+        MHD_get_connection_info(mhd, MHD_CONNECTION_INFO_REQUEST_HEADER_SIZE);
+    facts.head_bytes = info ? info->header_size : SIZE_MAX;
     fw_refusal refusal = fw_guard_check(guard, &facts);
     r->reply.close = true; /* whatever comes behind a refused head is not looked at */
     if (refusal.status) {
@@ -231,28 +238,41 @@ static void notice_gone(fw_connection *slot) {
     fw_request_answer(r);
 }
 
+/* all connections are taken: those that have been asking for longest without having asked for
+   anything make room, a few at a time */
+static void make_room(fw_server *server, int64_t now) {
+    for (int round = 0; round < FW_SERVE_CONNECTIONS / 4; round++) {
+        fw_connection *slowest = NULL;
+        int taken = 0;
+        for (size_t i = 0; i < sizeof server->connection / sizeof *server->connection; i++) {
+            fw_connection *slot = &server->connection[i];
+            if (slot->fd < 0 || slot->cut) continue;
+            taken++;
+            if (slot->phase == FW_RECEIVING && now - slot->since_ms > FW_SERVE_CROWDED_MS &&
+                (!slowest || slot->since_ms < slowest->since_ms))
+                slowest = slot;
+        }
+        if (!slowest || taken < FW_SERVE_CONNECTIONS - FW_SERVE_CONNECTIONS / 4) return;
+        cut(slowest);
+    }
+}
+
 void fw_http_reap(fw_server *server) {
     int64_t now = fw_serve_now_ms();
-    fw_connection *slowest = NULL;
     int taken = 0;
     for (size_t i = 0; i < sizeof server->connection / sizeof *server->connection; i++) {
         fw_connection *slot = &server->connection[i];
         if (slot->fd < 0) continue;
         taken++;
         notice_gone(slot);
-        int64_t age = now - slot->since_ms;
 #ifndef FW_SERVE_WITHOUT_REAPER
+        int64_t age = now - slot->since_ms;
         if ((slot->phase == FW_RECEIVING && age > FW_SERVE_REQUEST_MS) ||
             (slot->phase == FW_SENDING && age > FW_SERVE_REPLY_MS))
             cut(slot);
-        if (slot->phase == FW_RECEIVING && age > FW_SERVE_CROWDED_MS && !slot->cut &&
-            (!slowest || slot->since_ms < slowest->since_ms))
-            slowest = slot;
-#else
-        (void)age;
 #endif
     }
-    if (slowest && taken >= FW_SERVE_CONNECTIONS) cut(slowest);
+    if (taken >= FW_SERVE_CONNECTIONS) make_room(server, now);
 }
 
 /* ---- start and stop ---- */
