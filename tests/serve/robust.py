@@ -395,6 +395,42 @@ def killed(program, directory):
     living.stop()
 
 
+def six(program, directory):
+    """::1 only when asked for, with the same rules"""
+    try:
+        socket.create_server(("::1", 0), family=socket.AF_INET6).close()
+    except OSError:
+        print("  this machine has no ::1")
+        return
+    with Server(program, directory, options=["--ipv6"]) as server:
+        server.enter()
+        host = f"[::1]:{server.port}"
+        head = f"GET /api/session HTTP/1.1\r\nHost: {host}\r\n"
+        for headers, status in ((f"Cookie: {server.cookie}\r\n", 200), ("", 401),
+                                (f"Cookie: {server.cookie}\r\nOrigin: http://{server.host}\r\n", 403)):
+            with server.connect("::1") as s:
+                s.sendall((head + headers + "\r\n").encode())
+                assert s.recv(12).decode() == f"HTTP/1.1 {status}"
+
+
+def browser(program, directory):
+    """in a terminal with a display the browser is tried; one that is not there ends nothing"""
+    if os.path.exists("/usr/bin/xdg-open"):
+        print("  there is a browser here; not opened")
+        return
+    ours, theirs = os.openpty()
+    run = subprocess.Popen([program, "serve"], stdout=theirs, stderr=theirs, stdin=theirs,
+                           env={**os.environ, "DISPLAY": ":9", "TMPDIR": str(directory)})
+    os.close(theirs)
+    text = b""
+    while b"FW-D285" not in text:
+        text += os.read(ours, 1000)
+    assert run.poll() is None and text.startswith(b"http://127.0.0.1:")
+    run.terminate()
+    assert run.wait(timeout=5) == 0
+    os.close(ours)
+
+
 def started_wrongly(program, directory):
     """a port that is taken, a file that is not there"""
     with Server(program, directory) as server:
@@ -409,7 +445,7 @@ def started_wrongly(program, directory):
 
 
 TESTS = [only_loopback, half_open, drip_alone, loaded, archive, jobs, limits, crash, file, streams, signals, killed,
-         started_wrongly]
+         six, browser, started_wrongly]
 
 
 def main():
