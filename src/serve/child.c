@@ -17,7 +17,7 @@
 #endif
 #endif
 
-static int limit(int which, uint64_t value) {
+static int limit(unsigned which, uint64_t value) {
     struct rlimit r = {.rlim_cur = (rlim_t)value, .rlim_max = (rlim_t)value};
     return setrlimit(which, &r);
 }
