@@ -163,6 +163,7 @@ static enum MHD_Result on_request(void *context, struct MHD_Connection *mhd, con
     if (r->answered) return send_reply(r, mhd);
     if (r->received != r->declared) return MHD_NO;
     phase(r->connection, FW_WORKING);
+    r->server->asked = true;
     r->route->handle(r);
     if (r->reply.status) return send_reply(r, mhd);
     r->suspended = true;

@@ -99,7 +99,7 @@ struct fw_server {
     struct fw_jobs *jobs;
     struct fw_watch *watch;
     struct fw_scratch *scratch;
-    bool stopping;
+    bool asked; /* something was asked for since workers and jobs were looked at */
 };
 
 int64_t fw_serve_now_ms(void);

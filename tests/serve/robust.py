@@ -290,6 +290,36 @@ def crash(program, directory):
         assert len(processes(server.process.pid)) == 3
 
 
+def abandoned(program, directory):
+    """a slider that moves on: requests whose page went away are given up, and do not hold up the last one"""
+    with Server(program, directory) as server:
+        server.enter()
+        if server.ask("POST", "/api/preview", {"text": TEXT})[0] == 501:
+            print("  this build computes nothing live")
+            return
+
+        def ask(options):
+            body = json.dumps({"text": TEXT, "options": options}).encode()
+            return (f"POST /api/preview HTTP/1.1\r\nHost: {server.host}\r\nCookie: {server.cookie}\r\n"
+                    f"X-Flexwright-Token: {server.token}\r\nContent-Type: application/json\r\n"
+                    f"Content-Length: {len(body)}\r\n\r\n").encode() + body
+
+        began = time.monotonic()
+        for _ in range(25):
+            with server.connect() as s:
+                s.sendall(ask({"corners": "auto", "accuracy": 1e-9}))
+                time.sleep(0.02)
+        status, _, data = server.ask("POST", "/api/preview", {"text": TEXT})
+        took = time.monotonic() - began
+        assert status == 200 and json.loads(data)["status"] == "ok", data[:300]
+        began = time.monotonic()  # the same 25, waited for
+        for _ in range(2):
+            assert server.ask("POST", "/api/preview", {"text": TEXT, "options": {"corners": "auto", "accuracy": 1e-9}})[0] == 200
+        one = (time.monotonic() - began) / 2
+        print(f"  after 25 that were given up: {took:.2f} s; one of them takes {one:.2f} s")
+        assert took < 0.5 * 25 * one or took < 2.0
+
+
 # ---- the file ----
 
 def file(program, directory):
@@ -444,7 +474,7 @@ def started_wrongly(program, directory):
     assert not scratch(directory)
 
 
-TESTS = [only_loopback, half_open, drip_alone, loaded, archive, jobs, limits, crash, file, streams, signals, killed,
+TESTS = [only_loopback, half_open, drip_alone, loaded, archive, jobs, limits, crash, abandoned, file, streams, signals, killed,
          six, browser, started_wrongly]
 
 
