@@ -232,6 +232,11 @@ def jobs(program, directory):
         assert time.monotonic() - began < 1.0
         events.until(f'"id": {first}, "state": "cancelled"')
         assert server.json("DELETE", f"/api/jobs/{waiting[3]}")["state"] == "cancelled"
+        cancelled = server.json("GET", f"/api/jobs/{first}")
+        assert cancelled["state"] == "cancelled" and not cancelled["files"] and cancelled["exit_status"] is None
+        assert server.ask("GET", f"/api/jobs/{first}/archive")[0] == 404
+        assert server.json("DELETE", f"/api/jobs/{first}")["state"] == "cancelled"
+        assert server.ask("GET", f"/api/jobs/{first}")[0] == 404
         events.until(f'"id": {waiting[2]}, "state": "done"', timeout=60)
         assert server.json("GET", f"/api/jobs/{waiting[0]}")["result"]["schema"] == "flexwright.verdict/1"
         bad = server.job({"kind": "check", "text": "<device"})
