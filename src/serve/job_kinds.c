@@ -50,7 +50,7 @@ static const option_row options[] = {
     {"operators", "operators", PLAN | RECIPE},
     {"day", "day", PLAN | RECIPE},
     {"planned", "planned", PLAN | RECIPE},
-    {"scene", "scene", SIMULATE | MODES | STATICS | ASSEMBLE},
+    {"scene", "scene", SIMULATE | MODES | STATICS | ASSEMBLE | TRADEOFF},
     {"at", "at", MODES},
     {"path", "path", STATICS},
     {"method", "method", SIMULATE},
@@ -62,6 +62,8 @@ static const option_row options[] = {
     {"rates", "rates", ASSEMBLE},
     {"accelerations", "accelerations", ASSEMBLE},
     {"level", "level", HINGE},
+    {"budget", "budget", TRADEOFF},
+    {"no_time", "no-time", TRADEOFF},
 };
 
 enum { MOST_ARGUMENTS = 128, MOST_TEXT = 2000 };
