@@ -60,6 +60,7 @@ set_tests_properties(build.clang build.sanitized build.bytes fuzz.device effects
 add_executable(live live/live.c)
 target_link_libraries(live PRIVATE fw_plan)
 fw_script_test(live.memory COMMAND live memory)
+include(serve/serve.cmake)
 
 add_executable(fault_memory fault/memory.c)
 target_link_libraries(fault_memory PRIVATE fw_plan)
