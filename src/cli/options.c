@@ -315,6 +315,26 @@ static const char *take_lot(fw_cli_options *o, const char *v) {
     return *v && strlen(v) <= 100 ? NULL : "needs 1 to 100 characters";
 }
 
+/* ---- of tradeoff ---- */
+
+static const char *take_budget(fw_cli_options *o, const char *v) {
+    double *x = &o->budget_s;
+    if (!fw_number_parse(v, strlen(v), x) || !(*x >= 1 && *x <= 3600))
+        return "needs seconds between 1 and 3600";
+    return NULL;
+}
+
+static const char *take_no_time(fw_cli_options *o, const char *v) {
+    (void)v;
+    o->no_time = true;
+    return NULL;
+}
+
+static const char *take_settings(fw_cli_options *o, const char *v) {
+    o->settings = v;
+    return *v ? NULL : "needs LEVEL;METHOD/INTEGRATOR/RTOL,...";
+}
+
 static const fw_option_row table[] = {
     {"output", 'o', "DIR", "directory of the results; it appears whole or not at all",
      FW_OPT_OUTPUT, take_output},
@@ -380,7 +400,8 @@ static const fw_option_row table[] = {
     {"flow", 0, "NAME", "the process flow that the coupons went through", FW_OPT_CALIBRATE,
      take_flow},
     {"scene", 0, "NAME", "the scene; default the first",
-     FW_OPT_SIMULATE | FW_OPT_MODES | FW_OPT_STATICS | FW_OPT_ASSEMBLE, take_scene},
+     FW_OPT_SIMULATE | FW_OPT_MODES | FW_OPT_STATICS | FW_OPT_ASSEMBLE | FW_OPT_TRADEOFF,
+     take_scene},
     {"at", 0, "POSE",
      "about which pose: rest (default: the assembled pose without the scene's loads) or "
      "equilibrium",
@@ -438,6 +459,20 @@ static const fw_option_row table[] = {
      "thickness=9.1\", further second, tool, bath, note and what the step measures",
      FW_OPT_LOG, take_entry},
     {"lot", 0, "NAME", "name of the lot, for a log that begins", FW_OPT_LOG, take_lot},
+    {"budget", 0, "SECONDS",
+     "how much work to spend, 1 to 3600 s of a machine that does 2.5e9 instructions a second; "
+     "default "
+     "20. Settings that would go over their share are left out and listed as such",
+     FW_OPT_TRADEOFF, take_budget},
+    {"no-time", 0, NULL,
+     "measure nothing on this machine (times, counted instructions): costs are those of a model, "
+     "and "
+     "the same input gives the same bytes",
+     FW_OPT_TRADEOFF, take_no_time},
+    {"settings", 0, "LIST",
+     "run only the settings LEVEL;METHOD/INTEGRATOR/RTOL,... and print nothing: what the program "
+     "starts under callgrind to count instructions",
+     FW_OPT_TRADEOFF, take_settings},
     {"quiet", 'q', NULL, "no messages but errors", FW_OPT_COMMON, take_quiet},
     {"verbose", 'v', NULL, "a line per stage, and every note", FW_OPT_COMMON, take_verbose},
     {"color", 0, "WHEN", "auto, always or never", FW_OPT_COMMON, take_colour},

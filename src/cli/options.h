@@ -19,6 +19,10 @@ typedef struct fw_cli_options {
     const char *svg;               /* of assemble and hinge */
     const char *level, *deck;      /* of hinge; NULL: by accuracy, none */
     const char *run, *entry, *lot; /* of log */
+    const char *settings;          /* of tradeoff; NULL: all */
+    double budget_s;
+    bool no_time;
+    char **argv; /* as it was started, for tradeoff, which starts it again under callgrind */
     bool json, quiet, verbose, no_progress, help, version;
     int colour; /* -1 auto, 0 never, 1 always */
 } fw_cli_options;
@@ -42,7 +46,8 @@ enum { /* option groups */
        FW_OPT_HINGE = 256,
        FW_OPT_SCHEDULE = 512,
        FW_OPT_CALIBRATE = 1024,
-       FW_OPT_LOG = 2048
+       FW_OPT_LOG = 2048,
+       FW_OPT_TRADEOFF = 4096
 };
 
 /* fills options from argv[2..]; false: wrong usage, said on stderr */
