@@ -120,8 +120,7 @@ fw_status fw_problem_run(fw_problem *p, const fw_tradeoff_setting *s, fw_tradeof
     fw_diags own = fw_diags_new(p->arena);
     FW_TRY(fw_watch_new(p->arena, p->mechanism, p->plan->layout, false, &saw));
     FW_TRY(fw_watch_new(p->arena, p->mechanism, p->plan->layout, false, &looser));
-    o.observe = fw_watch_see;
-    o.context = &saw, o.other = &looser;
+    if (p->mechanism->nhinge > 0) o.observe = fw_watch_see, o.context = &saw, o.other = &looser;
     fw_status status = move(p, s, &o, &own, &motion);
     if (status == FW_NOMEM || status == FW_CANCELLED || own.failed || saw.no_memory)
         return status == FW_CANCELLED ? status : FW_NOMEM;

@@ -153,6 +153,15 @@ static void scale(fw_tradeoff *t) {
     }
 }
 
+/* Pairs of which nothing was counted: the model, as far off as it is for the chosen setting. They
+   are shown and not compared. */
+static void adjust(fw_tradeoff *t, double modelled) {
+    double by = t->point[0].instructions / modelled;
+    for (int i = 1; i < t->npoint; i++)
+        if (t->point[i].state == FW_TRADEOFF_DONE && t->point[i].by == FW_COUNT_MODEL)
+            t->point[i].instructions *= by;
+}
+
 static fw_status counted(fw_problem *p, const char *valgrind, const fw_tradeoff_options *o,
                          wishes *l, fw_tradeoff *t) {
     fw_external_room room;
@@ -193,8 +202,10 @@ fw_status fw_tradeoff_count(fw_problem *p, const fw_tradeoff_options *o, fw_trad
     FW_NEED(l.point = fw_arena_array(p->arena, int, n));
     FW_NEED(l.listed = fw_arena_array(p->arena, bool, n));
     FW_TRY(choose(p->arena, t, &l));
+    double modelled = t->point[0].instructions;
     FW_TRY(counted(p, valgrind, o, &l, t));
     scale(t);
+    adjust(t, modelled);
     return FW_OK;
 }
 

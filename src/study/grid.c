@@ -5,11 +5,14 @@
 #include "maths/ode.h"
 #include "study/problem.h"
 #include <math.h>
+
 #include <string.h>
 
 /* shares of the budget: of the three parts, and of one run in them. Every pair of a part may take
    an equal share of what is left of it */
-static const double share[3] = {0.2, 0.2, 0.1}, one[3] = {0.02, 0.02, 0.01};
+static const double share[3] = {0.12, 0.12, 0.08}, one[3] = {0.02, 0.02, 0.01};
+static const double own_share = 0.08,
+                    own_one = 0.04; /* of the program's own pair, which comes first */
 
 static double tolerance(int k) {
     return pow(10, -5 - k);
@@ -21,6 +24,14 @@ static int find_curve(const fw_tradeoff *t, const char *method, const char *inte
             strcmp(t->curve[i].integrator, integrator) == 0)
             return i;
     return -1;
+}
+
+/* an integrator that does not even end at the loosest tolerance by the program's own method */
+static bool hopeless(const fw_tradeoff *t, const char *integrator) {
+    for (int i = 0; i < t->ncurve; i++)
+        if (t->curve[i].as_integrator && strcmp(t->curve[i].integrator, integrator) == 0)
+            return t->point[t->curve[i].first].state == FW_TRADEOFF_SKIPPED;
+    return false;
 }
 
 /* right-hand sides of the same integrator and tolerance with another method are nearly as many */
@@ -73,7 +84,7 @@ static fw_status pair(fw_problem *p, fw_tradeoff *t, const char *method, const c
                              .count = FW_TRADEOFF_TOLERANCES,
                              .order = (double)NAN};
     t->npoint += c->count;
-    bool over = false;
+    bool over = hopeless(t, integrator);
     for (int k = 0; k < c->count; k++) {
         fw_tradeoff_point *point = &t->point[c->first + k];
         *point = (fw_tradeoff_point){.method = method, .integrator = integrator};
@@ -139,9 +150,12 @@ fw_status fw_tradeoff_grid(fw_problem *p, fw_tradeoff *t) {
     FW_NEED(t->curve = fw_arena_array(p->arena, fw_tradeoff_curve, (size_t)(m * n)));
     const char *own_m = known_or(t->point[0].method, "chain", method, m);
     const char *own_i = known_or(t->point[0].integrator, "dop853", integrator, n);
+    double first = own_share * p->budget;
+    FW_TRY(pair(p, t, own_m, own_i, &first, own_one * p->budget));
+    t->curve[0].as_integrator = t->curve[0].as_method = true;
     for (int part = 0; part < 3; part++) {
         double left = share[part] * p->budget, each = one[part] * p->budget;
-        int pairs = part == 0 ? n : part == 1 ? m - 1 : (m - 1) * (n - 1);
+        int pairs = part == 0 ? n - 1 : part == 1 ? m - 1 : (m - 1) * (n - 1);
         for (int i = 0; i < m; i++)
             for (int k = 0; k < n; k++) {
                 bool mine = strcmp(method[i], own_m) == 0, its = strcmp(integrator[k], own_i) == 0;

@@ -11,7 +11,7 @@ typedef struct fw_median {
 /* Median of n samples, which are sorted, and the interval of two order statistics x_(k), x_(n+1-k)
    that holds the median of their distribution with a probability of at least 95 %, whatever that
    distribution is: 1 - 2 B(k - 1; n, 1/2) of the binomial. Needs n >= 6; O(n log n). Source: David
-   and Nagaraja, Order Statistics, 7.1. Test: test_interval.c. */
+   and Nagaraja, Order Statistics, 7.1. Test: test_medians.c. */
 fw_median fw_median_of(double *sample, int n);
 
 /* rank k of that interval, from 1; 0: n is too small */

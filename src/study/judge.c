@@ -78,9 +78,12 @@ fw_status fw_tradeoff_judge(fw_arena *arena, fw_tradeoff *t) {
     for (int i = 0; i < t->npoint; i++) {
         const fw_tradeoff_point *p = &t->point[i];
         bool done = p->state == FW_TRADEOFF_DONE;
-        cost[i] = done ? p->instructions : (double)NAN;
+        /* what is only modelled is not set against what is counted */
+        bool comparable = t->instructions_why || p->by != FW_COUNT_MODEL;
+        cost[i] = done && comparable ? p->instructions : (double)NAN;
         error[i] = done ? fmax(p->error, t->reference.error) : (double)NAN;
-        if (fw_tradeoff_good(t, p) && (t->cheapest < 0 || cost[i] < cost[t->cheapest]))
+        if (fw_tradeoff_good(t, p) && comparable &&
+            (t->cheapest < 0 || cost[i] < cost[t->cheapest]))
             t->cheapest = i;
     }
     fw_front_mark(cost, error, t->npoint, front);

@@ -58,8 +58,13 @@ double fw_price_answer(const fw_problem *p, const fw_tradeoff_point *point) {
 double fw_price_step(const fw_problem *p, const char *method, const char *integrator) {
     const fw_stepper_row *row = stepper(integrator);
     double n = 3.0 * p->mechanism->nbody, rhs = fw_price_rhs(p, method);
-    if (row && row->implicit) return 20 * rhs + 2.5 * n * n * n + 50 * n * n;
-    return (row && row->order < 6 ? 7 : 15) * rhs;
+    /* strains are watched at so many instants of every step, each of which solves for the forces */
+    double looks = p->mechanism->nhinge > 0 ? FW_INSTANTS : 0;
+    /* GSL's extrapolation takes a Jacobian by differences and many small steps in each of its own
+     */
+    if (row && row == fw_stepper_find("gsl-bsimp")) return 1000 * rhs;
+    if (row && row->implicit) return (20 + looks) * rhs + 2.5 * n * n * n + 50 * n * n;
+    return ((row && row->order < 6 ? 7 : 15) + looks) * rhs;
 }
 
 double fw_price_digit(const char *integrator) {

@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* of the budget, for one run; and for explicit steps that are short for stability alone */
-static const double reference_share = 0.06, stable_share = 0.2;
+static const double reference_share = 0.08, stable_share = 0.2;
 
 typedef struct candidate {
     const char *integrator;
@@ -40,29 +40,31 @@ static fw_status attempt(fw_problem *p, const char *method, const char *integrat
                          double share, fw_tradeoff_point *point) {
     fw_tradeoff_setting s = {.method = method, .integrator = integrator, .rtol = rtol};
     double most = share * p->budget;
-    s.most_steps = (long)fmax(1000, most / fw_price_step(p, method, integrator));
+    s.most_steps = (long)fmax(200, most / fw_price_step(p, method, integrator));
     return fw_problem_run(p, &s, point);
 }
 
-/* the tightest of up to three tolerances at which it ends within its share */
+/* the tighter of two tolerances at which it ends within its share */
 static fw_status tight(fw_problem *p, const char *method, const candidate *c,
                        fw_tradeoff_point *point) {
-    for (double rtol = c->tightest; rtol < 150 * c->tightest; rtol *= 10) {
+    for (double rtol = c->tightest; rtol < 150 * c->tightest; rtol *= 100) {
         FW_TRY(attempt(p, method, c->integrator, rtol, reference_share, point));
         if (point->state != FW_TRADEOFF_SKIPPED) return FW_OK;
     }
     return FW_OK;
 }
 
-static fw_status search(fw_problem *p, fw_tradeoff *t, bool own_too, fw_tradeoff_point *run,
-                        int *found) {
+/* by methods whose right-hand side is at most `dear` times that of chain, implicit ones less */
+static fw_status search(fw_problem *p, fw_tradeoff *t, bool own_too, double dear,
+                        fw_tradeoff_point *run, int *found) {
     const char *own = t->point[0].integrator;
     for (int i = 0; i < CANDIDATES && *found < 2; i++) {
         bool is_own = strcmp(table[i].integrator, own) == 0;
         bool had = *found && strcmp(run[0].integrator, table[i].integrator) == 0;
         if (is_own != own_too || had) continue;
         const char *first = *found ? run[0].method : NULL;
-        const char *method = other_method(p, t->point[0].method, first, 60);
+        bool implicit = fw_stepper_find(table[i].integrator)->implicit;
+        const char *method = other_method(p, t->point[0].method, first, implicit ? 8 : dear);
         FW_TRY(tight(p, method, &table[i], &run[*found]));
         if (run[*found].state == FW_TRADEOFF_DONE) ++*found;
     }
@@ -116,8 +118,9 @@ fw_status fw_tradeoff_find_reference(fw_problem *p, fw_tradeoff *t) {
     if (own && own->implicit)
         FW_TRY(stiff(p, t, run, &found));
     else
-        FW_TRY(search(p, t, false, run, &found));
-    if (found < 2 && !(own && own->implicit)) FW_TRY(search(p, t, true, run, &found));
+        FW_TRY(search(p, t, false, 60, run, &found));
+    for (int all = 0; all < 2 && found < 2 && !(own && own->implicit); all++)
+        FW_TRY(search(p, t, all, 20, run, &found));
     if (found < 2) FW_TRY(own_twice(p, t, run, &found));
     *r = (fw_tradeoff_reference){.error = (double)NAN, .utilisation_error = (double)NAN};
     if (found > 0) r->run[0] = &run[0];
