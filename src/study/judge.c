@@ -35,12 +35,15 @@ static int ascending(const void *a, const void *b) {
 /* estimated over true error, where the true one is known */
 static fw_status honesty(fw_arena *arena, fw_tradeoff *t) {
     double *ratio;
+    double least = HUGE_VAL;
     FW_NEED(ratio = fw_arena_array(arena, double, (size_t)t->npoint));
+    t->least_honest = FW_NONE;
     for (int i = 0; i < t->npoint; i++) {
         const fw_tradeoff_point *p = &t->point[i];
         if (p->state != FW_TRADEOFF_DONE || !(p->error > known * t->reference.error)) continue;
         if (i == 0 && t->row) continue; /* its error holds that of the model */
         ratio[t->judged++] = p->estimated / p->error;
+        if (p->estimated / p->error < least) least = p->estimated / p->error, t->least_honest = i;
         t->honest += p->estimated >= p->error;
     }
     if (t->judged == 0) return FW_OK;

@@ -24,7 +24,7 @@ static fw_tradeoff_model *add(fw_tradeoff *t, const char *kind, const char *name
 /* the answer of a changed problem by the program's own choice of numbers; point->state says whether
    there is one */
 static fw_status answer(fw_problem *q, fw_tradeoff_point *point) {
-    fw_tradeoff_setting s = {0};
+    fw_tradeoff_setting s = {.row = q->row};
     s.most_steps = (long)fmax(1000, model_share * q->budget / fw_price_step(q, "chain", "radau5"));
     *point = (fw_tradeoff_point){0};
     return fw_problem_run(q, &s, point);
@@ -44,7 +44,10 @@ static fw_status level(const fw_problem *p, fw_tradeoff *t, fw_hinge_model wante
         m->why = q.ledger.hinge.why;
         return FW_OK;
     }
-    FW_TRY(answer(&q, point));
+    if (m->chosen)
+        *point = t->point[0];
+    else
+        FW_TRY(answer(&q, point));
     m->state = point->state, m->why = point->why;
     if (m->state == FW_TRADEOFF_SKIPPED) m->why = "more steps than its share of the budget allows";
     m->utilisation = point->utilisation;

@@ -106,6 +106,7 @@ typedef struct fw_tradeoff {
                                          over all of the front; NaN: cannot be said */
     double honesty[3];  /* estimated over true error: least, median, largest, of points whose true
                            error is known; NaN: none */
+    int least_honest;   /* point with the least; FW_NONE */
     int honest, judged; /* points whose estimate is not below the true error, of how many */
     fw_tradeoff_model *model; /* (nmodel) */
     int nmodel;

@@ -154,6 +154,9 @@ static void honesty(const fw_tradeoff *t, fw_text *out) {
     number(out, t->honesty[2], "%.2g", 1);
     fw_text_add(out, " times it, median ");
     number(out, t->honesty[1], "%.2g", 1);
+    const fw_tradeoff_point *p = &t->point[t->least_honest];
+    fw_text_printf(out, "; least of %s + %s at ", p->method, p->integrator);
+    number(out, p->rtol, "%.0e", 1);
     fw_text_add(out, "\n");
 }
 
