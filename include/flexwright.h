@@ -201,6 +201,14 @@ FW_API int fw_design_assemble(fw_design *design);
    flow. */
 FW_API int fw_design_workspace(fw_design *design);
 
+/* What accuracy costs: one scene (options.scene) by every method, integrator and tolerance against
+   two far tighter runs, what the model itself is off by, what masks cost. budget_s: how much work
+   to spend, 1..3600 s of a machine that does 2.5e9 instructions a second; 0: 20. times not 0:
+   measure CPU time; without, the same input gives the same bytes. Costs are those of a model here;
+   the program counts instructions. After reading. Errors as fw_design_simulate, and FW_STATUS_INPUT
+   where nothing turns. Again after FW_STATUS_OK: does nothing. */
+FW_API int fw_design_tradeoff(fw_design *design, double budget_s, int times);
+
 enum {                        /* what fw_design_write writes, added up, with a manifest.json */
        FW_DESIGN_VERDICT = 1, /* verdict.json */
        FW_DESIGN_MASKS = 2,   /* masks/FLOW.gds, .svg, .lyp, .lyt, .json, .order.json, .order.txt,
@@ -252,7 +260,11 @@ enum {                                    /* what it is; what must have been cal
        FW_DOCUMENT_WORKSPACE_SVG = 25,  /* slices at constant rotation; workspace */
        /* proofs of the required boxes, to be verified by other programs: schema
           flexwright.workspace-certificate/1; workspace */
-       FW_DOCUMENT_CERTIFICATE_JSON = 26
+       FW_DOCUMENT_CERTIFICATE_JSON = 26,
+       FW_DOCUMENT_TRADEOFF_JSON = 40, /* schema flexwright.tradeoff/1; tradeoff */
+       FW_DOCUMENT_TRADEOFF_TEXT = 41, /* for a terminal; tradeoff */
+       FW_DOCUMENT_TRADEOFF_CSV = 42,  /* the same numbers; tradeoff */
+       FW_DOCUMENT_TRADEOFF_SVG = 43   /* work-precision, model, masks; tradeoff */
 };
 
 /* One document as UTF-8 text, NUL-terminated; `length` (may be NULL) without the NUL. The text

@@ -109,6 +109,22 @@ static fw_status certificate_json(fw_design *d, fw_text *out) {
     return fw_report_certificate_json(&d->workspace, out);
 }
 
+static fw_status tradeoff_json(fw_design *d, fw_text *out) {
+    return d->tradeoff_document[0](d->tradeoff, out);
+}
+
+static fw_status tradeoff_text(fw_design *d, fw_text *out) {
+    return d->tradeoff_document[1](d->tradeoff, out);
+}
+
+static fw_status tradeoff_csv(fw_design *d, fw_text *out) {
+    return d->tradeoff_document[2](d->tradeoff, out);
+}
+
+static fw_status tradeoff_svg(fw_design *d, fw_text *out) {
+    return d->tradeoff_document[3](d->tradeoff, out);
+}
+
 static fw_status masks_json(fw_design *d, fw_text *out) {
     return fw_plan_masks_json(d->plan, out);
 }
@@ -172,6 +188,10 @@ static const struct {
     [FW_DOCUMENT_WORKSPACE_TEXT] = {WORKSPACE, workspace_text},
     [FW_DOCUMENT_WORKSPACE_SVG] = {WORKSPACE, workspace_svg},
     [FW_DOCUMENT_CERTIFICATE_JSON] = {WORKSPACE, certificate_json},
+    [FW_DOCUMENT_TRADEOFF_JSON] = {TRADEOFF, tradeoff_json},
+    [FW_DOCUMENT_TRADEOFF_TEXT] = {TRADEOFF, tradeoff_text},
+    [FW_DOCUMENT_TRADEOFF_CSV] = {TRADEOFF, tradeoff_csv},
+    [FW_DOCUMENT_TRADEOFF_SVG] = {TRADEOFF, tradeoff_svg},
 };
 
 static fw_status document_work(fw_design *d, void *argument) {

@@ -11,7 +11,7 @@
 #include <string.h>
 
 /* of the budget; and a program under callgrind does so many times fewer instructions a second */
-static const double count_share = 0.3, slower = 8;
+static const double count_share = 0.4, slower = 8;
 enum { MOST_WORDS = 300 };
 
 /* ---- which settings ---- */
@@ -31,16 +31,17 @@ static void want(const fw_tradeoff *t, int i, wishes *l) {
     l->point[l->n++] = i;
 }
 
-/* cheapest first, pairs that are drawn before the others: as far as the share reaches */
+/* the loosest tolerance of every pair that is drawn, their others, the other pairs, each cheapest
+   first: as far as the share reaches */
 typedef struct order {
     double instructions;
     int at;
-    bool drawn;
+    int rank;
 } order;
 
 static int before(const void *a, const void *b) {
     const order *x = a, *y = b;
-    if (x->drawn != y->drawn) return x->drawn ? -1 : 1;
+    if (x->rank != y->rank) return x->rank - y->rank;
     if (x->instructions != y->instructions) return x->instructions < y->instructions ? -1 : 1;
     return x->at - y->at;
 }
@@ -52,8 +53,10 @@ static fw_status choose(fw_arena *arena, const fw_tradeoff *t, wishes *l) {
     for (int i = 0; i < t->ncurve; i++) {
         const fw_tradeoff_curve *c = &t->curve[i];
         for (int at = c->first; at < c->first + c->count; at++)
-            if (t->point[at].state == FW_TRADEOFF_DONE)
-                all[n++] = (order){t->point[at].instructions, at, c->as_integrator || c->as_method};
+            if (t->point[at].state == FW_TRADEOFF_DONE) {
+                bool drawn = c->as_integrator || c->as_method;
+                all[n++] = (order){t->point[at].instructions, at, !drawn ? 2 : at > c->first};
+            }
     }
     qsort(all, (size_t)n, sizeof *all, before);
     want(t, 0, l);

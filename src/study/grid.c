@@ -10,7 +10,7 @@
 
 /* shares of the budget: of the three parts, and of one run in them. Every pair of a part may take
    an equal share of what is left of it */
-static const double share[3] = {0.12, 0.12, 0.08}, one[3] = {0.02, 0.02, 0.01};
+static const double share[3] = {0.12, 0.25, 0.08}, one[3] = {0.02, 0.03, 0.01};
 static const double own_share = 0.08,
                     own_one = 0.04; /* of the program's own pair, which comes first */
 

@@ -79,6 +79,19 @@ static void chosen(const fw_tradeoff *t, const fw_panel *p, fw_text *out) {
                      x, y, x, y + 24.0 > p->y + p->height - 4.0 ? y - 14.0 : y + 24.0);
 }
 
+/* costs that are only modelled where others are counted: a white dot in the marker */
+static void hollow(const fw_tradeoff *t, const fw_tradeoff_curve *c, const fw_panel *p,
+                   fw_text *out) {
+    for (int i = c->first; i < c->first + c->count && !t->instructions_why; i++) {
+        const fw_tradeoff_point *at = &t->point[i];
+        if (at->state != FW_TRADEOFF_DONE || at->by != FW_COUNT_MODEL) continue;
+        if (!isfinite(at->instructions) || (at->floor && i > c->first && at[-1].floor)) continue;
+        fw_report_markup(out, "<circle cx=\"{c}\" cy=\"{c}\" r=\"1.7\" fill=\"#fff\"/>",
+                         fw_panel_x(p, fmax(at->error, t->reference.error)),
+                         fw_panel_y(p, at->instructions));
+    }
+}
+
 static void points(const fw_tradeoff *t, fw_panel *p, bool methods, fw_text *out) {
     int shown = 0;
     fw_labels labels = {0};
@@ -95,6 +108,7 @@ static void points(const fw_tradeoff *t, fw_panel *p, bool methods, fw_text *out
             y[n++] = fw_panel_y(p, at->instructions);
         }
         fw_panel_curve(p, x, y, n, shown, out);
+        hollow(t, c, p, out);
         if (n > 0)
             fw_labels_add(&labels, methods ? c->method : c->integrator, x[n - 1], y[n - 1], shown);
         shown++;
@@ -225,6 +239,7 @@ static void headline(const fw_tradeoff *t, fw_text *out) {
                          t->reference.run[0]->method, t->reference.run[0]->integrator,
                          t->reference.run[1]->method, t->reference.run[1]->integrator,
                          t->reference.independent ? "" : ", not independent");
+    if (!t->instructions_why) fw_text_add(out, " White dot: cost by a model, not counted.");
     fw_text_add(out, "</text>\n");
 }
 

@@ -2,6 +2,7 @@
 /* The whole on devices whose answer is known from elsewhere. */
 #include "study/tradeoff.h"
 #include "test.h"
+#include <flexwright.h>
 #include <stdlib.h>
 
 static fw_plan *plan_of(const char *file, const char *path, const char *value) {
@@ -152,12 +153,41 @@ static void budget(void **state) {
     fw_plan_free(plan);
 }
 
+/* the same through the library: order of calls, documents, twice */
+static void library(void **state) {
+    (void)state;
+    static const char *const begins[] = {"{\n \"schema\": \"flexwright.tradeoff/1\"",
+                                         "six-bar-benchmark, scene step", "kind,method,", "<?xml"};
+    fw_design_options o = fw_design_options_default();
+    const char *text;
+    o.data_directory = FW_TEST_SOURCE_DIR;
+    fw_design *d = fw_design_new(&o);
+    assert_int_equal(fw_design_tradeoff(NULL, 1, 0), FW_STATUS_USAGE);
+    assert_int_equal(fw_design_tradeoff(d, 1, 0), FW_STATUS_USAGE);
+    assert_int_equal(fw_design_read(d, FW_TEST_SOURCE_DIR "/tests/data/six-bar-benchmark.xml"),
+                     FW_STATUS_OK);
+    assert_int_equal(fw_design_tradeoff(d, 0.5, 0), FW_STATUS_USAGE);
+    assert_int_equal(fw_design_tradeoff(d, (double)NAN, 0), FW_STATUS_USAGE);
+    assert_int_equal(fw_design_document(d, FW_DOCUMENT_TRADEOFF_JSON, &text, NULL),
+                     FW_STATUS_USAGE);
+    assert_int_equal(fw_design_tradeoff(d, 1, 0), FW_STATUS_OK);
+    for (int i = 0; i < 4; i++) {
+        assert_int_equal(fw_design_document(d, FW_DOCUMENT_TRADEOFF_JSON + i, &text, NULL),
+                         FW_STATUS_OK);
+        assert_int_equal(strncmp(text, begins[i], strlen(begins[i])), 0);
+    }
+    assert_int_equal(fw_design_document(d, FW_DOCUMENT_TRADEOFF_JSON - 1, &text, NULL),
+                     FW_STATUS_USAGE);
+    fw_design_free(d);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reference_and_errors),
         cmocka_unit_test(orders),
         cmocka_unit_test(same_bytes),
         cmocka_unit_test(budget),
+        cmocka_unit_test(library),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
