@@ -84,18 +84,19 @@ static fw_status stiff(fw_problem *p, fw_tradeoff *t, fw_tradeoff_point *run, in
     return FW_OK;
 }
 
-/* nothing else ends within its share: the program's own, tighter, and looser beside it */
+/* nothing else ends within its share: the program's own integrator, far tighter, by two methods */
 static fw_status own_twice(fw_problem *p, const fw_tradeoff *t, fw_tradeoff_point *run,
                            int *found) {
-    const char *method = t->point[0].method, *integrator = t->point[0].integrator;
-    bool row = p->row;
+    const char *own = t->point[0].method, *integrator = t->point[0].integrator;
+    *found = 0;
     for (double rtol = 1e-12; rtol < 1e-5 && *found < 2; rtol *= 10) {
-        fw_tradeoff_setting s = {.method = row ? NULL : method,
-                                 .integrator = row ? NULL : integrator,
+        const char *method = *found ? own : other_method(p, own, NULL, 8);
+        fw_tradeoff_setting s = {.method = p->row ? NULL : method,
+                                 .integrator = p->row ? NULL : integrator,
                                  .rtol = rtol,
-                                 .row = row};
+                                 .row = p->row};
         s.most_steps =
-            (long)fmax(1000, reference_share * p->budget / fw_price_step(p, method, integrator));
+            (long)fmax(1000, stable_share * p->budget / fw_price_step(p, method, integrator));
         FW_TRY(fw_problem_run(p, &s, &run[*found]));
         if (run[*found].state == FW_TRADEOFF_DONE) ++*found;
     }
