@@ -15,7 +15,9 @@ static const double own_share = 0.08,
                     own_one = 0.04; /* of the program's own pair, which comes first */
 
 static double tolerance(int k) {
-    return pow(10, -5 - k);
+    static const double rtol[FW_TRADEOFF_TOLERANCES] = {1e-5,  1e-6,  1e-7,  1e-8, 1e-9,
+                                                        1e-10, 1e-11, 1e-12, 1e-13};
+    return rtol[k];
 }
 
 static int find_curve(const fw_tradeoff *t, const char *method, const char *integrator) {
@@ -149,7 +151,8 @@ fw_status fw_tradeoff_grid(fw_problem *p, fw_tradeoff *t) {
     t->point = all;
     FW_NEED(t->curve = fw_arena_array(p->arena, fw_tradeoff_curve, (size_t)(m * n)));
     const char *own_m = known_or(t->point[0].method, "chain", method, m);
-    const char *own_i = known_or(t->point[0].integrator, "dop853", integrator, n);
+    const char *own_i =
+        known_or(t->point[0].integrator, p->row ? "radau5" : "dop853", integrator, n);
     double first = own_share * p->budget;
     FW_TRY(pair(p, t, own_m, own_i, &first, own_one * p->budget));
     t->curve[0].as_integrator = t->curve[0].as_method = true;

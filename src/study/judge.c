@@ -41,7 +41,7 @@ static fw_status honesty(fw_arena *arena, fw_tradeoff *t) {
     for (int i = 0; i < t->npoint; i++) {
         const fw_tradeoff_point *p = &t->point[i];
         if (p->state != FW_TRADEOFF_DONE || !(p->error > known * t->reference.error)) continue;
-        if (i == 0 && t->row) continue; /* its error holds that of the model */
+        if (i == 0 && t->row && !t->rows_only) continue; /* its error holds that of the model */
         ratio[t->judged++] = p->estimated / p->error;
         if (p->estimated / p->error < least) least = p->estimated / p->error, t->least_honest = i;
         t->honest += p->estimated >= p->error;

@@ -85,6 +85,7 @@ static fw_status effects(const fw_problem *p, fw_tradeoff *t) {
     int n = p->mechanism->npin;
     fw_tradeoff_model *m = add(t, "effects", "as chosen");
     q.effects.mode = FW_EFFECTS_ALL;
+    q.row = false; /* inertia is one of them */
     FW_TRY(fw_problem_compile(&q));
     FW_TRY(answer(&q, &point));
     m->chosen = true;

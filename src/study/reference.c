@@ -84,19 +84,24 @@ static fw_status stiff(fw_problem *p, fw_tradeoff *t, fw_tradeoff_point *run, in
     return FW_OK;
 }
 
-/* nothing else ends within its share: the program's own integrator, far tighter, by two methods */
-static fw_status own_twice(fw_problem *p, const fw_tradeoff *t, fw_tradeoff_point *run,
-                           int *found) {
-    const char *own = t->point[0].method, *integrator = t->point[0].integrator;
+/* nothing else ends within its share: one integrator, far tighter, by two methods */
+static fw_status one_twice(fw_problem *p, const fw_tradeoff *t, const char *integrator,
+                           fw_tradeoff_point *run, int *found) {
+    const char *own = p->row ? "chain" : t->point[0].method;
     *found = 0;
-    for (double rtol = 1e-12; rtol < 1e-5 && *found < 2; rtol *= 10) {
+    for (double rtol = 1e-12; rtol < 1e-7 && *found < 2; rtol *= 10) {
         const char *method = *found ? own : other_method(p, own, NULL, 8);
-        fw_tradeoff_setting s = {.method = p->row ? NULL : method,
-                                 .integrator = p->row ? NULL : integrator,
-                                 .rtol = rtol,
-                                 .row = p->row};
-        s.most_steps =
-            (long)fmax(1000, stable_share * p->budget / fw_price_step(p, method, integrator));
+        FW_TRY(attempt(p, method, integrator, rtol, stable_share, &run[*found]));
+        if (run[*found].state == FW_TRADEOFF_DONE) ++*found;
+    }
+    return FW_OK;
+}
+
+/* equilibria alone: at an accuracy far below the one wanted, and at a looser one */
+static fw_status rows(fw_problem *p, fw_tradeoff_point *run, int *found) {
+    *found = 0;
+    for (int i = 0; i < 2; i++) {
+        const fw_tradeoff_setting s = {.row = true, .rtol = i ? 1e-5 : 1e-7};
         FW_TRY(fw_problem_run(p, &s, &run[*found]));
         if (run[*found].state == FW_TRADEOFF_DONE) ++*found;
     }
@@ -116,13 +121,18 @@ fw_status fw_tradeoff_find_reference(fw_problem *p, fw_tradeoff *t) {
     fw_tradeoff_point *run = fw_arena_array(p->arena, fw_tradeoff_point, 2);
     FW_NEED(run);
     const fw_stepper_row *own = fw_stepper_find(t->point[0].integrator);
-    if (own && own->implicit)
+    if (p->row) { /* slow loads on fast modes: stiff */
+        FW_TRY(one_twice(p, t, "radau5", run, &found));
+        t->rows_only = found < 2;
+        if (t->rows_only) FW_TRY(rows(p, run, &found));
+    } else if (own && own->implicit) {
         FW_TRY(stiff(p, t, run, &found));
-    else
+    } else {
         FW_TRY(search(p, t, false, 60, run, &found));
-    for (int all = 0; all < 2 && found < 2 && !(own && own->implicit); all++)
-        FW_TRY(search(p, t, all, 20, run, &found));
-    if (found < 2) FW_TRY(own_twice(p, t, run, &found));
+        for (int all = 0; all < 2 && found < 2; all++)
+            FW_TRY(search(p, t, all, 20, run, &found));
+    }
+    if (found < 2 && !p->row) FW_TRY(one_twice(p, t, t->point[0].integrator, run, &found));
     *r = (fw_tradeoff_reference){.error = (double)NAN, .utilisation_error = (double)NAN};
     if (found > 0) r->run[0] = &run[0];
     if (found < 2) return FW_OK;

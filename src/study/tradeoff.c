@@ -65,7 +65,7 @@ fw_status fw_tradeoff_run(fw_plan *plan, const fw_tradeoff_options *options,
                        .honesty = {(double)NAN, (double)NAN, (double)NAN}};
     FW_TRY(own(&p, t));
     FW_TRY(fw_tradeoff_find_reference(&p, t));
-    FW_TRY(fw_tradeoff_grid(&p, t));
+    if (!t->rows_only) FW_TRY(fw_tradeoff_grid(&p, t));
     fw_tradeoff_errors(t);
     FW_TRY(fw_plan_compute_flows(plan));
     FW_TRY(fw_tradeoff_models(&p, t));

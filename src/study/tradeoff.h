@@ -100,6 +100,7 @@ typedef struct fw_tradeoff {
     int ncurve;
     const char *chosen_why; /* the program's own reason for its integrator */
     bool row;             /* by itself simulate takes a row of equilibria: the first point is one */
+    bool rows_only;       /* and no integration with inertia ends: none is compared */
     int cheapest;         /* of those that are good enough, fw_tradeoff_good; FW_NONE */
     double over_cheapest; /* cost of the chosen one over it; NaN */
     double digit_here, digit_overall; /* factor of cost for one more digit: at the chosen setting,

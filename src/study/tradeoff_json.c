@@ -118,6 +118,7 @@ static json_t *chosen_json(const fw_tradeoff *t, bool *failed) {
     json_t *o = point_json(&t->point[0], failed);
     fw_json_put(o, "reason", fw_json_text(t->chosen_why), failed);
     fw_json_put(o, "quasi_static", json_boolean(t->row), failed);
+    fw_json_put(o, "equilibria_only", json_boolean(t->rows_only), failed);
     fw_json_put(o, "over_cheapest", fw_json_real(t->over_cheapest), failed);
     json_t *cheapest = json_null();
     if (t->cheapest >= 0) cheapest = point_json(&t->point[t->cheapest], failed);

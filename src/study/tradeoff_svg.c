@@ -249,7 +249,7 @@ fw_status fw_tradeoff_svg(const fw_tradeoff *t, fw_text *out) {
     char title[2][120];
     bool row = t->row;
     snprintf(title[0], sizeof title[0], "integrators, by %s", row ? "chain" : c->method);
-    snprintf(title[1], sizeof title[1], "methods, by %s", row ? "dop853" : c->integrator);
+    snprintf(title[1], sizeof title[1], "methods, by %s", row ? "radau5" : c->integrator);
     fw_report_markup(out,
                      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg "
                      "xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" width=\"{i}\" "

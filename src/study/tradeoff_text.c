@@ -127,6 +127,12 @@ static void settings(const fw_tradeoff *t, fw_text *out) {
 
 /* the cheapest setting of every method and of every integrator that is good enough */
 static void curves(const fw_tradeoff *t, fw_text *out) {
+    if (t->rows_only) {
+        fw_text_add(out,
+                    "\nintegrators are not compared: with inertia none ends within its share of "
+                    "the budget\n");
+        return;
+    }
     fw_text_add(out, "\ncheapest within the accuracy\n");
     for (int i = 0; i < t->ncurve; i++) {
         const fw_tradeoff_curve *c = &t->curve[i];
