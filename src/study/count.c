@@ -11,7 +11,7 @@
 #include <string.h>
 
 /* of the budget; and a program under callgrind does so many times fewer instructions a second */
-static const double count_share = 0.4, slower = 8;
+static const double count_share = 0.4, slower = 6, one = 0.12;
 enum { MOST_WORDS = 300 };
 
 /* ---- which settings ---- */
@@ -19,20 +19,21 @@ enum { MOST_WORDS = 300 };
 typedef struct wishes {
     int *point; /* (n) indices */
     int n;
-    double left;  /* instructions */
-    bool *listed; /* (npoint) */
+    double left, most; /* instructions: of all, of one */
+    bool *listed;      /* (npoint) */
 } wishes;
 
 static void want(const fw_tradeoff *t, int i, wishes *l) {
     const fw_tradeoff_point *p = &t->point[i];
-    if (l->listed[i] || p->state != FW_TRADEOFF_DONE || p->instructions > l->left) return;
+    if (l->listed[i] || p->state != FW_TRADEOFF_DONE) return;
+    if (p->instructions > fmin(l->left, i == 0 ? l->left : l->most)) return;
     l->listed[i] = true;
     l->left -= p->instructions;
     l->point[l->n++] = i;
 }
 
-/* the loosest tolerance of every pair that is drawn, their others, the other pairs, each cheapest
-   first: as far as the share reaches */
+/* the loosest tolerance of every pair that is drawn, the tightest of every integrator, their
+   others, the other pairs, each cheapest first: as far as the share reaches */
 typedef struct order {
     double instructions;
     int at;
@@ -46,6 +47,13 @@ static int before(const void *a, const void *b) {
     return x->at - y->at;
 }
 
+static int tightest(const fw_tradeoff *t, const fw_tradeoff_curve *c) {
+    int at = c->first + c->count - 1;
+    while (at > c->first && t->point[at].state != FW_TRADEOFF_DONE)
+        at--;
+    return at;
+}
+
 static fw_status choose(fw_arena *arena, const fw_tradeoff *t, wishes *l) {
     order *all;
     int n = 0;
@@ -54,8 +62,9 @@ static fw_status choose(fw_arena *arena, const fw_tradeoff *t, wishes *l) {
         const fw_tradeoff_curve *c = &t->curve[i];
         for (int at = c->first; at < c->first + c->count; at++)
             if (t->point[at].state == FW_TRADEOFF_DONE) {
-                bool drawn = c->as_integrator || c->as_method;
-                all[n++] = (order){t->point[at].instructions, at, !drawn ? 2 : at > c->first};
+                bool drawn = c->as_integrator || c->as_method, last = at == tightest(t, c);
+                int rank = !drawn ? 3 : at == c->first ? 0 : c->as_integrator && last ? 1 : 2;
+                all[n++] = (order){t->point[at].instructions, at, rank};
             }
     }
     qsort(all, (size_t)n, sizeof *all, before);
@@ -121,36 +130,47 @@ static fw_status start(const fw_external_room *room, const char *valgrind,
     return fw_external_call_here(room, argv, "log", seconds, run);
 }
 
-/* the counted point of the curve nearest to k that is not `but`; NULL: none */
-static const fw_tradeoff_point *nearest(const fw_tradeoff *t, const fw_tradeoff_curve *c, int k,
-                                        const fw_tradeoff_point *but) {
-    for (int away = 1; away < c->count; away++)
-        for (int side = -1; side <= 1; side += 2) {
-            int at = k + side * away;
-            if (at < 0 || at >= c->count) continue;
-            const fw_tradeoff_point *p = &t->point[c->first + at];
-            if (p->by == FW_COUNT_CALLGRIND && p != but) return p;
-        }
-    return NULL;
+/* the next counted point of the curve from k on, in steps of `side`; FW_NONE */
+static int next_counted(const fw_tradeoff *t, const fw_tradeoff_curve *c, int k, int side) {
+    for (int at = k + side; at >= 0 && at < c->count; at += side)
+        if (t->point[c->first + at].by == FW_COUNT_CALLGRIND) return at;
+    return FW_NONE;
 }
 
-/* The tolerances that were not counted, of pairs of which some were: a line in the number of
-   right-hand sides through the nearest two, or in proportion to the nearest one. */
+/* those on either side of k, or the nearest two on one; b FW_NONE: there is only one */
+static void nearest(const fw_tradeoff *t, const fw_tradeoff_curve *c, int k, int *a, int *b) {
+    *a = next_counted(t, c, k, -1), *b = next_counted(t, c, k, 1);
+    if (*a == FW_NONE && *b != FW_NONE)
+        *a = *b, *b = next_counted(t, c, *a, 1);
+    else if (*b == FW_NONE && *a != FW_NONE)
+        *b = next_counted(t, c, *a, -1);
+}
+
+/* Instructions at a number of right-hand sides from two counts: the larger of a line, which is
+   right where there is an overhead, and a power law, which is nearer where each costs more at
+   tighter tolerances (implicit ones factor more often). b NULL: in proportion. */
+static double between(double rhs, const fw_tradeoff_point *a, const fw_tradeoff_point *b) {
+    double each = a->instructions / (double)a->rhs, plain = each * rhs;
+    if (!b || a->rhs == b->rhs) return plain;
+    double slope = (a->instructions - b->instructions) / (double)(a->rhs - b->rhs);
+    double power = log(a->instructions / b->instructions) / log((double)a->rhs / (double)b->rhs);
+    if (!(slope > 0.2 * each && slope < 5 * each)) return plain;
+    return fmax(a->instructions + slope * (rhs - (double)a->rhs),
+                a->instructions * pow(rhs / (double)a->rhs, fmin(power, 2)));
+}
+
+/* the tolerances that were not counted, of pairs of which some were, from the nearest two */
 static void scale(fw_tradeoff *t) {
     for (int i = 0; i < t->ncurve; i++) {
         const fw_tradeoff_curve *c = &t->curve[i];
         for (int k = 0; k < c->count; k++) {
             fw_tradeoff_point *p = &t->point[c->first + k];
             if (p->state != FW_TRADEOFF_DONE || p->by == FW_COUNT_CALLGRIND) continue;
-            const fw_tradeoff_point *a = nearest(t, c, k, NULL),
-                                    *b = a ? nearest(t, c, k, a) : NULL;
-            if (!a) continue;
-            double rhs = (double)p->rhs, each = a->instructions / (double)a->rhs;
-            double slope = b && a->rhs != b->rhs
-                               ? (a->instructions - b->instructions) / (double)(a->rhs - b->rhs)
-                               : each;
-            if (!(slope > 0.2 * each && slope < 5 * each)) slope = each;
-            p->instructions = a->instructions + slope * (rhs - (double)a->rhs);
+            int a, b;
+            nearest(t, c, k, &a, &b);
+            if (a == FW_NONE) continue;
+            p->instructions = between((double)p->rhs, &t->point[c->first + a],
+                                      b == FW_NONE ? NULL : &t->point[c->first + b]);
             p->by = FW_COUNT_SCALED;
         }
     }
@@ -202,6 +222,7 @@ fw_status fw_tradeoff_count(fw_problem *p, const fw_tradeoff_options *o, fw_trad
     if (t->instructions_why) return FW_OK;
     size_t n = (size_t)t->npoint;
     wishes l = {.left = count_share * p->budget / slower};
+    l.most = one * l.left;
     FW_NEED(l.point = fw_arena_array(p->arena, int, n));
     FW_NEED(l.listed = fw_arena_array(p->arena, bool, n));
     FW_TRY(choose(p->arena, t, &l));

@@ -92,6 +92,7 @@ typedef struct fw_tradeoff {
     const char *device, *flow; /* flow NULL: the device's own material */
     double accuracy;           /* wanted */
     const char *level;         /* how hinges are taken in all settings */
+    const char *level_why;     /* NULL: there are no hinges */
     double duration_s;
     fw_tradeoff_reference reference;
     fw_tradeoff_point *point; /* (npoint) the first is what simulate does by itself */

@@ -153,6 +153,7 @@ fw_status fw_tradeoff_json(const fw_tradeoff *t, fw_text *out) {
     fw_json_put(root, "scene", fw_json_text(t->scene->name), &failed);
     fw_json_put(root, "accuracy_wanted", fw_json_real(t->accuracy), &failed);
     fw_json_put(root, "hinges_as", fw_json_text(t->level), &failed);
+    fw_json_put(root, "hinges_why", fw_json_text(t->level_why), &failed);
     fw_json_put(root, "budget_s", fw_json_real(t->budget_s), &failed);
     fw_json_put(root, "reference", reference_json(t, &failed), &failed);
     fw_json_put(root, "chosen", chosen_json(t, &failed), &failed);

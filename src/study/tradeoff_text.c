@@ -62,6 +62,8 @@ static void answer(const fw_tradeoff *t, fw_text *out) {
         fw_text_add(out, " ms of CPU");
     }
     fw_text_add(out, "\n");
+    if (t->level_why)
+        fw_text_printf(out, "hinges as %s in all settings: %s\n", t->level, t->level_why);
     if (isfinite(t->digit_here)) {
         fw_text_add(out, "one more digit costs x");
         fw_text_real(out, "%.2f", t->digit_here);
