@@ -90,18 +90,15 @@ static void take(const fw_problem *p, const fw_motion *x, const fw_watch *w,
     point->state = FW_TRADEOFF_DONE;
 }
 
-/* the message of the last error, without the arena that is given back */
-static fw_status failed(const fw_problem *p, const fw_diags *diags, fw_status status, char *buffer,
-                        size_t n, fw_tradeoff_point *point) {
+/* the message of the last error, which outlives the arena that is given back */
+static void failed(const fw_diags *diags, fw_status status, char *buffer, size_t n,
+                   fw_tradeoff_point *point) {
     const char *say = fw_status_text(status);
     for (size_t i = 0; i < diags->count; i++)
         if (diags->item[i].severity == FW_ERROR) say = diags->item[i].message;
     strncpy(buffer, say, n - 1);
     buffer[n - 1] = '\0';
-    bool limit = status == FW_LIMIT;
-    point->state = limit ? FW_TRADEOFF_SKIPPED : FW_TRADEOFF_FAILED;
-    (void)p;
-    return FW_OK;
+    point->state = status == FW_LIMIT ? FW_TRADEOFF_SKIPPED : FW_TRADEOFF_FAILED;
 }
 
 fw_status fw_problem_run(fw_problem *p, const fw_tradeoff_setting *s, fw_tradeoff_point *point) {
@@ -127,11 +124,8 @@ fw_status fw_problem_run(fw_problem *p, const fw_tradeoff_setting *s, fw_tradeof
     if (status == FW_OK)
         take(p, motion, motion->observed ? motion->observed : &saw, point);
     else
-        FW_TRY(failed(p, &own, status, why, sizeof why, point));
+        failed(&own, status, why, sizeof why, point);
     fw_arena_rewind(p->arena, mark);
-    if (status == FW_OK && motion) {
-        /* names of the tables live on; those of the arena do not */
-        return FW_OK;
-    }
+    if (status == FW_OK) return FW_OK;
     return (point->why = fw_arena_strdup(p->arena, why)) ? FW_OK : FW_NOMEM;
 }

@@ -54,9 +54,8 @@ static fw_status honesty(fw_arena *arena, fw_tradeoff *t) {
     return FW_OK;
 }
 
-static fw_status orders(fw_arena *arena, fw_tradeoff *t) {
+static void orders(fw_tradeoff *t) {
     double work[FW_TRADEOFF_TOLERANCES], error[FW_TRADEOFF_TOLERANCES];
-    (void)arena;
     for (int i = 0; i < t->ncurve; i++) {
         fw_tradeoff_curve *c = &t->curve[i];
         for (int k = 0; k < c->count; k++) {
@@ -67,7 +66,6 @@ static fw_status orders(fw_arena *arena, fw_tradeoff *t) {
         }
         c->order = fw_front_order(work, error, c->count, known * t->reference.error);
     }
-    return FW_OK;
 }
 
 fw_status fw_tradeoff_judge(fw_arena *arena, fw_tradeoff *t) {
@@ -96,6 +94,6 @@ fw_status fw_tradeoff_judge(fw_arena *arena, fw_tradeoff *t) {
     t->digit_here = fw_front_cost(cost, error, front, t->npoint, 0.1 * error[0]) /
                     fw_front_cost(cost, error, front, t->npoint, error[0]);
     t->over_cheapest = t->cheapest < 0 ? (double)NAN : cost[0] / cost[t->cheapest];
-    FW_TRY(orders(arena, t));
+    orders(t);
     return honesty(arena, t);
 }

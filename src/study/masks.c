@@ -25,7 +25,7 @@ static double narrowest_m(const fw_device *device) {
 
 /* In: m, farthest that an edge is off; width of the narrowest flexure. Stiffness goes with the cube
    of the width, which two edges change: of a deflection under given loads at most 6 e / w to first
-   order. Relative. Source: Euler-Bernoulli. Test: test_tradeoff.c. */
+   order. Relative. Source: Euler-Bernoulli. Test: test_tradeoff.py. */
 static double deflection(double edge_m, double width_m) {
     return isfinite(width_m) ? 6 * edge_m / width_m : (double)NAN;
 }

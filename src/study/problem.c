@@ -10,7 +10,6 @@ static const double fw_nominal_rate = 2.5e9; /* instructions a second of the bud
 fw_status fw_problem_compile(fw_problem *p) {
     FW_TRY(fw_effects_compile(p->arena, p->mechanism, p->scene, &p->effects, p->accuracy,
                               &p->plan->diags, &p->ledger, &p->terms));
-    p->left_out = p->ledger.left_out;
     p->ledger.left_out = 0;        /* errors of the numbers, not of the model */
     p->terms.quasi_static = false; /* integrators are compared: inertia acts */
     return FW_OK;

@@ -16,8 +16,7 @@ typedef struct fw_problem {
     fw_terms terms;             /* with inertia */
     const fw_motion *by_itself; /* what simulate does; NULL: not looked at */
     bool row;                   /* and that is a row of equilibria */
-    double left_out;            /* what auto leaves out, at most */
-    double budget, spent;       /* instructions, by the model of costs: the same on every machine */
+    double budget;              /* instructions, by the model of costs: the same on every machine */
 } fw_problem;
 
 /* problem.c: the scene, closed joints, what simulate does by itself, effects and level */

@@ -57,6 +57,7 @@ class Files(unittest.TestCase):
         self.assertEqual(sizes, sorted(sizes, reverse=True))
         for m in whole["masks"]:
             self.assertLess(m["edge_m"], m["tolerance_m"] + 1e-9)
+            self.assertAlmostEqual(m["deflection_bound"], 6 * m["edge_m"] / 8e-6, 12)  # the narrowest is 8 um wide
         text = "".join(picture.getroot().itertext())
         for word in ("wanted", "chosen", "dop853", "minimal", "masks", "reference"):
             self.assertIn(word, text)
