@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# libflexwright: the rooms up to plan/ behind include/flexwright.h, as a shared library. The program is
+# libflexwright: the rooms up to study/ behind include/flexwright.h, as a shared library. The program is
 # linked with the rooms themselves, so that it starts without it.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-add_library(flexwright_library SHARED $<TARGET_OBJECTS:fw_plan>)
-target_link_libraries(flexwright_library PRIVATE fw_plan)
+add_library(flexwright_library SHARED $<TARGET_OBJECTS:fw_plan> $<TARGET_OBJECTS:fw_study>)
+target_link_libraries(flexwright_library PRIVATE fw_study)
 target_include_directories(flexwright_library INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 set_target_properties(flexwright_library PROPERTIES OUTPUT_NAME flexwright EXPORT_NAME flexwright
                       VERSION ${PROJECT_VERSION} SOVERSION 0 LINKER_LANGUAGE C)

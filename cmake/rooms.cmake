@@ -14,7 +14,7 @@ find_library(LAPACK_LIBRARY lapack REQUIRED)
 
 set(FW_ROOMS base maths geometry quantity device flexure layout mechanism effects multibody assembly
              dynamics statics workspace
-             verdict continuum process schedule mask wafer recipe report plan serve cli)
+             verdict continuum process schedule mask wafer recipe report plan study serve cli)
 set(FW_EXTERN_maths PkgConfig::GSL ${LAPACKE_LIBRARY} ${LAPACK_LIBRARY} m)
 set(FW_EXTERN_device PkgConfig::XML2)
 set(FW_EXTERN_process PkgConfig::XML2)

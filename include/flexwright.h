@@ -21,9 +21,9 @@
 
    Threads: one design belongs to one thread at a time; any number of designs may work in parallel
    in different threads. The same description and options give the same bytes in any thread and any
-   locale (measured CPU times in FW_DOCUMENT_SIMULATE_... and FW_DOCUMENT_PREVIEW_JSON excepted). fw_library_version,
-   fw_status_name, fw_design_options_init, fw_design_cancel and fw_design_cancel_clear may be called
-   from any thread at any time.
+   locale (measured CPU times in FW_DOCUMENT_SIMULATE_... and FW_DOCUMENT_PREVIEW_JSON excepted).
+   fw_library_version, fw_status_name, fw_design_options_init, fw_design_cancel and
+   fw_design_cancel_clear may be called from any thread at any time.
 
    The library reads no environment variable, keeps no file open between calls, changes no locale of
    the caller and installs no signal handler. It turns off the error handler of GSL (which would end
@@ -109,8 +109,8 @@ typedef struct fw_design_options {
                                    "S03=90 min,S09=20 s"; marked in the schedule */
     const char *laboratory; /* files of laboratory packs, commas between: their values replace those
                                of the process packs by id, and every one is named */
-    const char *cut; /* where recipes cut the wafer open: "x1,y1,x2,y2" (um, or lengths with unit) or
-                        "flexure:ID"; default: radially through the narrowest gap of a hinge */
+    const char *cut; /* where recipes cut the wafer open: "x1,y1,x2,y2" (um, or lengths with unit)
+                        or "flexure:ID"; default: radially through the narrowest gap of a hinge */
 } fw_design_options;
 
 /* Fills `size` bytes (as the caller's header defines the struct) with the defaults. NULL options:
@@ -203,6 +203,14 @@ FW_API int fw_design_assemble(fw_design *design);
    flow. */
 FW_API int fw_design_workspace(fw_design *design);
 
+/* What accuracy costs: one scene (options.scene) by every method, integrator and tolerance against
+   two far tighter runs, what the model itself is off by, what masks cost. budget_s: how much work
+   to spend, 1..3600 s of a machine that does 2.5e9 instructions a second; 0: 20. times not 0:
+   measure CPU time; without, the same input gives the same bytes. Costs are those of a model here;
+   the program counts instructions. After reading. Errors as fw_design_simulate, and FW_STATUS_INPUT
+   where nothing turns. Again after FW_STATUS_OK: does nothing. */
+FW_API int fw_design_tradeoff(fw_design *design, double budget_s, int times);
+
 enum {                        /* what fw_design_write writes, added up, with a manifest.json */
        FW_DESIGN_VERDICT = 1, /* verdict.json */
        FW_DESIGN_MASKS = 2,   /* masks/FLOW.gds, .svg, .lyp, .lyt, .json, .order.json, .order.txt,
@@ -260,7 +268,11 @@ enum {                                    /* what it is; what must have been cal
        FW_DOCUMENT_TABLE_JSON = 27,
        /* for an interactive page: the mechanism's shapes, and motion and verdict where they were
           computed, rounded to what a picture needs: schema flexwright.preview/1; read */
-       FW_DOCUMENT_PREVIEW_JSON = 28
+       FW_DOCUMENT_PREVIEW_JSON = 28,
+       FW_DOCUMENT_TRADEOFF_JSON = 29, /* schema flexwright.tradeoff/1; tradeoff */
+       FW_DOCUMENT_TRADEOFF_TEXT = 30, /* for a terminal; tradeoff */
+       FW_DOCUMENT_TRADEOFF_CSV = 31,  /* the same numbers; tradeoff */
+       FW_DOCUMENT_TRADEOFF_SVG = 32   /* work-precision, model, masks; tradeoff */
 };
 
 /* One document as UTF-8 text, NUL-terminated; `length` (may be NULL) without the NUL. The text

@@ -27,6 +27,7 @@ fw_script_test(cli.assemble COMMAND ${Python3_EXECUTABLE} tests/cli/test_assembl
 fw_script_test(cli.effects COMMAND ${Python3_EXECUTABLE} tests/cli/test_effects.py ${FW_PROGRAM})
 fw_script_test(cli.schedule COMMAND ${Python3_EXECUTABLE} tests/cli/test_schedule.py ${FW_PROGRAM})
 fw_script_test(cli.limits COMMAND ${Python3_EXECUTABLE} tests/cli/test_limits.py ${FW_PROGRAM})
+fw_script_test(cli.tradeoff COMMAND ${Python3_EXECUTABLE} tests/cli/test_tradeoff.py ${FW_PROGRAM})
 fw_script_test(cli.hinge COMMAND ${Python3_EXECUTABLE} tests/cli/test_hinge.py ${FW_PROGRAM})
 fw_script_test(cli.pictures COMMAND ${Python3_EXECUTABLE} tests/cli/test_pictures.py ${FW_PROGRAM})
 fw_script_test(cli.reproducible COMMAND ${Python3_EXECUTABLE} tests/cli/test_reproducible.py ${FW_PROGRAM})

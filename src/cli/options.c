@@ -4,20 +4,9 @@
 #include "mask/mask.h"
 #include "schedule/schedule.h"
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-int fw_cli_usage(const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    fputs("flexwright: error: ", stderr);
-    vfprintf(stderr, format, arguments);
-    fputs(" [FW-D230]\n", stderr);
-    va_end(arguments);
-    return fw_status_exit(FW_USAGE);
-}
 
 /* ---- one function per option ---- */
 
@@ -342,6 +331,26 @@ static const char *take_ipv6(fw_cli_options *o, const char *v) {
     return NULL;
 }
 
+/* ---- of tradeoff ---- */
+
+static const char *take_budget(fw_cli_options *o, const char *v) {
+    double *x = &o->budget_s;
+    if (!fw_number_parse(v, strlen(v), x) || !(*x >= 1 && *x <= 3600))
+        return "needs seconds between 1 and 3600";
+    return NULL;
+}
+
+static const char *take_no_time(fw_cli_options *o, const char *v) {
+    (void)v;
+    o->no_time = true;
+    return NULL;
+}
+
+static const char *take_settings(fw_cli_options *o, const char *v) {
+    o->settings = v;
+    return *v ? NULL : "needs LEVEL;METHOD/INTEGRATOR/RTOL,...";
+}
+
 static const fw_option_row table[] = {
     {"output", 'o', "DIR", "directory of the results; it appears whole or not at all",
      FW_OPT_OUTPUT, take_output},
@@ -411,7 +420,8 @@ static const fw_option_row table[] = {
     {"flow", 0, "NAME", "the process flow that the coupons went through", FW_OPT_CALIBRATE,
      take_flow},
     {"scene", 0, "NAME", "the scene; default the first",
-     FW_OPT_SIMULATE | FW_OPT_MODES | FW_OPT_STATICS | FW_OPT_ASSEMBLE, take_scene},
+     FW_OPT_SIMULATE | FW_OPT_MODES | FW_OPT_STATICS | FW_OPT_ASSEMBLE | FW_OPT_TRADEOFF,
+     take_scene},
     {"at", 0, "POSE",
      "about which pose: rest (default: the assembled pose without the scene's loads) or "
      "equilibrium",
@@ -472,6 +482,20 @@ static const fw_option_row table[] = {
     {"port", 0, "N", "port of the page; default: a free one", FW_OPT_SERVE, take_port},
     {"no-browser", 0, NULL, "only print the address", FW_OPT_SERVE, take_no_browser},
     {"ipv6", 0, NULL, "listen on ::1 as well as on 127.0.0.1", FW_OPT_SERVE, take_ipv6},
+    {"budget", 0, "SECONDS",
+     "how much work to spend, 1 to 3600 s of a machine that does 2.5e9 instructions a second; "
+     "default "
+     "20. Settings that would go over their share are left out and listed as such",
+     FW_OPT_TRADEOFF, take_budget},
+    {"no-time", 0, NULL,
+     "measure nothing on this machine (times, counted instructions): costs are those of a model, "
+     "and "
+     "the same input gives the same bytes",
+     FW_OPT_TRADEOFF, take_no_time},
+    {"settings", 0, "LIST",
+     "run only the settings LEVEL;METHOD/INTEGRATOR/RTOL,... and print nothing: what the program "
+     "starts under callgrind to count instructions",
+     FW_OPT_TRADEOFF, take_settings},
     {"quiet", 'q', NULL, "no messages but errors", FW_OPT_COMMON, take_quiet},
     {"verbose", 'v', NULL, "a line per stage, and every note", FW_OPT_COMMON, take_verbose},
     {"color", 0, "WHEN", "auto, always or never", FW_OPT_COMMON, take_colour},
@@ -483,103 +507,4 @@ enum { NOPTION = sizeof table / sizeof table[0] };
 const fw_option_row *fw_option_rows(size_t *count) {
     *count = NOPTION;
     return table;
-}
-
-static const fw_option_row *find(const fw_command *command, const char *name, size_t n,
-                                 char letter) {
-    for (size_t i = 0; i < NOPTION; i++) {
-        if (!(table[i].group & command->options)) continue;
-        if (letter ? table[i].letter == letter
-                   : strlen(table[i].name) == n && strncmp(table[i].name, name, n) == 0)
-            return &table[i];
-    }
-    return NULL;
-}
-
-static bool unknown_option(const fw_command *command, const char *argument) {
-    const char *names[NOPTION];
-    size_t n = 0;
-    for (size_t i = 0; i < NOPTION; i++)
-        if (table[i].group & command->options) names[n++] = table[i].name;
-    const char *near = argument[1] == '-' ? fw_did_you_mean(argument + 2, names, n) : NULL;
-    fw_cli_usage("%s has no option '%s'%s%s%s; see flexwright %s --help", command->name, argument,
-                 near ? "; did you mean --" : "", near ? near : "", near ? "?" : "", command->name);
-    return false;
-}
-
-/* one option at argv[*i]; takes its value from behind '=' or from the next argument */
-static bool one_option(const fw_command *command, int argc, char **argv, int *i,
-                       fw_cli_options *o) {
-    const char *argument = argv[*i], *value = NULL;
-    const fw_option_row *row;
-    if (argument[1] == '-') {
-        size_t n = strcspn(argument + 2, "=");
-        row = find(command, argument + 2, n, 0);
-        value = argument[2 + n] == '=' ? argument + 3 + n : NULL;
-    } else {
-        row = find(command, NULL, 0, argument[1]);
-        value = argument[2] ? argument + 2 : NULL;
-    }
-    if (!row || (!row->argument && value)) return unknown_option(command, argument);
-    if (row->argument && !value) {
-        if (*i + 1 >= argc) {
-            fw_cli_usage("--%s needs %s: %s", row->name, row->argument, row->help);
-            return false;
-        }
-        value = argv[++*i];
-    }
-    const char *wrong = row->take(o, value);
-    if (wrong) fw_cli_usage("--%s%s%s %s", row->name, value ? " " : "", value ? value : "", wrong);
-    return !wrong;
-}
-
-static bool is_stdout(const char *file) {
-    return file && strcmp(file, "-") == 0;
-}
-
-/* standard output holds one document */
-static bool one_document(const fw_command *command, const fw_cli_options *o) {
-    const struct {
-        const char *name;
-        bool wanted;
-    } use[] = {{"--json", o->json},
-               {"--csv -", is_stdout(o->csv)},
-               {"--forces -", is_stdout(o->forces)},
-               {"--animate -", is_stdout(o->animate)},
-               {"--svg -", is_stdout(o->svg)}};
-    const char *first = NULL;
-    for (size_t i = 0; i < sizeof use / sizeof use[0]; i++) {
-        if (!use[i].wanted) continue;
-        if (first) {
-            fw_cli_usage("%s: %s and %s both want standard output, which holds one document; give "
-                         "one of them a file",
-                         command->name, first, use[i].name);
-            return false;
-        }
-        first = use[i].name;
-    }
-    return true;
-}
-
-bool fw_cli_parse(const fw_command *command, int argc, char **argv, fw_cli_options *o) {
-    bool only_names = false;
-    for (int i = 2; i < argc; i++) {
-        const char *argument = argv[i];
-        if (!only_names && strcmp(argument, "--") == 0)
-            only_names = true;
-        else if (!only_names && argument[0] == '-' && argument[1]) {
-            if (!one_option(command, argc, argv, &i, o)) return false;
-        } else if (o->device) {
-            fw_cli_usage("%s takes one %s, got '%s' and '%s'", command->name,
-                         command->argument ? command->argument : "argument", o->device, argument);
-            return false;
-        } else
-            o->device = argument;
-    }
-    if (!o->help && command->argument && command->argument[0] != '[' && !o->device) {
-        fw_cli_usage("%s needs %s; see flexwright %s --help", command->name, command->argument,
-                     command->name);
-        return false;
-    }
-    return o->help || one_document(command, o);
 }

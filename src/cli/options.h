@@ -21,6 +21,10 @@ typedef struct fw_cli_options {
     const char *run, *entry, *lot; /* of log */
     int port;                      /* of serve; 0: a free one */
     bool no_browser, ipv6;
+    const char *settings; /* of tradeoff; NULL: all */
+    double budget_s;
+    bool no_time;
+    char **argv; /* as it was started, for tradeoff, which starts it again under callgrind */
     bool json, quiet, verbose, no_progress, help, version;
     int colour; /* -1 auto, 0 never, 1 always */
 } fw_cli_options;
@@ -45,7 +49,8 @@ enum { /* option groups */
        FW_OPT_SCHEDULE = 512,
        FW_OPT_CALIBRATE = 1024,
        FW_OPT_LOG = 2048,
-       FW_OPT_SERVE = 8192 /* 4096: the room beside */
+       FW_OPT_TRADEOFF = 4096,
+       FW_OPT_SERVE = 8192
 };
 
 /* fills options from argv[2..]; false: wrong usage, said on stderr */

@@ -84,7 +84,7 @@ static void become(const char *directory, char *const *argv, char *const *enviro
     sigemptyset(&all);
     sigprocmask(SIG_SETMASK, &all, NULL);
     signal(SIGPIPE, SIG_DFL);
-    if (chdir(directory) != 0) _exit(126);
+    if (directory && chdir(directory) != 0) _exit(126);
     if (dup2(null, 0) < 0 || dup2(log, 1) < 0 || dup2(log, 2) < 0) _exit(126);
     close_range(3, ~0U, 0);
     execve(argv[0], argv, environment);
@@ -129,23 +129,37 @@ static fw_status wait_for(pid_t child, double timeout_s, fw_external_run *run) {
     return FW_OK;
 }
 
-fw_status fw_external_call(const fw_external_room *room, const char *const *argv, const char *log,
-                           double timeout_s, fw_external_run *run) {
-    char file[700], home[700];
+enum { MOST_WORDS = 400 };
+
+static fw_status call(const fw_external_room *room, const char *directory, char *const *environment,
+                      const char *const *argv, const char *log, double timeout_s,
+                      fw_external_run *run) {
+    char file[700];
     path_in(file, room, log);
-    snprintf(home, sizeof home, "HOME=%s", room->path);
-    char threads[] = "OMP_NUM_THREADS=1", locale[] = "LC_ALL=C", path[] = "PATH=/usr/bin:/bin";
-    char *const environment[] = {threads, locale, path, home, NULL};
-    char *words[16] = {NULL};
-    for (int i = 0; argv[i] && i < 15; i++)
+    char *words[MOST_WORDS + 1] = {NULL};
+    for (int i = 0; argv[i] && i < MOST_WORDS; i++)
         memcpy(&words[i], &argv[i], sizeof words[i]); /* execve does not write to them */
     *run = (fw_external_run){.end = FW_EXTERNAL_FAILED};
 
     int null = open("/dev/null", O_RDONLY | O_CLOEXEC);
     int out = open(file, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0600);
     pid_t parent = getpid(), child = null < 0 || out < 0 ? -1 : fork();
-    if (child == 0) become(room->path, words, environment, null, out, parent);
+    if (child == 0) become(directory, words, environment, null, out, parent);
     if (null >= 0) close(null);
     if (out >= 0) close(out);
     return child < 0 ? FW_IO : wait_for(child, timeout_s, run);
+}
+
+fw_status fw_external_call(const fw_external_room *room, const char *const *argv, const char *log,
+                           double timeout_s, fw_external_run *run) {
+    char home[700];
+    snprintf(home, sizeof home, "HOME=%s", room->path);
+    char threads[] = "OMP_NUM_THREADS=1", locale[] = "LC_ALL=C", path[] = "PATH=/usr/bin:/bin";
+    char *const environment[] = {threads, locale, path, home, NULL};
+    return call(room, room->path, environment, argv, log, timeout_s, run);
+}
+
+fw_status fw_external_call_here(const fw_external_room *room, const char *const *argv,
+                                const char *log, double timeout_s, fw_external_run *run) {
+    return call(room, NULL, environ, argv, log, timeout_s, run);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Running an external program: in a directory of its own that nobody else can read, without a
-   shell, with a limit of time, and gone when this process is. Private to the room.
-   docs/decisions/0012-continuum.md */
+   shell, with a limit of time, and gone when this process is. Private to the room,
+   and for study/, which counts its own instructions so. docs/decisions/0012-continuum.md */
 #ifndef FW_CONTINUUM_EXTERNAL_H
 #define FW_CONTINUUM_EXTERNAL_H
 #include "continuum/continuum.h"
@@ -32,5 +32,9 @@ fw_status fw_external_write(const fw_external_room *room, const char *name, cons
    thread. FW_IO: it could not be started */
 fw_status fw_external_call(const fw_external_room *room, const char *const *argv, const char *log,
                            double timeout_s, fw_external_run *run);
+/* the same where we are and with our own environment: for this program itself, whose arguments name
+   files as we see them */
+fw_status fw_external_call_here(const fw_external_room *room, const char *const *argv,
+                                const char *log, double timeout_s, fw_external_run *run);
 
 #endif

@@ -114,6 +114,22 @@ static fw_status table_json(fw_design *d, fw_text *out) {
     return fw_plan_table_json(out);
 }
 
+static fw_status tradeoff_json(fw_design *d, fw_text *out) {
+    return d->tradeoff_document[0](d->tradeoff, out);
+}
+
+static fw_status tradeoff_text(fw_design *d, fw_text *out) {
+    return d->tradeoff_document[1](d->tradeoff, out);
+}
+
+static fw_status tradeoff_csv(fw_design *d, fw_text *out) {
+    return d->tradeoff_document[2](d->tradeoff, out);
+}
+
+static fw_status tradeoff_svg(fw_design *d, fw_text *out) {
+    return d->tradeoff_document[3](d->tradeoff, out);
+}
+
 static fw_status masks_json(fw_design *d, fw_text *out) {
     return fw_plan_masks_json(d->plan, out);
 }
@@ -179,6 +195,10 @@ static const struct {
     [FW_DOCUMENT_CERTIFICATE_JSON] = {WORKSPACE, certificate_json},
     [FW_DOCUMENT_TABLE_JSON] = {0, table_json},
     [FW_DOCUMENT_PREVIEW_JSON] = {READ, fw_design_preview_json},
+    [FW_DOCUMENT_TRADEOFF_JSON] = {TRADEOFF, tradeoff_json},
+    [FW_DOCUMENT_TRADEOFF_TEXT] = {TRADEOFF, tradeoff_text},
+    [FW_DOCUMENT_TRADEOFF_CSV] = {TRADEOFF, tradeoff_csv},
+    [FW_DOCUMENT_TRADEOFF_SVG] = {TRADEOFF, tradeoff_svg},
 };
 
 static fw_status document_work(fw_design *d, void *argument) {

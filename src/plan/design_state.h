@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a design holds. Private to the room. */
+/* What a design holds. Private to design.c, design_documents.c and study/design_tradeoff.c. */
 #ifndef FW_PLAN_DESIGN_STATE_H
 #define FW_PLAN_DESIGN_STATE_H
 #include "plan/design.h"
 #include <locale.h>
 
 enum { READ = 1, JUDGED = 2, FABRICATED = 4, SIMULATED = 8, MODES = 16, STATICS = 32 }; /* done */
+enum { TRADEOFF = 1 << 16 };
 enum { ASSEMBLED = 64, ASSEMBLY_TRIED = 128, WORKSPACE = 256 };
-enum { NDOCUMENT = FW_DOCUMENT_PREVIEW_JSON + 1 };
+enum { NDOCUMENT = FW_DOCUMENT_TRADEOFF_SVG + 1 };
+enum { NTRADEOFF = FW_DOCUMENT_TRADEOFF_SVG - FW_DOCUMENT_TRADEOFF_JSON + 1 };
+struct fw_tradeoff;
 
 struct fw_design {
     fw_plan *plan; /* its arena holds this struct too */
@@ -24,6 +27,9 @@ struct fw_design {
     const fw_scene *scene;
     fw_plan_assembly assembly;
     fw_report_workspace workspace;
+    const struct fw_tradeoff *tradeoff;
+    /* of a later room, which sets them with the result */
+    fw_status (*tradeoff_document[NTRADEOFF])(const struct fw_tradeoff *t, fw_text *out);
     fw_terminal_style style;
     double read_s, judge_s, simulate_s; /* CPU time of these stages */
     fw_text document[NDOCUMENT]; /* data NULL: not composed, or out of date */

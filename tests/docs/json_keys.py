@@ -40,6 +40,7 @@ RUNS = (
     ("recipe", ["recipe", COMB]),
     ("recipe", ["recipe", SIX]),
     ("mask", ["mask", COMB]),
+    ("tradeoff", ["tradeoff", SIX, "--budget", "1"]),
 )
 
 
