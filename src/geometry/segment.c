@@ -154,7 +154,8 @@ double fw_box_gap(fw_box p, fw_box q) {
 }
 
 fw_box fw_box_join(fw_box p, fw_box q) {
-    return (fw_box){fmin(p.x0, q.x0), fmin(p.y0, q.y0), fmax(p.x1, q.x1), fmax(p.y1, q.y1)};
+    return (fw_box){lesser(p.x0, q.x0), lesser(p.y0, q.y0), greater(p.x1, q.x1),
+                    greater(p.y1, q.y1)};
 }
 
 fw_segment fw_segment_reverse(const fw_segment *s) {

@@ -77,7 +77,7 @@ static fw_status cut_free(fw_drawing *d, int body, const fw_contour *part, const
         if (h->lower == body || h->upper == body) radius += fw_head_wider(side_of(d, j, body));
         FW_TRY(fw_contour_disc(d->arena, h->centre, radius, &disc));
         if (!fw_contour_contains(part, h->centre) &&
-            fw_contour_distance(part, &disc, NULL, NULL) > 0.0)
+            fw_contour_distance_below(part, &disc, 1e-9, NULL, NULL) > 0.0)
             continue;
         fw_region hole = {&disc, 1}, left;
         FW_TRY(fw_region_boolean(d->arena, &region, &hole, FW_DIFFERENCE, &left));
@@ -211,10 +211,10 @@ static fw_status unite_all(fw_drawing *d, const work *w) {
 }
 enum { LUG_SHIFTS = 5 };
 
-/* least width or space over its limit, and where */
+/* least width or space over its limit, and where; HUGE_VAL and nowhere above the limit */
 static double share(const fw_contour *c, bool inside, double limit_m, fw_vec2 *where) {
     int i, j;
-    double least = fw_contour_clearance(c, inside, &i, &j);
+    double least = fw_contour_clearance_below(c, inside, limit_m, &i, &j);
     if (i < 0) return HUGE_VAL;
     fw_vec2 other;
     *where = c->segment[i].a;
@@ -235,7 +235,7 @@ static double arc_limit(const fw_contour *c, int i) {
 }
 
 /* How far an outline is from what a mask can show: the least of width, space and radius, each over
-   its limit; >= 1 is good. */
+   its limit; >= 1 is good, and says nothing more. */
 double fw_body_soundness(const fw_contour *c, fw_vec2 *where) {
     fw_vec2 slit = *where;
     double least = share(c, true, FW_OWN_WIDTH_M, where);

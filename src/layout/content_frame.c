@@ -37,7 +37,8 @@ static bool is_free(const sheet *s, const fw_contour *place) {
         const fw_piece *p = &s->piece[i];
         if (apart(b, fw_contour_box(&p->contour), in_frame(p) ? BESIDE_M : CLEAR_M)) continue;
         if (in_frame(p)) return false;
-        if (fw_contour_distance(place, &p->contour, NULL, NULL) < CLEAR_M) return false;
+        if (fw_contour_distance_below(place, &p->contour, CLEAR_M, NULL, NULL) < CLEAR_M)
+            return false;
         if (!fw_contour_contains(&p->contour, middle)) continue;
         if (p->role != FW_ROLE_FRAME) return false;
         inside = true;

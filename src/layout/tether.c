@@ -8,13 +8,15 @@
 static bool finger_is_clear(const fw_drawing *d, const fw_contour *finger, int body) {
     for (int s = 0; s < d->nslot; s++) {
         if (s == body || d->plain[s].count == 0) continue;
-        if (fw_contour_distance(finger, &d->plain[s], NULL, NULL) < 20e-6) return false;
+        if (fw_contour_distance_below(finger, &d->plain[s], 20e-6, NULL, NULL) < 20e-6)
+            return false;
     }
     for (int i = 0; i < d->nlug; i++)
-        if (fw_contour_distance(finger, &d->lug[i], NULL, NULL) < 20e-6) return false;
+        if (fw_contour_distance_below(finger, &d->lug[i], 20e-6, NULL, NULL) < 20e-6) return false;
     for (int i = 0; i < d->nattachment; i++) {
         const fw_attachment *a = &d->attachment[i];
-        if (a->finger.count > 0 && fw_contour_distance(finger, &a->finger, NULL, NULL) < 60e-6)
+        if (a->finger.count > 0 &&
+            fw_contour_distance_below(finger, &a->finger, 60e-6, NULL, NULL) < 60e-6)
             return false;
     }
     fw_box box = fw_contour_box(finger); /* axis-parallel, so the box is the finger */
@@ -33,11 +35,13 @@ static bool leaves_once(const fw_drawing *d, const fw_attachment *a, fw_vec2 fro
     fw_vec2 out = fw_window_outward(a->side);
     fw_vec2 side = fw_left(out);
     double length = fw_dot(fw_sub(fw_window_point(d->layout, a->side, 0.0, 0.0), from), out);
+    fw_box box = fw_contour_box(body);
     for (int edge = -1; edge <= 1; edge++) {
         bool inside = true;
         for (double s = 0.0; s < length; s += 2e-6) {
             fw_vec2 p = fw_add(fw_add(from, s, out), edge * (0.5 * FW_TETHER_M + 8e-6), side);
-            bool in = fw_contour_contains(body, p);
+            bool in = p.x >= box.x0 && p.x <= box.x1 && p.y >= box.y0 && p.y <= box.y1 &&
+                      fw_contour_contains(body, p);
             if (in && !inside) return false;
             inside = in;
         }

@@ -75,6 +75,15 @@ static int by_left_edge(const void *left, const void *right) {
     return p->segment - q->segment;
 }
 
+/* which ways it runs: the direction of the chord is that of the middle, up to a whole turn */
+static void set_direction(fw_rule_edge *e) {
+    double half = 0.5 * fabs(e->s.sweep_rad);
+    bool line = e->s.kind == FW_LINE;
+    e->along = vec_unit(vec_sub(e->s.b, e->s.a));
+    e->sin_half = line ? 0 : sin(half);
+    e->cos_half = line ? 1 : cos(half);
+}
+
 static void add_shape(fw_rule_search *in, int k, double tolerance_m) {
     const fw_contour *c = &in->shape[k].contour;
     fw_rule_range *range = &in->range[in->nrange];
@@ -88,6 +97,7 @@ static void add_shape(fw_rule_search *in, int k, double tolerance_m) {
                             .shape = k,
                             .segment = i,
                             .slack_m = slack_of(s, tolerance_m)};
+        set_direction(e);
         range->count++;
         in->slack_m = fmax(in->slack_m, e->slack_m);
     }

@@ -16,6 +16,8 @@ static const double FACING = -1e-6;       /* normals more than 90 deg apart */
 static const double NEAR_CORNER_M = 1e-7; /* contacts there are the corner itself */
 static const double SQUARE = 1e-5;
 
+enum { MOST_PARTS = 64 }; /* of 7.5 degrees in a whole turn, and more */
+
 /* ---- findings ---- */
 
 void fw_rule_add(fw_rule_search *in, fw_finding f) {
@@ -153,12 +155,15 @@ static void judge_pair(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q) {
                          fw_rule_needed(in, FW_RULE_SPACE, p->slack_m + q->slack_m));
     if (!(fw_box_gap(p->box, q->box) < needed) && !in->everything) return;
     if (!fw_rule_parts(in, p) || !fw_rule_parts(in, q)) return;
+    int near[MOST_PARTS], n = 0; /* parts of q that are near p at all */
+    for (int j = 0; j < q->nparts; j++)
+        if (fw_box_gap(p->box, q->part_box[j]) < needed || in->everything) near[n++] = j;
     for (int i = 0; i < p->nparts; i++) {
         if (fw_box_gap(p->part_box[i], q->box) >= needed && !in->everything) continue;
-        for (int j = 0; j < q->nparts; j++)
-            if (in->everything || (fw_box_gap(p->part_box[i], q->part_box[j]) < needed &&
-                                   may_face(&p->part[i], &q->part[j])))
-                judge_parts(in, p, q, &p->part[i], &q->part[j]);
+        for (int k = 0; k < n; k++)
+            if (in->everything || (fw_box_gap(p->part_box[i], q->part_box[near[k]]) < needed &&
+                                   may_face(&p->part[i], &q->part[near[k]])))
+                judge_parts(in, p, q, &p->part[i], &q->part[near[k]]);
     }
 }
 
@@ -225,9 +230,25 @@ static void look_at_contacts(fw_rule_search *in, const fw_rule_edge *p, const fw
     }
 }
 
+/* No two of their normals enclose more than 90 degrees: theirs in the middle and half of either
+   sweep together do not. cos(angle) >= sin(halves), less what FACING leaves out anyway. */
+static bool look_away(const fw_rule_edge *p, const fw_rule_edge *q) {
+    if (!(p->cos_half > 0 && q->cos_half > 0)) return false;
+    double sine = p->sin_half * q->cos_half + p->cos_half * q->sin_half;
+    double cosine = p->cos_half * q->cos_half - p->sin_half * q->sin_half;
+    return cosine > 1e-3 && vec_dot(p->along, q->along) >= sine - 4e-7 * cosine;
+}
+
 void fw_rule_pair(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q) {
+    bool touch = fw_box_gap(p->box, q->box) <= FW_COINCIDENT_M;
+    if (!in->everything && look_away(p, q)) {
+        /* one after the other they run along one direction: they meet at their corner alone */
+        bool joined = vec_same(p->s.b, q->s.a) || vec_same(q->s.b, p->s.a);
+        if (touch && !joined) look_at_contacts(in, p, q);
+        return;
+    }
     if (concentric(in, p, q)) return; /* they cannot meet either */
-    if (fw_box_gap(p->box, q->box) <= FW_COINCIDENT_M) look_at_contacts(in, p, q);
+    if (touch) look_at_contacts(in, p, q);
     measure_pair(in, p, q);
     judge_pair(in, p, q);
 }

@@ -11,7 +11,9 @@ typedef struct fw_rule_edge { /* a segment of a shape that is no joint */
     int shape, segment;
     bool corner_a, corner_b; /* the outline turns there, across joints too */
     double slack_m;          /* what flattening may take away on this side */
-    fw_segment *part;        /* (nparts) of at most 7.5 degrees; NULL until they are needed */
+    fw_vec2 along; /* unit tangent in the middle; unused of arcs of half a turn and more */
+    double sin_half, cos_half; /* of half its sweep; a line: 0, 1 */
+    fw_segment *part;          /* (nparts) of at most 7.5 degrees; NULL until they are needed */
     fw_box *part_box;
     int nparts;
 } fw_rule_edge;
@@ -44,6 +46,7 @@ typedef struct fw_rule_search { /* one layer */
     fw_mask_measure *measure;
     fw_finding *found; /* (nfound) grows */
     int nfound, room;
+    double cap_m;    /* pairs farther apart than this and the rules are not looked at */
     bool everything; /* for the tests: no pair is passed over */
     bool no_memory;
 } fw_rule_search;
