@@ -18,7 +18,9 @@ static bool runs_on(const fw_contour *contour, int i, bool at_end) {
     const fw_segment *before = around(contour, at_end ? i : i - 1);
     const fw_segment *after = around(contour, at_end ? i + 1 : i);
     if ((before->flags | after->flags) & FW_SEGMENT_JOINT) return false;
-    return fabs(fw_corner_turn(before, after)) < FW_SMOOTH_RAD;
+    fw_vec2 u = fw_segment_tangent(before, 1), v = fw_segment_tangent(after, 0);
+    double along = vec_dot(u, v);
+    return along > 0 && fabs(vec_cross(u, v)) < FW_SMOOTH_RAD * along;
 }
 
 /* is the distance stationary or least at this end of the chord? u points along the chord, away */
@@ -165,7 +167,11 @@ static void look_beyond(const search *in, int p, const fw_box *box, int boxed, n
         fw_box there = q < boxed ? box[q] : fw_segment_box(other);
         if (there.x0 - own.x1 >= best->least || own.x0 - there.x1 >= best->least) continue;
         double gap = fw_box_gap(own, there);
-        if (gap < best->least && !is_joint(other)) look_at_pair(in, p, q, gap, best);
+        if (gap >= best->least || is_joint(other)) continue;
+        if (fw_segment_clear_of(&c->segment[p], &there) >= best->least ||
+            fw_segment_clear_of(other, &own) >= best->least)
+            continue;
+        look_at_pair(in, p, q, gap, best);
     }
 }
 

@@ -126,18 +126,21 @@ static double nearest_of(const fw_segment *s, fw_box own, const fw_contour *q, c
                          double least, fw_vec2 *at_p, fw_vec2 *at_q) {
     for (int j = 0; j < q->count; j++) {
         const fw_segment *t = &q->segment[j];
-        double gap = fw_box_gap(own, j < FEW ? box[j] : fw_segment_box(t));
-        if (gap >= least) continue;
+        fw_box there = j < FEW ? box[j] : fw_segment_box(t);
+        double gap = fw_box_gap(own, there);
+        if (gap >= least || fw_segment_clear_of(s, &there) >= least ||
+            fw_segment_clear_of(t, &own) >= least)
+            continue;
         if (gap > 10 * FW_COINCIDENT_M) { /* then they do not touch */
             least = nearest_chord(s, t, least, at_p, at_q);
             continue;
         }
-        fw_vec2 here, there;
-        double d = fw_segment_distance(s, t, &here, &there);
+        fw_vec2 here, across;
+        double d = fw_segment_distance(s, t, &here, &across);
         if (d < least) {
             least = d;
             *at_p = here;
-            *at_q = there;
+            *at_q = across;
         }
     }
     return least;

@@ -5,8 +5,13 @@
 
 enum { MOST_CROSSINGS = 64, MOST_REACHES = 256, RADII = 400 };
 
-static int add_angle(double *angle, int n, fw_vec2 p) {
-    if (n < MOST_CROSSINGS) angle[n++] = atan2(p.y, p.x);
+typedef struct crossing { /* of an outline with a circle, from its centre */
+    fw_vec2 at;
+    double angle_rad; /* NaN: not computed yet */
+} crossing;
+
+static int add_crossing(crossing *list, int n, fw_vec2 p) {
+    if (n < MOST_CROSSINGS) list[n++] = (crossing){p, (double)NAN};
     return n;
 }
 
@@ -54,8 +59,8 @@ static int find_near(const fw_contour *c, int first, fw_vec2 w, double radius_m,
     return c->count;
 }
 
-/* angles about w at which an outline crosses the circle of radius q */
-static int crossings(const near_part *near, fw_vec2 w, double q, double *angle) {
+/* where an outline crosses the circle of radius q about w */
+static int crossings(const near_part *near, fw_vec2 w, double q, crossing *list) {
     int n = 0;
     for (int i = 0; i < near->count; i++) {
         const fw_segment *s = near->item[i].segment;
@@ -66,7 +71,7 @@ static int crossings(const near_part *near, fw_vec2 w, double q, double *angle) 
             if (in < 0.0 || dd <= 0.0) continue;
             for (int sign = -1; sign <= 1; sign += 2) {
                 double t = (-b + sign * sqrt(in)) / dd;
-                if (t >= 0.0 && t <= 1.0) n = add_angle(angle, n, fw_add(a, t, d));
+                if (t >= 0.0 && t <= 1.0) n = add_crossing(list, n, fw_add(a, t, d));
             }
         } else {
             fw_vec2 to = fw_sub(s->centre, w);
@@ -78,7 +83,7 @@ static int crossings(const near_part *near, fw_vec2 w, double q, double *angle) 
             fw_vec2 e = fw_v(to.x / far, to.y / far), f = fw_left(e);
             for (int sign = -1; sign <= 1; sign += 2) {
                 fw_vec2 p = fw_add(fw_v(x * e.x, x * e.y), sign * sqrt(y2), f);
-                if (on_arc(s, fw_add(w, 1.0, p))) n = add_angle(angle, n, p);
+                if (on_arc(s, fw_add(w, 1.0, p))) n = add_crossing(list, n, p);
             }
         }
     }
@@ -91,15 +96,25 @@ static double turned_least(double angle) {
     return size <= M_PI ? size : 2.0 * M_PI - size;
 }
 
+static double angle_of(crossing *c) {
+    if (isnan(c->angle_rad)) c->angle_rad = atan2(c->at.y, c->at.x);
+    return c->angle_rad;
+}
+
+/* angles are computed only of crossings that by their cosine may be nearer than all before */
 static double least_rotation(const near_part *p, const near_part *q, fw_vec2 w, double radius_m) {
-    double a[MOST_CROSSINGS], b[MOST_CROSSINGS], least = M_PI;
+    crossing a[MOST_CROSSINGS], b[MOST_CROSSINGS];
+    double least = M_PI, cosine = -2.0;
     for (int k = 1; k <= RADII; k++) {
-        int na = crossings(p, w, radius_m * k / RADII, a);
-        int nb = na ? crossings(q, w, radius_m * k / RADII, b) : 0;
+        double circle = radius_m * k / RADII;
+        int na = crossings(p, w, circle, a);
+        int nb = na ? crossings(q, w, circle, b) : 0;
         for (int i = 0; i < na; i++)
             for (int j = 0; j < nb; j++) {
-                double angle = turned_least(a[i] - b[j]);
-                if (angle < least) least = angle;
+                double here = fw_dot(a[i].at, b[j].at) / (circle * circle);
+                if (here < cosine - 1e-9) continue;
+                cosine = fmax(cosine, here);
+                least = fmin(least, turned_least(angle_of(&a[i]) - angle_of(&b[j])));
             }
     }
     return least;

@@ -64,10 +64,9 @@ static fw_contour ring_of(const fw_rule_search *in, const fw_rule_start *by, int
 static fw_status holes(fw_rules *rules, const fw_mask_rule *rule) {
     const fw_rule_search *in = &rules->search[rule->layer];
     size_t n = (size_t)in->nedge;
-    const fw_rule_start *by = fw_rule_starts(rules->arena, in->edge, in->nedge);
+    const fw_rule_start *by = in->start;
     bool *done = fw_arena_array(rules->arena, bool, n);
     fw_segment *segment = fw_arena_array(rules->arena, fw_segment, n);
-    FW_NEED(by);
     FW_NEED(done);
     FW_NEED(segment);
     for (int i = 0; i < in->nedge; i++) {

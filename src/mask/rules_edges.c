@@ -45,10 +45,9 @@ fw_rule_start *fw_rule_starts(fw_arena *arena, const fw_rule_edge *edge, int n) 
 }
 
 /* corners of the union: across a joint the outline goes on in the other piece. Cost O(n log n) */
-static fw_status mark_corners(fw_arena *arena, fw_rule_edge *list, int n) {
-    fw_mark mark = fw_arena_mark(arena);
+static fw_status mark_corners(fw_arena *arena, fw_rule_edge *list, int n, fw_rule_start **starts) {
     fw_rule_start *by = fw_rule_starts(arena, list, n);
-    FW_NEED(by);
+    FW_NEED(*starts = by);
     for (int i = 0; i < n; i++)
         list[i].corner_a = list[i].corner_b = true;
     for (int i = 0; i < n; i++)
@@ -59,7 +58,6 @@ static fw_status mark_corners(fw_arena *arena, fw_rule_edge *list, int n) {
             if (vec_dot(u, v) > 0 && fabs(vec_cross(u, v)) < FW_SMOOTH_RAD)
                 list[i].corner_b = list[j].corner_a = false;
         }
-    fw_arena_rewind(arena, mark);
     return FW_OK;
 }
 
@@ -114,7 +112,7 @@ fw_status fw_rule_edges(fw_rule_search *in, int nshape, double tolerance_m) {
     FW_NEED(in->range = fw_arena_array(in->arena, fw_rule_range, shapes));
     for (int k = 0; k < nshape; k++)
         if (in->shape[k].layer == in->index) add_shape(in, k, tolerance_m);
-    FW_TRY(mark_corners(in->arena, in->edge, in->nedge));
+    FW_TRY(mark_corners(in->arena, in->edge, in->nedge, &in->start));
     qsort(in->range, (size_t)in->nrange, sizeof *in->range, by_left);
     return FW_OK;
 }

@@ -102,6 +102,9 @@ static bool at_corner(const fw_rule_edge *e, double t) {
 static void measure_chord(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q,
                           const fw_chord *chord) {
     crossing x;
+    fw_vec2 c = vec_sub(chord->at_q, chord->at_p);
+    double least = fmax(in->measure->width_m, in->measure->space_m);
+    if (vec_dot(c, c) > least * least * (1 + 1e-12)) return; /* it would change neither */
     if (!crosses(&p->s, &q->s, chord, &x)) return;
     if ((x.slant_p < SQUARE || at_corner(p, chord->tp)) &&
         (x.slant_q < SQUARE || at_corner(q, chord->tq)))
@@ -137,9 +140,14 @@ static void judge_parts(fw_rule_search *in, const fw_rule_edge *p, const fw_rule
     fw_chord chord[FW_MOST_CHORDS];
     crossing x;
     int n = fw_segment_chords(s, t, chord);
-    for (int i = 0; i < n; i++)
+    double slack = p->slack_m + q->slack_m, needed = fmax(fw_rule_needed(in, FW_RULE_WIDTH, slack),
+                                                          fw_rule_needed(in, FW_RULE_SPACE, slack));
+    for (int i = 0; i < n; i++) {
+        fw_vec2 c = vec_sub(chord[i].at_q, chord[i].at_p);
+        if (vec_dot(c, c) > needed * needed * (1 + 1e-12)) continue;
         if (crosses(s, t, &chord[i], &x))
             judged(in, x.kind, p, q, x.length_m, chord[i].at_p, chord[i].at_q);
+    }
 }
 
 /* can any two points of parts of at most 7.5 degrees face each other? By the normals of their
@@ -153,7 +161,10 @@ static bool may_face(const fw_segment *s, const fw_segment *t) {
 static void judge_pair(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q) {
     double needed = fmax(fw_rule_needed(in, FW_RULE_WIDTH, p->slack_m + q->slack_m),
                          fw_rule_needed(in, FW_RULE_SPACE, p->slack_m + q->slack_m));
-    if (!(fw_box_gap(p->box, q->box) < needed) && !in->everything) return;
+    if (!in->everything && (!(fw_box_gap(p->box, q->box) < needed) ||
+                            !(fw_segment_clear_of(&p->s, &q->box) < needed) ||
+                            !(fw_segment_clear_of(&q->s, &p->box) < needed)))
+        return;
     if (!fw_rule_parts(in, p) || !fw_rule_parts(in, q)) return;
     int near[MOST_PARTS], n = 0; /* parts of q that are near p at all */
     for (int j = 0; j < q->nparts; j++)
@@ -247,6 +258,10 @@ void fw_rule_pair(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q) {
         if (touch && !joined) look_at_contacts(in, p, q);
         return;
     }
+    double clear = fmax(fw_segment_clear_of(&p->s, &q->box), fw_segment_clear_of(&q->s, &p->box));
+    if (!in->everything &&
+        clear > fmax(fw_rule_bound(in, FW_RULE_WIDTH), fw_rule_bound(in, FW_RULE_SPACE)))
+        return;
     if (concentric(in, p, q)) return; /* they cannot meet either */
     if (touch) look_at_contacts(in, p, q);
     measure_pair(in, p, q);

@@ -40,7 +40,8 @@ typedef struct fw_rule_search { /* one layer */
     int index;         /* of the layer */
     double limit_m[2]; /* largest rule for widths and for spaces; 0: there is none */
     fw_rule_edge *edge;
-    fw_rule_range *range; /* (nrange) by the left end of their boxes */
+    struct fw_rule_start *start; /* (nedge) by place: where edges begin */
+    fw_rule_range *range;        /* (nrange) by the left end of their boxes */
     int nedge, nrange;
     double slack_m; /* largest of any edge */
     fw_mask_measure *measure;
