@@ -10,7 +10,8 @@ typedef struct search {
 } search;
 
 static const fw_segment *around(const fw_contour *contour, int i) {
-    return &contour->segment[(i + contour->count) % contour->count];
+    int n = contour->count; /* -1 <= i <= n */
+    return &contour->segment[i < 0 ? i + n : i < n ? i : i - n];
 }
 
 /* can the end of segment i at parameter t slide along the outline past t without a corner? */

@@ -39,10 +39,14 @@ typedef struct reach { /* distances from a centre between which a segment lies *
     const fw_segment *segment;
     double least, most;
 } reach;
-typedef struct near_part { /* of an outline, within a radius about a centre */
-    reach item[MOST_REACHES];
+typedef struct near_part {    /* of an outline, within a radius about a centre */
+    reach item[MOST_REACHES]; /* by where they begin */
     int count;
 } near_part;
+typedef struct active { /* those that circles of a growing radius may cross */
+    const reach *item[MOST_REACHES];
+    int count, next;
+} active;
 
 /* from segment `first` on; returns where to go on, or the number of segments */
 static int find_near(const fw_contour *c, int first, fw_vec2 w, double radius_m, near_part *near) {
@@ -54,17 +58,29 @@ static int find_near(const fw_contour *c, int first, fw_vec2 w, double radius_m,
         double least = fw_segment_nearest(s, w, NULL, NULL) - 1e-9;
         if (least > radius_m) continue;
         if (near->count == MOST_REACHES) return i;
-        near->item[near->count++] = (reach){s, least, far + 1e-9};
+        int k = near->count++;
+        for (; k > 0 && near->item[k - 1].least > least; k--)
+            near->item[k] = near->item[k - 1];
+        near->item[k] = (reach){s, least, far + 1e-9};
     }
     return c->count;
 }
 
-/* where an outline crosses the circle of radius q about w */
-static int crossings(const near_part *near, fw_vec2 w, double q, crossing *list) {
+/* radius q is larger than ever before */
+static void advance(active *a, const near_part *near, double q) {
     int n = 0;
-    for (int i = 0; i < near->count; i++) {
-        const fw_segment *s = near->item[i].segment;
-        if (q < near->item[i].least || q > near->item[i].most) continue;
+    for (int i = 0; i < a->count; i++)
+        if (q <= a->item[i]->most) a->item[n++] = a->item[i];
+    for (; a->next < near->count && q >= near->item[a->next].least; a->next++)
+        if (q <= near->item[a->next].most) a->item[n++] = &near->item[a->next];
+    a->count = n;
+}
+
+/* where an outline crosses the circle of radius q about w */
+static int crossings(const active *now, fw_vec2 w, double q, crossing *list) {
+    int n = 0;
+    for (int i = 0; i < now->count; i++) {
+        const fw_segment *s = now->item[i]->segment;
         if (s->kind == FW_LINE) {
             fw_vec2 a = fw_sub(s->a, w), d = fw_sub(s->b, s->a);
             double dd = fw_dot(d, d), b = fw_dot(a, d), in = b * b - dd * (fw_dot(a, a) - q * q);
@@ -104,11 +120,15 @@ static double angle_of(crossing *c) {
 /* angles are computed only of crossings that by their cosine may be nearer than all before */
 static double least_rotation(const near_part *p, const near_part *q, fw_vec2 w, double radius_m) {
     crossing a[MOST_CROSSINGS], b[MOST_CROSSINGS];
+    active of_p = {.count = 0}, of_q = {.count = 0};
     double least = M_PI, cosine = -2.0;
     for (int k = 1; k <= RADII; k++) {
         double circle = radius_m * k / RADII;
-        int na = crossings(p, w, circle, a);
-        int nb = na ? crossings(q, w, circle, b) : 0;
+        advance(&of_p, p, circle);
+        advance(&of_q, q, circle);
+        if (of_p.count == 0 || of_q.count == 0) continue;
+        int na = crossings(&of_p, w, circle, a);
+        int nb = na ? crossings(&of_q, w, circle, b) : 0;
         for (int i = 0; i < na; i++)
             for (int j = 0; j < nb; j++) {
                 double here = fw_dot(a[i].at, b[j].at) / (circle * circle);

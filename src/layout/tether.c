@@ -30,13 +30,16 @@ static bool finger_is_clear(const fw_drawing *d, const fw_contour *finger, int b
     return true;
 }
 
+enum { FEW = 128 };
+
 /* a lower bound of the distance from an outline: no segment's box is nearer */
-static double clear_way(const fw_contour *c, fw_vec2 p) {
+static double clear_way(const fw_contour *c, const fw_box *box, fw_vec2 p) {
     fw_box at = {p.x, p.y, p.x, p.y};
     double least = HUGE_VAL;
     for (int i = 0; i < c->count; i++) {
-        fw_box box = fw_segment_box(&c->segment[i]);
-        double gap = fmax(fw_box_gap(at, box), fw_segment_clear_of(&c->segment[i], &at));
+        fw_box own = i < FEW ? box[i] : fw_segment_box(&c->segment[i]);
+        double gap = fw_box_gap(at, own);
+        if (gap < least) gap = fmax(gap, fw_segment_clear_of(&c->segment[i], &at));
         if (gap < least) least = gap;
     }
     return least;
@@ -49,7 +52,9 @@ static bool leaves_once(const fw_drawing *d, const fw_attachment *a, fw_vec2 fro
     fw_vec2 out = fw_window_outward(a->side);
     fw_vec2 side = fw_left(out);
     double length = fw_dot(fw_sub(fw_window_point(d->layout, a->side, 0.0, 0.0), from), out);
-    fw_box box = fw_contour_box(body);
+    fw_box box = fw_contour_box(body), own[FEW];
+    for (int i = 0; i < body->count && i < FEW; i++)
+        own[i] = fw_segment_box(&body->segment[i]);
     for (int edge = -1; edge <= 1; edge++) {
         bool inside = true;
         double known = -1.0; /* up to there nothing changes */
@@ -60,7 +65,7 @@ static bool leaves_once(const fw_drawing *d, const fw_attachment *a, fw_vec2 fro
                       fw_contour_contains(body, p);
             if (in && !inside) return false;
             inside = in;
-            known = s + clear_way(body, p) - 1e-9;
+            known = s + clear_way(body, own, p) - 1e-9;
         }
         if (inside) return false;
     }

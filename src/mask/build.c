@@ -125,6 +125,7 @@ static fw_status flatten(fw_arena *arena, fw_mask_shape *shape, double tolerance
     FW_TRY(cut(arena, shape, most, diags));
     shape->area_m2 = fw_contour_area(&shape->contour);
     double flat = 0.5 * (double)fw_polygon_area2(p) * GRID_M * GRID_M;
+    shape->polygon_area_m2 = flat;
     if (fabs(flat - shape->area_m2) <= shape->bound_m2) return FW_OK;
     char got[32], want[32];
     return fw_diag_error(diags, 150, nowhere,
@@ -159,7 +160,7 @@ static void sum_up(fw_mask *mask, fw_mask_measure *measure) {
         m->shapes++;
         m->vertices += s->polygon.count;
         m->area_m2 += s->area_m2;
-        m->polygon_area_m2 += 0.5 * (double)fw_polygon_area2(&s->polygon) * GRID_M * GRID_M;
+        m->polygon_area_m2 += s->polygon_area_m2;
         m->bound_m2 += s->bound_m2;
         fw_mask_measure_add(m, s);
     }

@@ -103,7 +103,7 @@ static void measure_chord(fw_rule_search *in, const fw_rule_edge *p, const fw_ru
                           const fw_chord *chord) {
     crossing x;
     fw_vec2 c = vec_sub(chord->at_q, chord->at_p);
-    double least = fmax(in->measure->width_m, in->measure->space_m);
+    double least = fw_greater(in->measure->width_m, in->measure->space_m);
     if (vec_dot(c, c) > least * least * (1 + 1e-12)) return; /* it would change neither */
     if (!crosses(&p->s, &q->s, chord, &x)) return;
     if ((x.slant_p < SQUARE || at_corner(p, chord->tp)) &&
@@ -140,8 +140,9 @@ static void judge_parts(fw_rule_search *in, const fw_rule_edge *p, const fw_rule
     fw_chord chord[FW_MOST_CHORDS];
     crossing x;
     int n = fw_segment_chords(s, t, chord);
-    double slack = p->slack_m + q->slack_m, needed = fmax(fw_rule_needed(in, FW_RULE_WIDTH, slack),
-                                                          fw_rule_needed(in, FW_RULE_SPACE, slack));
+    double slack = p->slack_m + q->slack_m,
+           needed = fw_greater(fw_rule_needed(in, FW_RULE_WIDTH, slack),
+                               fw_rule_needed(in, FW_RULE_SPACE, slack));
     for (int i = 0; i < n; i++) {
         fw_vec2 c = vec_sub(chord[i].at_q, chord[i].at_p);
         if (vec_dot(c, c) > needed * needed * (1 + 1e-12)) continue;
@@ -159,8 +160,8 @@ static bool may_face(const fw_segment *s, const fw_segment *t) {
 }
 
 static void judge_pair(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q) {
-    double needed = fmax(fw_rule_needed(in, FW_RULE_WIDTH, p->slack_m + q->slack_m),
-                         fw_rule_needed(in, FW_RULE_SPACE, p->slack_m + q->slack_m));
+    double needed = fw_greater(fw_rule_needed(in, FW_RULE_WIDTH, p->slack_m + q->slack_m),
+                               fw_rule_needed(in, FW_RULE_SPACE, p->slack_m + q->slack_m));
     if (!in->everything && (!(fw_box_gap(p->box, q->box) < needed) ||
                             !(fw_segment_clear_of(&p->s, &q->box) < needed) ||
                             !(fw_segment_clear_of(&q->s, &p->box) < needed)))
@@ -196,7 +197,8 @@ static bool concentric(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_
 void fw_rule_own(fw_rule_search *in, fw_rule_edge *e) {
     static const double half_turn = FW_PI * (1 - 1e-12);
     double sweep = fabs(e->s.sweep_rad);
-    if (e->s.kind != FW_ARC || !(cos(fmin(sweep, FW_PI)) < FACING)) return; /* a rounded corner */
+    if (e->s.kind != FW_ARC || !(cos(fw_lesser(sweep, FW_PI)) < FACING))
+        return; /* a rounded corner */
     fw_rule_kind kind = e->s.sweep_rad > 0 ? FW_RULE_WIDTH : FW_RULE_SPACE;
     double quarter = sqrt(2) * e->s.radius; /* the chord over a quarter turn, in the middle */
     if (quarter < fw_rule_needed(in, kind, 2 * e->slack_m)) {
@@ -205,7 +207,7 @@ void fw_rule_own(fw_rule_search *in, fw_rule_edge *e) {
                fw_segment_point(&e->s, 0.5 + eighth));
     }
     if (sweep >= half_turn) { /* from the middle of the first quarter and across */
-        fw_vec2 from = fw_segment_point(&e->s, 0.5 * fmax(0, 1 - FW_PI / sweep));
+        fw_vec2 from = fw_segment_point(&e->s, 0.5 * fw_greater(0, 1 - FW_PI / sweep));
         measured(in, kind, from, vec_sub(vec_scale(2, e->s.centre), from), 2 * e->s.radius);
     }
     if (e->corner_a && e->corner_b)
@@ -258,9 +260,10 @@ void fw_rule_pair(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q) {
         if (touch && !joined) look_at_contacts(in, p, q);
         return;
     }
-    double clear = fmax(fw_segment_clear_of(&p->s, &q->box), fw_segment_clear_of(&q->s, &p->box));
+    double clear =
+        fw_greater(fw_segment_clear_of(&p->s, &q->box), fw_segment_clear_of(&q->s, &p->box));
     if (!in->everything &&
-        clear > fmax(fw_rule_bound(in, FW_RULE_WIDTH), fw_rule_bound(in, FW_RULE_SPACE)))
+        clear > fw_greater(fw_rule_bound(in, FW_RULE_WIDTH), fw_rule_bound(in, FW_RULE_SPACE)))
         return;
     if (concentric(in, p, q)) return; /* they cannot meet either */
     if (touch) look_at_contacts(in, p, q);

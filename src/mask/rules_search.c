@@ -12,11 +12,11 @@ double fw_rule_needed(const fw_rule_search *in, fw_rule_kind kind, double slack_
 double fw_rule_bound(const fw_rule_search *in, fw_rule_kind kind) {
     double least = kind == FW_RULE_WIDTH ? in->measure->width_m : in->measure->space_m;
     if (in->everything) return HUGE_VAL;
-    return fmax(fw_rule_needed(in, kind, 2 * in->slack_m), fmin(least, in->cap_m));
+    return fw_greater(fw_rule_needed(in, kind, 2 * in->slack_m), fw_lesser(least, in->cap_m));
 }
 
 static double reach(const fw_rule_search *in) {
-    return fmax(fw_rule_bound(in, FW_RULE_WIDTH), fw_rule_bound(in, FW_RULE_SPACE));
+    return fw_greater(fw_rule_bound(in, FW_RULE_WIDTH), fw_rule_bound(in, FW_RULE_SPACE));
 }
 
 static void look_inside(fw_rule_search *in, const fw_rule_range *r) {
@@ -61,11 +61,11 @@ static void look(fw_rule_search *in) {
    last round alone finds, in its order. */
 void fw_rule_look(fw_rule_search *in) {
     for (in->cap_m = 12e-6;; in->cap_m *= 3) {
-        in->cap_m = fmin(in->cap_m, FW_MASK_LOOK_M);
+        in->cap_m = fw_lesser(in->cap_m, FW_MASK_LOOK_M);
         in->measure->width_m = in->measure->space_m = HUGE_VAL;
         in->nfound = 0;
         look(in);
-        if (fmax(in->measure->width_m, in->measure->space_m) <= in->cap_m) return;
+        if (fw_greater(in->measure->width_m, in->measure->space_m) <= in->cap_m) return;
         if (in->everything || in->cap_m >= FW_MASK_LOOK_M) return;
     }
 }
