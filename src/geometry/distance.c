@@ -135,7 +135,7 @@ static double nearest_of(const fw_segment *s, fw_box own, const fw_contour *q, c
             least = nearest_chord(s, t, least, at_p, at_q);
             continue;
         }
-        fw_vec2 here, across;
+        fw_vec2 here = {0, 0}, across = here;
         double d = fw_segment_distance(s, t, &here, &across);
         if (d < least) {
             least = d;

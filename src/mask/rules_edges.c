@@ -14,8 +14,9 @@ static bool on_grid(double x) {
 }
 
 static double slack_of(const fw_segment *s, double tolerance_m) {
+    if (s->kind == FW_ARC) return tolerance_m + ROUND_M;
     bool exact = on_grid(s->a.x) && on_grid(s->a.y) && on_grid(s->b.x) && on_grid(s->b.y);
-    return s->kind == FW_ARC ? tolerance_m + ROUND_M : exact ? 0 : ROUND_M;
+    return exact ? 0 : ROUND_M;
 }
 
 static int by_place(const void *left, const void *right) {
@@ -44,6 +45,10 @@ fw_rule_start *fw_rule_starts(fw_arena *arena, const fw_rule_edge *edge, int n) 
     return by;
 }
 
+static fw_vec2 tangent(const fw_rule_edge *e, double t) {
+    return e->s.kind == FW_LINE ? e->along : fw_segment_tangent(&e->s, t);
+}
+
 /* corners of the union: across a joint the outline goes on in the other piece. Cost O(n log n) */
 static fw_status mark_corners(fw_arena *arena, fw_rule_edge *list, int n, fw_rule_start **starts) {
     fw_rule_start *by = fw_rule_starts(arena, list, n);
@@ -54,7 +59,7 @@ static fw_status mark_corners(fw_arena *arena, fw_rule_edge *list, int n, fw_rul
         for (int k = fw_rule_first_at(by, n, list[i].s.b); k < n && vec_same(by[k].at, list[i].s.b);
              k++) {
             int j = by[k].edge;
-            fw_vec2 u = fw_segment_tangent(&list[i].s, 1), v = fw_segment_tangent(&list[j].s, 0);
+            fw_vec2 u = tangent(&list[i], 1), v = tangent(&list[j], 0);
             if (vec_dot(u, v) > 0 && fabs(vec_cross(u, v)) < FW_SMOOTH_RAD)
                 list[i].corner_b = list[j].corner_a = false;
         }
