@@ -24,19 +24,27 @@ static const char *cell_name(fw_arena *arena, const char *name, bool rejected) {
     return cell && !*cell ? "DEVICE" : cell;
 }
 
+/* the shapes of all layers, of them `shape` is filled where it is given; how many there are */
+static int list_shapes(const fw_layout *layout, const fw_mask_table *table, bool no_islands,
+                       fw_mask_shape *shape) {
+    int n = 0;
+    for (int k = 0; k < table->nlayer; k++)
+        for (int i = 0; i < layout->npiece; i++) {
+            const fw_piece *piece = &layout->piece[i];
+            if (!(table->layer[k].roles & 1u << piece->role)) continue;
+            if (no_islands && piece->body == FW_ISLAND) continue;
+            if (shape)
+                shape[n] = (fw_mask_shape){.layer = k, .piece = piece, .contour = piece->contour};
+            n++;
+        }
+    return n;
+}
+
 static fw_status pick_shapes(fw_arena *arena, const fw_layout *layout, const fw_mask_table *table,
                              bool no_islands, fw_mask_shape **out, int *count) {
-    size_t most = (size_t)layout->npiece * (size_t)table->nlayer;
-    fw_mask_shape *shape = fw_arena_array(arena, fw_mask_shape, most);
-    FW_NEED(shape);
-    *count = 0;
-    for (int k = 0; k < table->nlayer; k++)
-        for (int i = 0; i < layout->npiece; i++)
-            if (table->layer[k].roles & 1u << layout->piece[i].role &&
-                !(no_islands && layout->piece[i].body == FW_ISLAND))
-                shape[(*count)++] = (fw_mask_shape){
-                    .layer = k, .piece = &layout->piece[i], .contour = layout->piece[i].contour};
-    *out = shape;
+    *count = list_shapes(layout, table, no_islands, NULL);
+    FW_NEED(*out = fw_arena_array(arena, fw_mask_shape, (size_t)*count));
+    list_shapes(layout, table, no_islands, *out);
     return FW_OK;
 }
 

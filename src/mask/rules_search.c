@@ -57,15 +57,16 @@ static void look(fw_rule_search *in) {
 }
 
 /* Near pairs first: most layers have a width and a space of some um, and then nothing beyond these
-   is looked at. Where they have not, again with a larger cap. What stands in the end is what the
-   last round alone finds, in its order. */
+   is looked at. Where they have not, again up to what was found, or with a larger cap. What stands
+   in the end is what the last round alone finds, in its order. */
 void fw_rule_look(fw_rule_search *in) {
-    for (in->cap_m = 12e-6;; in->cap_m *= 3) {
-        in->cap_m = fw_lesser(in->cap_m, FW_MASK_LOOK_M);
+    for (double cap_m = 12e-6;;) {
+        in->cap_m = fw_lesser(cap_m, FW_MASK_LOOK_M);
         in->measure->width_m = in->measure->space_m = HUGE_VAL;
         in->nfound = 0;
         look(in);
-        if (fw_greater(in->measure->width_m, in->measure->space_m) <= in->cap_m) return;
-        if (in->everything || in->cap_m >= FW_MASK_LOOK_M) return;
+        double found_m = fw_greater(in->measure->width_m, in->measure->space_m);
+        if (in->everything || found_m <= in->cap_m || in->cap_m >= FW_MASK_LOOK_M) return;
+        cap_m = isinf(found_m) ? 3 * cap_m : found_m;
     }
 }
