@@ -40,8 +40,8 @@ typedef struct fw_rule_search { /* one layer */
     int index;         /* of the layer */
     double limit_m[2]; /* largest rule for widths and for spaces; 0: there is none */
     fw_rule_edge *edge;
-    struct fw_rule_start *start; /* (nedge) by place: where edges begin */
-    fw_rule_range *range;        /* (nrange) by the left end of their boxes */
+    struct fw_rule_starts *start; /* where edges begin */
+    fw_rule_range *range;         /* (nrange) by the left end of their boxes */
     int nedge, nrange;
     double slack_m; /* largest of any edge */
     fw_mask_measure *measure;
@@ -55,13 +55,9 @@ typedef struct fw_rule_search { /* one layer */
 /* rules_edges.c */
 fw_status fw_rule_edges(fw_rule_search *in, int nshape, double tolerance_m);
 bool fw_rule_parts(fw_rule_search *in, fw_rule_edge *e); /* false: no memory */
-typedef struct fw_rule_start {                           /* where an edge begins */
-    fw_vec2 at;
-    int edge;
-} fw_rule_start;
-/* (nedge) by place; NULL: no memory. And the first of them at or behind a place */
-fw_rule_start *fw_rule_starts(fw_arena *arena, const fw_rule_edge *edge, int n);
-int fw_rule_first_at(const fw_rule_start *list, int n, fw_vec2 at);
+/* which edges begin at a place, by the bits of its coordinates: the next one after edge `after`, or
+   -1 for the first; -1: there is none. In the order of the edges. Cost O(1). */
+int fw_rule_start_at(const fw_rule_search *in, fw_vec2 at, int after);
 /* rules_search.c: every pair of edges that may matter */
 void fw_rule_look(fw_rule_search *in);
 /* rules_pair.c */
