@@ -20,9 +20,9 @@ static void coordinate(const page *p, char letter, fw_vec2 at) {
     if (out->failed) return;
     char *end = out->data + out->length;
     *end++ = letter;
-    end = fw_fixed_text(end, (at.x - p->x0) * 1e6, 6);
+    end = fw_millionths_text(end, (at.x - p->x0) * 1e6);
     *end++ = ' ';
-    end = fw_fixed_text(end, (p->y1 - at.y) * 1e6, 6);
+    end = fw_millionths_text(end, (p->y1 - at.y) * 1e6);
     out->length = (size_t)(end - out->data);
 }
 
