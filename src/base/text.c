@@ -19,9 +19,8 @@ static int reserve(fw_text *text, size_t more) {
     }
     size_t need = text->length + more + 1;
     if (need <= text->capacity) return 1;
-    size_t capacity = text->capacity ? text->capacity : 256;
-    while (capacity < need)
-        capacity *= 2;
+    size_t capacity = text->capacity ? 2 * text->capacity : 256;
+    if (capacity < need) capacity = need; /* a size that is known before */
     char *data = fw_arena_raw(text->arena, capacity);
     if (!data) {
         text->failed = 1;
@@ -159,7 +158,7 @@ static inline char *put_leading(char *at, uint32_t n) {
 }
 
 /* n millionths, without zeros at the ends: millions of coordinates are written so, most of them
-   whole thousandths. n < 10^15; up to 11 bytes behind the digits are written over. */
+   whole thousandths. n < 10^15; up to 4 bytes behind the end are written over, no NUL is. */
 static inline char *millionths(char *at, uint64_t n) {
     uint64_t thousandths = n / 1000, whole = thousandths / 1000;
     uint32_t low = (uint32_t)(n - 1000 * thousandths);
@@ -190,7 +189,6 @@ static inline char *millionths(char *at, uint64_t n) {
         }
         at += 4 - last - both;
     }
-    *at = '\0';
     return at;
 }
 
@@ -221,15 +219,38 @@ char *fw_fixed_text(char *buffer, double value, int decimals) {
     return at;
 }
 
-char *fw_millionths_text(char *buffer, double value) {
+/* the nearest whole number of millionths, as above; false: the library decides */
+static inline int in_millionths(double value, int64_t *n) {
     double product = fabs(value) * 1e6;
-    if (!(product < 1099511627776.0)) return fw_fixed_text(buffer, value, 6);
-    int64_t n = (int64_t)product;
-    double rest = product - (double)n;
-    if (fabs(rest - 0.5) < 0x1p-12) return fw_fixed_text(buffer, value, 6);
-    n += rest > 0.5;
+    if (!(product < 1099511627776.0)) return 0;
+    *n = (int64_t)product;
+    double rest = product - (double)*n;
+    *n += rest > 0.5; /* below 2^40 + 1 */
+    return fabs(rest - 0.5) >= 0x1p-12;
+}
+
+char *fw_millionths_text(char *buffer, double value) {
+    int64_t n;
+    if (!in_millionths(value, &n)) return fw_fixed_text(buffer, value, 6);
     *buffer = '-';
-    return millionths(buffer + (value < 0 && n > 0), (uint64_t)n); /* below 2^40 + 1 */
+    char *end = millionths(buffer + (value < 0 && n > 0), (uint64_t)n);
+    *end = '\0';
+    return end;
+}
+
+char *fw_place_text(char *buffer, double x, double y) {
+    int64_t nx, ny;
+    int both = in_millionths(x, &nx) & in_millionths(y, &ny);
+    if (!both) {
+        char *end = fw_millionths_text(buffer, x);
+        *end++ = ' ';
+        return fw_millionths_text(end, y);
+    }
+    *buffer = '-';
+    char *end = millionths(buffer + (x < 0 && nx > 0), (uint64_t)nx);
+    *end = ' ';
+    *++end = '-';
+    return millionths(end + (y < 0 && ny > 0), (uint64_t)ny);
 }
 
 void fw_text_fixed(fw_text *text, double value, int decimals) {

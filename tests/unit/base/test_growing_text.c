@@ -89,6 +89,10 @@ static void fixed_as_printf(void **state) {
         fw_fixed_text(got, -micro, 6);
         fw_millionths_text(fast, -micro);
         assert_string_equal(fast, got);
+        char two[2 * FW_FIXED_BYTES], both[2 * FW_FIXED_BYTES];
+        snprintf(two, sizeof two, "%s %s", got, want);
+        *fw_place_text(both, -micro, value) = '\0';
+        assert_string_equal(both, strcmp(want, "-0") == 0 ? strcat(strcpy(two, got), " 0") : two);
     }
 }
 
