@@ -113,11 +113,30 @@ static fw_status cut(fw_arena *arena, fw_mask_shape *shape, int most, fw_diags *
                          shape->piece->label, shape->polygon.count, most);
 }
 
+static fw_status tell_wavy(const fw_mask_shape *shape, const fw_wavy_arc *wavy, double tolerance_m,
+                           fw_diags *diags) {
+    char at[80], eps[32], next[32], radius[32], sweep[32];
+    fw_mask_place_text(at, sizeof at, wavy->arc.a);
+    double up_nm = ceil(wavy->next_m * 1e12) * 1e-3; /* to the next pm, so that it does */
+    return fw_diag_error(
+        diags, 136, nowhere,
+        "%s: with a tolerance of %s nm its arc of radius %s um through %s deg at %s gets chords so "
+        "short that rounding to the 1 nm grid bends them the wrong way; %s nm takes one chord less "
+        "for it, and from 1.42 nm on every arc is safe",
+        shape->piece->label, fw_number_text(eps, sizeof eps, tolerance_m * 1e9, 6),
+        fw_number_text(radius, sizeof radius, wavy->arc.radius * 1e6, 6),
+        fw_number_text(sweep, sizeof sweep, fabs(wavy->arc.sweep_rad) * 180 / FW_PI, 4), at,
+        fw_number_text(next, sizeof next, up_nm, 7));
+}
+
 /* one shape: polygon, exact integer certificate, area against the exact outline */
 static fw_status flatten(fw_arena *arena, fw_mask_shape *shape, double tolerance_m, int most,
                          fw_diags *diags) {
     FW_TRY(check_range(shape, diags));
-    FW_TRY(fw_mask_flatten(arena, shape, tolerance_m));
+    fw_wavy_arc wavy;
+    fw_status flat_status = fw_mask_flatten(arena, shape, tolerance_m, &wavy);
+    if (wavy.there) return tell_wavy(shape, &wavy, tolerance_m, diags);
+    FW_TRY(flat_status);
     const char *name = shape->piece->label;
     const fw_polygon *p = &shape->polygon;
     FW_TRY(fw_polygon_check(arena, p, &shape->report));
@@ -181,10 +200,10 @@ static fw_status check_options(const fw_mask_options *options, double tolerance_
     if (!(fabs(options->bias_m) <= 1e-3))
         return fw_diag_error(diags, 143, nowhere, "the bias of %s m per edge is not below 1 mm",
                              fw_number_text(number, sizeof number, options->bias_m, 6));
-    if (!(tolerance_m >= 1.42e-9 && tolerance_m <= 1e-6))
+    if (!(tolerance_m >= FW_LEAST_TOLERANCE_M * (1 - 1e-12) && tolerance_m <= 1e-6))
         return fw_diag_error(diags, 147, nowhere,
-                             "the tolerance of %s nm is not between 1.42 nm (below it, rounding to "
-                             "the grid makes arcs wavy) and 1000 nm",
+                             "the tolerance of %s nm is not between 0.36 nm (below it, rounding to "
+                             "the grid makes every arc wavy) and 1000 nm",
                              fw_number_text(number, sizeof number, tolerance_m * 1e9, 6));
     return FW_OK;
 }
