@@ -176,6 +176,7 @@ fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *di
     l->why_not = missing(arena, device, &failed);
     if (failed) return FW_NOMEM;
     if (!l->why_not) {
+        l->fill = device->die.fill;
         fw_drawing d = {.arena = arena, .device = device, .diags = diags, .layout = l};
         say_ties(device, diags);
         for (size_t i = 0; i < diags->count; i++)

@@ -96,7 +96,7 @@ fw_status fw_content_on_frame(fw_arena *arena, const fw_layout *device, const fw
     *out = device;
     *left_out = 0;
     for (int i = 0; i < npattern; i++)
-        n += pattern[i].kind->on_frame;
+        n += pattern[i].kind->on_frame + (device->fill && pattern[i].kind->in_window);
     if (n == 0 || !device->drawn) return FW_OK;
     fw_layout *l = fw_arena_one(arena, fw_layout);
     sheet s = {arena, device, NULL, device->npiece, device->npiece + 8};
@@ -117,6 +117,8 @@ fw_status fw_content_on_frame(fw_arena *arena, const fw_layout *device, const fw
                 ++*left_out;
         }
     }
+    if (device->fill)
+        FW_TRY(fw_content_in_window(arena, device, pattern, npattern, s.piece, s.npiece));
     *l = *device;
     l->piece = s.piece;
     l->npiece = s.npiece;
