@@ -228,8 +228,10 @@ fw_status fw_attachment_add(fw_drawing *d, const fw_attachment *item);
 
 fw_status fw_hinges_plan(fw_drawing *d);
 fw_status fw_flexure_draw(fw_arena *arena, const fw_flexure *flexure, fw_hinge_plan *plan);
-/* a head that crosses itself, or comes nearer than FW_OWN_SPACE_M to its own flexure beyond the
-   root: of a path, whose roots may point anywhere */
+/* a head that comes nearer than FW_OWN_SPACE_M to its own flexure beyond the root; and of a path,
+   whose roots may point anywhere, one that crosses itself. Of an arc or a leaf, as wide everywhere
+   or not, block and ring may overlap: they become one when the body is united, with another head
+   where that is unsound */
 bool fw_path_in_the_way(const fw_flexure *flexure, const fw_hinge_plan *plan);
 /* draws a head with other free dimensions; false: there is no such row */
 bool fw_head_exists(int choice);
