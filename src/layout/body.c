@@ -113,6 +113,7 @@ static fw_status bar_parts(fw_drawing *d, int body, const int *joint, int njoint
         hub = fw_add(hub, 1.0 / njoint, p);
         half = side_of(d, joint[i], body)->half_width_m;
     }
+    if (njoint > 2 && body >= 0) hub = fw_body_hub(d, body);
     if (njoint == 1 && body >= 0) hub = fw_v(d->device->body[body].x_m, d->device->body[body].y_m);
     if (njoint == 1 && body < 0) { /* the pedestal takes over before the frame */
         const fw_side *side = side_of(d, joint[0], body);
