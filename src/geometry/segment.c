@@ -114,10 +114,7 @@ static int quarter(fw_vec2 v) {
    all four where it comes back to the first one over more than half a turn. In: segment (m). Out:
    box; it holds the circle's own points within the rounding. No angle is computed. Test:
    test_segment.c. */
-fw_box fw_segment_box(const fw_segment *s) {
-    fw_box box = {fw_lesser(s->a.x, s->b.x), fw_lesser(s->a.y, s->b.y), fw_greater(s->a.x, s->b.x),
-                  fw_greater(s->a.y, s->b.y)};
-    if (s->kind == FW_LINE) return box;
+fw_box fw_arc_box(const fw_segment *s, fw_box box) {
     bool left = s->sweep_rad > 0;
     int from = quarter(vec_sub(left ? s->a : s->b, s->centre));
     int to = quarter(vec_sub(left ? s->b : s->a, s->centre)), axes = (to - from) & 3;
