@@ -35,7 +35,8 @@ def draw(program, seed, where):
     masks = where / str(seed) / "masks"
     for test_die in masks.glob("*-coupons.*"):  # much the same for all; gallery.sh judges them
         test_die.unlink()
-    if done.returncode in (0, 1, 4) and list(masks.glob("*.gds")):
+    broken = re.search(r"error: .*\[FW-D1[45]\d\]", done.stderr)  # --force writes a mask that breaks a rule, too: it is refused
+    if done.returncode in (0, 1, 4) and not broken and list(masks.glob("*.gds")):
         return masks, done
     return None, done
 
