@@ -83,7 +83,7 @@ typedef struct fw_design_options {
     double rtol;             /* tolerance of the integrator, 1e-14..1e-2; default from accuracy */
     int32_t samples;         /* rows of the motion, 2..1000000; default 1001 */
     int32_t force;           /* not 0: masks and recipes of a rejected design too, each marked */
-    double mask_tolerance_m; /* largest distance of an arc from its polygon, 1.42e-9..1e-6 m;
+    double mask_tolerance_m; /* largest distance of an arc from its polygon, 0.36e-9..1e-6 m;
                                 default 5e-9 */
     size_t memory_cap;       /* most bytes that one design holds; default 512 MiB */
     const char *stabilise;   /* "projection" (default), "baumgarte" or "none" */

@@ -19,6 +19,8 @@ void fw_arena_free(fw_arena *arena); /* NULL allowed */
 /* count * size bytes, zeroed, aligned to 64; NULL on overflow, cap or failure. count 0 gives a
    valid pointer. */
 void *fw_arena_alloc(fw_arena *arena, size_t count, size_t size);
+/* the same, not zeroed: for bytes that are all written before they are read */
+void *fw_arena_raw(fw_arena *arena, size_t bytes);
 #define fw_arena_array(arena, type, count) ((type *)fw_arena_alloc((arena), (count), sizeof(type)))
 #define fw_arena_one(arena, type)          fw_arena_array((arena), type, 1)
 

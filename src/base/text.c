@@ -19,14 +19,15 @@ static int reserve(fw_text *text, size_t more) {
     }
     size_t need = text->length + more + 1;
     if (need <= text->capacity) return 1;
-    size_t capacity = text->capacity ? text->capacity : 256;
-    while (capacity < need)
-        capacity *= 2;
-    char *data = fw_arena_grow(text->arena, text->data, text->length, capacity, 1);
+    size_t capacity = text->capacity ? 2 * text->capacity : 256;
+    if (capacity < need) capacity = need; /* a size that is known before */
+    char *data = fw_arena_raw(text->arena, capacity);
     if (!data) {
         text->failed = 1;
         return 0;
     }
+    if (text->length) memcpy(data, text->data, text->length);
+    data[text->length] = '\0';
     text->data = data;
     text->capacity = capacity;
     return 1;
@@ -134,41 +135,60 @@ static int places_of(uint64_t n) {
     return places + (n >= 10) + (n >= 100);
 }
 
-/* The eight digits of n < 10^8 as values 0 .. 9, the first one in the lowest byte: halves, then
-   quarters, then single digits, all at once. 10486 / 2^20 is 1/100 for what is below 10^4, 103 /
-   2^10 is 1/10 below 100, each rounded up by so little that the whole part is right. */
-static inline uint64_t eight_digits(uint64_t n) {
-    uint64_t v = n / 10000;
-    v |= (n - 10000 * v) << 32;
-    uint64_t hundreds = (v * 10486 >> 20) & 0x0000007f0000007full;
-    v = hundreds | (v - 100 * hundreds) << 16;
-    uint64_t tens = (v * 103 >> 10) & 0x000f000f000f000full;
-    return tens | (v - 10 * tens) << 8;
+/* three digits of each number below 1000, and one byte to spare */
+#define TENS(h, t) h t "0" h t "1" h t "2" h t "3" h t "4" h t "5" h t "6" h t "7" h t "8" h t "9"
+#define HUNDREDS(h)                                                                                \
+    TENS(h, "0")                                                                                   \
+    TENS(h, "1")                                                                                   \
+    TENS(h, "2")                                                                                   \
+    TENS(h, "3") TENS(h, "4") TENS(h, "5") TENS(h, "6") TENS(h, "7") TENS(h, "8") TENS(h, "9")
+static const char triple[] = HUNDREDS("0") HUNDREDS("1") HUNDREDS("2") HUNDREDS("3") HUNDREDS("4")
+    HUNDREDS("5") HUNDREDS("6") HUNDREDS("7") HUNDREDS("8") HUNDREDS("9");
+
+/* three digits, and a byte that the next ones write over */
+static inline void put_three(char *at, uint32_t n) {
+    memcpy(at, triple + 3 * n, 4);
 }
 
-/* eight bytes, the lowest first; the caller's buffer has room for them all */
-static inline void put_eight(char *at, uint64_t digit_values) {
-    uint64_t v = digit_values | 0x3030303030303030ull;
-#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
-    v = __builtin_bswap64(v);
-#endif
-    memcpy(at, &v, sizeof v);
+/* without zeros at the front; the end */
+static inline char *put_leading(char *at, uint32_t n) {
+    unsigned skip = (unsigned)(n < 100) + (n < 10);
+    memcpy(at, triple + 3 * n + skip, 4);
+    return at + 3 - skip;
 }
 
-/* n millionths, without zeros at the ends: millions of coordinates are written so. n < 10^14 */
+/* n millionths, without zeros at the ends: millions of coordinates are written so, most of them
+   whole thousandths. n < 10^15; up to 4 bytes behind the end are written over, no NUL is. */
 static inline char *millionths(char *at, uint64_t n) {
-    uint64_t whole = n / 1000000, rest = n - 1000000 * whole;
-    uint64_t v = eight_digits(whole);
-    unsigned skip = whole ? (unsigned)__builtin_ctzll(v) / 8 : 7;
-    put_eight(at, v >> 8 * skip);
-    at += 8 - skip;
-    if (rest) {
-        uint64_t part = eight_digits(100 * rest);
-        *at = '.';
-        put_eight(at + 1, part);
-        at += 1 + 8 - (unsigned)__builtin_clzll(part) / 8;
+    uint64_t thousandths = n / 1000, whole = thousandths / 1000;
+    uint32_t low = (uint32_t)(n - 1000 * thousandths);
+    uint32_t high = (uint32_t)(thousandths - 1000 * whole);
+    if (whole < 1000)
+        at = put_leading(at, (uint32_t)whole);
+    else {
+        uint32_t thousands = (uint32_t)(whole / 1000), rest = (uint32_t)whole - 1000 * thousands;
+        if (thousands < 1000)
+            at = put_leading(at, thousands);
+        else {
+            uint32_t millions = thousands / 1000;
+            at = put_leading(at, millions);
+            put_three(at, thousands - 1000 * millions);
+            at += 3;
+        }
+        put_three(at, rest);
+        at += 3;
     }
-    *at = '\0';
+    if (high | low) {
+        const char *end = triple + 3 * (low ? low : high);
+        unsigned last = end[2] == '0', both = last & (end[1] == '0');
+        *at = '.';
+        put_three(at + 1, high);
+        if (low) {
+            put_three(at + 4, low);
+            at += 3;
+        }
+        at += 4 - last - both;
+    }
     return at;
 }
 
@@ -180,13 +200,12 @@ char *fw_fixed_text(char *buffer, double value, int decimals) {
     static const double ten[] = {1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
     double product = decimals >= 0 && decimals <= 9 ? fabs(value) * ten[decimals] : HUGE_VAL;
     if (!(product < 1099511627776.0)) return fixed_by_library(buffer, value, decimals);
-    uint64_t n = (uint64_t)product;
-    double rest = product - (double)n;
+    uint64_t n = (uint64_t)(int64_t)product;
+    double rest = product - (double)(int64_t)n;
     if (fabs(rest - 0.5) < 0x1p-12) return fixed_by_library(buffer, value, decimals);
     n += rest > 0.5;
     char *at = buffer;
     if (value < 0 && n > 0) *at++ = '-';
-    if (decimals == 6) return millionths(at, n); /* below 2^40 + 1 */
     uint64_t one = (uint64_t)ten[decimals], whole = n / one;
     int places = places_of(whole);
     digits(at += places, whole, places);
@@ -200,9 +219,44 @@ char *fw_fixed_text(char *buffer, double value, int decimals) {
     return at;
 }
 
+/* the nearest whole number of millionths, as above; false: the library decides */
+static inline int in_millionths(double value, int64_t *n) {
+    double product = fabs(value) * 1e6;
+    if (!(product < 1099511627776.0)) return 0;
+    *n = (int64_t)product;
+    double rest = product - (double)*n;
+    *n += rest > 0.5; /* below 2^40 + 1 */
+    return fabs(rest - 0.5) >= 0x1p-12;
+}
+
+char *fw_millionths_text(char *buffer, double value) {
+    int64_t n;
+    if (!in_millionths(value, &n)) return fw_fixed_text(buffer, value, 6);
+    *buffer = '-';
+    char *end = millionths(buffer + (value < 0 && n > 0), (uint64_t)n);
+    *end = '\0';
+    return end;
+}
+
+char *fw_place_text(char *buffer, double x, double y) {
+    int64_t nx, ny;
+    int both = in_millionths(x, &nx) & in_millionths(y, &ny);
+    if (!both) {
+        char *end = fw_millionths_text(buffer, x);
+        *end++ = ' ';
+        return fw_millionths_text(end, y);
+    }
+    *buffer = '-';
+    char *end = millionths(buffer + (x < 0 && nx > 0), (uint64_t)nx);
+    *end = ' ';
+    *++end = '-';
+    return millionths(end + (y < 0 && ny > 0), (uint64_t)ny);
+}
+
 void fw_text_fixed(fw_text *text, double value, int decimals) {
     char buffer[FW_FIXED_BYTES];
-    char *end = fw_fixed_text(buffer, value, decimals);
+    char *end =
+        decimals == 6 ? fw_millionths_text(buffer, value) : fw_fixed_text(buffer, value, decimals);
     fw_text_bytes(text, buffer, (size_t)(end - buffer));
 }
 

@@ -99,10 +99,9 @@ static const char *take_force(fw_cli_options *o, const char *v) {
 
 static const char *take_tolerance(fw_cli_options *o, const char *v) {
     double nm;
-    if (!fw_number_parse(v, strlen(v), &nm) || !(nm >= 1.42 && nm <= 1000.0))
-        return "needs nanometres between 1.42 (below, rounding to the 1 nm grid would bend arcs "
-               "the "
-               "wrong way) and 1000";
+    if (!fw_number_parse(v, strlen(v), &nm) || !(nm >= 0.36 && nm <= 1000.0))
+        return "needs nanometres between 0.36 (below, rounding to the 1 nm grid would bend arcs "
+               "the wrong way) and 1000";
     o->design.mask_tolerance_m = nm * 1e-9;
     return NULL;
 }

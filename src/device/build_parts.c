@@ -102,14 +102,15 @@ static fw_workspace_box workspace_of(fw_reader *r, const fw_record *record) {
 }
 
 static void build_die(fw_device *d, const fw_record *record) {
-    const char *tethers = fw_text_of(record, "tethers");
+    const char *tethers = fw_text_of(record, "tethers"), *fill = fw_text_of(record, "fill");
     d->die = (fw_die){.width_m = fw_number_of(record, "width"),
                       .height_m = fw_number_of(record, "height"),
                       .frame_m = fw_number_of(record, "frame"),
                       .lane_m = fw_number_of(record, "lane"),
                       .clearance_m = fw_number_of(record, "clearance"),
                       .title = fw_text_of(record, "title"),
-                      .tethers = !tethers || strcmp(tethers, "no") != 0};
+                      .tethers = !tethers || strcmp(tethers, "no") != 0,
+                      .fill = fill && strcmp(fill, "yes") == 0};
     d->release_pitch_m = fw_number_of(record, "release-pitch");
     d->release_hole_m = fw_number_of(record, "release-hole");
 }
@@ -130,7 +131,7 @@ fw_status fw_build_parts(fw_reader *r) {
     d->limits = (fw_limits_asked){.cycles = nan_, .failure_probability = nan_};
     d->thickness_m = nan_;
     d->orientation_rad = nan_;
-    d->die = (fw_die){nan_, nan_, nan_, nan_, nan_, NULL, true};
+    d->die = (fw_die){nan_, nan_, nan_, nan_, nan_, NULL, true, false};
     FW_TRY(build_material(r, NULL));
     FW_TRY(build_flows(r));
     size_t boxes = (size_t)fw_count(r, "workspace");

@@ -296,6 +296,7 @@ typedef struct fw_die { /* <die>; NaN: from the drawn mechanism */
     double width_m, height_m, frame_m, lane_m, clearance_m;
     const char *title;
     bool tethers;
+    bool fill; /* what the flow has for the window: thief and fill */
 } fw_die;
 
 typedef enum fw_wafer_side {

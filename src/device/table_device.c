@@ -164,6 +164,10 @@ static const fw_attribute_row die_rows[] = {
     {"title", TEXT, .fallback = "the device's name", .sentence = "Written on the die."},
     {"tethers", .kind = FW_KIND_WORD, .words = yes_no, .fallback = "yes",
      .sentence = "Thin bridges that hold the mechanism until they are broken."},
+    {"fill", .kind = FW_KIND_WORD, .words = yes_no, .fallback = "no",
+     .sentence = "Thief and fill in the window, joined to the frame, in flows that have them "
+                 "(window-thief and window-fill of the layer table): copper is plated more evenly. "
+                 "They keep out of what is drawn; what moves farther needs a larger keep-out."},
     {"release-pitch", GAP, .fallback = "no holes",
      .sentence = "Pitch of round release holes in bodies that are wider than the release reaches "
                  "between them; mass and inertia are without them."},

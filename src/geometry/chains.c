@@ -29,7 +29,7 @@ typedef struct sweep {
     event *events; /* (nevent) */
     int nevent;
     chain *chain; /* (nevent): two for each vertex where chains begin */
-    int *active;  /* (MOST_ACTIVE) chains that the vertical meets, from below */
+    int *active;  /* (nevent, at most MOST_ACTIVE) chains that the vertical meets, from below */
     int nactive;
 } sweep;
 
@@ -211,7 +211,8 @@ fw_status fw_polygon_prove(fw_arena *arena, const fw_polygon *polygon, bool *pro
     sweep s = {.v = v,
                .events = fw_arena_array(arena, event, (size_t)most),
                .chain = fw_arena_array(arena, chain, (size_t)most),
-               .active = fw_arena_array(arena, int, MOST_ACTIVE)};
+               .active =
+                   fw_arena_array(arena, int, (size_t)(most < MOST_ACTIVE ? most : MOST_ACTIVE))};
     FW_NEED(s.events);
     FW_NEED(s.chain);
     FW_NEED(s.active);

@@ -2,7 +2,7 @@
 /* Width and space of one outline: the shortest chord between two edges that face each other. */
 #include "geometry/segment.h"
 
-enum { FEW = 64 };
+enum { FEW = 128 };
 
 typedef struct search {
     const fw_contour *contour;
@@ -10,7 +10,8 @@ typedef struct search {
 } search;
 
 static const fw_segment *around(const fw_contour *contour, int i) {
-    return &contour->segment[(i + contour->count) % contour->count];
+    int n = contour->count; /* -1 <= i <= n */
+    return &contour->segment[i < 0 ? i + n : i < n ? i : i - n];
 }
 
 /* can the end of segment i at parameter t slide along the outline past t without a corner? */
@@ -18,7 +19,9 @@ static bool runs_on(const fw_contour *contour, int i, bool at_end) {
     const fw_segment *before = around(contour, at_end ? i : i - 1);
     const fw_segment *after = around(contour, at_end ? i + 1 : i);
     if ((before->flags | after->flags) & FW_SEGMENT_JOINT) return false;
-    return fabs(fw_corner_turn(before, after)) < FW_SMOOTH_RAD;
+    fw_vec2 u = fw_segment_tangent(before, 1), v = fw_segment_tangent(after, 0);
+    double along = vec_dot(u, v);
+    return along > 0 && fabs(vec_cross(u, v)) < FW_SMOOTH_RAD * along;
 }
 
 /* is the distance stationary or least at this end of the chord? u points along the chord, away */
@@ -139,40 +142,62 @@ static double own_clearance(const fw_segment *s, bool inside) {
     return round && (s->sweep_rad > 0) == inside ? 2 * s->radius : HUGE_VAL;
 }
 
+typedef struct nearest { /* the shortest chord so far, and between which segments */
+    double least;
+    int i, j;
+} nearest;
+
+static void look_at_pair(const search *in, int p, int q, double gap, nearest *best) {
+    double here = pair_clearance(in, p, q, best->least, gap);
+    if (here < best->least) *best = (nearest){here, p, q};
+}
+
+static bool is_joint(const fw_segment *s) {
+    return s->flags & FW_SEGMENT_JOINT;
+}
+
+/* segment p itself and with those behind it that are no neighbours; box: of the first `boxed` */
+static void look_beyond(const search *in, int p, const fw_box *box, int boxed, nearest *best) {
+    const fw_contour *c = in->contour;
+    fw_box own = p < boxed ? box[p] : fw_segment_box(&c->segment[p]);
+    double alone = own_clearance(&c->segment[p], in->inside);
+    if (alone < best->least) *best = (nearest){alone, p, p};
+    int end = p == 0 ? c->count - 1 : c->count;
+    for (int q = p + 2; q < end; q++) {
+        const fw_segment *other = &c->segment[q];
+        fw_box there = q < boxed ? box[q] : fw_segment_box(other);
+        if (there.x0 - own.x1 >= best->least || own.x0 - there.x1 >= best->least) continue;
+        double gap = fw_box_gap(own, there);
+        if (gap >= best->least || is_joint(other)) continue;
+        if (fw_segment_clear_of(&c->segment[p], &there) >= best->least ||
+            fw_segment_clear_of(other, &own) >= best->least)
+            continue;
+        look_at_pair(in, p, q, gap, best);
+    }
+}
+
 double fw_contour_clearance_below(const fw_contour *contour, bool inside, double limit_m, int *i,
                                   int *j) {
     search in = {contour, inside};
-    double least = limit_m;
-    int best_i = -1, best_j = -1, boxed = contour->count < FEW ? contour->count : FEW;
+    nearest best = {limit_m, -1, -1};
+    int n = contour->count, boxed = n < FEW ? n : FEW;
     fw_box box[FEW]; /* of the first segments, each asked for many times */
     for (int k = 0; k < boxed; k++)
         box[k] = fw_segment_box(&contour->segment[k]);
-    for (int round = 0; round < 2; round++) /* neighbours last: the limit may then spare them */
-        for (int p = 0; p < contour->count; p++) {
-            const fw_segment *s = &contour->segment[p];
-            if (s->flags & FW_SEGMENT_JOINT) continue;
-            if (round == 0 && own_clearance(s, inside) < least) {
-                least = own_clearance(s, inside);
-                best_i = best_j = p;
-            }
-            fw_box own = p < boxed ? box[p] : fw_segment_box(s);
-            for (int q = p + 1; q < contour->count; q++) {
-                const fw_segment *other = &contour->segment[q];
-                bool beside = q == p + 1 || (p == 0 && q == contour->count - 1);
-                if (beside != (round == 1) || other->flags & FW_SEGMENT_JOINT) continue;
-                double gap = fw_box_gap(own, q < boxed ? box[q] : fw_segment_box(other));
-                if (gap >= least) continue;
-                double here = pair_clearance(&in, p, q, least, gap);
-                if (here < least) {
-                    least = here;
-                    best_i = p;
-                    best_j = q;
-                }
-            }
+    for (int p = 0; p < n; p++)
+        if (!is_joint(&contour->segment[p])) look_beyond(&in, p, box, boxed, &best);
+    for (int p = 0; p < n; p++) /* neighbours last: the limit may then spare them */
+        for (int k = 0; k < 2; k++) {
+            int q = k == 0 ? p + 1 : n - 1; /* the first one is the last one's neighbour, too */
+            if (q >= n || q <= p || (k == 1 && (p > 0 || q == p + 1))) continue;
+            if (is_joint(&contour->segment[p]) || is_joint(&contour->segment[q])) continue;
+            double gap = fw_box_gap(fw_segment_box(&contour->segment[p]),
+                                    fw_segment_box(&contour->segment[q]));
+            if (gap < best.least) look_at_pair(&in, p, q, gap, &best);
         }
-    if (i) *i = best_i;
-    if (j) *j = best_j;
-    return least;
+    if (i) *i = best.i;
+    if (j) *j = best.j;
+    return best.least;
 }
 
 double fw_contour_clearance(const fw_contour *contour, bool inside, int *i, int *j) {

@@ -91,6 +91,10 @@ fw_moments fw_region_moments(const fw_region *region);
 bool fw_contour_contains(const fw_contour *contour, fw_vec2 point); /* boundary: either answer */
 /* least distance between two outlines, and where; 0 when they cross */
 double fw_contour_distance(const fw_contour *p, const fw_contour *q, fw_vec2 *at_p, fw_vec2 *at_q);
+/* the same where it is less than a limit; else the limit. Cost: pairs of segments whose boxes are
+   nearer than that */
+double fw_contour_distance_below(const fw_contour *p, const fw_contour *q, double limit_m,
+                                 fw_vec2 *at_p, fw_vec2 *at_q);
 /* least distance between segments of one outline that are not neighbours (space or width), with the
    indices of the two; `inside` true: through material (width), false: through the outside (space).
    Counted are chords between edges that face each other (outward normals more than 90 degrees

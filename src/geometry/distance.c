@@ -93,15 +93,12 @@ double fw_concentric_gap(const fw_segment *p, const fw_segment *q, fw_vec2 *alon
     return HUGE_VAL;
 }
 
-double fw_segment_distance(const fw_segment *p, const fw_segment *q, fw_vec2 *at_p, fw_vec2 *at_q) {
-    fw_hit hit[FW_MOST_HITS];
-    if (fw_segment_intersect(p, q, hit) > 0) {
-        *at_p = *at_q = hit[0].at;
-        return 0;
-    }
+/* the least of all chords; HUGE_VAL: none was nearer than `limit` */
+static double nearest_chord(const fw_segment *p, const fw_segment *q, double limit, fw_vec2 *at_p,
+                            fw_vec2 *at_q) {
     fw_chord chord[FW_MOST_CHORDS];
     int n = fw_segment_chords(p, q, chord);
-    double least = HUGE_VAL;
+    double least = limit;
     for (int i = 0; i < n; i++) {
         double length = vec_distance(chord[i].at_p, chord[i].at_q);
         if (length < least) {
@@ -113,25 +110,61 @@ double fw_segment_distance(const fw_segment *p, const fw_segment *q, fw_vec2 *at
     return least;
 }
 
-double fw_contour_distance(const fw_contour *p, const fw_contour *q, fw_vec2 *at_p, fw_vec2 *at_q) {
-    double least = HUGE_VAL;
-    fw_vec2 best_p = {0, 0}, best_q = {0, 0};
-    fw_box whole = fw_contour_box(q);
-    for (int i = 0; i < p->count; i++) {
-        fw_box box = fw_segment_box(&p->segment[i]);
-        if (q->count == 0 || fw_box_gap(box, whole) >= least) continue;
-        for (int j = 0; j < q->count; j++) {
-            if (fw_box_gap(box, fw_segment_box(&q->segment[j])) >= least) continue;
-            fw_vec2 here, there;
-            double d = fw_segment_distance(&p->segment[i], &q->segment[j], &here, &there);
-            if (d < least) {
-                least = d;
-                best_p = here;
-                best_q = there;
-            }
+double fw_segment_distance(const fw_segment *p, const fw_segment *q, fw_vec2 *at_p, fw_vec2 *at_q) {
+    fw_hit hit[FW_MOST_HITS];
+    if (fw_segment_intersect(p, q, hit) > 0) {
+        *at_p = *at_q = hit[0].at;
+        return 0;
+    }
+    return nearest_chord(p, q, HUGE_VAL, at_p, at_q);
+}
+
+enum { FEW = 96 };
+
+/* the segments of q against one of p whose box is given */
+static double nearest_of(const fw_segment *s, fw_box own, const fw_contour *q, const fw_box *box,
+                         double least, fw_vec2 *at_p, fw_vec2 *at_q) {
+    for (int j = 0; j < q->count; j++) {
+        const fw_segment *t = &q->segment[j];
+        fw_box there = j < FEW ? box[j] : fw_segment_box(t);
+        double gap = fw_box_gap(own, there);
+        if (gap >= least || fw_segment_clear_of(s, &there) >= least ||
+            fw_segment_clear_of(t, &own) >= least)
+            continue;
+        if (gap > 10 * FW_COINCIDENT_M) { /* then they do not touch */
+            least = nearest_chord(s, t, least, at_p, at_q);
+            continue;
         }
+        fw_vec2 here = {0, 0}, across = here;
+        double d = fw_segment_distance(s, t, &here, &across);
+        if (d < least) {
+            least = d;
+            *at_p = here;
+            *at_q = across;
+        }
+    }
+    return least;
+}
+
+double fw_contour_distance_below(const fw_contour *p, const fw_contour *q, double limit_m,
+                                 fw_vec2 *at_p, fw_vec2 *at_q) {
+    double least = limit_m;
+    fw_vec2 best_p = {0, 0}, best_q = {0, 0};
+    fw_box whole = fw_contour_box(q), box[FEW];
+    bool boxed = false;
+    for (int i = 0; i < p->count && q->count > 0; i++) {
+        fw_box own = fw_segment_box(&p->segment[i]);
+        if (fw_box_gap(own, whole) >= least) continue;
+        for (int j = 0; !boxed && j < q->count && j < FEW; j++)
+            box[j] = fw_segment_box(&q->segment[j]);
+        boxed = true;
+        least = nearest_of(&p->segment[i], own, q, box, least, &best_p, &best_q);
     }
     if (at_p) *at_p = best_p;
     if (at_q) *at_q = best_q;
     return least;
+}
+
+double fw_contour_distance(const fw_contour *p, const fw_contour *q, fw_vec2 *at_p, fw_vec2 *at_q) {
+    return fw_contour_distance_below(p, q, HUGE_VAL, at_p, at_q);
 }

@@ -83,6 +83,7 @@ static void plan_corner(const fw_segment *before, const fw_segment *after, doubl
 static bool rolls_past(const fw_segment *p, const fw_segment *s, const fw_segment *q,
                        double convex_m, double concave_m) {
     fillet first, second, both;
+    if (fw_segment_length(s) > fmax(convex_m, concave_m)) return false; /* of either corner */
     plan_corner(p, s, convex_m, concave_m, &first);
     plan_corner(s, q, convex_m, concave_m, &second);
     plan_corner(p, q, convex_m, concave_m, &both);

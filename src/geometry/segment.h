@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Vectors, and what can be asked of one or two segments: the parts of this room, shared with the exact
-   rule checks of mask/. */
+/* Vectors, and what can be asked of one or two segments: the parts of this room, shared with the
+   exact rule checks of mask/. */
 #ifndef FW_GEOMETRY_SEGMENT_H
 #define FW_GEOMETRY_SEGMENT_H
 #include "geometry/contour.h"
@@ -68,7 +68,6 @@ double fw_segment_parameter(const fw_segment *s, fw_vec2 on); /* of a point on t
 double fw_segment_nearest(const fw_segment *s, fw_vec2 from, double *t, fw_vec2 *at);
 /* does the ray from the arc's centre along `direction` meet the arc (ends included)? */
 bool fw_segment_faces(const fw_segment *arc, fw_vec2 direction, double *t);
-fw_box fw_segment_box(const fw_segment *s);
 fw_segment fw_segment_reverse(const fw_segment *s);
 /* the part between two parameters, with end points already known */
 fw_segment fw_segment_cut(const fw_segment *s, double t0, fw_vec2 p0, double t1, fw_vec2 p1);
@@ -103,8 +102,32 @@ double fw_segment_distance(const fw_segment *p, const fw_segment *q, fw_vec2 *at
 
 /* turns of the contour about the point, counter-clockwise positive */
 int fw_contour_winding(const fw_contour *contour, fw_vec2 point);
-double fw_box_gap(fw_box p, fw_box q); /* least distance between two boxes */
-fw_box fw_box_join(fw_box p, fw_box q);
+
+/* of numbers: fmin and fmax without their calls */
+static inline double fw_lesser(double p, double q) {
+    return p < q ? p : q;
+}
+static inline double fw_greater(double p, double q) {
+    return p > q ? p : q;
+}
+/* least distance between two boxes */
+static inline double fw_box_gap(fw_box p, fw_box q) {
+    double x = fw_greater(fw_greater(p.x0 - q.x1, q.x0 - p.x1), 0);
+    double y = fw_greater(fw_greater(p.y0 - q.y1, q.y0 - p.y1), 0);
+    return x > 0 && y > 0 ? sqrt(x * x + y * y) : x + y;
+}
+static inline fw_box fw_box_join(fw_box p, fw_box q) {
+    return (fw_box){fw_lesser(p.x0, q.x0), fw_lesser(p.y0, q.y0), fw_greater(p.x1, q.x1),
+                    fw_greater(p.y1, q.y1)};
+}
+fw_box fw_arc_box(const fw_segment *arc, fw_box ends);
+static inline fw_box fw_segment_box(const fw_segment *s) {
+    fw_box box = {fw_lesser(s->a.x, s->b.x), fw_lesser(s->a.y, s->b.y), fw_greater(s->a.x, s->b.x),
+                  fw_greater(s->a.y, s->b.y)};
+    return s->kind == FW_LINE ? box : fw_arc_box(s, box);
+}
+/* a lower bound of the distance between an arc and anything in the box; 0 of a line */
+double fw_segment_clear_of(const fw_segment *s, const fw_box *box);
 /* turn at the corner where `before` ends and `after` begins, > 0 to the left (convex) */
 double fw_corner_turn(const fw_segment *before, const fw_segment *after);
 /* closed, joined bit for bit, finite, every segment well formed */

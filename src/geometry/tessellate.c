@@ -3,8 +3,8 @@
 #include "geometry/flatten.h"
 #include <string.h>
 
-#define LEAST_SAGITTA_M 1.42e-9 /* below it rounding can turn an arc's corners the wrong way */
-enum { FEW_SEGMENTS = 16 };     /* planned on the stack */
+#define PROVEN_SAGITTA_M 0.3536e-9 /* g sqrt 2 / 4: rounding cannot turn such chords' corners */
+enum { FEW_SEGMENTS = 16 };        /* planned on the stack */
 static const double FARTHEST_DBU = 1073741823.0;
 
 typedef struct builder {
@@ -40,20 +40,55 @@ static void add(builder *b, fw_point p, bool fixed) {
     if (b->count == 1) b->first_fixed |= b->fixed;
 }
 
+/* Do the rounded corners of an arc's chords keep the sense of the arc? From one end to the other,
+   both included; a corner that rounding made straight has gone. Exact integers. */
+static bool keeps_sense(const fw_point *inner, int n, fw_point start, fw_point end, bool left) {
+    fw_point p = start, q = start;
+    for (int i = 0; i <= n; i++) {
+        fw_point r = i < n ? inner[i] : end;
+        if (same_point(q, r)) continue;
+        int64_t ax = (int64_t)q.x_dbu - p.x_dbu, ay = (int64_t)q.y_dbu - p.y_dbu;
+        int64_t bx = (int64_t)r.x_dbu - q.x_dbu, by = (int64_t)r.y_dbu - q.y_dbu;
+        int64_t turn = ax * by - ay * bx;
+        if ((left ? turn < 0 : turn > 0) || (turn == 0 && ax * bx + ay * by < 0)) return false;
+        p = q, q = r;
+    }
+    return true;
+}
+
+/* Rounding n up leaves a sagitta of eps/4 at worst (n = 2). From 0.354 nm on the corners are safe
+   whatever the radius is; below, it is looked at what became of them. False: one turned; *next_m is
+   the sagitta of one chord less. */
+static bool arc_proven(const fw_chords *c, const fw_segment *s, double tolerance_m,
+                       const fw_point *inner, fw_point start, double *next_m) {
+    double sine = sin(0.25 * fabs(c->arc.sweep_rad) / c->n);
+    if (c->n < 2 || tolerance_m >= 4 * PROVEN_SAGITTA_M ||
+        2 * c->arc.radius * sine * sine >= PROVEN_SAGITTA_M)
+        return true;
+    fw_point end = {fw_round_half_up(s->b.x * FW_GRID_PER_M),
+                    fw_round_half_up(s->b.y * FW_GRID_PER_M)};
+    sine = sin(0.25 * fabs(c->arc.sweep_rad) / (c->n - 1));
+    *next_m = 2 * c->arc.radius * sine * sine;
+    return keeps_sense(inner, c->n - 1, start, end, s->sweep_rad > 0);
+}
+
 /* Inner vertices of an arc. Of a clean one (flatten.h) only the first can make its start needless
    or repeat it; then, and where rounding can do more, one by one. */
-static void add_arc(builder *b, const fw_chords *c) {
-    if (c->n < 2) return;
+static bool add_arc(builder *b, const fw_chords *c, const fw_segment *s, double tolerance_m,
+                    double *next_m) {
+    if (c->n < 2) return true;
     fw_point *first = b->vertex + b->count, start = first[-1];
     fw_flatten_points(c, first);
+    if (!arc_proven(c, s, tolerance_m, first, start, next_m)) return false;
     bool goes = b->count > 1 && !b->fixed && on_the_way(first[-2], start, first[0]);
     if (c->clean && !goes && !same_point(start, first[0])) {
         b->count += c->n - 1;
         b->fixed = false;
-        return;
+        return true;
     }
     for (int i = 0; i < c->n - 1; i++)
         add(b, first[i], false);
+    return true;
 }
 
 /* where the last vertex meets the first */
@@ -83,7 +118,7 @@ static bool in_range(const fw_box *box, double tolerance_m) {
 static void plan_arcs(const fw_contour *contour, double tolerance_m, fw_flattening kind,
                       fw_chords *chords, double *most, double *length_m, fw_flat_bounds *bounds) {
     *most = *length_m = 0;
-    *bounds = (fw_flat_bounds){0, 0};
+    *bounds = (fw_flat_bounds){.wavy = -1};
     for (int i = 0; i < contour->count; i++) {
         const fw_segment *s = &contour->segment[i];
         if (s->kind == FW_LINE) {
@@ -110,21 +145,26 @@ static void bound_rounding(double length_m, int n, const fw_box *box, fw_flat_bo
     bounds->edge_m = bounds->edge_m * (1 + 1e-9) + FW_SNAP_M;
 }
 
-static void run_along(builder *b, const fw_contour *contour, const fw_chords *chords) {
+/* the arc whose corners rounding turned, or -1 */
+static int run_along(builder *b, const fw_contour *contour, const fw_chords *chords,
+                     double tolerance_m, double *next_m) {
     for (int i = 0; i < contour->count; i++) {
         const fw_segment *s = &contour->segment[i];
         const fw_segment *before = &contour->segment[i > 0 ? i - 1 : contour->count - 1];
         fw_point a = {fw_round_half_up(s->a.x * FW_GRID_PER_M),
                       fw_round_half_up(s->a.y * FW_GRID_PER_M)};
         add(b, a, (s->flags | before->flags) & FW_SEGMENT_JOINT);
-        if (s->kind == FW_ARC) add_arc(b, &chords[i]);
+        if (s->kind == FW_ARC && !add_arc(b, &chords[i], s, tolerance_m, next_m)) return i;
     }
+    return -1;
 }
 
 fw_status fw_flatten(fw_arena *arena, const fw_contour *contour, double tolerance_m,
                      fw_flattening kind, fw_polygon *polygon, fw_flat_bounds *bounds) {
     *polygon = (fw_polygon){0};
-    if (!(tolerance_m >= LEAST_SAGITTA_M) || !isfinite(tolerance_m)) return FW_INPUT;
+    if (bounds) *bounds = (fw_flat_bounds){.wavy = -1};
+    if (!(tolerance_m >= FW_LEAST_TOLERANCE_M * (1 - 1e-12)) || !isfinite(tolerance_m))
+        return FW_INPUT;
     if (!fw_contour_valid(contour)) return FW_GEOMETRY;
     fw_box box = fw_contour_box(contour);
     if (!in_range(&box, tolerance_m)) return FW_LIMIT;
@@ -137,7 +177,11 @@ fw_status fw_flatten(fw_arena *arena, const fw_contour *contour, double toleranc
     if (!(most < 1e9)) return FW_LIMIT;
     builder b = {.vertex = fw_arena_array(arena, fw_point, (size_t)most)};
     FW_NEED(b.vertex);
-    run_along(&b, contour, chords);
+    proven.wavy = run_along(&b, contour, chords, tolerance_m, &proven.next_m);
+    if (proven.wavy >= 0) {
+        if (bounds) *bounds = proven;
+        return FW_GEOMETRY;
+    }
     fw_point *vertex = closed(&b);
     if (b.count < 3) return FW_GEOMETRY;
     bound_rounding(length_m, (int)most, &box, &proven);

@@ -5,7 +5,7 @@
    areas are kept), all arcs start and end on exact joints; then each vertex is rounded to the grid
    (half up, the same for both pieces that share it). Bounds (docs/theory/contours.md): vertex error
    <= 0.707 g; edge error <= eps + 0.707 g; area error <= perimeter (eps + 0.707 g); arcs keep
-   one-signed turns when eps >= 1.42 g. */
+   one-signed turns: for eps >= 1.42 g always, from 0.36 g on where that is proven of each arc. */
 #ifndef FW_GEOMETRY_TESSELLATE_H
 #define FW_GEOMETRY_TESSELLATE_H
 #include "geometry/contour.h"
@@ -29,18 +29,26 @@ typedef enum fw_flattening {
 typedef struct fw_flat_bounds { /* proven of the polygon, rounding included */
     double edge_m;              /* no point of an edge is farther from the outline */
     double area_m2;             /* |area of the polygon - area of the outline| */
+    int wavy; /* where nothing is proven (FW_GEOMETRY): the arc whose corners rounding turned */
+    double next_m; /* and the tolerance that takes one chord less for it; else -1 */
 } fw_flat_bounds;
 
-/* Flattens an outline. tolerance_m: farthest that a chord may be from its arc, >= 1.42 nm (else
-   FW_INPUT), before rounding to the grid of 1e-9 m. bounds may be NULL. For the rest see
-   fw_tessellate. */
+/* below, chords between vertices on the grid cannot keep the sense of any long arc */
+#define FW_LEAST_TOLERANCE_M 0.36e-9
+/* from here on they do whatever the arc is; between, it depends on radius, sweep and place */
+#define FW_SAFE_TOLERANCE_M 1.42e-9
+
+/* Flattens an outline. tolerance_m: farthest that a chord may be from its arc, at least
+   FW_LEAST_TOLERANCE_M (else FW_INPUT), before rounding to the grid of 1e-9 m. Below
+   FW_SAFE_TOLERANCE_M: FW_GEOMETRY where an arc's corners turn the wrong way (bounds->wavy). bounds
+   may be NULL. For the rest see fw_tessellate. */
 fw_status fw_flatten(fw_arena *arena, const fw_contour *contour, double tolerance_m,
                      fw_flattening kind, fw_polygon *polygon, fw_flat_bounds *bounds);
 
-/* the same with vertices on the arcs. tolerance_m is the sagitta eps >= 1.42 nm (else FW_INPUT);
-   grid 1e-9 m. Vertices that lie exactly on the way between their neighbours are left out, except
-   the ends of JOINT segments. A clockwise outline gives a clockwise polygon. FW_LIMIT: a coordinate
-   of 2^30 or more; FW_GEOMETRY: fewer than three vertices are left. */
+/* the same with vertices on the arcs. tolerance_m is the sagitta eps; grid 1e-9 m. Vertices that
+   lie exactly on the way between their neighbours are left out, except the ends of JOINT segments.
+   A clockwise outline gives a clockwise polygon. FW_LIMIT: a coordinate of 2^30 or more;
+   FW_GEOMETRY: fewer than three vertices are left. */
 fw_status fw_tessellate(fw_arena *arena, const fw_contour *contour, double tolerance_m,
                         fw_polygon *polygon);
 /* twice the signed area in dbu^2, exact (|coordinate| < 2^30) */

@@ -371,7 +371,7 @@ bool fw_near_stator(const fw_drawing *d, const fw_contour *c, double space_m) {
     for (int i = 0; i < d->ncomb; i++) {
         const fw_contour *s = &d->comb[i].stator;
         if (d->comb[i].off || s->count == 0) continue;
-        if (fw_contour_distance(s, c, NULL, NULL) < space_m ||
+        if (fw_contour_distance_below(s, c, space_m, NULL, NULL) < space_m ||
             fw_contour_contains(c, s->segment[0].a))
             return true;
     }

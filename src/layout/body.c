@@ -77,7 +77,7 @@ static fw_status cut_free(fw_drawing *d, int body, const fw_contour *part, const
         if (h->lower == body || h->upper == body) radius += fw_head_wider(side_of(d, j, body));
         FW_TRY(fw_contour_disc(d->arena, h->centre, radius, &disc));
         if (!fw_contour_contains(part, h->centre) &&
-            fw_contour_distance(part, &disc, NULL, NULL) > 0.0)
+            fw_contour_distance_below(part, &disc, 1e-9, NULL, NULL) > 0.0)
             continue;
         fw_region hole = {&disc, 1}, left;
         FW_TRY(fw_region_boolean(d->arena, &region, &hole, FW_DIFFERENCE, &left));
@@ -100,6 +100,35 @@ static fw_status plate_parts(fw_drawing *d, int body, parts *out) {
     return cut_free(d, body, &plate, NULL, 0, out);
 }
 
+/* Where the spokes of a body with more than two hinges meet: in the middle of them. With hinges in
+   line one of them is in the way of the others' spokes there; then (beside: only for bodies that
+   cannot be drawn otherwise) the hub stands beside the line, on the side where no other body
+   leaves, clear of the longest flexure. test_layout_hubs.c */
+fw_vec2 fw_body_hub(const fw_drawing *d, int body) {
+    const fw_device *device = d->device;
+    fw_vec2 sum = fw_v(0.0, 0.0), along = sum, others = sum, first = sum;
+    double clear = 0.0;
+    int n = 0;
+    for (int j = 0; j < device->njoint; j++) {
+        const fw_joint *t = &device->joint[j];
+        if (t->body_a != body && t->body_b != body) continue;
+        fw_vec2 p = fw_joint_point(device, j);
+        int other = t->body_a == body ? t->body_b : t->body_a;
+        if (n++ == 0) first = p;
+        if (fw_norm(fw_sub(p, first)) > fw_norm(along)) along = fw_sub(p, first);
+        if (other >= 0 && isfinite(device->body[other].x_m + device->body[other].y_m))
+            others = fw_add(others, 1.0,
+                            fw_sub(fw_v(device->body[other].x_m, device->body[other].y_m), p));
+        clear = fmax(clear, device->flexure[t->flexure].length_m);
+        sum = fw_add(sum, 1.0, p);
+    }
+    fw_vec2 hub = fw_v(sum.x / n, sum.y / n);
+    if (!d->beside || !d->beside[body]) return hub;
+    double size = fw_norm(along);
+    fw_vec2 out = size > 0.0 ? fw_left(fw_v(along.x / size, along.y / size)) : fw_v(0.0, 1.0);
+    return fw_add(hub, (fw_dot(out, others) > 0.0 ? -1.0 : 1.0) * (clear + 100e-6), out);
+}
+
 static fw_status bar_parts(fw_drawing *d, int body, const int *joint, int njoint, parts *out) {
     fw_contour bar;
     if (njoint == 2) {
@@ -113,6 +142,7 @@ static fw_status bar_parts(fw_drawing *d, int body, const int *joint, int njoint
         hub = fw_add(hub, 1.0 / njoint, p);
         half = side_of(d, joint[i], body)->half_width_m;
     }
+    if (njoint > 2 && body >= 0) hub = fw_body_hub(d, body);
     if (njoint == 1 && body >= 0) hub = fw_v(d->device->body[body].x_m, d->device->body[body].y_m);
     if (njoint == 1 && body < 0) { /* the pedestal takes over before the frame */
         const fw_side *side = side_of(d, joint[0], body);
@@ -211,10 +241,10 @@ static fw_status unite_all(fw_drawing *d, const work *w) {
 }
 enum { LUG_SHIFTS = 5 };
 
-/* least width or space over its limit, and where */
+/* least width or space over its limit, and where; HUGE_VAL and nowhere above the limit */
 static double share(const fw_contour *c, bool inside, double limit_m, fw_vec2 *where) {
     int i, j;
-    double least = fw_contour_clearance(c, inside, &i, &j);
+    double least = fw_contour_clearance_below(c, inside, limit_m, &i, &j);
     if (i < 0) return HUGE_VAL;
     fw_vec2 other;
     *where = c->segment[i].a;
@@ -235,7 +265,7 @@ static double arc_limit(const fw_contour *c, int i) {
 }
 
 /* How far an outline is from what a mask can show: the least of width, space and radius, each over
-   its limit; >= 1 is good. */
+   its limit; >= 1 is good, and says nothing more. */
 double fw_body_soundness(const fw_contour *c, fw_vec2 *where) {
     fw_vec2 slit = *where;
     double least = share(c, true, FW_OWN_WIDTH_M, where);

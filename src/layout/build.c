@@ -111,6 +111,33 @@ static fw_status draw_ground(fw_drawing *d, fw_status *base) {
     }
 }
 
+static bool has_hub(const fw_device *device, int body) {
+    return isnan(device->body[body].plate_width_m) && fw_body_joints(device, body, NULL, 0) > 2;
+}
+
+/* Bodies whose hinges stand in the way of their own spokes get the hub beside them. Tried without a
+   word, and all is drawn anew. */
+static fw_status choose_hubs(fw_drawing *d) {
+    const fw_device *device = d->device;
+    fw_diags *said = d->diags, unsaid = fw_diags_new(d->arena);
+    bool any = false;
+    for (int b = 0; b < device->nbody; b++)
+        any = any || has_hub(device, b);
+    if (!any) return FW_OK;
+    FW_NEED(d->beside = fw_arena_array(d->arena, bool, (size_t)device->nbody));
+    d->diags = &unsaid;
+    fw_status status = fw_hinges_plan(d);
+    for (int b = 0; status == FW_OK && b < device->nbody; b++) {
+        if (!has_hub(device, b)) continue;
+        fw_status drawn = fw_body_draw(d, b, FW_NONE, NULL, 0);
+        if (drawn != FW_OK && drawn != FW_GEOMETRY) status = drawn;
+        d->beside[b] = drawn == FW_GEOMETRY;
+    }
+    d->diags = said;
+    d->nlug = 0;
+    return status == FW_GEOMETRY ? FW_OK : status; /* the hinges themselves: said later */
+}
+
 static fw_status draw(fw_drawing *d) {
     const fw_device *device = d->device;
     int nground = fw_body_joints(device, FW_GROUND, NULL, 0);
@@ -123,6 +150,7 @@ static fw_status draw(fw_drawing *d) {
     FW_NEED(d->plain = fw_arena_array(d->arena, fw_contour, slots));
     FW_NEED(d->held = fw_arena_array(d->arena, fw_contour, slots));
     FW_NEED(d->corner_m = fw_arena_array(d->arena, double, slots));
+    FW_TRY(choose_hubs(d));
     FW_TRY(fw_hinges_plan(d));
     FW_TRY(fw_actuators_plan(d));
     for (int b = 0; b < device->nbody; b++) { /* all refusals in one run */
@@ -176,6 +204,7 @@ fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *di
     l->why_not = missing(arena, device, &failed);
     if (failed) return FW_NOMEM;
     if (!l->why_not) {
+        l->fill = device->die.fill;
         fw_drawing d = {.arena = arena, .device = device, .diags = diags, .layout = l};
         say_ties(device, diags);
         for (size_t i = 0; i < diags->count; i++)

@@ -5,13 +5,30 @@
 
 enum { MOST_CROSSINGS = 64, MOST_REACHES = 256, RADII = 400 };
 
-static int add_angle(double *angle, int n, fw_vec2 p) {
-    if (n < MOST_CROSSINGS) angle[n++] = atan2(p.y, p.x);
+typedef struct crossing { /* of an outline with a circle, from its centre */
+    fw_vec2 at;
+    double angle_rad; /* NaN: not computed yet */
+} crossing;
+
+static int add_crossing(crossing *list, int n, fw_vec2 p) {
+    if (n < MOST_CROSSINGS) list[n++] = (crossing){p, (double)NAN};
     return n;
 }
 
+/* p is on the arc's circle. By cross products with the ends; by the angle where these say nothing
+ */
 static bool on_arc(const fw_segment *s, fw_vec2 p) {
-    fw_vec2 a = fw_sub(s->a, s->centre), b = fw_sub(p, s->centre);
+    fw_vec2 a = fw_sub(s->a, s->centre), b = fw_sub(p, s->centre), c = fw_sub(s->b, s->centre);
+    double side = s->sweep_rad > 0.0 ? 1.0 : -1.0, sweep = fabs(s->sweep_rad);
+    double from = side * (a.x * b.y - a.y * b.x), to = side * (b.x * c.y - b.y * c.x);
+    double margin = 1e-9 * s->radius * s->radius;
+    if (sweep < 3.14) {
+        if (from < -margin || to < -margin) return false;
+        if (from > margin && to > margin) return true;
+    } else if (sweep > 3.15) {
+        if (from > margin || to > margin) return true;
+        if (from < -margin && to < -margin) return false;
+    }
     double turn = atan2(a.x * b.y - a.y * b.x, fw_dot(a, b));
     if (s->sweep_rad > 0.0 && turn < 0.0) turn += 2.0 * M_PI;
     if (s->sweep_rad < 0.0 && turn > 0.0) turn -= 2.0 * M_PI;
@@ -19,31 +36,58 @@ static bool on_arc(const fw_segment *s, fw_vec2 p) {
 }
 
 typedef struct reach { /* distances from a centre between which a segment lies */
+    const fw_segment *segment;
     double least, most;
 } reach;
+typedef struct near_part {    /* of an outline, within a radius about a centre */
+    reach item[MOST_REACHES]; /* by where they begin */
+    int count;
+} near_part;
+typedef struct active { /* those that circles of a growing radius may cross */
+    const reach *item[MOST_REACHES];
+    int count, next;
+} active;
 
-static void reaches(const fw_contour *c, fw_vec2 w, reach *out) {
-    for (int i = 0; i < c->count && i < MOST_REACHES; i++) {
+/* from segment `first` on; returns where to go on, or the number of segments */
+static int find_near(const fw_contour *c, int first, fw_vec2 w, double radius_m, near_part *near) {
+    near->count = 0;
+    for (int i = first; i < c->count; i++) {
         const fw_segment *s = &c->segment[i];
         double a = fw_norm(fw_sub(s->a, w)), b = fw_norm(fw_sub(s->b, w)), far = fmax(a, b);
         if (s->kind == FW_ARC) far = fw_norm(fw_sub(s->centre, w)) + s->radius;
-        out[i] = (reach){fw_segment_nearest(s, w, NULL, NULL) - 1e-9, far + 1e-9};
+        double least = fw_segment_nearest(s, w, NULL, NULL) - 1e-9;
+        if (least > radius_m) continue;
+        if (near->count == MOST_REACHES) return i;
+        int k = near->count++;
+        for (; k > 0 && near->item[k - 1].least > least; k--)
+            near->item[k] = near->item[k - 1];
+        near->item[k] = (reach){s, least, far + 1e-9};
     }
+    return c->count;
 }
 
-/* angles about w at which an outline crosses the circle of radius q */
-static int crossings(const fw_contour *c, const reach *within, fw_vec2 w, double q, double *angle) {
+/* radius q is larger than ever before */
+static void advance(active *a, const near_part *near, double q) {
     int n = 0;
-    for (int i = 0; i < c->count; i++) {
-        const fw_segment *s = &c->segment[i];
-        if (i < MOST_REACHES && (q < within[i].least || q > within[i].most)) continue;
+    for (int i = 0; i < a->count; i++)
+        if (q <= a->item[i]->most) a->item[n++] = a->item[i];
+    for (; a->next < near->count && q >= near->item[a->next].least; a->next++)
+        if (q <= near->item[a->next].most) a->item[n++] = &near->item[a->next];
+    a->count = n;
+}
+
+/* where an outline crosses the circle of radius q about w */
+static int crossings(const active *now, fw_vec2 w, double q, crossing *list) {
+    int n = 0;
+    for (int i = 0; i < now->count; i++) {
+        const fw_segment *s = now->item[i]->segment;
         if (s->kind == FW_LINE) {
             fw_vec2 a = fw_sub(s->a, w), d = fw_sub(s->b, s->a);
             double dd = fw_dot(d, d), b = fw_dot(a, d), in = b * b - dd * (fw_dot(a, a) - q * q);
             if (in < 0.0 || dd <= 0.0) continue;
             for (int sign = -1; sign <= 1; sign += 2) {
                 double t = (-b + sign * sqrt(in)) / dd;
-                if (t >= 0.0 && t <= 1.0) n = add_angle(angle, n, fw_add(a, t, d));
+                if (t >= 0.0 && t <= 1.0) n = add_crossing(list, n, fw_add(a, t, d));
             }
         } else {
             fw_vec2 to = fw_sub(s->centre, w);
@@ -55,29 +99,61 @@ static int crossings(const fw_contour *c, const reach *within, fw_vec2 w, double
             fw_vec2 e = fw_v(to.x / far, to.y / far), f = fw_left(e);
             for (int sign = -1; sign <= 1; sign += 2) {
                 fw_vec2 p = fw_add(fw_v(x * e.x, x * e.y), sign * sqrt(y2), f);
-                if (on_arc(s, fw_add(w, 1.0, p))) n = add_angle(angle, n, p);
+                if (on_arc(s, fw_add(w, 1.0, p))) n = add_crossing(list, n, p);
             }
         }
     }
     return n;
 }
 
+/* |angle| less whole turns, of an angle between -2 pi and 2 pi; the subtraction is exact */
+static double turned_least(double angle) {
+    double size = fabs(angle);
+    return size <= M_PI ? size : 2.0 * M_PI - size;
+}
+
+static double angle_of(crossing *c) {
+    if (isnan(c->angle_rad)) c->angle_rad = atan2(c->at.y, c->at.x);
+    return c->angle_rad;
+}
+
+/* angles are computed only of crossings that by their cosine may be nearer than all before */
+static double least_rotation(const near_part *p, const near_part *q, fw_vec2 w, double radius_m) {
+    crossing a[MOST_CROSSINGS], b[MOST_CROSSINGS];
+    active of_p = {.count = 0}, of_q = {.count = 0};
+    double least = M_PI, cosine = -2.0;
+    for (int k = 1; k <= RADII; k++) {
+        double circle = radius_m * k / RADII;
+        advance(&of_p, p, circle);
+        advance(&of_q, q, circle);
+        if (of_p.count == 0 || of_q.count == 0) continue;
+        int na = crossings(&of_p, w, circle, a);
+        int nb = na ? crossings(&of_q, w, circle, b) : 0;
+        for (int i = 0; i < na; i++)
+            for (int j = 0; j < nb; j++) {
+                double here = fw_dot(a[i].at, b[j].at) / (circle * circle);
+                if (here < cosine - 1e-9) continue;
+                cosine = fmax(cosine, here);
+                least = fmin(least, turned_least(angle_of(&a[i]) - angle_of(&b[j])));
+            }
+    }
+    return least;
+}
+
 /* least angle about w between an edge of p and an edge of q, over 400 circles up to radius_m: one
-   of the two bodies can turn by it before the outlines touch error: what lies between two circles
-   (0.25 % of radius_m); cost 400 * (edges of p and q) docs/theory/layout.md, section 3;
-   test_layout.c free_rotation_of_two_sectors */
+   of the two bodies can turn by it before the outlines touch. Error: what lies between two circles
+   (0.25 % of radius_m). Cost: 400 times the edges of p and q within radius_m.
+   docs/theory/layout.md, section 3; test_layout.c free_rotation_of_two_sectors */
 double fw_layout_free_rotation(fw_vec2 w, const fw_contour *p, const fw_contour *q,
                                double radius_m) {
-    double a[MOST_CROSSINGS], b[MOST_CROSSINGS], least = M_PI;
-    reach of_p[MOST_REACHES], of_q[MOST_REACHES];
-    reaches(p, w, of_p);
-    reaches(q, w, of_q);
-    for (int k = 1; k <= RADII; k++) {
-        int na = crossings(p, of_p, w, radius_m * k / RADII, a);
-        int nb = crossings(q, of_q, w, radius_m * k / RADII, b);
-        for (int i = 0; i < na; i++)
-            for (int j = 0; j < nb; j++)
-                least = fmin(least, fabs(remainder(a[i] - b[j], 2.0 * M_PI)));
+    near_part of_p, of_q;
+    double least = M_PI;
+    for (int i = 0; i < p->count;) {
+        i = find_near(p, i, w, radius_m, &of_p);
+        for (int j = 0; j < q->count;) {
+            j = find_near(q, j, w, radius_m, &of_q);
+            least = fmin(least, least_rotation(&of_p, &of_q, w, radius_m));
+        }
     }
     return least;
 }
@@ -101,22 +177,19 @@ static double allowed(const fw_drawing *d, int a, int b) {
 
 typedef struct part {
     int body;
-    const char *label;
+    int joint;         /* a flexure; FW_NONE: something else */
+    const char *label; /* NULL of a flexure */
     const fw_contour *contour;
+    fw_box box;
 } part;
 
-static fw_status check_pair(fw_drawing *d, const part *p, const part *q, bool *bad) {
-    fw_vec2 at_p = fw_v(0.0, 0.0), at_q = at_p;
-    double far = fw_contour_distance(p->contour, q->contour, &at_p, &at_q);
-    if (far > 0.0 && (fw_contour_contains(p->contour, q->contour->segment[0].a) ||
-                      fw_contour_contains(q->contour, p->contour->segment[0].a)))
-        far = 0.0; /* one inside the other */
-    d->layout->narrowest_gap_m = fmin(d->layout->narrowest_gap_m, far);
-    double limit = allowed(d, p->body, q->body);
-    if (far >= limit * (1.0 - 1e-9)) return FW_OK;
+static fw_status tell(fw_drawing *d, const part *p, const part *q, double far, fw_vec2 at,
+                      double limit) {
     char a[32], b[32], x[32], y[32];
-    *bad = true;
-    FW_NEED(p->label);
+    const char *label = p->label;
+    if (p->joint != FW_NONE)
+        label = fw_arena_printf(d->arena, "flexure of hinge %s", d->device->joint[p->joint].id);
+    FW_NEED(label);
     FW_NEED(q->label);
     fw_diag_error(d->diags, 120, fw_body_place(d, p->body >= 0 ? p->body : q->body),
                   far > 0.0
@@ -124,44 +197,80 @@ static fw_status check_pair(fw_drawing *d, const part *p, const part *q, bool *b
                         "%s um (layout rule): move the hinges or make bars narrower"
                       : "%s and %s overlap (%s um apart) at (%s, %s) um; parts that move keep "
                         "%s um (layout rule): move the hinges or make bars narrower",
-                  p->label, q->label, fw_layout_um(a, far), fw_layout_um(x, at_p.x),
-                  fw_layout_um(y, at_p.y), fw_layout_um(b, limit));
+                  label, q->label, fw_layout_um(a, far), fw_layout_um(x, at.x),
+                  fw_layout_um(y, at.y), fw_layout_um(b, limit));
+    return FW_OK;
+}
+
+static bool holds(const part *outer, const part *inner) {
+    fw_vec2 p = inner->contour->segment[0].a;
+    fw_box b = outer->box;
+    return p.x >= b.x0 && p.x <= b.x1 && p.y >= b.y0 && p.y <= b.y1 &&
+           fw_contour_contains(outer->contour, p);
+}
+
+/* What is farther apart than the rule and the least gap found so far changes nothing. */
+static fw_status check_pair(fw_drawing *d, const part *p, const part *q, bool *bad) {
+    double *narrowest = &d->layout->narrowest_gap_m, gap = fw_box_gap(p->box, q->box);
+    if (gap >= fmax(FW_LEAST_SPACE_M, *narrowest)) return FW_OK; /* no rule asks for more */
+    double limit = allowed(d, p->body, q->body);
+    fw_vec2 at_p = fw_v(0.0, 0.0);
+    double far =
+        fw_contour_distance_below(p->contour, q->contour, fmax(limit, *narrowest), &at_p, NULL);
+    if (far > 0.0 && (holds(p, q) || holds(q, p))) far = 0.0; /* one inside the other */
+    *narrowest = fmin(*narrowest, far);
+    if (far >= limit * (1.0 - 1e-9)) return FW_OK;
+    *bad = true;
+    return tell(d, p, q, far, at_p, limit);
+}
+
+static part part_of(int body, const char *label, const fw_contour *contour) {
+    return (part){body, FW_NONE, label, contour, fw_contour_box(contour)};
+}
+
+/* bodies, stators and frame: all that must keep apart; *out (returned) */
+static fw_status list_parts(fw_drawing *d, part **out, int *count) {
+    int n = 0, most = d->nslot + d->layout->npiece + d->ncomb;
+    part *all;
+    FW_NEED(all = fw_arena_array(d->arena, part, (size_t)most));
+    for (int s = 0; s < d->nslot; s++) {
+        int body = s < d->device->nbody ? s : FW_GROUND;
+        const char *label;
+        if (d->plain[s].count == 0) continue;
+        FW_NEED((label = fw_body_label(d, body)));
+        all[n++] = part_of(body, label, fw_drawing_outline(d, s));
+    }
+    for (int i = 0; i < d->ncomb; i++)
+        if (!d->comb[i].off)
+            all[n++] = part_of(FW_ISLAND, "the stator of a comb drive", &d->comb[i].stator);
+    for (int i = 0; i < d->layout->npiece; i++) {
+        const fw_piece *piece = &d->layout->piece[i];
+        if (piece->role == FW_ROLE_FRAME)
+            all[n++] = part_of(FW_GROUND, piece->label, &piece->contour);
+    }
+    *out = all;
+    *count = n;
     return FW_OK;
 }
 
 /* every pair of parts that move apart, tethers not counted: they are broken first */
 fw_status fw_clearance_check(fw_drawing *d) {
     const fw_device *device = d->device;
-    int n = 0, most = d->nslot + device->njoint + d->layout->npiece + d->ncomb;
+    int n;
     part *all;
     bool bad = false;
-    FW_NEED(all = fw_arena_array(d->arena, part, (size_t)most));
+    FW_TRY(list_parts(d, &all, &n));
     d->layout->narrowest_gap_m = HUGE_VAL;
-    for (int s = 0; s < d->nslot; s++) {
-        int body = s < device->nbody ? s : FW_GROUND;
-        if (d->plain[s].count == 0) continue;
-        FW_NEED((all[n].label = fw_body_label(d, body)));
-        all[n].body = body;
-        all[n++].contour = fw_drawing_outline(d, s);
-    }
-    for (int i = 0; i < d->ncomb; i++)
-        if (!d->comb[i].off)
-            all[n++] = (part){FW_ISLAND, "the stator of a comb drive", &d->comb[i].stator};
-    for (int i = 0; i < d->layout->npiece; i++) {
-        const fw_piece *piece = &d->layout->piece[i];
-        if (piece->role == FW_ROLE_FRAME)
-            all[n++] = (part){FW_GROUND, piece->label, &piece->contour};
-    }
     for (int i = 0; i < n; i++)
         for (int k = i + 1; k < n; k++)
             if (all[i].body != all[k].body) FW_TRY(check_pair(d, &all[i], &all[k], &bad));
-    for (int j = 0; j < device->njoint; j++) /* flexures and third bodies */
-        for (int i = 0; i < n; i++) {
-            const fw_joint *t = &device->joint[j];
-            if (all[i].body == t->body_a || all[i].body == t->body_b) continue;
-            part flexure = {t->body_a, NULL, &d->hinge[j].flexure};
-            FW_NEED((flexure.label = fw_arena_printf(d->arena, "flexure of hinge %s", t->id)));
-            FW_TRY(check_pair(d, &flexure, &all[i], &bad));
-        }
+    for (int j = 0; j < device->njoint; j++) { /* flexures and third bodies */
+        const fw_joint *t = &device->joint[j];
+        part flexure = part_of(t->body_a, NULL, &d->hinge[j].flexure);
+        flexure.joint = j;
+        for (int i = 0; i < n; i++)
+            if (all[i].body != t->body_a && all[i].body != t->body_b)
+                FW_TRY(check_pair(d, &flexure, &all[i], &bad));
+    }
     return bad ? FW_GEOMETRY : FW_OK;
 }

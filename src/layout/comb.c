@@ -75,7 +75,7 @@ static bool close_by(const fw_contour *p, const fw_contour *q, double space_m, f
     if (q->count == 0 || a.x0 > b.x1 + space_m || b.x0 > a.x1 + space_m || a.y0 > b.y1 + space_m ||
         b.y0 > a.y1 + space_m)
         return false;
-    if (fw_contour_distance(p, q, at, &there) < space_m * (1.0 - 1e-9)) return true;
+    if (fw_contour_distance_below(p, q, space_m, at, &there) < space_m * (1.0 - 1e-9)) return true;
     *at = q->segment[0].a;
     if (fw_contour_contains(p, *at)) return true;
     *at = p->segment[0].a;

@@ -222,7 +222,8 @@ static fw_status annotate(fw_bench *b) {
 static fw_status draw_all(fw_bench *b, const fw_pattern *pattern, int npattern) {
     fw_content *content = b->content;
     for (int i = 0; i < npattern; i++) {
-        if (pattern[i].kind->fills || pattern[i].kind->on_frame) continue;
+        if (pattern[i].kind->fills || pattern[i].kind->on_frame || pattern[i].kind->in_window)
+            continue;
         fw_coupon *c = &content->coupon[content->ncoupon++];
         fw_status status = fw_pattern_draw(b->arena, &pattern[i], b->options->width_rule_m,
                                            b->options->space_rule_m, b->options->bias_m, c);

@@ -37,6 +37,10 @@ fw_status fw_content_build(fw_arena *arena, const fw_pattern *pattern, int npatt
 fw_status fw_content_on_frame(fw_arena *arena, const fw_layout *device, const fw_pattern *pattern,
                               int npattern, double width_rule_m, double space_rule_m,
                               const fw_layout **out, int *left_out);
+/* thief and fill (kinds with in_window) on the frame's pieces, whose outlines are made anew; the
+   layout's own are left alone */
+fw_status fw_content_in_window(fw_arena *arena, const fw_layout *device, const fw_pattern *pattern,
+                               int npattern, fw_piece *piece, int npiece);
 /* appends the die's id as TEXT in the left upright, from below, in lines of what fits there;
    nothing where it has no room. The three last arguments are a growing array. */
 fw_status fw_content_die_id(fw_arena *arena, const fw_layout *device, const char *id,

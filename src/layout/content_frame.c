@@ -37,7 +37,8 @@ static bool is_free(const sheet *s, const fw_contour *place) {
         const fw_piece *p = &s->piece[i];
         if (apart(b, fw_contour_box(&p->contour), in_frame(p) ? BESIDE_M : CLEAR_M)) continue;
         if (in_frame(p)) return false;
-        if (fw_contour_distance(place, &p->contour, NULL, NULL) < CLEAR_M) return false;
+        if (fw_contour_distance_below(place, &p->contour, CLEAR_M, NULL, NULL) < CLEAR_M)
+            return false;
         if (!fw_contour_contains(&p->contour, middle)) continue;
         if (p->role != FW_ROLE_FRAME) return false;
         inside = true;
@@ -95,7 +96,7 @@ fw_status fw_content_on_frame(fw_arena *arena, const fw_layout *device, const fw
     *out = device;
     *left_out = 0;
     for (int i = 0; i < npattern; i++)
-        n += pattern[i].kind->on_frame;
+        n += pattern[i].kind->on_frame + (device->fill && pattern[i].kind->in_window);
     if (n == 0 || !device->drawn) return FW_OK;
     fw_layout *l = fw_arena_one(arena, fw_layout);
     sheet s = {arena, device, NULL, device->npiece, device->npiece + 8};
@@ -116,6 +117,8 @@ fw_status fw_content_on_frame(fw_arena *arena, const fw_layout *device, const fw
                 ++*left_out;
         }
     }
+    if (device->fill)
+        FW_TRY(fw_content_in_window(arena, device, pattern, npattern, s.piece, s.npiece));
     *l = *device;
     l->piece = s.piece;
     l->npiece = s.npiece;

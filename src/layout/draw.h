@@ -191,6 +191,7 @@ typedef struct fw_drawing {
     fw_contour *plain;    /* (nslot) rounded, without tethers */
     fw_contour *held;     /* (nslot) rounded, with the stubs that tethers leave; count 0: none */
     double *corner_m;     /* (nslot) radius of the rounded corners */
+    bool *beside;         /* (nbody) the hub stands beside the hinges; NULL: nowhere */
     int nslot;
     fw_contour *lug; /* (nlug) of the platforms, for the tethers to avoid */
     int nlug;
@@ -226,10 +227,13 @@ fw_status fw_strip_draw(fw_drawing *d, fw_window_side side, double low_start, do
                         double along, double half_m, double stub_m, fw_attachment *out);
 fw_status fw_attachment_add(fw_drawing *d, const fw_attachment *item);
 
+fw_vec2 fw_body_hub(const fw_drawing *d, int body); /* of a body with more than two hinges */
 fw_status fw_hinges_plan(fw_drawing *d);
 fw_status fw_flexure_draw(fw_arena *arena, const fw_flexure *flexure, fw_hinge_plan *plan);
-/* a head that crosses itself, or comes nearer than FW_OWN_SPACE_M to its own flexure beyond the
-   root: of a path, whose roots may point anywhere */
+/* a head that comes nearer than FW_OWN_SPACE_M to its own flexure beyond the root; and of a path,
+   whose roots may point anywhere, one that crosses itself. Of an arc or a leaf, as wide everywhere
+   or not, block and ring may overlap: they become one when the body is united, with another head
+   where that is unsound */
 bool fw_path_in_the_way(const fw_flexure *flexure, const fw_hinge_plan *plan);
 /* draws a head with other free dimensions; false: there is no such row */
 bool fw_head_exists(int choice);

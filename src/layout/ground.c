@@ -6,7 +6,7 @@
 static fw_status clear_of_all(const fw_drawing *d, const fw_contour *strip, bool *clear) {
     *clear = false;
     for (int b = 0; b < d->device->nbody; b++)
-        if (fw_contour_distance(strip, &d->plain[b], NULL, NULL) < 20e-6) return FW_OK;
+        if (fw_contour_distance_below(strip, &d->plain[b], 20e-6, NULL, NULL) < 20e-6) return FW_OK;
     if (fw_near_stator(d, strip, 20e-6)) return FW_OK;
     for (int j = 0; j < d->device->njoint; j++) {
         const fw_hinge_layout *h = &d->layout->hinge[j];
@@ -14,7 +14,8 @@ static fw_status clear_of_all(const fw_drawing *d, const fw_contour *strip, bool
         if (fw_contour_contains(strip, h->centre)) return FW_OK;
         fw_status status = fw_contour_disc(d->arena, h->centre, h->keep_out_m, &disc);
         if (status == FW_NOMEM) return status; /* not a reason to go to another side */
-        if (status != FW_OK || fw_contour_distance(strip, &disc, NULL, NULL) < 10e-6) return FW_OK;
+        if (status != FW_OK || fw_contour_distance_below(strip, &disc, 10e-6, NULL, NULL) < 10e-6)
+            return FW_OK;
     }
     *clear = true;
     return FW_OK;

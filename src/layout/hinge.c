@@ -208,19 +208,18 @@ static fw_status draw_head(fw_arena *arena, const fw_hinge_shape *s, fw_side *si
 /* where a body's material lies, seen from one of its hinges */
 static fw_vec2 body_target(const fw_drawing *d, int body, int joint) {
     const fw_device *device = d->device;
-    fw_vec2 here = fw_joint_point(device, joint), sum = fw_v(0.0, 0.0), other = here;
+    fw_vec2 here = fw_joint_point(device, joint), other = here;
     int n = 0;
     for (int j = 0; j < device->njoint; j++) {
         if (device->joint[j].body_a != body && device->joint[j].body_b != body) continue;
         fw_vec2 p = fw_joint_point(device, j);
-        sum = fw_add(sum, 1.0, p);
         n++;
         if (j != joint) other = p;
     }
     if (body >= 0 && !isnan(device->body[body].plate_width_m))
         return fw_v(device->body[body].plate_x_m, device->body[body].plate_y_m);
     if (n == 2) return other;
-    if (n > 2 && body >= 0) return fw_v(sum.x / n, sum.y / n);
+    if (n > 2 && body >= 0) return fw_body_hub(d, body);
     if (body >= 0) return fw_v(device->body[body].x_m, device->body[body].y_m);
     fw_vec2 out = fw_sub(here, d->centre); /* own base: straight to the frame */
     if (fabs(out.x) > fabs(out.y)) return fw_add(here, out.x > 0.0 ? 1.0 : -1.0, fw_v(1.0, 0.0));

@@ -304,6 +304,8 @@ bool fw_path_in_the_way(const fw_flexure *f, const fw_hinge_plan *plan) {
     fw_course p;
     lay(f, plan->shape[1].fillet_m, &p);
     for (int i = 0; i < 2; i++)
-        if (crosses_itself(&plan->side[i].head) || near_head(&p, plan, i)) return true;
+        if (near_head(&p, plan, i) ||
+            (f->kind == FW_FLEXURE_PATH && crosses_itself(&plan->side[i].head)))
+            return true;
     return false;
 }

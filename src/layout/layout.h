@@ -67,6 +67,7 @@ typedef struct fw_layout {
     fw_box die;             /* outline of the chip with its lane */
     fw_box window;          /* inner edge of the frame */
     double narrowest_gap_m; /* least distance between pieces that move apart */
+    bool fill;              /* the flow's thief and fill are wanted in the window */
 } fw_layout;
 
 /* FW_GEOMETRY when the parts cannot be drawn: diagnostics name both places. */

@@ -6,12 +6,12 @@
 #include <string.h>
 
 static const fw_pattern_kind *const kinds[] = {
-    &fw_pattern_ladder,        &fw_pattern_slots,     &fw_pattern_pads,
-    &fw_pattern_pointer,       &fw_pattern_holes,     &fw_pattern_cantilevers,
-    &fw_pattern_van_der_pauw,  &fw_pattern_cd_lines,  &fw_pattern_vernier,
-    &fw_pattern_resolution,    &fw_pattern_back_mark, &fw_pattern_contact,
-    &fw_pattern_thief,         &fw_pattern_fill,      &fw_pattern_frame_mark,
-    &fw_pattern_frame_vernier,
+    &fw_pattern_ladder,        &fw_pattern_slots,        &fw_pattern_pads,
+    &fw_pattern_pointer,       &fw_pattern_holes,        &fw_pattern_cantilevers,
+    &fw_pattern_van_der_pauw,  &fw_pattern_cd_lines,     &fw_pattern_vernier,
+    &fw_pattern_resolution,    &fw_pattern_back_mark,    &fw_pattern_contact,
+    &fw_pattern_thief,         &fw_pattern_fill,         &fw_pattern_frame_mark,
+    &fw_pattern_frame_vernier, &fw_pattern_window_thief, &fw_pattern_window_fill,
 };
 enum { NKIND = sizeof kinds / sizeof kinds[0] };
 

@@ -72,8 +72,9 @@ typedef struct fw_pattern_kind { /* a row of pattern.c */
     const char *sizes; /* what the list of lengths is; NULL: takes none */
     /* FW_GEOMETRY: cannot be drawn with these numbers */
     fw_status (*draw)(fw_pen *pen);
-    int on_frame; /* on the frame of every die, so often; 0: on the test die */
-    bool fills;   /* takes what the others leave of a row: drawn by content.c */
+    int on_frame;   /* on the frame of every die, so often; 0: on the test die */
+    bool fills;     /* takes what the others leave of a row: drawn by content.c */
+    bool in_window; /* of the device's own die, where it asks for fill: content_window.c */
 } fw_pattern_kind;
 
 const fw_pattern_kind *fw_pattern_kind_at(size_t i); /* NULL behind the last row */
@@ -107,7 +108,7 @@ extern const fw_pattern_kind fw_pattern_ladder, fw_pattern_slots, fw_pattern_pad
     fw_pattern_pointer, fw_pattern_cantilevers, fw_pattern_van_der_pauw, fw_pattern_cd_lines,
     fw_pattern_resolution, fw_pattern_vernier, fw_pattern_back_mark, fw_pattern_contact,
     fw_pattern_thief, fw_pattern_fill, fw_pattern_holes, fw_pattern_frame_mark,
-    fw_pattern_frame_vernier;
+    fw_pattern_frame_vernier, fw_pattern_window_thief, fw_pattern_window_fill;
 /* shared by kinds of the test die and of the frame */
 fw_status fw_vernier_draw(fw_pen *pen, bool frame);
 fw_status fw_back_cross_draw(fw_pen *pen, double middle_m, double cross_m, double arm_m,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tethers: fingers of the frame that hold the moving bodies by a neck until it is broken. The body
    keeps a short stub; everything beyond the neck stays on the frame. */
+#include "geometry/segment.h"
 #include "layout/draw.h"
 #include "layout/text.h"
 #include <math.h>
@@ -8,13 +9,15 @@
 static bool finger_is_clear(const fw_drawing *d, const fw_contour *finger, int body) {
     for (int s = 0; s < d->nslot; s++) {
         if (s == body || d->plain[s].count == 0) continue;
-        if (fw_contour_distance(finger, &d->plain[s], NULL, NULL) < 20e-6) return false;
+        if (fw_contour_distance_below(finger, &d->plain[s], 20e-6, NULL, NULL) < 20e-6)
+            return false;
     }
     for (int i = 0; i < d->nlug; i++)
-        if (fw_contour_distance(finger, &d->lug[i], NULL, NULL) < 20e-6) return false;
+        if (fw_contour_distance_below(finger, &d->lug[i], 20e-6, NULL, NULL) < 20e-6) return false;
     for (int i = 0; i < d->nattachment; i++) {
         const fw_attachment *a = &d->attachment[i];
-        if (a->finger.count > 0 && fw_contour_distance(finger, &a->finger, NULL, NULL) < 60e-6)
+        if (a->finger.count > 0 &&
+            fw_contour_distance_below(finger, &a->finger, 60e-6, NULL, NULL) < 60e-6)
             return false;
     }
     fw_box box = fw_contour_box(finger); /* axis-parallel, so the box is the finger */
@@ -27,19 +30,42 @@ static bool finger_is_clear(const fw_drawing *d, const fw_contour *finger, int b
     return true;
 }
 
-/* the finger may leave its own body only once: everything from a little outside on is free */
+enum { FEW = 128 };
+
+/* a lower bound of the distance from an outline: no segment's box is nearer */
+static double clear_way(const fw_contour *c, const fw_box *box, fw_vec2 p) {
+    fw_box at = {p.x, p.y, p.x, p.y};
+    double least = HUGE_VAL;
+    for (int i = 0; i < c->count; i++) {
+        fw_box own = i < FEW ? box[i] : fw_segment_box(&c->segment[i]);
+        double gap = fw_box_gap(at, own);
+        if (gap < least) gap = fmax(gap, fw_segment_clear_of(&c->segment[i], &at));
+        if (gap < least) least = gap;
+    }
+    return least;
+}
+
+/* the finger may leave its own body only once: everything from a little outside on is free. Looked
+   at every 2 um, but where no edge is near for longer */
 static bool leaves_once(const fw_drawing *d, const fw_attachment *a, fw_vec2 from) {
     const fw_contour *body = &d->plain[a->body];
     fw_vec2 out = fw_window_outward(a->side);
     fw_vec2 side = fw_left(out);
     double length = fw_dot(fw_sub(fw_window_point(d->layout, a->side, 0.0, 0.0), from), out);
+    fw_box box = fw_contour_box(body), own[FEW];
+    for (int i = 0; i < body->count && i < FEW; i++)
+        own[i] = fw_segment_box(&body->segment[i]);
     for (int edge = -1; edge <= 1; edge++) {
         bool inside = true;
+        double known = -1.0; /* up to there nothing changes */
         for (double s = 0.0; s < length; s += 2e-6) {
+            if (s < known) continue;
             fw_vec2 p = fw_add(fw_add(from, s, out), edge * (0.5 * FW_TETHER_M + 8e-6), side);
-            bool in = fw_contour_contains(body, p);
+            bool in = p.x >= box.x0 && p.x <= box.x1 && p.y >= box.y0 && p.y <= box.y1 &&
+                      fw_contour_contains(body, p);
             if (in && !inside) return false;
             inside = in;
+            known = s + clear_way(body, own, p) - 1e-9;
         }
         if (inside) return false;
     }

@@ -134,14 +134,13 @@ static raster fill(const glyph *g) {
     return r;
 }
 
-/* cells reached through edges from (x, y) become 2 */
+/* cells reached through edges from (x, y), which is 1, become 2 */
 static void flood(raster *r, int y, int x) {
-    if (r->cell[y][x] != 1) return;
     r->cell[y][x] = 2;
-    flood(r, y - 1, x);
-    flood(r, y + 1, x);
-    flood(r, y, x - 1);
-    flood(r, y, x + 1);
+    if (r->cell[y - 1][x] == 1) flood(r, y - 1, x);
+    if (r->cell[y + 1][x] == 1) flood(r, y + 1, x);
+    if (r->cell[y][x - 1] == 1) flood(r, y, x - 1);
+    if (r->cell[y][x + 1] == 1) flood(r, y, x + 1);
 }
 
 typedef struct corner {

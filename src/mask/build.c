@@ -24,19 +24,27 @@ static const char *cell_name(fw_arena *arena, const char *name, bool rejected) {
     return cell && !*cell ? "DEVICE" : cell;
 }
 
+/* the shapes of all layers, of them `shape` is filled where it is given; how many there are */
+static int list_shapes(const fw_layout *layout, const fw_mask_table *table, bool no_islands,
+                       fw_mask_shape *shape) {
+    int n = 0;
+    for (int k = 0; k < table->nlayer; k++)
+        for (int i = 0; i < layout->npiece; i++) {
+            const fw_piece *piece = &layout->piece[i];
+            if (!(table->layer[k].roles & 1u << piece->role)) continue;
+            if (no_islands && piece->body == FW_ISLAND) continue;
+            if (shape)
+                shape[n] = (fw_mask_shape){.layer = k, .piece = piece, .contour = piece->contour};
+            n++;
+        }
+    return n;
+}
+
 static fw_status pick_shapes(fw_arena *arena, const fw_layout *layout, const fw_mask_table *table,
                              bool no_islands, fw_mask_shape **out, int *count) {
-    size_t most = (size_t)layout->npiece * (size_t)table->nlayer;
-    fw_mask_shape *shape = fw_arena_array(arena, fw_mask_shape, most);
-    FW_NEED(shape);
-    *count = 0;
-    for (int k = 0; k < table->nlayer; k++)
-        for (int i = 0; i < layout->npiece; i++)
-            if (table->layer[k].roles & 1u << layout->piece[i].role &&
-                !(no_islands && layout->piece[i].body == FW_ISLAND))
-                shape[(*count)++] = (fw_mask_shape){
-                    .layer = k, .piece = &layout->piece[i], .contour = layout->piece[i].contour};
-    *out = shape;
+    *count = list_shapes(layout, table, no_islands, NULL);
+    FW_NEED(*out = fw_arena_array(arena, fw_mask_shape, (size_t)*count));
+    list_shapes(layout, table, no_islands, *out);
     return FW_OK;
 }
 
@@ -105,11 +113,30 @@ static fw_status cut(fw_arena *arena, fw_mask_shape *shape, int most, fw_diags *
                          shape->piece->label, shape->polygon.count, most);
 }
 
+static fw_status tell_wavy(const fw_mask_shape *shape, const fw_wavy_arc *wavy, double tolerance_m,
+                           fw_diags *diags) {
+    char at[80], eps[32], next[32], radius[32], sweep[32];
+    fw_mask_place_text(at, sizeof at, wavy->arc.a);
+    double up_nm = ceil(wavy->next_m * 1e12) * 1e-3; /* to the next pm, so that it does */
+    return fw_diag_error(
+        diags, 136, nowhere,
+        "%s: with a tolerance of %s nm its arc of radius %s um through %s deg at %s gets chords so "
+        "short that rounding to the 1 nm grid bends them the wrong way; %s nm takes one chord less "
+        "for it, and from 1.42 nm on every arc is safe",
+        shape->piece->label, fw_number_text(eps, sizeof eps, tolerance_m * 1e9, 6),
+        fw_number_text(radius, sizeof radius, wavy->arc.radius * 1e6, 6),
+        fw_number_text(sweep, sizeof sweep, fabs(wavy->arc.sweep_rad) * 180 / FW_PI, 4), at,
+        fw_number_text(next, sizeof next, up_nm, 7));
+}
+
 /* one shape: polygon, exact integer certificate, area against the exact outline */
 static fw_status flatten(fw_arena *arena, fw_mask_shape *shape, double tolerance_m, int most,
                          fw_diags *diags) {
     FW_TRY(check_range(shape, diags));
-    FW_TRY(fw_mask_flatten(arena, shape, tolerance_m));
+    fw_wavy_arc wavy;
+    fw_status flat_status = fw_mask_flatten(arena, shape, tolerance_m, &wavy);
+    if (wavy.there) return tell_wavy(shape, &wavy, tolerance_m, diags);
+    FW_TRY(flat_status);
     const char *name = shape->piece->label;
     const fw_polygon *p = &shape->polygon;
     FW_TRY(fw_polygon_check(arena, p, &shape->report));
@@ -125,6 +152,7 @@ static fw_status flatten(fw_arena *arena, fw_mask_shape *shape, double tolerance
     FW_TRY(cut(arena, shape, most, diags));
     shape->area_m2 = fw_contour_area(&shape->contour);
     double flat = 0.5 * (double)fw_polygon_area2(p) * GRID_M * GRID_M;
+    shape->polygon_area_m2 = flat;
     if (fabs(flat - shape->area_m2) <= shape->bound_m2) return FW_OK;
     char got[32], want[32];
     return fw_diag_error(diags, 150, nowhere,
@@ -159,7 +187,7 @@ static void sum_up(fw_mask *mask, fw_mask_measure *measure) {
         m->shapes++;
         m->vertices += s->polygon.count;
         m->area_m2 += s->area_m2;
-        m->polygon_area_m2 += 0.5 * (double)fw_polygon_area2(&s->polygon) * GRID_M * GRID_M;
+        m->polygon_area_m2 += s->polygon_area_m2;
         m->bound_m2 += s->bound_m2;
         fw_mask_measure_add(m, s);
     }
@@ -172,10 +200,10 @@ static fw_status check_options(const fw_mask_options *options, double tolerance_
     if (!(fabs(options->bias_m) <= 1e-3))
         return fw_diag_error(diags, 143, nowhere, "the bias of %s m per edge is not below 1 mm",
                              fw_number_text(number, sizeof number, options->bias_m, 6));
-    if (!(tolerance_m >= 1.42e-9 && tolerance_m <= 1e-6))
+    if (!(tolerance_m >= FW_LEAST_TOLERANCE_M * (1 - 1e-12) && tolerance_m <= 1e-6))
         return fw_diag_error(diags, 147, nowhere,
-                             "the tolerance of %s nm is not between 1.42 nm (below it, rounding to "
-                             "the grid makes arcs wavy) and 1000 nm",
+                             "the tolerance of %s nm is not between 0.36 nm (below it, rounding to "
+                             "the grid makes every arc wavy) and 1000 nm",
                              fw_number_text(number, sizeof number, tolerance_m * 1e9, 6));
     return FW_OK;
 }

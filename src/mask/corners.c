@@ -22,8 +22,8 @@ static bool ends_joint(const fw_contour *c, fw_point vertex) {
 
 /* cosine of the angle between the two edges at vertex i; exact sign: |coordinates| < 2^30 */
 static double cosine(const fw_polygon *p, int i) {
-    fw_point v = p->vertex[i], a = p->vertex[(i + p->count - 1) % p->count];
-    fw_point b = p->vertex[(i + 1) % p->count];
+    fw_point v = p->vertex[i], a = p->vertex[i > 0 ? i - 1 : p->count - 1];
+    fw_point b = p->vertex[i + 1 < p->count ? i + 1 : 0];
     int64_t ax = (int64_t)a.x_dbu - v.x_dbu, ay = (int64_t)a.y_dbu - v.y_dbu;
     int64_t bx = (int64_t)b.x_dbu - v.x_dbu, by = (int64_t)b.y_dbu - v.y_dbu;
     int64_t dot = ax * bx + ay * by;

@@ -98,19 +98,30 @@ static bool find_neck(const fw_contour *c, int segment[2], fw_chord *chord) {
     return true;
 }
 
-fw_status fw_mask_flatten(fw_arena *arena, fw_mask_shape *shape, double tolerance_m) {
+fw_status fw_mask_flatten(fw_arena *arena, fw_mask_shape *shape, double tolerance_m,
+                          fw_wavy_arc *wavy) {
     int segment[2];
     fw_chord chord;
     fw_contour contour = shape->contour;
+    fw_flat_bounds bounds;
     fw_mask_neck *neck = &shape->neck;
     *neck = (fw_mask_neck){0};
+    *wavy = (fw_wavy_arc){.there = false};
     if (shape->piece->role == FW_ROLE_FLEXURE && find_neck(&shape->contour, segment, &chord)) {
         *neck = (fw_mask_neck){.at = {chord.at_p, chord.at_q}, .there = true};
         FW_TRY(divide(arena, &shape->contour, segment, (double[]){chord.tp, chord.tq}, neck->at,
                       &contour));
     }
-    fw_flat_bounds bounds;
-    FW_TRY(fw_flatten(arena, &contour, tolerance_m, shape->flattening, &shape->polygon, &bounds));
+    fw_status status =
+        fw_flatten(arena, &contour, tolerance_m, shape->flattening, &shape->polygon, &bounds);
+    if (status == FW_GEOMETRY && bounds.wavy >= 0 && contour.count != shape->contour.count) {
+        contour = shape->contour; /* the parts of an arc are shorter than it is */
+        status =
+            fw_flatten(arena, &contour, tolerance_m, shape->flattening, &shape->polygon, &bounds);
+    }
+    if (status == FW_GEOMETRY && bounds.wavy >= 0)
+        *wavy = (fw_wavy_arc){true, contour.segment[bounds.wavy], bounds.next_m};
+    FW_TRY(status);
     shape->bound_m2 = bounds.area_m2;
     shape->edge_m = bounds.edge_m;
     for (int k = 0; neck->there && k < 2; k++)

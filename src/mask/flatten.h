@@ -9,8 +9,16 @@
 void fw_mask_set_flattening(fw_mask_shape *shape, int nshape, fw_flattening kind);
 /* Where a chord between two edges is shortest: of parallel or concentric ones in the middle. */
 fw_chord fw_mask_narrowest(const fw_segment *p, const fw_segment *q);
-/* polygon, bounds and, of a flexure, the neck, whose ends on arcs become vertices */
-fw_status fw_mask_flatten(fw_arena *arena, fw_mask_shape *shape, double tolerance_m);
+typedef struct fw_wavy_arc { /* for which a tolerance is too small */
+    bool there;
+    fw_segment arc;
+    double next_m; /* the tolerance that takes one chord less */
+} fw_wavy_arc;
+
+/* polygon, bounds and, of a flexure, the neck, whose ends on arcs become vertices (below 1.42 nm
+   where that can be proven). FW_GEOMETRY with wavy->there: an arc that cannot */
+fw_status fw_mask_flatten(fw_arena *arena, fw_mask_shape *shape, double tolerance_m,
+                          fw_wavy_arc *wavy);
 
 /* of a layer: shortest edge, sharpest corners, farthest edge, straight vertices, box */
 void fw_mask_measure_start(fw_mask_measure *measure);

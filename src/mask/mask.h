@@ -80,6 +80,7 @@ typedef struct fw_mask_shape {
     int npart;                /* 0: not cut, `polygon` itself */
     fw_polygon_report report; /* of the polygon, exact integers */
     double area_m2, bound_m2; /* of the contour; what flattening may change */
+    double polygon_area_m2;   /* exact, of the polygon */
     fw_flattening flattening;
     double edge_m; /* farthest that an edge of the polygon is from the contour, at most */
     fw_mask_neck neck;

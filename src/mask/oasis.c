@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* OASIS stream (SEMI P39): strict, all names in tables whose places the END record tells, one cell
-   whose content is deflated, polygons only, equal polygons written once with a repetition, CRC32
-   over the file. Texts say what the mask is, as in GDSII.
+/* OASIS stream (SEMI P39): strict, all names in tables whose places the END record tells, the
+   content of every cell deflated, polygons only, equal polygons and rows of equal cells written
+   once with a repetition, CRC32 over the file. Texts say what the mask is, as in GDSII.
 
    Same mask, same zlib, same bytes: no dates, fixed order. */
+#include "mask/oasis.h"
 #include "mask/notes.h"
 #include "mask/octets.h"
 #include <math.h>
@@ -19,6 +20,7 @@ enum {
     LAYERNAME = 11,
     TEXTLAYERNAME = 12,
     CELL = 13,
+    PLACEMENT = 17,
     TEXT = 19,
     POLYGON = 21,
     CBLOCK = 34,
@@ -29,13 +31,16 @@ enum {
 };
 
 typedef struct writer {
+    const fw_mask_table *table;
+    bool rejected;
+    fw_octets file;
+    /* of the cell that is being written */
     const fw_mask *mask;
-    fw_octets file, cell;
+    fw_octets cell;
     int layer, datatype; /* what the reader holds as current; -1: nothing yet */
     int32_t x, y;
     const fw_polygon *before; /* its point list is the current one */
-    const char **note;
-    int nnote;
+    uint64_t ntext;           /* lines of text of the cells before */
 } writer;
 
 /* ---- equal polygons ---- */
@@ -153,7 +158,7 @@ static fw_status polygons(writer *w, fw_arena *arena, const group *g, const int 
         at[n++] = w->mask->shape[i].polygon.vertex[0];
     qsort(at, (size_t)n, sizeof *at, by_row);
     const fw_mask_shape *s = &w->mask->shape[g->first];
-    const fw_mask_layer *y = &w->mask->table->layer[s->layer];
+    const fw_mask_layer *y = &w->table->layer[s->layer];
     unsigned info = 0;
     if (y->layer != w->layer) info |= L;
     if (y->datatype != w->datatype) info |= D;
@@ -178,23 +183,39 @@ static fw_status polygons(writer *w, fw_arena *arena, const group *g, const int 
     return FW_OK;
 }
 
-/* the column of lines above the die, as in GDSII */
-static void texts(writer *w) {
+/* arrays of at least two are repetitions of type 1, 2 or 3 */
+static void placement(fw_octets *o, const fw_oasis_place *p) {
+    enum { BY_NUMBER = 0xc0, PX = 0x20, PY = 0x10, PR = 0x08 };
+    bool several = p->columns > 1 || p->rows > 1;
+    fw_octets_number(o, PLACEMENT);
+    const unsigned char info = (unsigned char)(BY_NUMBER | PX | PY | (several ? PR : 0));
+    fw_octets_bytes(o, &info, 1); /* a byte and no integer: its highest bit is set */
+    fw_octets_number(o, (uint64_t)p->cell);
+    fw_octets_signed(o, p->x);
+    fw_octets_signed(o, p->y);
+    if (!several) return;
+    fw_octets_number(o, p->columns == 1 ? 3 : p->rows == 1 ? 2 : 1);
+    if (p->columns > 1) fw_octets_number(o, (uint64_t)p->columns - 2);
+    if (p->rows > 1) fw_octets_number(o, (uint64_t)p->rows - 2);
+    if (p->columns > 1) fw_octets_number(o, (uint64_t)p->step_x);
+    if (p->rows > 1) fw_octets_number(o, (uint64_t)p->step_y);
+}
+
+/* lines on the documentation layer, as in GDSII */
+static void texts(writer *w, const fw_oasis_cell *c) {
     enum { TL = 1, TT = 2, TY = 8, TX = 16, BY_NUMBER = 0x60 };
-    int k = fw_mask_notes_layer(w->mask->table);
+    int k = fw_mask_notes_layer(w->table);
     if (k < 0) return;
-    int64_t x = lround(w->mask->box.x0 * 1e9);
-    int64_t y = lround(w->mask->box.y1 * 1e9) + LINE_PITCH_DBU / 2;
-    for (int i = 0; i < w->nnote; i++) {
+    for (int i = 0; i < c->nnote; i++) {
         fw_octets_number(&w->cell, TEXT);
         fw_octets_number(&w->cell, BY_NUMBER | TY | (i == 0 ? TL | TT | TX : 0));
-        fw_octets_number(&w->cell, (uint64_t)i);
+        fw_octets_number(&w->cell, w->ntext++);
         if (i == 0) {
-            fw_octets_number(&w->cell, (uint64_t)w->mask->table->layer[k].layer);
-            fw_octets_number(&w->cell, (uint64_t)w->mask->table->layer[k].datatype);
-            fw_octets_signed(&w->cell, x);
+            fw_octets_number(&w->cell, (uint64_t)w->table->layer[k].layer);
+            fw_octets_number(&w->cell, (uint64_t)w->table->layer[k].datatype);
+            fw_octets_signed(&w->cell, c->note_x);
         }
-        fw_octets_signed(&w->cell, y + (int64_t)(w->nnote - 1 - i) * LINE_PITCH_DBU);
+        fw_octets_signed(&w->cell, c->note_y + i * c->note_step);
     }
 }
 
@@ -235,23 +256,33 @@ static fw_status compressed(fw_arena *arena, fw_octets *file, const fw_octets *c
 }
 
 /* ---- tables and the END record ---- */
-static uint64_t text_table(writer *w) {
-    if (w->nnote == 0) return 0;
+static uint64_t cell_table(writer *w, const fw_oasis_cell *cell, int ncell) {
     uint64_t at = w->file.length;
-    for (int i = 0; i < w->nnote; i++) {
-        fw_octets_number(&w->file, TEXTSTRING);
-        fw_octets_string(&w->file, w->note[i]);
+    for (int i = 0; i < ncell; i++) {
+        fw_octets_number(&w->file, CELLNAME);
+        fw_octets_string(&w->file, cell[i].name);
     }
+    return at;
+}
+
+static uint64_t text_table(writer *w, const fw_oasis_cell *cell, int ncell) {
+    if (w->ntext == 0) return 0;
+    uint64_t at = w->file.length;
+    for (int k = 0; k < ncell; k++)
+        for (int i = 0; i < cell[k].nnote; i++) {
+            fw_octets_number(&w->file, TEXTSTRING);
+            fw_octets_string(&w->file, cell[k].note[i]);
+        }
     return at;
 }
 
 /* names without spaces; each holds for one layer and one data type */
 static fw_status layer_table(writer *w, fw_arena *arena, uint64_t *at) {
     enum { EXACTLY = 3 };
-    *at = w->mask->table->nlayer ? w->file.length : 0;
-    for (int k = 0; k < w->mask->table->nlayer; k++) {
-        const fw_mask_layer *y = &w->mask->table->layer[k];
-        char *name = fw_arena_printf(arena, "%s%s", w->mask->rejected ? "REJECTED_" : "", y->name);
+    *at = w->table->nlayer ? w->file.length : 0;
+    for (int k = 0; k < w->table->nlayer; k++) {
+        const fw_mask_layer *y = &w->table->layer[k];
+        char *name = fw_arena_printf(arena, "%s%s", w->rejected ? "REJECTED_" : "", y->name);
         FW_NEED(name);
         for (char *s = name; *s; s++)
             if ((unsigned char)*s <= 0x20 || (unsigned char)*s > 0x7e) *s = '_';
@@ -266,10 +297,10 @@ static fw_status layer_table(writer *w, fw_arena *arena, uint64_t *at) {
 }
 
 /* exactly 256 bytes; the signature covers the file from its first byte to the scheme (P39, 14.4) */
-static void end(writer *w, uint64_t cell_table, uint64_t texts_at, uint64_t layers_at) {
+static void end(writer *w, uint64_t cells_at, uint64_t texts_at, uint64_t layers_at) {
     enum { STRICT = 1, CRC32 = 1, SIGNATURE = 4 };
     size_t start = w->file.length;
-    const uint64_t place[6] = {cell_table, texts_at, 0, 0, layers_at, 0};
+    const uint64_t place[6] = {cells_at, texts_at, 0, 0, layers_at, 0};
     fw_octets_number(&w->file, END);
     for (int i = 0; i < 6; i++) { /* cells, texts, property names and strings, layers, extensions */
         fw_octets_number(&w->file, STRICT);
@@ -289,42 +320,60 @@ static void end(writer *w, uint64_t cell_table, uint64_t texts_at, uint64_t laye
     fw_octets_bytes(&w->file, signature, SIGNATURE);
 }
 
-static fw_status write_cell(writer *w, fw_arena *arena) {
+/* what a reader holds as current is forgotten at every cell (P39, 10) */
+static fw_status write_cell(writer *w, fw_arena *arena, const fw_oasis_cell *c, int number) {
+    fw_octets_number(&w->file, CELL);
+    fw_octets_number(&w->file, (uint64_t)number);
+    w->cell = (fw_octets){.arena = arena};
+    w->layer = w->datatype = -1;
+    w->x = w->y = 0;
+    w->before = NULL;
+    w->mask = c->mask;
     group *list;
-    int n, *follow;
-    FW_TRY(make_groups(arena, w->mask, &list, &n, &follow));
+    int n = 0, *follow;
+    if (c->mask) FW_TRY(make_groups(arena, c->mask, &list, &n, &follow));
     for (int i = 0; i < n; i++)
         FW_TRY(polygons(w, arena, &list[i], follow));
-    texts(w);
-    return w->cell.failed ? FW_NOMEM : FW_OK;
+    for (int i = 0; i < c->nplace; i++)
+        placement(&w->cell, &c->place[i]);
+    texts(w, c);
+    if (w->cell.failed) return FW_NOMEM;
+    return w->cell.length ? compressed(arena, &w->file, &w->cell) : FW_OK;
 }
 
-static fw_status write_file(writer *w, fw_arena *arena) {
-    if (fw_mask_notes_layer(w->mask->table) >= 0)
-        FW_TRY(fw_mask_notes(arena, w->mask, &w->note, &w->nnote));
+static fw_status write_file(writer *w, fw_arena *arena, const fw_oasis_cell *cell, int ncell) {
     fw_octets_bytes(&w->file, "%SEMI-OASIS\r\n", 13);
     fw_octets_number(&w->file, START);
     fw_octets_string(&w->file, "1.0");
     fw_octets_number(&w->file, 0); /* a real of kind 0: a whole number */
     fw_octets_number(&w->file, GRID_PER_UM);
     fw_octets_number(&w->file, 1); /* the places of the tables are in END */
-    fw_octets_number(&w->file, CELL);
-    fw_octets_number(&w->file, 0); /* by number */
-    FW_TRY(write_cell(w, arena));
-    FW_TRY(compressed(arena, &w->file, &w->cell));
-    uint64_t cells_at = w->file.length, texts_at, layers_at;
-    fw_octets_number(&w->file, CELLNAME);
-    fw_octets_string(&w->file, w->mask->cell);
-    texts_at = text_table(w);
+    for (int i = 0; i < ncell; i++)
+        FW_TRY(write_cell(w, arena, &cell[i], i));
+    uint64_t cells_at = cell_table(w, cell, ncell), texts_at = text_table(w, cell, ncell),
+             layers_at;
     FW_TRY(layer_table(w, arena, &layers_at));
     end(w, cells_at, texts_at, layers_at);
     return w->file.failed ? FW_NOMEM : FW_OK;
 }
 
-fw_status fw_mask_write_oasis(const fw_mask *mask, fw_text *out) {
-    writer w = {.mask = mask, .layer = -1, .datatype = -1};
-    w.file.arena = w.cell.arena = out->arena;
-    FW_TRY(write_file(&w, out->arena));
+fw_status fw_oasis_write(const fw_mask_table *table, bool rejected, const fw_oasis_cell *cell,
+                         int ncell, fw_text *out) {
+    writer w = {.table = table, .rejected = rejected, .file = {.arena = out->arena}};
+    FW_TRY(write_file(&w, out->arena, cell, ncell));
     fw_text_bytes(out, w.file.data, w.file.length);
     return fw_text_end(out);
+}
+
+/* the lines stand in a column above the die */
+fw_status fw_mask_write_oasis(const fw_mask *mask, fw_text *out) {
+    fw_oasis_cell cell = {.name = mask->cell,
+                          .mask = mask,
+                          .note_x = lround(mask->box.x0 * 1e9),
+                          .note_step = -LINE_PITCH_DBU};
+    if (fw_mask_notes_layer(mask->table) >= 0)
+        FW_TRY(fw_mask_notes(out->arena, mask, &cell.note, &cell.nnote));
+    cell.note_y = lround(mask->box.y1 * 1e9) + LINE_PITCH_DBU / 2 +
+                  (int64_t)(cell.nnote - 1) * LINE_PITCH_DBU;
+    return fw_oasis_write(mask->table, mask->rejected, &cell, 1, out);
 }

@@ -27,24 +27,15 @@ static void found(fw_rules *rules, const fw_mask_rule *rule, fw_vec2 at, double 
 
 static fw_status of_outline(fw_rules *rules, const fw_mask_rule *rule) {
     const fw_rule_search *in = &rules->search[rule->layer];
-    fw_mark mark = fw_arena_mark(rules->arena);
-    const fw_rule_start *by = fw_rule_starts(rules->arena, in->edge, in->nedge);
-    int *next = fw_arena_array(rules->arena, int, (size_t)in->nedge);
-    FW_NEED(by);
-    FW_NEED(next);
-    for (int i = 0; i < in->nedge; i++) {
-        int k = fw_rule_first_at(by, in->nedge, in->edge[i].s.b);
-        next[i] = k < in->nedge && vec_same(by[k].at, in->edge[i].s.b) ? by[k].edge : -1;
-    }
     for (int i = 0; i < in->nedge; i++) {
         const fw_rule_edge *e = &in->edge[i];
-        if (next[i] < 0 || !e->corner_b) continue;
-        fw_vec2 u = fw_segment_tangent(&e->s, 1), v = fw_segment_tangent(&in->edge[next[i]].s, 0);
+        int next = e->corner_b ? fw_rule_start_at(in, e->s.b, -1) : -1;
+        if (next < 0) continue;
+        fw_vec2 u = fw_segment_tangent(&e->s, 1), v = fw_segment_tangent(&in->edge[next].s, 0);
         double angle = FW_PI - fabs(atan2(vec_cross(u, v), vec_dot(u, v)));
         if (angle < rule->least - SAME_RAD)
             found(rules, rule, e->s.b, angle, rules->shape[e->shape].piece->label, e->segment);
     }
-    if (rules->nfinding == 0) fw_arena_rewind(rules->arena, mark);
     return FW_OK;
 }
 
@@ -58,8 +49,8 @@ static bool ends_joint(const fw_contour *c, fw_vec2 at) {
 
 /* |coordinates| < 2^30: products of differences fit into 63 bits */
 static double angle_at(const fw_polygon *p, int i) {
-    fw_point v = p->vertex[i], a = p->vertex[(i + p->count - 1) % p->count];
-    fw_point b = p->vertex[(i + 1) % p->count];
+    fw_point v = p->vertex[i], a = p->vertex[i > 0 ? i - 1 : p->count - 1];
+    fw_point b = p->vertex[i + 1 < p->count ? i + 1 : 0];
     int64_t ax = (int64_t)a.x_dbu - v.x_dbu, ay = (int64_t)a.y_dbu - v.y_dbu;
     int64_t bx = (int64_t)b.x_dbu - v.x_dbu, by = (int64_t)b.y_dbu - v.y_dbu;
     return atan2(fabs((double)(ax * by - ay * bx)), (double)(ax * bx + ay * by));

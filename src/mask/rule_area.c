@@ -46,17 +46,14 @@ static fw_status islands(fw_rules *rules, const fw_mask_rule *rule) {
 }
 
 /* the ring that starts with edge `first`; its edges are marked as done */
-static fw_contour ring_of(const fw_rule_search *in, const fw_rule_start *by, int first, bool *done,
-                          fw_segment *segment) {
+static fw_contour ring_of(const fw_rule_search *in, int first, bool *done, fw_segment *segment) {
     fw_contour ring = {segment, 0};
     for (int e = first; e >= 0 && !done[e];) {
         done[e] = true;
         segment[ring.count++] = in->edge[e].s;
         fw_vec2 at = in->edge[e].s.b;
-        e = -1;
-        for (int k = fw_rule_first_at(by, in->nedge, at);
-             e < 0 && k < in->nedge && vec_same(by[k].at, at); k++)
-            if (!done[by[k].edge]) e = by[k].edge;
+        for (e = fw_rule_start_at(in, at, -1); e >= 0 && done[e];)
+            e = fw_rule_start_at(in, at, e);
     }
     return ring;
 }
@@ -64,15 +61,13 @@ static fw_contour ring_of(const fw_rule_search *in, const fw_rule_start *by, int
 static fw_status holes(fw_rules *rules, const fw_mask_rule *rule) {
     const fw_rule_search *in = &rules->search[rule->layer];
     size_t n = (size_t)in->nedge;
-    const fw_rule_start *by = fw_rule_starts(rules->arena, in->edge, in->nedge);
     bool *done = fw_arena_array(rules->arena, bool, n);
     fw_segment *segment = fw_arena_array(rules->arena, fw_segment, n);
-    FW_NEED(by);
     FW_NEED(done);
     FW_NEED(segment);
     for (int i = 0; i < in->nedge; i++) {
         if (done[i]) continue;
-        fw_contour ring = ring_of(in, by, i, done, segment);
+        fw_contour ring = ring_of(in, i, done, segment);
         if (!vec_same(ring.segment[ring.count - 1].b, ring.segment[0].a)) continue;
         double area = -fw_contour_area(&ring);
         if (area > 0 && too_small(rule, area))

@@ -24,8 +24,13 @@ static void found(fw_rules *rules, const fw_mask_rule *rule, fw_vec2 from, fw_ve
 
 static void of_polygon(fw_rules *rules, const fw_mask_rule *rule, const fw_mask_shape *shape) {
     const fw_polygon *p = &shape->polygon;
+    double long_dbu = rule->least / GRID_M;
+    if (p->count > 0 && shape->report.shortest_edge_m > rule->least) return;
     for (int i = 0; i < p->count; i++) {
-        fw_point a = p->vertex[i], b = p->vertex[(i + 1) % p->count];
+        fw_point a = p->vertex[i], b = p->vertex[i + 1 < p->count ? i + 1 : 0];
+        if (fabs((double)b.x_dbu - a.x_dbu) > long_dbu ||
+            fabs((double)b.y_dbu - a.y_dbu) > long_dbu)
+            continue;
         double length = hypot((double)b.x_dbu - a.x_dbu, (double)b.y_dbu - a.y_dbu) * GRID_M;
         if (length < rule->least - FW_COINCIDENT_M)
             found(rules, rule, (fw_vec2){a.x_dbu * GRID_M, a.y_dbu * GRID_M},

@@ -2,7 +2,9 @@
 /* The boundary of the union on one layer: every segment that is no joint, shape by shape, and where
    it turns. */
 #include "mask/rules_search.h"
+#include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const double GRID_M = 1e-9;
 static const double ROUND_M = 0.70710678118654752e-9; /* a vertex moves by at most g/sqrt2 */
@@ -14,53 +16,71 @@ static bool on_grid(double x) {
 }
 
 static double slack_of(const fw_segment *s, double tolerance_m) {
+    if (s->kind == FW_ARC) return tolerance_m + ROUND_M;
     bool exact = on_grid(s->a.x) && on_grid(s->a.y) && on_grid(s->b.x) && on_grid(s->b.y);
-    return s->kind == FW_ARC ? tolerance_m + ROUND_M : exact ? 0 : ROUND_M;
+    return exact ? 0 : ROUND_M;
 }
 
-static int by_place(const void *left, const void *right) {
-    const fw_rule_start *p = left, *q = right;
-    if (!vec_same(p->at, q->at)) return vec_before(p->at, q->at) ? -1 : 1;
-    return p->edge - q->edge;
+struct fw_rule_starts { /* chains of edges whose places fall into one slot */
+    int *first, *next;  /* (slots), (nedge); -1: the end */
+    uint32_t mask;      /* slots - 1 */
+};
+
+/* of the bits; 0.0 and -0.0 are one place */
+static uint32_t slot_of(const struct fw_rule_starts *s, fw_vec2 at) {
+    double p[2] = {at.x + 0.0, at.y + 0.0};
+    uint64_t bits[2];
+    memcpy(bits, p, sizeof bits);
+    uint64_t h = (bits[0] ^ (bits[1] << 17 | bits[1] >> 47)) * UINT64_C(0x9e3779b97f4a7c15);
+    return (uint32_t)(h >> 32) & s->mask;
 }
 
-int fw_rule_first_at(const fw_rule_start *list, int n, fw_vec2 at) {
-    int low = 0;
-    while (n > 0) {
-        int half = n / 2;
-        if (vec_before(list[low + half].at, at))
-            low += half + 1, n -= half + 1;
-        else
-            n = half;
+static int same_place(const fw_rule_search *in, fw_vec2 at, int edge) {
+    while (edge >= 0 && !vec_same(in->edge[edge].s.a, at))
+        edge = in->start->next[edge];
+    return edge;
+}
+
+int fw_rule_start_at(const fw_rule_search *in, fw_vec2 at, int after) {
+    const struct fw_rule_starts *s = in->start;
+    return same_place(in, at, after >= 0 ? s->next[after] : s->first[slot_of(s, at)]);
+}
+
+static fw_status list_starts(fw_rule_search *in) {
+    uint32_t slots = 16;
+    while (slots < 2 * (uint32_t)in->nedge)
+        slots *= 2;
+    struct fw_rule_starts *s = fw_arena_one(in->arena, struct fw_rule_starts);
+    FW_NEED(s);
+    FW_NEED(s->first = fw_arena_array(in->arena, int, slots));
+    FW_NEED(s->next = fw_arena_array(in->arena, int, (size_t)in->nedge));
+    s->mask = slots - 1;
+    memset(s->first, -1, slots * sizeof *s->first);
+    for (int i = in->nedge - 1; i >= 0; i--) { /* backwards: chains then run forwards */
+        int *head = &s->first[slot_of(s, in->edge[i].s.a)];
+        s->next[i] = *head;
+        *head = i;
     }
-    return low;
+    in->start = s;
+    return FW_OK;
 }
 
-fw_rule_start *fw_rule_starts(fw_arena *arena, const fw_rule_edge *edge, int n) {
-    fw_rule_start *by = fw_arena_array(arena, fw_rule_start, (size_t)n);
-    for (int i = 0; by && i < n; i++)
-        by[i] = (fw_rule_start){edge[i].s.a, i};
-    if (by && n) qsort(by, (size_t)n, sizeof *by, by_place);
-    return by;
+static fw_vec2 tangent(const fw_rule_edge *e, double t) {
+    return e->s.kind == FW_LINE ? e->along : fw_segment_tangent(&e->s, t);
 }
 
-/* corners of the union: across a joint the outline goes on in the other piece. Cost O(n log n) */
-static fw_status mark_corners(fw_arena *arena, fw_rule_edge *list, int n) {
-    fw_mark mark = fw_arena_mark(arena);
-    fw_rule_start *by = fw_rule_starts(arena, list, n);
-    FW_NEED(by);
-    for (int i = 0; i < n; i++)
+/* corners of the union: across a joint the outline goes on in the other piece. Cost O(n) */
+static void mark_corners(fw_rule_search *in) {
+    fw_rule_edge *list = in->edge;
+    for (int i = 0; i < in->nedge; i++)
         list[i].corner_a = list[i].corner_b = true;
-    for (int i = 0; i < n; i++)
-        for (int k = fw_rule_first_at(by, n, list[i].s.b); k < n && vec_same(by[k].at, list[i].s.b);
-             k++) {
-            int j = by[k].edge;
-            fw_vec2 u = fw_segment_tangent(&list[i].s, 1), v = fw_segment_tangent(&list[j].s, 0);
+    for (int i = 0; i < in->nedge; i++)
+        for (int j = fw_rule_start_at(in, list[i].s.b, -1); j >= 0;
+             j = fw_rule_start_at(in, list[i].s.b, j)) {
+            fw_vec2 u = tangent(&list[i], 1), v = tangent(&list[j], 0);
             if (vec_dot(u, v) > 0 && fabs(vec_cross(u, v)) < FW_SMOOTH_RAD)
                 list[i].corner_b = list[j].corner_a = false;
         }
-    fw_arena_rewind(arena, mark);
-    return FW_OK;
 }
 
 static int by_left(const void *left, const void *right) {
@@ -75,19 +95,28 @@ static int by_left_edge(const void *left, const void *right) {
     return p->segment - q->segment;
 }
 
+/* which ways it runs: the direction of the chord is that of the middle, up to a whole turn */
+static void set_direction(fw_rule_edge *e) {
+    double half = 0.5 * fabs(e->s.sweep_rad);
+    bool line = e->s.kind == FW_LINE;
+    e->along = vec_unit(vec_sub(e->s.b, e->s.a));
+    e->sin_half = line ? 0 : sin(half);
+    e->cos_half = line ? 1 : cos(half);
+}
+
 static void add_shape(fw_rule_search *in, int k, double tolerance_m) {
     const fw_contour *c = &in->shape[k].contour;
     fw_rule_range *range = &in->range[in->nrange];
-    *range = (fw_rule_range){.first = in->nedge, .shape = k, .box = fw_contour_box(c)};
+    *range = (fw_rule_range){.first = in->nedge, .shape = k};
     for (int i = 0; i < c->count; i++) {
         const fw_segment *s = &c->segment[i];
+        fw_box box = fw_segment_box(s);
+        range->box = i > 0 ? fw_box_join(range->box, box) : box;
         if (s->flags & FW_SEGMENT_JOINT) continue;
         fw_rule_edge *e = &in->edge[in->nedge++];
-        *e = (fw_rule_edge){.s = *s,
-                            .box = fw_segment_box(s),
-                            .shape = k,
-                            .segment = i,
-                            .slack_m = slack_of(s, tolerance_m)};
+        *e = (fw_rule_edge){
+            .s = *s, .box = box, .shape = k, .segment = i, .slack_m = slack_of(s, tolerance_m)};
+        set_direction(e);
         range->count++;
         in->slack_m = fmax(in->slack_m, e->slack_m);
     }
@@ -104,7 +133,8 @@ fw_status fw_rule_edges(fw_rule_search *in, int nshape, double tolerance_m) {
     FW_NEED(in->range = fw_arena_array(in->arena, fw_rule_range, shapes));
     for (int k = 0; k < nshape; k++)
         if (in->shape[k].layer == in->index) add_shape(in, k, tolerance_m);
-    FW_TRY(mark_corners(in->arena, in->edge, in->nedge));
+    FW_TRY(list_starts(in));
+    mark_corners(in);
     qsort(in->range, (size_t)in->nrange, sizeof *in->range, by_left);
     return FW_OK;
 }

@@ -16,6 +16,8 @@ static const double FACING = -1e-6;       /* normals more than 90 deg apart */
 static const double NEAR_CORNER_M = 1e-7; /* contacts there are the corner itself */
 static const double SQUARE = 1e-5;
 
+enum { MOST_PARTS = 64 }; /* of 7.5 degrees in a whole turn, and more */
+
 /* ---- findings ---- */
 
 void fw_rule_add(fw_rule_search *in, fw_finding f) {
@@ -100,6 +102,9 @@ static bool at_corner(const fw_rule_edge *e, double t) {
 static void measure_chord(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q,
                           const fw_chord *chord) {
     crossing x;
+    fw_vec2 c = vec_sub(chord->at_q, chord->at_p);
+    double least = fw_greater(in->measure->width_m, in->measure->space_m);
+    if (vec_dot(c, c) > least * least * (1 + 1e-12)) return; /* it would change neither */
     if (!crosses(&p->s, &q->s, chord, &x)) return;
     if ((x.slant_p < SQUARE || at_corner(p, chord->tp)) &&
         (x.slant_q < SQUARE || at_corner(q, chord->tq)))
@@ -135,9 +140,15 @@ static void judge_parts(fw_rule_search *in, const fw_rule_edge *p, const fw_rule
     fw_chord chord[FW_MOST_CHORDS];
     crossing x;
     int n = fw_segment_chords(s, t, chord);
-    for (int i = 0; i < n; i++)
+    double slack = p->slack_m + q->slack_m,
+           needed = fw_greater(fw_rule_needed(in, FW_RULE_WIDTH, slack),
+                               fw_rule_needed(in, FW_RULE_SPACE, slack));
+    for (int i = 0; i < n; i++) {
+        fw_vec2 c = vec_sub(chord[i].at_q, chord[i].at_p);
+        if (vec_dot(c, c) > needed * needed * (1 + 1e-12)) continue;
         if (crosses(s, t, &chord[i], &x))
             judged(in, x.kind, p, q, x.length_m, chord[i].at_p, chord[i].at_q);
+    }
 }
 
 /* can any two points of parts of at most 7.5 degrees face each other? By the normals of their
@@ -149,16 +160,22 @@ static bool may_face(const fw_segment *s, const fw_segment *t) {
 }
 
 static void judge_pair(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q) {
-    double needed = fmax(fw_rule_needed(in, FW_RULE_WIDTH, p->slack_m + q->slack_m),
-                         fw_rule_needed(in, FW_RULE_SPACE, p->slack_m + q->slack_m));
-    if (!(fw_box_gap(p->box, q->box) < needed) && !in->everything) return;
+    double needed = fw_greater(fw_rule_needed(in, FW_RULE_WIDTH, p->slack_m + q->slack_m),
+                               fw_rule_needed(in, FW_RULE_SPACE, p->slack_m + q->slack_m));
+    if (!in->everything && (!(fw_box_gap(p->box, q->box) < needed) ||
+                            !(fw_segment_clear_of(&p->s, &q->box) < needed) ||
+                            !(fw_segment_clear_of(&q->s, &p->box) < needed)))
+        return;
     if (!fw_rule_parts(in, p) || !fw_rule_parts(in, q)) return;
+    int near[MOST_PARTS], n = 0; /* parts of q that are near p at all */
+    for (int j = 0; j < q->nparts; j++)
+        if (fw_box_gap(p->box, q->part_box[j]) < needed || in->everything) near[n++] = j;
     for (int i = 0; i < p->nparts; i++) {
         if (fw_box_gap(p->part_box[i], q->box) >= needed && !in->everything) continue;
-        for (int j = 0; j < q->nparts; j++)
-            if (in->everything || (fw_box_gap(p->part_box[i], q->part_box[j]) < needed &&
-                                   may_face(&p->part[i], &q->part[j])))
-                judge_parts(in, p, q, &p->part[i], &q->part[j]);
+        for (int k = 0; k < n; k++)
+            if (in->everything || (fw_box_gap(p->part_box[i], q->part_box[near[k]]) < needed &&
+                                   may_face(&p->part[i], &q->part[near[k]])))
+                judge_parts(in, p, q, &p->part[i], &q->part[near[k]]);
     }
 }
 
@@ -180,7 +197,8 @@ static bool concentric(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_
 void fw_rule_own(fw_rule_search *in, fw_rule_edge *e) {
     static const double half_turn = FW_PI * (1 - 1e-12);
     double sweep = fabs(e->s.sweep_rad);
-    if (e->s.kind != FW_ARC || !(cos(fmin(sweep, FW_PI)) < FACING)) return; /* a rounded corner */
+    if (e->s.kind != FW_ARC || !(cos(fw_lesser(sweep, FW_PI)) < FACING))
+        return; /* a rounded corner */
     fw_rule_kind kind = e->s.sweep_rad > 0 ? FW_RULE_WIDTH : FW_RULE_SPACE;
     double quarter = sqrt(2) * e->s.radius; /* the chord over a quarter turn, in the middle */
     if (quarter < fw_rule_needed(in, kind, 2 * e->slack_m)) {
@@ -189,7 +207,7 @@ void fw_rule_own(fw_rule_search *in, fw_rule_edge *e) {
                fw_segment_point(&e->s, 0.5 + eighth));
     }
     if (sweep >= half_turn) { /* from the middle of the first quarter and across */
-        fw_vec2 from = fw_segment_point(&e->s, 0.5 * fmax(0, 1 - FW_PI / sweep));
+        fw_vec2 from = fw_segment_point(&e->s, 0.5 * fw_greater(0, 1 - FW_PI / sweep));
         measured(in, kind, from, vec_sub(vec_scale(2, e->s.centre), from), 2 * e->s.radius);
     }
     if (e->corner_a && e->corner_b)
@@ -225,9 +243,30 @@ static void look_at_contacts(fw_rule_search *in, const fw_rule_edge *p, const fw
     }
 }
 
+/* No two of their normals enclose more than 90 degrees: theirs in the middle and half of either
+   sweep together do not. cos(angle) >= sin(halves), less what FACING leaves out anyway. */
+static bool look_away(const fw_rule_edge *p, const fw_rule_edge *q) {
+    if (!(p->cos_half > 0 && q->cos_half > 0)) return false;
+    double sine = p->sin_half * q->cos_half + p->cos_half * q->sin_half;
+    double cosine = p->cos_half * q->cos_half - p->sin_half * q->sin_half;
+    return cosine > 1e-3 && vec_dot(p->along, q->along) >= sine - 4e-7 * cosine;
+}
+
 void fw_rule_pair(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q) {
+    bool touch = fw_box_gap(p->box, q->box) <= FW_COINCIDENT_M;
+    if (!in->everything && look_away(p, q)) {
+        /* one after the other they run along one direction: they meet at their corner alone */
+        bool joined = vec_same(p->s.b, q->s.a) || vec_same(q->s.b, p->s.a);
+        if (touch && !joined) look_at_contacts(in, p, q);
+        return;
+    }
+    double clear =
+        fw_greater(fw_segment_clear_of(&p->s, &q->box), fw_segment_clear_of(&q->s, &p->box));
+    if (!in->everything &&
+        clear > fw_greater(fw_rule_bound(in, FW_RULE_WIDTH), fw_rule_bound(in, FW_RULE_SPACE)))
+        return;
     if (concentric(in, p, q)) return; /* they cannot meet either */
-    if (fw_box_gap(p->box, q->box) <= FW_COINCIDENT_M) look_at_contacts(in, p, q);
+    if (touch) look_at_contacts(in, p, q);
     measure_pair(in, p, q);
     judge_pair(in, p, q);
 }

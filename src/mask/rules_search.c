@@ -12,11 +12,11 @@ double fw_rule_needed(const fw_rule_search *in, fw_rule_kind kind, double slack_
 double fw_rule_bound(const fw_rule_search *in, fw_rule_kind kind) {
     double least = kind == FW_RULE_WIDTH ? in->measure->width_m : in->measure->space_m;
     if (in->everything) return HUGE_VAL;
-    return fmax(fw_rule_needed(in, kind, 2 * in->slack_m), fmin(least, FW_MASK_LOOK_M));
+    return fw_greater(fw_rule_needed(in, kind, 2 * in->slack_m), fw_lesser(least, in->cap_m));
 }
 
 static double reach(const fw_rule_search *in) {
-    return fmax(fw_rule_bound(in, FW_RULE_WIDTH), fw_rule_bound(in, FW_RULE_SPACE));
+    return fw_greater(fw_rule_bound(in, FW_RULE_WIDTH), fw_rule_bound(in, FW_RULE_SPACE));
 }
 
 static void look_inside(fw_rule_search *in, const fw_rule_range *r) {
@@ -44,7 +44,7 @@ static void look_between(fw_rule_search *in, const fw_rule_range *r, const fw_ru
     }
 }
 
-void fw_rule_look(fw_rule_search *in) {
+static void look(fw_rule_search *in) {
     for (int i = 0; i < in->nrange; i++) /* first: what a shape measures bounds the rest */
         look_inside(in, &in->range[i]);
     for (int i = 0; i < in->nrange; i++)
@@ -54,4 +54,19 @@ void fw_rule_look(fw_rule_search *in) {
             if (s->box.x0 - r->box.x1 > far) break;
             if (fw_box_gap(r->box, s->box) <= far) look_between(in, r, s);
         }
+}
+
+/* Near pairs first: most layers have a width and a space of some um, and then nothing beyond these
+   is looked at. Where they have not, again up to what was found, or with a larger cap. What stands
+   in the end is what the last round alone finds, in its order. */
+void fw_rule_look(fw_rule_search *in) {
+    for (double cap_m = 12e-6;;) {
+        in->cap_m = fw_lesser(cap_m, FW_MASK_LOOK_M);
+        in->measure->width_m = in->measure->space_m = HUGE_VAL;
+        in->nfound = 0;
+        look(in);
+        double found_m = fw_greater(in->measure->width_m, in->measure->space_m);
+        if (in->everything || found_m <= in->cap_m || in->cap_m >= FW_MASK_LOOK_M) return;
+        cap_m = isinf(found_m) ? 3 * cap_m : found_m;
+    }
 }

@@ -11,7 +11,9 @@ typedef struct fw_rule_edge { /* a segment of a shape that is no joint */
     int shape, segment;
     bool corner_a, corner_b; /* the outline turns there, across joints too */
     double slack_m;          /* what flattening may take away on this side */
-    fw_segment *part;        /* (nparts) of at most 7.5 degrees; NULL until they are needed */
+    fw_vec2 along; /* unit tangent in the middle; unused of arcs of half a turn and more */
+    double sin_half, cos_half; /* of half its sweep; a line: 0, 1 */
+    fw_segment *part;          /* (nparts) of at most 7.5 degrees; NULL until they are needed */
     fw_box *part_box;
     int nparts;
 } fw_rule_edge;
@@ -38,12 +40,14 @@ typedef struct fw_rule_search { /* one layer */
     int index;         /* of the layer */
     double limit_m[2]; /* largest rule for widths and for spaces; 0: there is none */
     fw_rule_edge *edge;
-    fw_rule_range *range; /* (nrange) by the left end of their boxes */
+    struct fw_rule_starts *start; /* where edges begin */
+    fw_rule_range *range;         /* (nrange) by the left end of their boxes */
     int nedge, nrange;
     double slack_m; /* largest of any edge */
     fw_mask_measure *measure;
     fw_finding *found; /* (nfound) grows */
     int nfound, room;
+    double cap_m;    /* pairs farther apart than this and the rules are not looked at */
     bool everything; /* for the tests: no pair is passed over */
     bool no_memory;
 } fw_rule_search;
@@ -51,13 +55,9 @@ typedef struct fw_rule_search { /* one layer */
 /* rules_edges.c */
 fw_status fw_rule_edges(fw_rule_search *in, int nshape, double tolerance_m);
 bool fw_rule_parts(fw_rule_search *in, fw_rule_edge *e); /* false: no memory */
-typedef struct fw_rule_start {                           /* where an edge begins */
-    fw_vec2 at;
-    int edge;
-} fw_rule_start;
-/* (nedge) by place; NULL: no memory. And the first of them at or behind a place */
-fw_rule_start *fw_rule_starts(fw_arena *arena, const fw_rule_edge *edge, int n);
-int fw_rule_first_at(const fw_rule_start *list, int n, fw_vec2 at);
+/* which edges begin at a place, by the bits of its coordinates: the next one after edge `after`, or
+   -1 for the first; -1: there is none. In the order of the edges. Cost O(1). */
+int fw_rule_start_at(const fw_rule_search *in, fw_vec2 at, int after);
 /* rules_search.c: every pair of edges that may matter */
 void fw_rule_look(fw_rule_search *in);
 /* rules_pair.c */

@@ -20,9 +20,7 @@ static void coordinate(const page *p, char letter, fw_vec2 at) {
     if (out->failed) return;
     char *end = out->data + out->length;
     *end++ = letter;
-    end = fw_fixed_text(end, (at.x - p->x0) * 1e6, 6);
-    *end++ = ' ';
-    end = fw_fixed_text(end, (p->y1 - at.y) * 1e6, 6);
+    end = fw_place_text(end, (at.x - p->x0) * 1e6, (p->y1 - at.y) * 1e6);
     out->length = (size_t)(end - out->data);
 }
 
@@ -172,15 +170,17 @@ static void head(const page *p, const fw_mask *mask) {
     fw_text_add(p->out, " um, included; flexwright " FW_VERSION "</desc>\n");
 }
 
-/* about what the outlines take, so that the text is not copied while it grows */
+/* about what the outlines take, so that the text is not copied while it grows: by some of their
+   segments, since to read all of them takes as long as to write them */
 static size_t expected_bytes(const fw_mask *mask) {
-    enum { HEAD = 4096, SHAPE = 100, LINE = 20, ARC = 90 };
+    enum { HEAD = 4096, SHAPE = 100, LINE = 20, ARC = 90, SAMPLES = 32 };
     size_t n = HEAD;
     for (int k = 0; k < mask->nshape; k++) {
         const fw_contour *c = &mask->shape[k].contour;
+        int step = c->count / SAMPLES + 1;
         n += SHAPE;
-        for (int i = 0; i < c->count; i++)
-            n += c->segment[i].kind == FW_ARC ? ARC : LINE;
+        for (int i = 0; i < c->count; i += step)
+            n += (size_t)step * (c->segment[i].kind == FW_ARC ? ARC : LINE);
     }
     return n;
 }

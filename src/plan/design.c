@@ -75,10 +75,10 @@ static const char *wrong_option(const fw_design_options *o) {
         return "rtol must be 0 (from the accuracy) or between 1e-14 and 1e-2";
     if (o->samples != 0 && !(o->samples >= 2 && o->samples <= 1000000))
         return "samples must be 0 (default) or between 2 and 1000000";
-    /* below 1.42 nm, rounding to the 1 nm grid would bend arcs the wrong way */
-    if (o->mask_tolerance_m != 0.0 && !(o->mask_tolerance_m >= 1.42e-9 * (1.0 - 1e-12) &&
+    /* below 0.36 nm, rounding to the 1 nm grid would bend every arc the wrong way */
+    if (o->mask_tolerance_m != 0.0 && !(o->mask_tolerance_m >= 0.36e-9 * (1.0 - 1e-12) &&
                                         o->mask_tolerance_m <= 1e-6 * (1.0 + 1e-12)))
-        return "mask_tolerance_m must be 0 (default) or between 1.42e-9 and 1e-6";
+        return "mask_tolerance_m must be 0 (default) or between 0.36e-9 and 1e-6";
     if (hinge_model_of(o->hinge_model) < 0)
         return "hinge_model must be \"auto\", \"revolute\", \"compliance\" or \"elastica\"";
     unsigned formats;

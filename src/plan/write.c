@@ -120,10 +120,13 @@ static fw_status write_wafer(writer *w, const fw_plan_flow *pf) {
     FW_TRY(put(w, "masks/", name, ".gds", &pf->wafer_gds));
     const fw_mask_format *format;
     for (size_t i = 0; (format = fw_mask_format_at(i)); i++) {
-        if (!(set & 1u << i) || format->write != fw_mask_write_svg) continue;
-        fw_text svg = fw_text_new(w->scratch);
-        FW_TRY(fw_wafer_write_svg(pf->wafer, &svg));
-        FW_TRY(put(w, "masks/", name, ".svg", &svg));
+        fw_status (*write)(const fw_wafer *wafer, fw_text *out) = NULL;
+        if (set & 1u << i && format->write == fw_mask_write_svg) write = fw_wafer_write_svg;
+        if (set & 1u << i && format->write == fw_mask_write_oasis) write = fw_wafer_write_oasis;
+        if (!write) continue;
+        fw_text text = fw_text_new(w->scratch);
+        FW_TRY(write(pf->wafer, &text));
+        FW_TRY(put(w, "masks/", name, format->ending, &text));
     }
     fw_text csv = fw_text_new(w->scratch);
     FW_TRY(fw_wafer_write_csv(pf->wafer, &csv));

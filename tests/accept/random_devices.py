@@ -227,7 +227,7 @@ def device(seed):
     text += body + die(draw, width, height) + "</device>\n"
     options = []
     if draw.often(0.5):
-        options += ["--mask-tolerance", draw.of("1.42", "2", "3.7", "10", "50")]
+        options += ["--mask-tolerance", draw.of("0.5", "1", "1.42", "2", "3.7", "10", "50")]
     if draw.often(0.4):
         options += ["--mask-vertices", "199"]
     return text, options

@@ -31,7 +31,7 @@ make() { # make DIRECTORY OPTIONS...: the masks
     shift
     "$program" mask "$device" -q -o "$work/$directory" "$@" >"$work/out" 2>&1 || { cat "$work/out"; failed=1; }
 }
-make wafer
+make wafer --mask-format all
 dies=
 for value in 7 8 11 15; do # 3 um is rejected: the nominal 8 um stands there
     make "die$value" --set "width=$value um"
@@ -39,6 +39,9 @@ for value in 7 8 11 15; do # 3 um is rejected: the nominal 8 um stands there
 done
 stem=$work/wafer/masks/$flow-wafer
 judge "strict reading without warnings" "$here/kl_nowarn.sh" "$stem.gds"
+judge "OASIS, strict reading without warnings" "$here/kl_nowarn.sh" "$stem.oas"
+judge "OASIS equal to GDSII" klayout -b -r "$here/kl_xor.py" -rd "a=$stem.gds" -rd "b=$stem.oas"
+judge "OASIS has the cells and instances of GDSII" klayout -b -r "$here/kl_cells.py" -rd "a=$stem.gds" -rd "b=$stem.oas"
 areas=()
 while read -r layer _ _ area; do
     [ "$area" = - ] || areas+=("$layer:$area")

@@ -80,6 +80,19 @@ static void fixed_as_printf(void **state) {
         }
         assert_string_equal(got, strcmp(want, "-0") == 0 ? "0" : want);
         assert_ptr_equal(end, got + strlen(got));
+        if (decimals != 6) continue;
+        char fast[FW_FIXED_BYTES];
+        end = fw_millionths_text(fast, value);
+        assert_string_equal(fast, got);
+        assert_ptr_equal(end, fast + strlen(fast));
+        double micro = (double)(int64_t)(seed >> 22 & 0x3ffffffffff) * 1e-6 / (i % 7 ? 1000 : 1);
+        fw_fixed_text(got, -micro, 6);
+        fw_millionths_text(fast, -micro);
+        assert_string_equal(fast, got);
+        char two[2 * FW_FIXED_BYTES], both[2 * FW_FIXED_BYTES];
+        snprintf(two, sizeof two, "%s %s", got, want);
+        *fw_place_text(both, -micro, value) = '\0';
+        assert_string_equal(both, strcmp(want, "-0") == 0 ? strcat(strcpy(two, got), " 0") : two);
     }
 }
 

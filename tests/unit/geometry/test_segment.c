@@ -98,12 +98,44 @@ static void overlaps_give_their_ends(void **state) {
     assert_near(hit[1].tp, 0.25, 1e-15);
 }
 
+/* never more than the distance of any point of the box from any point of the arc, and more than
+   nothing where the box is clear of the circle */
+static void bound_of_an_arc_and_a_box(void **state) {
+    (void)state;
+    int clear = 0;
+    for (int i = 0; i < 2000; i++) {
+        fw_vec2 c = {uniform(-1e-3, 1e-3), uniform(-1e-3, 1e-3)};
+        double r = uniform(1e-5, 5e-4), from = uniform(0, 6), w = uniform(-6, 6);
+        fw_segment s = {FW_ARC,
+                        0,
+                        {c.x + r * cos(from), c.y + r * sin(from)},
+                        {c.x + r * cos(from + w), c.y + r * sin(from + w)},
+                        c,
+                        r,
+                        w};
+        double x = c.x + uniform(-7e-4, 7e-4), y = c.y + uniform(-7e-4, 7e-4);
+        fw_box b = {x, y, x + uniform(0, 1e-4), y + uniform(0, 1e-4)};
+        double bound = fw_segment_clear_of(&s, &b), least = HUGE_VAL;
+        for (int k = 0; k <= 8; k++)
+            for (int m = 0; m <= 8; m++) {
+                fw_vec2 p = {b.x0 + (b.x1 - b.x0) * k / 8, b.y0 + (b.y1 - b.y0) * m / 8};
+                least = fmin(least, fw_segment_nearest(&s, p, NULL, NULL));
+            }
+        assert_true(bound >= 0 && bound <= least);
+        clear += bound > 1e-6;
+        s.kind = FW_LINE;
+        assert_true(fw_segment_clear_of(&s, &b) == 0);
+    }
+    assert_true(clear > 500);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_lie_on_the_segment),
         cmocka_unit_test(intersections_match_a_flattened_pair),
         cmocka_unit_test(touches_are_one_point),
         cmocka_unit_test(overlaps_give_their_ends),
+        geo_test(bound_of_an_arc_and_a_box),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -134,6 +134,65 @@ static void arcs_keep_one_sign(void **state) {
     print_message("%ld corners, none the wrong way\n", corners);
 }
 
+/* vertices 0 .. count-1 after the centre: turns of one sign, by the definition */
+static bool one_sign(const fw_polygon *p, fw_point centre) {
+    for (int k = 0; k < p->count; k++) {
+        fw_point a = p->vertex[k], b = p->vertex[(k + 1) % p->count],
+                 c = p->vertex[(k + 2) % p->count];
+        bool corner = false; /* the sector's own three */
+        if (b.x_dbu == centre.x_dbu && b.y_dbu == centre.y_dbu) corner = true;
+        if (a.x_dbu == centre.x_dbu && a.y_dbu == centre.y_dbu) corner = true;
+        if (c.x_dbu == centre.x_dbu && c.y_dbu == centre.y_dbu) corner = true;
+        int64_t turn = ((int64_t)b.x_dbu - a.x_dbu) * ((int64_t)c.y_dbu - b.y_dbu) -
+                       ((int64_t)b.y_dbu - a.y_dbu) * ((int64_t)c.x_dbu - b.x_dbu);
+        if (!corner && turn <= 0) return false;
+    }
+    return true;
+}
+
+/* Between 0.36 and 1.42 nm: what is made turns one way only and is within the tolerance; what is
+   refused is an arc of few chords of a sagitta below 0.354 nm, and the tolerance that is told takes
+   it. Long arcs are never refused. */
+static void small_tolerances_are_proven(void **state) {
+    int refused = 0, made = 0;
+    for (int i = 0; i < 20000; i++) {
+        fw_mark mark = fw_arena_mark(*state);
+        bool whole = i % 10 == 0;
+        double r = pow(10, uniform(-5.3, -3.3)), eps = uniform(0.36e-9, 1.42e-9);
+        bool worst = i % 3 == 0; /* two chords that are hardly needed */
+        if (worst) eps = uniform(0.36e-9, 0.5e-9);
+        double h = 4 * asin(sqrt(0.5 * eps / r));
+        double w = whole ? uniform(1, 3) : h * (worst ? uniform(1, 1.1) : uniform(0.5, 4.5));
+        fw_vec2 m = {round(uniform(-5e6, 5e6)) * GRID, round(uniform(-5e6, 5e6)) * GRID};
+        fw_point centre = {(int32_t)round(m.x / GRID), (int32_t)round(m.y / GRID)};
+        fw_contour c;
+        fw_polygon p;
+        fw_flat_bounds b;
+        assert_int_equal(fw_contour_ring_sector(*state, m, 0, r, uniform(0, 6), w, &c), FW_OK);
+        fw_flattening kind = i % 2 ? FW_FLATTEN_EQUAL_AREA : FW_FLATTEN_INSIDE;
+        fw_status status = fw_flatten(*state, &c, eps, kind, &p, &b);
+        double n = ceil(w / h), s = r * (1 - cos(0.5 * w / n));
+        if (status == FW_OK) {
+            made++;
+            assert_true(one_sign(&p, centre));
+            assert_true(b.edge_m <= (eps + SNAP) * (1 + 1e-8));
+        } else {
+            refused++;
+            assert_int_equal(status, FW_GEOMETRY);
+            assert_int_equal(c.segment[b.wavy].kind, FW_ARC);
+            assert_false(whole);
+            if (kind == FW_FLATTEN_INSIDE) assert_true(n >= 2 && s < 0.354e-9);
+            double next = fmax(b.next_m * (1 + 1e-9), eps);
+            assert_true(next < 4 * 0.354e-9 * (1 + 1e-3));
+            assert_int_equal(fw_flatten(*state, &c, fmin(next, 1.5e-9), FW_FLATTEN_INSIDE, &p, &b),
+                             FW_OK);
+        }
+        fw_arena_rewind(*state, mark);
+    }
+    print_message("%d made, %d refused\n", made, refused);
+    assert_true(refused > 100 && made > 10000);
+}
+
 static void chord_count_is_the_formula(void **state) {
     for (int i = 0; i < 500; i++) {
         fw_mark mark = fw_arena_mark(*state);
@@ -200,7 +259,7 @@ static void limits(void **state) {
     fw_contour c;
     fw_polygon p;
     assert_int_equal(fw_contour_rectangle(*state, (fw_box){0, 0, 1e-5, 1e-5}, &c), FW_OK);
-    assert_int_equal(fw_tessellate(*state, &c, 1.4e-9, &p), FW_INPUT);
+    assert_int_equal(fw_tessellate(*state, &c, 0.35e-9, &p), FW_INPUT);
     assert_int_equal(fw_tessellate(*state, &c, (double)NAN, &p), FW_INPUT);
     fw_arena_fail_at(1, 1);
     assert_int_equal(fw_tessellate(*state, &c, 5e-9, &p), FW_NOMEM);
@@ -220,6 +279,7 @@ int main(void) {
         geo_test(told_bounds_hold),
         geo_test(equal_area_is_equal),
         geo_test(arcs_keep_one_sign),
+        geo_test(small_tolerances_are_proven),
         geo_test(chord_count_is_the_formula),
         geo_test(shared_arcs_have_the_same_vertices),
         geo_test(straight_vertices_go_unless_they_end_a_joint),

@@ -74,7 +74,7 @@ static void every_kind(void **state) {
     (void)state;
     const fw_pattern_kind *kind;
     for (size_t k = 0; (kind = fw_pattern_kind_at(k)); k++) {
-        if (kind->fills) continue;
+        if (kind->fills || kind->in_window) continue;
         drawn *d = start(kind->name);
         if (kind->sizes) sizes(d, usual_sizes, 4);
         draw(d);

@@ -390,7 +390,7 @@ static void options_out_of_range(void **state) {
             o.samples = -5;
             break;
         case 6:
-            o.mask_tolerance_m = 1e-9;
+            o.mask_tolerance_m = 0.3e-9;
             break;
         case 7:
             o.mask_tolerance_m = -1.0;

@@ -4,6 +4,7 @@
 #include "wafer/plate.h"
 #include <jansson.h>
 #include <stdlib.h>
+#include <zlib.h>
 
 static const char *write_with(plate *p, const fw_wafer *w,
                               fw_status (*write)(const fw_wafer *, fw_text *)) {
@@ -42,6 +43,38 @@ static plate *two_sweeps(void) {
     p->device.wafer.alignment = true;
     p->device.wafer.tests = 2;
     return p;
+}
+
+/* what can be said without a reader (tests/accept/wafer.sh has one): the cells by name in their
+   order, the END record of 256 bytes with the places of the tables, the checksum */
+static void test_oasis(void **state) {
+    (void)state;
+    plate *p = two_sweeps();
+    const fw_wafer *w = plate_build(p);
+    fw_text out = fw_text_new(p->arena), again = fw_text_new(p->arena);
+    assert_int_equal(fw_wafer_write_oasis(w, &out), FW_OK);
+    assert_int_equal(fw_wafer_write_oasis(w, &again), FW_OK);
+    assert_int_equal(out.length, again.length);
+    assert_memory_equal(out.data, again.data, out.length);
+    const unsigned char *b = (const unsigned char *)out.data;
+    size_t n = out.length, end = n - 256, at = 0;
+    assert_memory_equal(b, "%SEMI-OASIS\r\n", 13);
+    assert_int_equal(b[end], 2);     /* END */
+    assert_int_equal(b[end + 1], 1); /* strict: the table of cell names is at */
+    for (int k = 0; k < 9 && (k == 0 || b[end + 1 + (size_t)k] & 0x80); k++)
+        at |= (size_t)(b[end + 2 + (size_t)k] & 0x7f) << 7 * k;
+    for (int c = 0; c <= w->ncell; c++) {
+        const char *name = c < w->ncell ? w->cell[c].name : w->top;
+        assert_int_equal(b[at], 3); /* CELLNAME, numbered as it comes */
+        assert_int_equal(b[at + 1], strlen(name));
+        assert_memory_equal(b + at + 2, name, strlen(name));
+        at += 2 + strlen(name);
+    }
+    assert_int_not_equal(b[at], 3);
+    unsigned long crc = crc32(crc32(0, NULL, 0), b, (unsigned)(n - 4));
+    assert_int_equal(b[n - 5], 1);
+    for (size_t k = 0; k < 4; k++)
+        assert_int_equal(b[n - 4 + k], crc >> 8 * k & 0xff);
 }
 
 static void test_csv(void **state) {
@@ -223,8 +256,8 @@ static void test_order(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_csv), cmocka_unit_test(test_json),  cmocka_unit_test(test_svg),
-        cmocka_unit_test(test_map), cmocka_unit_test(test_order),
+        cmocka_unit_test(test_csv), cmocka_unit_test(test_oasis), cmocka_unit_test(test_json),
+        cmocka_unit_test(test_svg), cmocka_unit_test(test_map),   cmocka_unit_test(test_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

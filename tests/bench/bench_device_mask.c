@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From a description in memory to the bytes of its GDSII file, as plans do it: reading, layout,
+   frame marks, bias, rules, flattening with its proofs, writing. Thread CPU time, median and least
+   of rounds, each in an arena of its own; then the memory beyond the start of the program.
+
+   cmake --build DIR --target bench_device_mask &&
+   DIR/tests/bench/bench_device_mask docs/gallery/reference-six-bar/device.xml masks/al-masked-rie.xml 1.5e-6 */
+#include "mask/mask.h"
+#include "measure.h"
+#include <sys/resource.h>
+
+enum { ROUNDS = 41, STAGES = 5 };
+static const char *const stage_name[STAGES] = {"description read", "layout", "mask with its rules",
+                                               "GDSII", "all"};
+
+typedef struct source {
+    const char *path;
+    char *text;
+    size_t length;
+} source;
+
+static source read_source(const char *path) {
+    source s = {.path = path};
+    FILE *file = fopen(path, "rb");
+    size_t room = 1 << 20;
+    s.text = malloc(room);
+    if (!file || !s.text) {
+        fprintf(stderr, "%s cannot be read\n", path);
+        exit(2);
+    }
+    s.length = fread(s.text, 1, room - 1, file);
+    s.text[s.length] = '\0';
+    fclose(file);
+    return s;
+}
+
+static void must(fw_status status, const char *what, const fw_diags *diags) {
+    if (status == FW_OK) return;
+    fprintf(stderr, "%s: %s\n", what, fw_status_text(status));
+    for (size_t i = 0; i < diags->count; i++)
+        fprintf(stderr, "  %s\n", diags->item[i].message);
+    exit(1);
+}
+
+/* spent_s (STAGES): CPU seconds of each stage and of all */
+static size_t run(const source *device_file, const source *table_file, double bias_m,
+                  double spent_s[STAGES], size_t *peak) {
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    fw_mask_table table;
+    must(fw_mask_table_read(arena, table_file->path, table_file->text, table_file->length, &diags,
+                            &table),
+         table_file->path, &diags);
+    double at[STAGES];
+    const fw_device *device;
+    const fw_layout *drawn, *layout;
+    const fw_mask *mask;
+    int left_out;
+    at[0] = cpu_seconds();
+    must(fw_device_read(arena, device_file->path, device_file->text, device_file->length, NULL, 0,
+                        &diags, &device),
+         device_file->path, &diags);
+    at[1] = cpu_seconds();
+    must(fw_layout_build(arena, device, &diags, &drawn), "layout", &diags);
+    at[2] = cpu_seconds();
+    must(fw_mask_frame_marks(arena, &table, drawn, &layout, &left_out), "marks", &diags);
+    fw_mask_options options = {.bias_m = bias_m};
+    must(fw_mask_build(arena, layout, &table, device->name, &options, &diags, &mask), "mask",
+         &diags);
+    at[3] = cpu_seconds();
+    fw_text out = fw_text_new(arena);
+    must(fw_mask_write_gds(mask, &out), "GDSII", &diags);
+    at[4] = cpu_seconds();
+    for (int i = 0; i + 1 < STAGES; i++)
+        spent_s[i] = at[i + 1] - at[i];
+    spent_s[STAGES - 1] = at[4] - at[0];
+    *peak = fw_arena_peak(arena);
+    size_t bytes = out.length;
+    fw_arena_free(arena);
+    return bytes;
+}
+
+static long resident_kB(void) {
+    struct rusage use;
+    getrusage(RUSAGE_SELF, &use);
+    return use.ru_maxrss;
+}
+
+int main(int argc, char **argv) {
+    if (argc < 3) {
+        fprintf(stderr, "bench_device_mask DEVICE.xml TABLE.xml [BIAS_M]\n");
+        return 2;
+    }
+    source device = read_source(argv[1]), table = read_source(argv[2]);
+    double bias_m = argc > 3 ? strtod(argv[3], NULL) : 1.5e-6, spent_s[STAGES][ROUNDS];
+    size_t bytes = 0, peak = 0;
+    long before_kB = resident_kB(), after_kB = 0;
+    for (int r = 0; r < ROUNDS; r++) {
+        double one[STAGES];
+        bytes = run(&device, &table, bias_m, one, &peak);
+        if (r == 0) after_kB = resident_kB();
+        for (int i = 0; i < STAGES; i++)
+            spent_s[i][r] = one[i];
+    }
+    for (int i = 0; i < STAGES; i++) {
+        qsort(spent_s[i], ROUNDS, sizeof **spent_s, by_size);
+        printf("%-20s %8.3f ms, least %8.3f\n", stage_name[i], 1e3 * spent_s[i][ROUNDS / 2],
+               1e3 * spent_s[i][0]);
+    }
+    printf("%zu bytes of GDSII; arena %.2f MB, resident %.2f MB more than at the start\n", bytes,
+           1e-6 * (double)peak, 1e-3 * (double)(after_kB - before_kB));
+    free(device.text);
+    free(table.text);
+    return 0;
+}
