@@ -263,7 +263,7 @@ static fw_status steer(fw_run *r) {
             continue;
         }
         FW_TRY(status);
-        if (r->model->events > 0) r->trust *= fw_trust_events;
+        if (r->model->events > 0 && !r->options->settled) r->trust *= fw_trust_events;
         estimate_errors(r, &two.fine, &two.coarse);
         double off = r->motion->ended ? 0 : fw_run_off(r);
         if (off <= 1 || pace.rtol <= fw_pace_tightest(r)) {
