@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tolerances by the accuracy that is wanted. Two runs are made, the looser one first, whose
-   tolerance is 10^(1/2) times that of the answer. Of the difference D of the two the error of the
+   tolerance is ten times that of the answer. Of the difference D of the two the error of the
    answer is
 
      |error| <= margin D,   margin 3 where the looser tolerance is above 1e-6, else 2
@@ -21,7 +21,7 @@
 static const double fw_tightest = 1e-13;
 /* beyond, steps of order 8 span whole oscillations, and what they miss both runs may miss */
 static const double fw_loosest_of_two = 5e-4;
-static const double fw_ratio = 3.1622776601683795, fw_ratio_far = 100;
+static const double fw_ratio = 10, fw_ratio_far = 100;
 static const double fw_tolerable = 1e-6; /* looser tolerances above are trusted less */
 
 typedef struct pace_row {
@@ -99,7 +99,7 @@ fw_pace fw_pace_start(const fw_run *r, const fw_stepper_row *row, double wanted)
 
 fw_pace fw_pace_next(const fw_run *r, fw_pace pace, double off, int tries, bool *reuse) {
     /* what does not go with the tolerance is not waited for: 10, 30, 100, ... */
-    double lower = fmax(2 * off, tries > 1 ? pow(fw_ratio, tries) : 0);
+    double lower = fmax(2 * off, tries > 1 ? pow(10, 0.5 * tries) : 0);
     if (!(lower < 1e3)) lower = 1e3;
     double least = pace.looser / pace.rtol;
     *reuse = lower <= least && r->nstride == 0;

@@ -190,8 +190,9 @@ bool survey_print(const survey_result *result, const double accuracy[SURVEY_ACCU
             quantile(s.total, s.costed, 0.9), (double)s.runs / fmax(1, s.devices),
             quantile(s.ratio, s.nratio, 0.01), quantile(s.ratio, s.nratio, 0.5),
             quantile(s.ratio, s.nratio, 0.9), s.dishonest, s.nratio, s.pins_dishonest, s.pins);
-        good =
-            good && s.devices > 0 && s.below >= 0.99 * s.devices && s.dishonest <= 0.01 * s.nratio;
+        double least, honest;
+        wilson(s.nratio - s.dishonest, s.nratio, &least, &honest);
+        good = good && s.devices > 0 && high >= 0.99 && honest >= 0.99;
         forget(&s);
     }
     return good;

@@ -29,8 +29,8 @@ int survey_integrator_index(const char *name); /* -1: none */
 /* NULL: no such file is wanted */
 bool survey_write(const survey_result *result, const double accuracy[SURVEY_ACCURACIES],
                   const char *csv, const char *honesty, const char *raw);
-/* a summary to stdout; false: fewer than 99 % of the devices are within the accuracy they asked
-   for, or more than 1 % of the estimates are too small */
+/* a summary to stdout; false: it contradicts, by the 95 % interval, that 99 % of the devices are
+   within the accuracy they asked for and 99 % of the estimates are not too small */
 bool survey_print(const survey_result *result, const double accuracy[SURVEY_ACCURACIES]);
 
 #endif
