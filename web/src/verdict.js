@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The right column: decision, governing hinge, utilisation against the limit, what each flow can make,
+// which effects were computed and why, what it cost.
+import { edit, setOption } from "./design.js";
+import { announce, button, h, icon } from "./dom.js";
+import { degrees, number, percent, si } from "./format.js";
+import { JobView } from "./jobs.js";
+import { lookAt, on, state } from "./store.js";
+
+const WORDS = {
+    accept: ["Accepted", "check"], reject: ["Rejected", "cross"], inconclusive: ["Inconclusive", "question"],
+};
+
+export class Verdict {
+    constructor(holder) {
+        this.banner = h("div", { class: "banner", id: "banner" });
+        this.problems = h("section", { class: "card problems", "aria-label": "Diagnostics", hidden: true });
+        this.bars = h("div", { class: "bars" });
+        this.flows = h("div", { class: "flows" });
+        this.ledger = h("div", { class: "ledger" });
+        this.cost = h("dl", { class: "facts-list" });
+        const full = h("div", { class: "full-check" });
+        holder.append(
+            this.banner, this.problems,
+            h("section", { class: "card", "aria-labelledby": "h-use" }, h("h2", { id: "h-use" }, "Utilisation of the elastic limit"), this.bars),
+            h("section", { class: "card", "aria-labelledby": "h-flows" }, h("h2", { id: "h-flows" }, "Flows"), this.flows),
+            h("section", { class: "card", "aria-labelledby": "h-full" }, h("h2", { id: "h-full" }, "As fabricated"), full),
+            h("section", { class: "card", "aria-labelledby": "h-ledger" }, h("h2", { id: "h-ledger" }, "Effects"), this.ledger),
+            h("section", { class: "card", "aria-labelledby": "h-cost" }, h("h2", { id: "h-cost" }, "Cost of this answer"), this.cost));
+        this.full = new JobView(full, {
+            kind: "check", action: "Judge as fabricated",
+            intro: "The live verdict is of the drawing. This judges what each flow may make of it, at the corners of its ranges, and looks for changes that help.",
+            accept: (job) => job.result?.verdict !== undefined, render: (job, into) => this.#fabricated(job.result, into),
+        });
+        this.full.show(true);
+        on("preview", () => this.show());
+        on("answer", () => this.#answer());
+        on("text", () => this.#staleness());
+        on("hinge", () => this.#chosen());
+        this.#wait();
+    }
+
+    #wait() {
+        this.banner.replaceChildren(h("p", { class: "empty" }, "No verdict yet."));
+    }
+
+    #answer() {
+        this.#staleness();
+        const list = state.diagnostics;
+        this.problems.hidden = list.length === 0;
+        if (!list.length) return;
+        const errors = list.filter((d) => d.severity === "error").length;
+        this.problems.replaceChildren(
+            h("h2", {}, errors ? `${errors} ${errors === 1 ? "mistake" : "mistakes"} in the description` : "Notes on the description"),
+            h("ul", { class: "diagnostics" }, list.map((d) => diagnosticItem(d))));
+        if (errors) announce(`${errors} ${errors === 1 ? "mistake" : "mistakes"}: ${list.find((d) => d.severity === "error").message}`);
+    }
+
+    #staleness() {
+        document.body.classList.toggle("stale", state.stale);
+        this.banner.classList.toggle("stale", state.stale);
+        const note = this.banner.querySelector(".stale-note");
+        if (note) note.hidden = !state.stale;
+    }
+
+    show() {
+        const v = state.preview.verdict;
+        if (!v) return this.#wait();
+        const [word, sign] = WORDS[v.verdict] ?? WORDS.inconclusive;
+        const g = v.governing;
+        const changed = this.last !== v.verdict;
+        this.last = v.verdict;
+        this.banner.className = `banner ${v.verdict}`;
+        this.banner.dataset.verdict = v.verdict;
+        this.banner.replaceChildren(
+            h("div", { class: "decision" }, icon(sign), h("strong", {}, word), h("span", { class: "as-drawn" }, "as drawn")),
+            h("p", {}, sentence(g)),
+            (v.reasons ?? []).slice(0, 3).map((r) => h("p", { class: "reason" }, r.text, r.code ? h("span", { class: "code" }, ` ${r.code}`) : null)),
+            h("p", { class: "stale-note", hidden: !state.stale }, "Last good answer: the present text has none."));
+        if (changed) announce(`${word}. ${sentence(g)}`);
+        this.#bars(v);
+        this.#flows(v);
+        this.#effects();
+        this.#cost();
+    }
+
+    #bars(v) {
+        const most = Math.max(1.25, ...v.hinges.map((x) => Math.min(x.utilisation ?? 0, 4)));
+        const rows = v.hinges.map((hinge) => bar(hinge, most, v.governing));
+        this.bars.replaceChildren(
+            h("div", { class: "bar-axis", "aria-hidden": "true", style: { "--limit": `${100 / most}%` } }, h("span", {}, "limit")),
+            h("div", { class: "bar-list", style: { "--limit": `${100 / most}%` } }, rows));
+        this.#chosen();
+    }
+
+    #chosen() {
+        for (const row of this.bars.querySelectorAll(".bar")) row.setAttribute("aria-pressed", String(row.dataset.hinge === state.hinge));
+        const hinge = state.preview?.verdict?.hinges.find((x) => x.id === state.hinge);
+        this.bars.querySelector(".bar-detail")?.remove();
+        if (!hinge) return;
+        const facts = [
+            ["peak", `${degrees(hinge.peak_angle_rad)} ± ${degrees(hinge.angle_error_rad, 1)}`],
+            ["limit", degrees(hinge.limit_angle_rad)],
+            ["peak strain", percent(hinge.peak_strain)],
+            ["strain limit", percent(hinge.strain_limit)],
+            ["where", hinge.t_s === null ? "a required pose" : `${hinge.scene}, ${si(hinge.t_s, "s")}`],
+            ["flow", hinge.flow],
+            ["rules", hinge.criterion ?? "–"],
+        ];
+        this.bars.append(h("dl", { class: "facts-list bar-detail" }, facts.map(([k, x]) => [h("dt", {}, k), h("dd", {}, x)])));
+    }
+
+    #flows(v) {
+        const list = state.preview.flows ?? v.flows ?? [];
+        this.flows.replaceChildren(...list.map((flow) => {
+            const name = flow.name ?? flow.id;
+            const own = v.flows?.find((f) => f.id === name);
+            const made = flow.manufacturable;
+            const word = made === true ? "can be made" : made === false ? "cannot be made" : "not guaranteed";
+            const reasons = flow.reasons ?? [];
+            return h("details", { class: `flow ${own?.verdict ?? ""}` },
+                h("summary", {}, h("span", { class: "flow-name" }, name), h("span", { class: `chip ${made === true ? "good" : made === false ? "bad" : "open"}` }, word)),
+                own?.governing ? h("p", {}, sentence(own.governing)) : null,
+                reasons.length ? h("ul", {}, reasons.map((r) => h("li", {}, r))) : h("p", {}, "Nothing speaks against it."));
+        }));
+    }
+
+    #effects() {
+        const list = state.preview.ledger ?? state.preview.verdict.effects ?? [];
+        const called = list.filter((e) => e.called_for !== false);
+        const rest = list.length - called.length;
+        this.ledger.replaceChildren(
+            ...called.map((e) => h("details", { class: e.active ? "effect active" : "effect" },
+                h("summary", {}, h("span", { class: "effect-mark", "aria-hidden": "true" }, e.active ? "●" : "○"), h("span", {}, e.id ?? e.name),
+                    h("span", { class: "bound", title: "most that leaving it out changes the peak" }, e.bound === null ? "∞" : percent(e.bound, 2)),
+                    h("span", { class: "state" }, e.active ? "computed" : "left out")),
+                h("p", {}, e.reason ?? e.why ?? ""))),
+            rest > 0 ? h("p", { class: "doc" }, `${rest} other effects are not called for by this scene and cost nothing.`) : null,
+            called.length ? null : h("p", { class: "empty" }, "This scene calls for no effect."));
+    }
+
+    #cost() {
+        const p = state.preview;
+        const stats = p.motion?.stats ?? p.stats ?? {};
+        const rows = [
+            ["read, judge, move", ["read_s", "judge_s", "simulate_s"].map((k) => (p.cost?.[k] === undefined ? "–" : si(p.cost[k], "s", 2))).join(" + ")],
+            ["steps", `${number(stats.steps, 6)}${stats.rejected ? `, ${stats.rejected} rejected` : ""}`],
+            ["evaluations", number(stats.rhs, 7)],
+            ["energy balance", number(stats.energy_error, 2)],
+            ["constraints", number(stats.max_constraint_norm, 2)],
+        ];
+        this.cost.replaceChildren(...rows.flatMap(([k, x]) => [h("dt", {}, k), h("dd", {}, x)]));
+    }
+
+    #fabricated(v, into) {
+        const rows = v.flows.map((flow) => {
+            const made = flow.as_fabricated;
+            const word = made ? made.verdict : flow.verdict;
+            const worst = Math.max(...flow.hinges.map((x) => x.as_fabricated?.utilisation ?? x.utilisation ?? 0));
+            return h("div", { class: `fab ${word}` },
+                h("div", { class: "fab-head" }, icon(WORDS[word]?.[1] ?? "question"), h("strong", {}, WORDS[word]?.[0] ?? word), h("span", {}, flow.id)),
+                h("p", {}, `Worst ${percent(worst)} of a limit${made?.corners ? `, ${made.corners.length} devices at the corners of ${made.inputs.length} ranges` : ""}.`),
+                made?.reason ? h("p", {}, made.reason) : null, made?.control ? h("p", {}, made.control) : null);
+        });
+        const advice = (v.advice ?? []).map((a) => h("li", {}, a.text, " ", button("Apply", { class: "small" }, () => edit([{ path: a.set, value: a.value }], `${a.set} is ${a.value}`))));
+        const single = (v.advice_parameters ?? []).filter((a) => a.found === "accepts").map((a) =>
+            h("li", {}, a.text, " ", button("Apply", { class: "small" }, () => edit([{ path: a.set, value: a.value }], `${a.set} is ${a.value}`))));
+        into.replaceChildren(...rows,
+            advice.length ? h("div", { class: "advice" }, h("h3", {}, "What would be accepted"), h("ul", {}, advice)) : "",
+            single.length ? h("div", { class: "advice" }, h("h3", {}, "One parameter alone"), h("ul", {}, single)) : "",
+            v.advice_note ? h("p", { class: "doc" }, v.advice_note) : "");
+    }
+}
+
+export function sentence(g) {
+    if (!g) return "No hinge carries a limit.";
+    const where = g.t_s === null || g.t_s === undefined ? "at a required pose" : `in ${g.scene} at ${si(g.t_s, "s")}`;
+    const band = g.utilisation_band ? ` (${Math.round(g.utilisation_band[0] * 100)} to ${Math.round(g.utilisation_band[1] * 100)} %)` : "";
+    return `Hinge ${g.id} governs: ${percent(g.utilisation)}${band} of its limit, ${where}, ${g.flow}.`;
+}
+
+function bar(hinge, most, governing) {
+    const use = hinge.utilisation ?? 0;
+    const [low, high] = hinge.utilisation_band ?? [use, use];
+    const x = (v) => `${(100 * Math.min(Math.max(v, 0), most)) / most}%`;
+    const made = hinge.as_fabricated?.utilisation;
+    return h("button", {
+        type: "button", class: `bar${use > 1 ? " over" : ""}${governing?.id === hinge.id ? " governs" : ""}`, "data-hinge": hinge.id, "aria-pressed": "false",
+        "aria-label": `Hinge ${hinge.id}: ${percent(use)} of its limit${governing?.id === hinge.id ? ", governs" : ""}`, onclick: () => lookAt(hinge.id),
+    },
+    h("span", { class: "bar-id" }, hinge.id),
+    h("span", { class: "bar-track" },
+        h("span", { class: "bar-fill", style: { width: x(use) } }),
+        h("span", { class: "bar-band", style: { left: x(low), width: `calc(${x(high)} - ${x(low)})` } }),
+        made ? h("span", { class: "bar-made", style: { left: x(made) } }) : null),
+    h("span", { class: "bar-value" }, percent(use, use < 0.1 ? 2 : 3)));
+}
+
+export function diagnosticItem(d, jump = true) {
+    const place = d.line ? `${d.line}:${d.column}` : "";
+    const text = [h("span", { class: "place" }, place), h("span", {}, d.message), d.code ? h("span", { class: "code" }, d.code) : null];
+    return h("li", { class: d.severity },
+        jump && d.line ? h("button", { type: "button", class: "jump", onclick: () => document.dispatchEvent(new CustomEvent("jump", { detail: d })) }, text) : h("div", { class: "jump" }, text),
+        d.explain ? h("details", { class: "explain" }, h("summary", {}, "more"), h("p", {}, d.explain)) : null);
+}
+
+/** Selects of how the motion is computed, from the table's lists; kept in step with the preview. */
+export const optionNames = (list) => (list ?? []).map((o) => (typeof o === "string" ? [o, o] : [o.name, o.name, o.sentence]));
+export const choose = (name) => (value) => setOption(name, value);
