@@ -21,7 +21,7 @@
 
    Threads: one design belongs to one thread at a time; any number of designs may work in parallel
    in different threads. The same description and options give the same bytes in any thread and any
-   locale (measured CPU times in FW_DOCUMENT_SIMULATE_... excepted). fw_library_version,
+   locale (measured CPU times in FW_DOCUMENT_SIMULATE_... and FW_DOCUMENT_PREVIEW_JSON excepted). fw_library_version,
    fw_status_name, fw_design_options_init, fw_design_cancel and fw_design_cancel_clear may be called
    from any thread at any time.
 
@@ -252,7 +252,13 @@ enum {                                    /* what it is; what must have been cal
        FW_DOCUMENT_WORKSPACE_SVG = 25,  /* slices at constant rotation; workspace */
        /* proofs of the required boxes, to be verified by other programs: schema
           flexwright.workspace-certificate/1; workspace */
-       FW_DOCUMENT_CERTIFICATE_JSON = 26
+       FW_DOCUMENT_CERTIFICATE_JSON = 26,
+       /* elements and attributes of descriptions, methods, integrators, effects and so on, for
+          forms and editors: schema flexwright.table/1; nothing */
+       FW_DOCUMENT_TABLE_JSON = 27,
+       /* for an interactive page: the mechanism's shapes, and motion and verdict where they were
+          computed, rounded to what a picture needs: schema flexwright.preview/1; read */
+       FW_DOCUMENT_PREVIEW_JSON = 28
 };
 
 /* One document as UTF-8 text, NUL-terminated; `length` (may be NULL) without the NUL. The text

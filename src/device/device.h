@@ -386,5 +386,6 @@ bool fw_device_needs_shapes(const fw_device *device);
 /* generated from the one table of elements and attributes */
 fw_status fw_device_reference_markdown(fw_text *out);
 fw_status fw_device_relax_ng(fw_text *out);
+fw_status fw_device_table_json(fw_text *out); /* a list of elements, part of flexwright.table/1 */
 
 #endif

@@ -164,6 +164,7 @@ static void start_element(void *context, const xmlChar *name, const xmlChar *pre
     r->text[n->depth].length = 0;
     fw_element *e = &n->element;
     e->place = next_place(r, n->tag);
+    e->offset = n->tag;
     e->text_place = e->place;
     e->text = "";
     e->name = word(r, name);

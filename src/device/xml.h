@@ -21,6 +21,7 @@ typedef struct fw_attribute {
 typedef struct fw_element {
     const char *name, *space; /* local name, namespace */
     fw_place place;           /* of the '<' */
+    size_t offset;            /* of it, in bytes of the file */
     fw_attribute *attribute;  /* (nattribute) */
     int nattribute;
     const char *text; /* character data directly inside, trimmed; "" when none */

@@ -31,6 +31,7 @@ typedef struct fw_motion_options {
     int samples; /* rows of `sample`, evenly over the scene, first at 0, last at the end */
     fw_effect_choice effects;
     bool reactions;        /* peaks of the joint forces and of travels too */
+    bool energies;         /* energy and constraint norm of every sample too */
     double moved_m;        /* how far assembly had moved bodies already; for the statistics */
     long most_steps;       /* over all tries; FW-D108 beyond; 0: 10 million */
     double most_angle_rad; /* ends the run when a joint has turned further: the verdict needs no
@@ -96,6 +97,10 @@ typedef struct fw_motion {
     double *tie_N;    /* (nsample x 3 ntie) force on body b, torque on it about its point b (N m) */
     double *driver_N; /* (nsample x ndriver) N or N m along the driven coordinate */
     fw_peak *peak;    /* (npin) */
+    /* energies asked for, else NULL, as of a row of equilibria */
+    double *energy_J;        /* (nsample x 4) kinetic, potential, dissipated, work: the first three
+                                less the last one stay what they are */
+    double *constraint_norm; /* (nsample) |Psi| over the scene's length */
     /* when asked for, else NULL */
     fw_force_peak *force_peak, *tie_peak, *driver_peak; /* (npin) (ntie) (ndriver) */
     fw_travel_peak *travel_peak;                        /* (ntie) 0 for what is not prismatic */

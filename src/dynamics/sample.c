@@ -18,6 +18,19 @@ static void pose_in_SI(const fw_run *r, const double *y, double *q, double *angl
     }
 }
 
+/* behind everything else of a row: the residual leaves nothing that the next step reads */
+static void store_energy(fw_run *r, size_t row, double t, const double *y) {
+    fw_model *m = r->model;
+    double speed = m->scale.length_m / m->scale.time_s, joule = m->scale.mass_kg * speed * speed;
+    fw_model_at(m, t);
+    fw_model_pose(m, y);
+    const fw_energy e = fw_model_energy(m, t, y);
+    double *out = r->motion->energy_J + 4 * row;
+    out[0] = joule * e.kinetic, out[1] = joule * e.elastic;
+    out[2] = joule * e.dissipated, out[3] = joule * e.work;
+    r->motion->constraint_norm[row] = fw_model_residual(m, t, y, m->right);
+}
+
 static void store(fw_run *r, double t_s, double t, const double *y) {
     fw_motion *out = r->motion;
     fw_model *m = r->model;
@@ -34,6 +47,7 @@ static void store(fw_run *r, double t_s, double t, const double *y) {
     fw_pin_forces(m, out->reaction_N + row * 2 * (size_t)out->npin);
     fw_tie_forces(m, r->mechanism, out->tie_N + row * 3 * (size_t)out->ntie,
                   out->driver_N + row * (size_t)out->ndriver);
+    if (out->energy_J) store_energy(r, row, t, y);
     r->row++;
 }
 

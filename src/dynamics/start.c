@@ -284,6 +284,10 @@ fw_status fw_run_arrays(fw_run *r) {
     FW_NEED(m->tie_N = fw_arena_array(r->arena, double, rows * 3 * (size_t)from->ntie));
     FW_NEED(m->driver_N = fw_arena_array(r->arena, double, rows *(size_t)from->ndriver));
     FW_NEED(m->peak = fw_arena_array(r->arena, fw_peak, pins));
+    if (r->options->energies) {
+        FW_NEED(m->energy_J = fw_arena_array(r->arena, double, 4 * rows));
+        FW_NEED(m->constraint_norm = fw_arena_array(r->arena, double, rows));
+    }
     FW_NEED(r->seen_q = fw_arena_array(r->arena, double, n));
     FW_NEED(r->seen_angle = fw_arena_array(r->arena, double, pins));
     FW_NEED(r->seen_force = fw_arena_array(r->arena, double, 2 * pins));

@@ -27,6 +27,7 @@ typedef enum fw_hinge_model {
     FW_HINGE_ELASTICA    /* geometrically exact beams (elastica.h) */
 } fw_hinge_model;
 const char *fw_hinge_model_text(fw_hinge_model model);
+const char *fw_hinge_model_summary(fw_hinge_model model); /* for forms */
 
 typedef struct fw_effect_choice {
     fw_effect_mode mode;

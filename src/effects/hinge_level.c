@@ -14,6 +14,15 @@ const char *fw_hinge_model_text(fw_hinge_model model) {
     return text[model];
 }
 
+const char *fw_hinge_model_summary(fw_hinge_model model) {
+    static const char *const text[] = {
+        [FW_HINGE_AUTO] = "the cheapest whose error is below the accuracy",
+        [FW_HINGE_REVOLUTE] = "pins at the elastic centres",
+        [FW_HINGE_COMPLIANCE] = "closed form that gives and drifts",
+        [FW_HINGE_ELASTICA] = "geometrically exact beams"};
+    return text[model];
+}
+
 static int could(const fw_effect_case *c) {
     int n = 0;
     for (int i = 0; i < c->mechanism->nhinge; i++)

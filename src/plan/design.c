@@ -6,6 +6,7 @@
 #include <locale.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 /* the codes of the header are those of base/status.h */
 #define SAME(code, exit_status, text)                                                              \
@@ -67,9 +68,10 @@ static int hinge_model_of(const char *text) {
 
 /* what is wrong, or NULL; 0 and NULL are defaults. Comparisons are written so that NaN fails. */
 static const char *wrong_option(const fw_design_options *o) {
-    if (o->accuracy != 0.0 && !(o->accuracy >= 1e-12 && o->accuracy <= 0.1))
+    if (o->accuracy != 0.0 &&
+        !(o->accuracy >= FW_ACCURACY_LEAST && o->accuracy <= FW_ACCURACY_MOST))
         return "accuracy must be 0 (default) or between 1e-12 and 0.1";
-    if (o->rtol != 0.0 && !(o->rtol >= 1e-14 && o->rtol <= 1e-2))
+    if (o->rtol != 0.0 && !(o->rtol >= FW_RTOL_LEAST && o->rtol <= FW_RTOL_MOST))
         return "rtol must be 0 (from the accuracy) or between 1e-14 and 1e-2";
     if (o->samples != 0 && !(o->samples >= 2 && o->samples <= 1000000))
         return "samples must be 0 (default) or between 2 and 1000000";
@@ -227,14 +229,22 @@ void fw_design_forget_documents(fw_design *d) {
         d->document[i] = (fw_text){0};
 }
 
+/* CPU time */
+static double seconds_since(clock_t start) {
+    return (double)(clock() - start) / CLOCKS_PER_SEC;
+}
+
 /* a stage is done once; `work` is not called again after it succeeded */
 static int stage(fw_design *d, unsigned before, const char *missing, unsigned self,
                  fw_status (*work)(fw_design *d, void *argument)) {
     if (!d) return FW_STATUS_USAGE;
     if (!(d->done & before)) return (int)fw_design_usage(d, missing);
     if (d->done & self) return FW_STATUS_OK;
+    clock_t before_work = clock();
     int status = fw_design_run(d, work, NULL);
     if (status == FW_STATUS_OK) d->done |= self;
+    if (self == JUDGED) d->judge_s = seconds_since(before_work);
+    if (self == SIMULATED) d->simulate_s = seconds_since(before_work);
     fw_design_forget_documents(d);
     return status;
 }
@@ -277,7 +287,9 @@ static int read_from(fw_design *d, fw_bytes in) {
     if (d->tried) return (int)fw_design_usage(d, "one design reads one description");
     if (d->wrong_option) return (int)fw_design_usage(d, d->wrong_option);
     d->tried = true;
+    clock_t start = clock();
     int status = fw_design_run(d, read_work, &in);
+    d->read_s = seconds_since(start);
     if (status == FW_STATUS_OK) d->done |= READ;
     return status;
 }

@@ -109,6 +109,11 @@ static fw_status certificate_json(fw_design *d, fw_text *out) {
     return fw_report_certificate_json(&d->workspace, out);
 }
 
+static fw_status table_json(fw_design *d, fw_text *out) {
+    (void)d;
+    return fw_plan_table_json(out);
+}
+
 static fw_status masks_json(fw_design *d, fw_text *out) {
     return fw_plan_masks_json(d->plan, out);
 }
@@ -172,6 +177,8 @@ static const struct {
     [FW_DOCUMENT_WORKSPACE_TEXT] = {WORKSPACE, workspace_text},
     [FW_DOCUMENT_WORKSPACE_SVG] = {WORKSPACE, workspace_svg},
     [FW_DOCUMENT_CERTIFICATE_JSON] = {WORKSPACE, certificate_json},
+    [FW_DOCUMENT_TABLE_JSON] = {0, table_json},
+    [FW_DOCUMENT_PREVIEW_JSON] = {READ, fw_design_preview_json},
 };
 
 static fw_status document_work(fw_design *d, void *argument) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a design holds. Private to design.c and design_documents.c. */
+/* What a design holds. Private to the room. */
 #ifndef FW_PLAN_DESIGN_STATE_H
 #define FW_PLAN_DESIGN_STATE_H
 #include "plan/design.h"
@@ -7,7 +7,7 @@
 
 enum { READ = 1, JUDGED = 2, FABRICATED = 4, SIMULATED = 8, MODES = 16, STATICS = 32 }; /* done */
 enum { ASSEMBLED = 64, ASSEMBLY_TRIED = 128, WORKSPACE = 256 };
-enum { NDOCUMENT = FW_DOCUMENT_CERTIFICATE_JSON + 1 };
+enum { NDOCUMENT = FW_DOCUMENT_PREVIEW_JSON + 1 };
 
 struct fw_design {
     fw_plan *plan; /* its arena holds this struct too */
@@ -25,6 +25,7 @@ struct fw_design {
     fw_plan_assembly assembly;
     fw_report_workspace workspace;
     fw_terminal_style style;
+    double read_s, judge_s, simulate_s; /* CPU time of these stages */
     fw_text document[NDOCUMENT]; /* data NULL: not composed, or out of date */
     fw_diagnostic *diagnostic;   /* (FW_DIAG_MOST) */
 };

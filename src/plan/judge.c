@@ -139,7 +139,7 @@ fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mec
     *scene = NULL;
     fw_motion_options options = plan->options.verdict.motion;
     FW_TRY(fw_plan_start(plan, mechanism, scene, &options.moved_m));
-    options.reactions = true;
+    options.reactions = options.energies = true;
     const fw_pull_in *pull_in; /* it says why a run may end early */
     const fw_poise *poise;     /* only its warning */
     FW_TRY(

@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Poses for dragging. The mechanism that was posed last stays until another text comes: laying it
+   out takes longer than all the rest. */
+#include "assembly/assembly.h"
+#include "base/hash.h"
+#include "plan/design_state.h"
+#include "plan/live_pose.h"
+#include "plan/live_request.h"
+#include "plan/stages.h"
+#include "report/json_common.h"
+#include "report/preview.h"
+#include <math.h>
+#include <string.h>
+
+typedef struct fw_live_posed {
+    fw_design *design; /* its arena holds this struct and the mechanisms */
+    char key[65];      /* of text, sets and options */
+    fw_status status;  /* of reading and building: FW_OK, or the description is no good */
+    const fw_mechanism **mechanism; /* (nflow) closed */
+} fw_live_posed;
+
+void fw_live_posed_free(fw_live_posed *posed) {
+    if (posed) fw_design_free(posed->design);
+}
+
+/* ---- the mechanisms of a text ---- */
+
+static fw_status build(fw_design *d, void *argument) {
+    fw_live_posed *posed = argument;
+    fw_plan *plan = fw_design_plan(d);
+    const fw_mechanism *first;
+    size_t n = (size_t)plan->nflow;
+    FW_NEED(posed->mechanism = fw_arena_alloc(plan->arena, n, sizeof *posed->mechanism));
+    FW_TRY(fw_plan_mechanism(plan, NULL, &first)); /* with its drawing */
+    for (size_t i = 0; i < n; i++) {
+        fw_diags again = fw_diags_new(plan->arena);
+        fw_diags *diags = i == 0 ? &plan->diags : &again;
+        const fw_mechanism *m;
+        FW_TRY(fw_mechanism_build(plan->arena, plan->device, plan->layout, &plan->flow[i].variant,
+                                  &again, &m));
+        FW_TRY(fw_assembled(plan->arena, m, diags, &posed->mechanism[i], NULL));
+    }
+    return FW_OK;
+}
+
+static fw_status key_of(const fw_live_request *r, char key[65]) {
+    fw_text all = fw_text_new(r->arena);
+    fw_text_bytes(&all, r->text, r->length);
+    fw_text_add(&all, "\n");
+    if (r->set) FW_TRY(fw_json_write(json_incref(r->set), false, &all));
+    fw_text_add(&all, "\n");
+    if (r->options) FW_TRY(fw_json_write(json_incref(r->options), false, &all));
+    FW_TRY(fw_text_end(&all));
+    fw_sha256(all.data, all.length, key);
+    return FW_OK;
+}
+
+/* live->posed holds the mechanisms of this request */
+static fw_status prepare(fw_live *live, fw_live_request *r) {
+    char key[65];
+    FW_TRY(key_of(r, key));
+    if (live->posed && strcmp(live->posed->key, key) == 0) return FW_OK;
+    fw_live_posed_free(live->posed);
+    live->posed = NULL;
+    fw_design *design;
+    FW_TRY(fw_live_design(live, r, &design));
+    fw_live_posed *posed = fw_arena_one(fw_design_plan(design)->arena, fw_live_posed);
+    if (!posed) {
+        fw_design_free(design);
+        return FW_NOMEM;
+    }
+    posed->design = design;
+    live->posed = posed;
+    int status = fw_design_read_memory(posed->design, "device.xml", r->text, r->length);
+    if (status == FW_STATUS_OK) status = fw_design_run(posed->design, build, posed);
+    if (status == FW_STATUS_USAGE) return fw_live_wrong(r, "an option is wrong", NULL);
+    if (status == FW_STATUS_NOMEM || status == FW_STATUS_CANCELLED) return (fw_status)status;
+    posed->status = (fw_status)status;
+    memcpy(posed->key, key, sizeof key); /* only now is it whole */
+    return FW_OK;
+}
+
+/* ---- the request ---- */
+
+static fw_status asked_of(fw_live_request *r, double asked[3]) {
+    static const char *const name[] = {"x_m", "y_m", "phi_rad"};
+    const json_t *platform = json_object_get(r->root, "platform");
+    if (!json_is_object(platform)) return fw_live_wrong(r, "an object is wanted for", "platform");
+    for (int k = 0; k < 3; k++) {
+        asked[k] = 0.0;
+        FW_TRY(fw_live_real(r, platform, name[k], &asked[k]));
+        if (!(fabs(asked[k]) <= 1e6)) return fw_live_wrong(r, "too far away:", name[k]);
+    }
+    return FW_OK;
+}
+
+/* the poses to start from, as the last answer gave them; NULL: none */
+static fw_status start_of(fw_live_request *r, const fw_mechanism *m, const double **from) {
+    const json_t *list = json_object_get(r->root, "q");
+    *from = NULL;
+    if (!list || json_is_null(list)) return FW_OK;
+    size_t n = 3 * (size_t)m->nbody;
+    if (!json_is_array(list) || json_array_size(list) != n) return FW_OK; /* of another mechanism */
+    double *q = fw_arena_array(r->arena, double, n);
+    FW_NEED(q);
+    for (size_t i = 0; i < n; i++) {
+        const json_t *v = json_array_get(list, i);
+        if (!json_is_number(v)) return fw_live_wrong(r, "numbers are wanted in", "q");
+        q[i] = json_number_value(v);
+        if (!(fabs(q[i]) <= 1e6)) return FW_OK;
+    }
+    *from = q;
+    return FW_OK;
+}
+
+static fw_status body_of(fw_live_request *r, const fw_mechanism *m, int *body) {
+    const char *name = NULL;
+    FW_TRY(fw_live_string(r, r->root, "body", &name));
+    *body = fw_pose_body(m);
+    if (!name && *body == FW_NONE)
+        return fw_live_wrong(r, "the device has no platform; name a body with", "body");
+    for (int b = 0; name && b < m->nbody; b++)
+        if (strcmp(m->body[b].id, name) == 0) {
+            *body = b;
+            return FW_OK;
+        }
+    return name ? fw_live_wrong(r, "there is no body", name) : FW_OK;
+}
+
+/* the flow whose mechanism is moved: the one that is named, else the first */
+static fw_status flow_of(fw_live_request *r, const fw_plan *plan, int *flow) {
+    const char *name = NULL;
+    FW_TRY(fw_live_string(r, r->root, "flow", &name));
+    *flow = 0;
+    for (int i = 0; name && i < plan->nflow; i++)
+        if (plan->flow[i].variant.flow && strcmp(plan->flow[i].variant.flow, name) == 0) {
+            *flow = i;
+            return FW_OK;
+        }
+    return name ? fw_live_wrong(r, "there is no flow", name) : FW_OK;
+}
+
+/* ---- the answer ---- */
+
+static void triple(fw_text *out, const char *key, const double at[3]) {
+    static const char *const name[] = {"x_m", "y_m", "phi_rad"};
+    fw_text_printf(out, ",\n\"%s\":{", key);
+    for (int k = 0; k < 3; k++) {
+        fw_text_printf(out, "%s\"%s\":", k ? "," : "", name[k]);
+        fw_report_preview_number(out, at[k], 12);
+    }
+    fw_text_add(out, "}");
+}
+
+static double limit_of(const fw_mechanism *m, int pin) {
+    int h = m->pin[pin].hinge;
+    double limit = h == FW_NONE ? (double)NAN : m->hinge[h].closed_form.limit_angle_rad;
+    return limit > 0.0 ? limit : (double)NAN;
+}
+
+/* every hinge against its limit in this flow, and which is nearest to it */
+static void flow_json(fw_text *out, const fw_mechanism *m, const double *angle) {
+    int governing = FW_NONE;
+    double most = -1.0;
+    fw_text_add(out, "{\"name\":");
+    fw_report_preview_string(out, m->variant->flow);
+    fw_text_add(out, ",\"hinges\":[");
+    for (int i = 0, n = 0; i < m->npin; i++) {
+        double limit = limit_of(m, i), used = fabs(angle[i]) / limit;
+        if (isnan(limit)) continue;
+        if (used > most) most = used, governing = i;
+        fw_text_add(out, n++ ? ",{\"id\":" : "{\"id\":");
+        fw_report_preview_string(out, m->pin[i].id);
+        fw_text_printf(out, ",\"pin\":%d,\"angle_rad\":", i);
+        fw_report_preview_number(out, angle[i], 12);
+        fw_text_add(out, ",\"limit_rad\":");
+        fw_report_preview_number(out, limit, 9);
+        fw_text_add(out, ",\"utilisation\":");
+        fw_report_preview_number(out, used, 9);
+        fw_text_add(out, "}");
+    }
+    fw_text_add(out, "],\"governing\":");
+    fw_report_preview_string(out, governing == FW_NONE ? NULL : m->pin[governing].id);
+    fw_text_add(out, ",\"utilisation\":");
+    fw_report_preview_number(out, governing == FW_NONE ? (double)NAN : most, 9);
+    fw_text_printf(out, ",\"within_limits\":%s}",
+                   governing == FW_NONE ? "null"
+                   : most <= 1.0        ? "true"
+                                        : "false");
+}
+
+static void answer(fw_text *out, const fw_live_posed *posed, int flow, int body,
+                   const double asked[3], const fw_posed *p) {
+    const fw_plan *plan = fw_design_plan(posed->design);
+    const fw_mechanism *m = posed->mechanism[flow];
+    fw_text_add(out, ",\n\"body\":");
+    fw_report_preview_string(out, m->body[body].id);
+    fw_text_printf(out, ",\"how\":\"%s\",\"reachable\":%s,\"reason\":",
+                   p->closed_form ? "closed form" : "assembly", p->reachable ? "true" : "false");
+    fw_report_preview_string(out, p->reason);
+    triple(out, "asked", asked);
+    triple(out, "at", p->at);
+    fw_text_add(out, ",\n\"share\":");
+    fw_report_preview_number(out, p->share, 12);
+    fw_text_add(out, ",\n\"q\":[");
+    for (int k = 0; k < 3 * m->nbody; k++) {
+        fw_text_add(out, k ? "," : "");
+        fw_report_preview_number(out, p->q[k], 15);
+    }
+    fw_text_add(out, "],\n\"angle_rad\":[");
+    for (int k = 0; k < m->npin; k++) {
+        fw_text_add(out, k ? "," : "");
+        fw_report_preview_number(out, p->angle_rad[k], 15);
+    }
+    fw_text_add(out, "],\n\"flow\":");
+    fw_report_preview_string(out, m->variant->flow);
+    fw_text_add(out, ",\"flows\":[");
+    for (int i = 0; i < plan->nflow; i++) {
+        fw_text_add(out, i ? ",\n" : "\n");
+        flow_json(out, posed->mechanism[i], p->angle_rad);
+    }
+    fw_text_add(out, "]");
+}
+
+static fw_status pose(fw_live *live, fw_live_request *r, fw_text *out) {
+    double asked[3];
+    FW_TRY(asked_of(r, asked));
+    FW_TRY(prepare(live, r));
+    fw_live_posed *posed = live->posed;
+    const fw_plan *plan = fw_design_plan(posed->design);
+    fw_posed p = {.reachable = false};
+    const double *from = NULL;
+    int flow = 0, body = FW_NONE;
+    fw_status status = posed->status;
+    if (status == FW_OK) {
+        FW_TRY(flow_of(r, plan, &flow));
+        FW_TRY(body_of(r, posed->mechanism[flow], &body));
+        FW_TRY(start_of(r, posed->mechanism[flow], &from));
+        status = fw_pose_solve(r->arena, posed->mechanism[flow], body, asked, from, &p);
+        if (status == FW_NOMEM || status == FW_CANCELLED) return status;
+    }
+    fw_text_printf(out, "{\"schema\":\"flexwright.pose/1\",\"status\":\"%s\",\n",
+                   status == FW_OK          ? "ok"
+                   : posed->status == FW_OK ? "failed"
+                                            : "invalid");
+    fw_report_preview_diagnostics(&plan->diags, "device.xml", out);
+    if (status == FW_OK) answer(out, posed, flow, body, asked, &p);
+    fw_text_add(out, "}\n");
+    return fw_text_end(out);
+}
+
+fw_live_answer fw_live_pose(fw_live *live, const char *request, size_t n) {
+    static const char *const keys[] = {"text", "set",      "options", "flow",
+                                       "body", "platform", "q",       NULL};
+    return fw_live_call(live, request, n, keys, pose);
+}

@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The quick look: what has been done with a design so far, in one document. */
+#include "plan/design_state.h"
+#include "plan/live_request.h"
+#include "plan/stages.h"
+#include "report/preview.h"
+#include <string.h>
+
+/* names and materials of the flows where nothing was judged */
+static fw_status flows_of(fw_plan *plan, bool judged, fw_report_preview *in) {
+    in->nflow = plan->nflow;
+    if (judged) {
+        in->flow = fw_plan_report_input(plan).flow;
+        return in->flow ? FW_OK : FW_NOMEM;
+    }
+    size_t n = (size_t)plan->nflow;
+    fw_report_flow *flow = fw_arena_array(plan->arena, fw_report_flow, n);
+    fw_variant_verdict *verdict = fw_arena_array(plan->arena, fw_variant_verdict, n);
+    FW_NEED(flow && verdict ? flow : NULL);
+    for (size_t i = 0; i < n; i++) {
+        verdict[i].variant = &plan->flow[i].variant;
+        flow[i].variant = &verdict[i];
+    }
+    in->flow = flow;
+    return FW_OK;
+}
+
+/* where nothing was moved: the one that was judged, or one that is built for the picture; what
+   there is to say of it is not said twice */
+static fw_status mechanism_of(fw_plan *plan, bool judged, const fw_mechanism **mechanism) {
+    *mechanism = judged ? plan->verdict.variant[0].mechanism : NULL;
+    if (*mechanism) return FW_OK;
+    fw_diags said = plan->diags;
+    plan->diags = fw_diags_new(plan->arena);
+    fw_status status = fw_plan_mechanism(plan, NULL, mechanism);
+    plan->diags = said;
+    if (status != FW_OK) *mechanism = NULL;
+    return status == FW_NOMEM || status == FW_CANCELLED ? status : FW_OK;
+}
+
+/* does a flow make anything of the device that was not judged? */
+static bool corners_missing(const fw_plan *plan) {
+    bool missing = false;
+    for (int i = 0; i < plan->verdict.nvariant; i++)
+        missing = missing || plan->verdict.variant[i].ninput > 0;
+    return missing && plan->options.verdict.corners != FW_CORNERS_AUTO;
+}
+
+static int leave_out(const fw_plan *plan, bool judged, fw_report_left_out *item) {
+    int n = 0;
+    if (!judged)
+        item[n++] = (fw_report_left_out){"verdict", "Nothing was judged.", true};
+    else if (corners_missing(plan))
+        item[n++] = (fw_report_left_out){
+            "corners",
+            "Judged as drawn: what the flows may make of it (edges, etch, thickness, modulus) was "
+            "not run.",
+            true};
+    if (!plan->options.verdict.with_advice)
+        item[n++] = (fw_report_left_out){"advice", "No change that accepts was looked for.", false};
+    item[n++] = (fw_report_left_out){
+        "masks", "No mask was made, hence no design rule checked; the verdict is of hinges.",
+        false};
+    return n;
+}
+
+static fw_status verdict_of(fw_design *d, fw_report_preview *in) {
+    fw_plan *plan = d->plan;
+    if (!(d->done & JUDGED)) return FW_OK;
+    fw_text json = fw_text_new(plan->arena);
+    FW_TRY(fw_plan_verdict_json(plan, &json));
+    in->verdict_json = json.data;
+    in->verdict = &plan->verdict;
+    return FW_OK;
+}
+
+/* the exit status of `check` for the same, and whether it may still become worse */
+static void outcome(fw_design *d, fw_status status, fw_report_preview *in) {
+    bool judged = d->done & JUDGED;
+    in->exit_status = judged ? fw_design_decision(d) : fw_status_exit(status);
+    in->provisional = !judged || d->plan->verdict.decision != FW_REJECT;
+    bool could = false;
+    for (int i = 0; i < in->nleft_out; i++)
+        could = could || in->left_out[i].could_reject;
+    in->provisional = in->provisional && could;
+}
+
+/* status: of what was tried last */
+static fw_status compose(fw_design *d, fw_status status, fw_text *out) {
+    fw_plan *plan = d->plan;
+    fw_report_left_out left_out[3];
+    bool judged = d->done & JUDGED, moved = d->done & SIMULATED;
+    fw_report_preview in = {.status = plan->device ? "ok" : "invalid",
+                            .left_out = left_out,
+                            .nleft_out = leave_out(plan, judged, left_out),
+                            .diags = &plan->diags,
+                            .file = plan->source_file,
+                            .device = plan->device,
+                            .read_s = d->read_s,
+                            .judge_s = d->judge_s,
+                            .simulate_s = d->simulate_s};
+    if (!(d->done & READ)) in.device = NULL, in.status = "invalid";
+    if (in.device) {
+        FW_TRY(flows_of(plan, judged, &in));
+        FW_TRY(verdict_of(d, &in));
+        if (moved)
+            in.mechanism = d->mechanism, in.motion = d->motion, in.scene = d->scene;
+        else
+            FW_TRY(mechanism_of(plan, judged, &in.mechanism));
+        in.layout = plan->layout;
+        if (status != FW_OK && !judged && !moved) in.status = "failed";
+    }
+    outcome(d, status, &in);
+    return fw_report_preview_json(plan->arena, &in, out);
+}
+
+fw_status fw_design_preview_json(fw_design *design, fw_text *out) {
+    return compose(design, FW_OK, out);
+}
+
+/* ---- the request ---- */
+
+/* what ends a request; anything else is said by the document */
+static bool hopeless(int status) {
+    return status == FW_STATUS_NOMEM || status == FW_STATUS_CANCELLED ||
+           status == FW_STATUS_INTERNAL;
+}
+
+typedef struct work {
+    fw_status status;
+    fw_text *out;
+} work;
+
+static fw_status document(fw_design *d, void *argument) {
+    const work *w = argument;
+    return compose(d, w->status, w->out);
+}
+
+static fw_status look(fw_design *d, fw_live_request *request, fw_text *out) {
+    int status = fw_design_read_memory(d, "device.xml", request->text, request->length);
+    if (status == FW_STATUS_USAGE && d->wrong_option)
+        return fw_live_wrong(request, d->wrong_option, NULL);
+    if (status == FW_STATUS_OK) {
+        int moved = d->plan->device->nscene > 0 ? fw_design_simulate(d) : FW_STATUS_OK;
+        status = fw_design_judge(d);
+        if (hopeless(moved)) status = moved;
+    }
+    if (hopeless(status)) return (fw_status)status;
+    return (fw_status)fw_design_run(d, document, &(work){(fw_status)status, out});
+}
+
+static fw_status preview(fw_live *live, fw_live_request *request, fw_text *out) {
+    fw_design *design;
+    FW_TRY(fw_live_design(live, request, &design));
+    fw_status status = look(design, request, out);
+    fw_design_free(design);
+    return status;
+}
+
+fw_live_answer fw_live_preview(fw_live *live, const char *request, size_t n) {
+    static const char *const keys[] = {"text", "set", "options", NULL};
+    return fw_live_call(live, request, n, keys, preview);
+}

@@ -1,0 +1,396 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Shapes of a mechanism in um with y up: bodies in their own axes (origin in the centre of mass,
+   turned back by the drawn angle), what stands still and flexures in the axes of the file. */
+#include "flexure/path.h"
+#include "report/figure.h"
+#include "report/preview.h"
+#include <math.h>
+
+static const double UM = 1e6, PI = 3.14159265358979323846;
+
+typedef struct frame { /* world -> local: turn by -phi about (x, y), then that point is the origin
+                        */
+    double x_m, y_m, c, s;
+} frame;
+
+static frame frame_of(const fw_mechanism *m, int body) {
+    if (body < 0) return (frame){0.0, 0.0, 1.0, 0.0};
+    const fw_mass *b = &m->body[body];
+    return (frame){b->x_m, b->y_m, cos(b->phi_rad), sin(b->phi_rad)};
+}
+
+static fw_vec2 into(const frame *f, fw_vec2 p) {
+    double x = p.x - f->x_m, y = p.y - f->y_m;
+    return (fw_vec2){f->c * x + f->s * y, -f->s * x + f->c * y};
+}
+
+/* 1 nm */
+static void um(fw_text *out, double metres) {
+    fw_text_fixed(out, isfinite(metres) ? UM * metres : 0.0, 3);
+}
+
+static void point(fw_text *out, const char *command, fw_vec2 p) {
+    fw_text_add(out, command);
+    um(out, p.x);
+    fw_text_add(out, " ");
+    um(out, p.y);
+}
+
+/* "key":[x,y] */
+static void pair_um(fw_text *out, const char *key, fw_vec2 p) {
+    fw_text_printf(out, "\"%s\":[", key);
+    um(out, p.x);
+    fw_text_add(out, ",");
+    um(out, p.y);
+    fw_text_add(out, "]");
+}
+
+/* y points up: counter-clockwise is SVG's positive sweep in these axes */
+static void arc_to(fw_text *out, const frame *f, const fw_segment *s, double sweep, fw_vec2 to) {
+    fw_text_add(out, "A");
+    um(out, s->radius);
+    fw_text_add(out, " ");
+    um(out, s->radius);
+    fw_text_printf(out, " 0 %d %d", fabs(sweep) > PI ? 1 : 0, sweep > 0.0 ? 1 : 0);
+    point(out, " ", into(f, to));
+}
+
+static void contour(fw_text *out, const frame *f, const fw_contour *c) {
+    if (c->count == 0) return;
+    point(out, "M", into(f, c->segment[0].a));
+    for (int i = 0; i < c->count; i++) {
+        const fw_segment *s = &c->segment[i];
+        if (s->kind == FW_LINE) {
+            if (i + 1 < c->count) point(out, "L", into(f, s->b));
+        } else if (fabs(s->sweep_rad) < 1.8 * PI) {
+            arc_to(out, f, s, s->sweep_rad, s->b);
+        } else { /* an arc that ends where it starts has no direction: two halves */
+            double cosine = cos(0.5 * s->sweep_rad), sine = sin(0.5 * s->sweep_rad);
+            double x = s->a.x - s->centre.x, y = s->a.y - s->centre.y;
+            fw_vec2 half = {s->centre.x + cosine * x - sine * y,
+                            s->centre.y + sine * x + cosine * y};
+            arc_to(out, f, s, 0.5 * s->sweep_rad, half);
+            arc_to(out, f, s, 0.5 * s->sweep_rad, s->b);
+        }
+    }
+    fw_text_add(out, "Z");
+}
+
+/* ---- bodies ---- */
+
+typedef bool (*wanted)(const fw_piece *piece, int body);
+
+static bool structure(const fw_piece *p, int body) {
+    return p->body == body && p->role == FW_ROLE_STRUCTURE;
+}
+
+static bool chip(const fw_piece *p, int body) {
+    (void)body;
+    return p->role == FW_ROLE_FRAME;
+}
+
+static bool tether(const fw_piece *p, int body) {
+    (void)body;
+    return p->role == FW_ROLE_TETHER;
+}
+
+static void outlines(fw_text *out, const fw_layout *layout, const frame *f, wanted want, int body) {
+    int n = 0;
+    fw_text_add(out, "[");
+    for (int i = 0; fw_report_drawn(layout) && i < layout->npiece; i++) {
+        if (!want(&layout->piece[i], body)) continue;
+        fw_text_add(out, n++ ? ",\n\"" : "\"");
+        contour(out, f, &layout->piece[i].contour);
+        fw_text_add(out, "\"");
+    }
+    fw_text_add(out, "]");
+}
+
+/* what stands for a body that nobody has drawn: a line or hull through its joints */
+static void figure_outline(fw_text *out, const fw_figure *figure, int body) {
+    int n = 0;
+    fw_text_add(out, "[");
+    for (int i = 0; i < figure->count; i++) {
+        const fw_figure_part *p = &figure->part[i];
+        if (p->role != FW_FIGURE_BODY || p->of != body) continue;
+        fw_text_add(out, n++ ? ",\"" : "\"");
+        for (int k = 0; k < p->noutline; k++)
+            point(out, k ? "L" : "M", p->outline[k]);
+        if (p->noutline == 0) {
+            point(out, "M", (fw_vec2){p->end[0].x_m, p->end[0].y_m});
+            point(out, "L", (fw_vec2){p->end[1].x_m, p->end[1].y_m});
+        }
+        fw_text_add(out, p->noutline > 2 ? "Z\"" : "\"");
+    }
+    fw_text_add(out, "]");
+}
+
+static void bodies(const fw_report_preview *in, const fw_figure *figure, fw_text *out) {
+    const fw_mechanism *m = in->mechanism;
+    fw_text_add(out, "\"bodies\":[");
+    for (int b = 0; b < m->nbody; b++) {
+        const frame f = frame_of(m, b);
+        bool drawn = fw_report_outlined(in->layout, b);
+        fw_text_add(out, b ? ",\n{\"id\":" : "\n{\"id\":");
+        fw_report_preview_string(out, m->body[b].id);
+        fw_text_printf(out, ",\"fixed\":false,\"platform\":%s,\"drawn\":%s,\"outline\":",
+                       in->device->body[b].platform ? "true" : "false", drawn ? "true" : "false");
+        if (drawn)
+            outlines(out, in->layout, &f, structure, b);
+        else
+            figure_outline(out, figure, b);
+        fw_text_add(out, ",\"rest\":[");
+        fw_report_preview_number(out, m->body[b].x_m, 9);
+        fw_text_add(out, ",");
+        fw_report_preview_number(out, m->body[b].y_m, 9);
+        fw_text_add(out, ",");
+        fw_report_preview_number(out, m->body[b].phi_rad, 9);
+        fw_text_add(out, "],\"mass_kg\":");
+        fw_report_preview_number(out, m->body[b].mass_kg, 6);
+        fw_text_add(out, ",\"inertia_kg_m2\":");
+        fw_report_preview_number(out, m->body[b].inertia_kg_m2, 6);
+        fw_text_add(out, "}");
+    }
+    const frame world = frame_of(m, FW_GROUND);
+    fw_text_add(out, m->nbody ? ",\n" : "\n");
+    fw_text_add(out, "{\"id\":\"ground\",\"fixed\":true,\"platform\":false,\"drawn\":");
+    fw_text_add(out, fw_report_drawn(in->layout) ? "true" : "false");
+    fw_text_add(out, ",\"outline\":");
+    outlines(out, in->layout, &world, structure, FW_GROUND);
+    fw_text_add(out, ",\"islands\":");
+    outlines(out, in->layout, &world, structure, FW_ISLAND);
+    fw_text_add(out, ",\"frame\":");
+    outlines(out, in->layout, &world, chip, 0);
+    fw_text_add(out, ",\"tethers\":");
+    outlines(out, in->layout, &world, tether, 0);
+    fw_text_add(out, "}]");
+}
+
+/* ---- flexures ---- */
+
+static const char *body_id(const fw_mechanism *m, int body) {
+    return body >= 0 && body < m->nbody ? m->body[body].id : "ground";
+}
+
+/* a frame fixed to a body, where one end of the centre line is, along which the line runs there */
+static void end_frame(fw_text *out, const fw_mechanism *m, int body, fw_pose at) {
+    const frame f = frame_of(m, body);
+    fw_vec2 p = into(&f, (fw_vec2){at.x_m, at.y_m});
+    fw_text_add(out, "{\"body\":");
+    fw_report_preview_string(out, body_id(m, body));
+    fw_text_add(out, ",");
+    pair_um(out, "at_um", p);
+    fw_text_add(out, ",\"angle_rad\":");
+    fw_report_preview_number(out, at.angle_rad - (body >= 0 ? m->body[body].phi_rad : 0.0), 7);
+    fw_text_add(out, "}");
+}
+
+/* the centre line in the flexure's frame: from the root of `lower` to that of `upper` */
+static int centre_line(const fw_flexure *flexure, double fillet_m, fw_pose *pose, int most) {
+    const fw_flexure_input in = fw_flexure_input_of(flexure, fillet_m);
+    fw_course path;
+    fw_path_of(&in, &path);
+    int n = 0, each = (most - 1) / (path.n > 0 ? path.n : 1);
+    for (int i = 0; i < path.n; i++) {
+        const fw_strip_piece *p = &path.shape[i].piece;
+        int parts = p->curvature_per_m == 0.0 ? 1 : each;
+        for (int k = 0; k < parts; k++)
+            pose[n++] = fw_strip_along(path.start[i], p->curvature_per_m, p->length_m * k / parts);
+    }
+    pose[n++] = path.start[path.n];
+    return n;
+}
+
+static fw_pose to_world(const fw_hinge_layout *h, fw_pose p) {
+    double c = cos(h->axis_rad), s = sin(h->axis_rad);
+    return (fw_pose){h->arc_centre.x + c * p.x_m - s * p.y_m,
+                     h->arc_centre.y + s * p.x_m + c * p.y_m, p.angle_rad + h->axis_rad};
+}
+
+static void line_of(const fw_report_preview *in, const fw_report_bend *bend, fw_text *out) {
+    enum { MOST = FW_STRIP_MOST + 2 };
+    const fw_hinge_layout *h = &in->layout->hinge[bend->joint];
+    const fw_flexure *flexure = &in->device->flexure[in->device->joint[bend->joint].flexure];
+    fw_pose pose[MOST];
+    int n = centre_line(flexure, h->fillet_m, pose, flexure->kind == FW_FLEXURE_PATH ? MOST : 25);
+    fw_text_add(out, ",\"centre_line\":\"");
+    for (int i = 0; i < n; i++) {
+        pose[i] = to_world(h, pose[i]);
+        point(out, i ? "L" : "M", (fw_vec2){pose[i].x_m, pose[i].y_m});
+    }
+    fw_text_add(out, "\",\"ends\":[");
+    end_frame(out, in->mechanism, bend->lower, pose[0]);
+    fw_text_add(out, ",");
+    end_frame(out, in->mechanism, bend->upper, pose[n - 1]);
+    fw_text_add(out, "],\"width_um\":");
+    um(out, flexure->width_m);
+}
+
+static void flexures(const fw_report_preview *in, const fw_report_bends *bends, fw_text *out) {
+    const fw_mechanism *m = in->mechanism;
+    const frame world = frame_of(m, FW_GROUND);
+    fw_text_add(out, "\"flexures\":[");
+    for (int i = 0; i < bends->count; i++) {
+        const fw_report_bend *bend = &bends->item[i];
+        fw_text_add(out, i ? ",\n{\"id\":" : "\n{\"id\":");
+        fw_report_preview_string(out, in->device->joint[bend->joint].id);
+        fw_text_printf(out, ",\"pin\":%d,\"flexure\":", bend->joint);
+        fw_report_preview_string(out,
+                                 in->device->flexure[in->device->joint[bend->joint].flexure].id);
+        fw_text_add(out, ",\"between\":[");
+        fw_report_preview_string(out, body_id(m, bend->lower));
+        fw_text_add(out, ",");
+        fw_report_preview_string(out, body_id(m, bend->upper));
+        fw_text_printf(out, "],\"bodies\":[%d,%d],\"path\":\"", bend->lower, bend->upper);
+        contour(out, &world, &bend->piece->contour);
+        fw_text_add(out, "\",");
+        pair_um(out, "centre_um", bend->centre);
+        fw_text_add(out, ",\"points\":[");
+        for (int k = 0; k < bend->npoint; k++) { /* x, y and the share of the upper body */
+            fw_text_add(out, k ? "," : "");
+            um(out, bend->point[k].x_m);
+            fw_text_add(out, ",");
+            um(out, bend->point[k].y_m);
+            fw_text_add(out, ",");
+            fw_text_fixed(out, bend->point[k].weight, 4);
+        }
+        fw_text_add(out, "]");
+        line_of(in, bend, out);
+        fw_text_add(out, "}");
+    }
+    fw_text_add(out, "]");
+}
+
+/* ---- pins ---- */
+
+/* limit of a joint in a variant; NaN: none, or not judged */
+static double limit_in(const fw_report_preview *in, int flow, int joint) {
+    const fw_variant_verdict *v = in->flow[flow].variant;
+    for (int i = 0; v && v->hinge && i < v->nhinge; i++)
+        if (v->hinge[i].joint == joint) return v->hinge[i].limit_angle_rad;
+    return (double)NAN;
+}
+
+static void pins(const fw_report_preview *in, fw_text *out) {
+    const fw_mechanism *m = in->mechanism;
+    fw_text_add(out, "\"pins\":[");
+    for (int i = 0; i < m->npin; i++) {
+        const fw_pin *p = &m->pin[i];
+        fw_vec2 at = fw_pin_place(m, p, 0);
+        fw_text_add(out, i ? ",\n{\"id\":" : "\n{\"id\":");
+        fw_report_preview_string(out, p->id);
+        fw_text_add(out, ",\"a\":");
+        fw_report_preview_string(out, body_id(m, p->body_a));
+        fw_text_add(out, ",\"b\":");
+        fw_report_preview_string(out, body_id(m, p->body_b));
+        fw_text_printf(out, ",\"bodies\":[%d,%d],", p->body_a, p->body_b);
+        pair_um(out, "at_um", at);
+        fw_text_add(out, ",");
+        pair_um(out, "on_a_um", (fw_vec2){p->ax_m, p->ay_m});
+        fw_text_add(out, ",");
+        pair_um(out, "on_b_um", (fw_vec2){p->bx_m, p->by_m});
+        fw_text_add(out, ",\"free_angle_rad\":");
+        fw_report_preview_number(out, p->free_angle_rad, 9);
+        fw_text_printf(out,
+                       ",\"flexure\":%s,\"limit_rad\":", p->hinge != FW_NONE ? "true" : "false");
+        if (in->nflow > 0) {
+            fw_text_add(out, "[");
+            for (int k = 0; k < in->nflow; k++) {
+                fw_text_add(out, k ? "," : "");
+                fw_report_preview_number(out, limit_in(in, k, i), 7);
+            }
+            fw_text_add(out, "]");
+        } else
+            fw_text_add(out, "[]");
+        fw_text_add(out, ",\"shown_limit_rad\":"); /* in the flow of the motion */
+        fw_report_preview_number(out, fw_report_pin_limit(m, i), 7);
+        fw_text_add(out, "}");
+    }
+    fw_text_add(out, "]");
+}
+
+/* ---- loads, to be drawn as arrows ---- */
+
+static void loads(const fw_report_preview *in, fw_text *out) {
+    const fw_scene *s = in->scene;
+    fw_text_add(out, "\"loads\":[");
+    for (int i = 0; s && i < s->nforce; i++) {
+        fw_text_printf(out, "%s{\"kind\":\"force\",\"body\":%d,", i ? "," : "", s->force[i].body);
+        pair_um(out, "at_um", (fw_vec2){s->force[i].x_m, s->force[i].y_m});
+        fw_text_add(out, ",\"force_N\":[");
+        fw_report_preview_number(out, s->force[i].fx_N, 6);
+        fw_text_add(out, ",");
+        fw_report_preview_number(out, s->force[i].fy_N, 6);
+        fw_text_add(out, "],\"law\":");
+        fw_report_preview_string(out,
+                                 s->force[i].law ? fw_law_kind_text(s->force[i].law->kind) : NULL);
+        fw_text_add(out, "}");
+    }
+    for (int i = 0; s && i < s->ntorque; i++) {
+        fw_text_printf(out, "%s{\"kind\":\"torque\",\"body\":%d,\"torque_Nm\":",
+                       i + s->nforce ? "," : "", s->torque[i].body);
+        fw_report_preview_number(out, s->torque[i].value_Nm, 6);
+        fw_text_add(out, ",\"law\":");
+        fw_report_preview_string(out, s->torque[i].law ? fw_law_kind_text(s->torque[i].law->kind)
+                                                       : NULL);
+        fw_text_add(out, "}");
+    }
+    fw_text_add(out, "]");
+}
+
+/* what a picture has to hold: everything drawn of bodies and ground but the frame; centres and
+   pins where nothing is drawn */
+static void box_of(const fw_report_preview *in, fw_text *out) {
+    const fw_mechanism *m = in->mechanism;
+    fw_box box = fw_report_box_empty();
+    for (int i = 0; fw_report_drawn(in->layout) && i < in->layout->npiece; i++) {
+        const fw_piece *p = &in->layout->piece[i];
+        if (p->role != FW_ROLE_STRUCTURE && p->role != FW_ROLE_FLEXURE) continue;
+        fw_box b = fw_contour_box(&p->contour);
+        fw_report_box_add(&box, b.x0, b.y0);
+        fw_report_box_add(&box, b.x1, b.y1);
+    }
+    for (int b = 0; b < m->nbody; b++)
+        fw_report_box_add(&box, m->body[b].x_m, m->body[b].y_m);
+    for (int i = 0; i < m->npin; i++) {
+        fw_vec2 p = fw_pin_place(m, &m->pin[i], 0);
+        fw_report_box_add(&box, p.x, p.y);
+    }
+    bool any = box.x1 >= box.x0 && box.y1 >= box.y0;
+    const double side[4] = {box.x0, box.y0, box.x1, box.y1};
+    fw_text_add(out, "\"box_um\":");
+    for (int i = 0; any && i < 4; i++) {
+        fw_text_add(out, i ? "," : "[");
+        um(out, side[i]);
+    }
+    fw_text_add(out, any ? "]" : "null");
+}
+
+fw_status fw_report_preview_shapes(fw_arena *arena, const fw_report_preview *in, fw_text *out) {
+    const fw_mechanism *m = in->mechanism;
+    if (!m) {
+        fw_text_add(out, "\"box_um\":null,\"bodies\":[],\"flexures\":[],\"pins\":[],\"loads\":[]");
+        return fw_text_end(out);
+    }
+    fw_figure figure = {0};
+    fw_report_bends bends;
+    double *rest = fw_arena_array(arena, double, 3 * (size_t)m->nbody);
+    FW_NEED(rest);
+    for (int b = 0; b < m->nbody; b++) {
+        rest[3 * b] = m->body[b].x_m;
+        rest[3 * b + 1] = m->body[b].y_m;
+        rest[3 * b + 2] = m->body[b].phi_rad;
+    }
+    FW_TRY(fw_figure_make(arena, m, rest, 1, &figure));
+    FW_TRY(fw_report_bends_make(arena, in->device, in->layout, &bends));
+    box_of(in, out);
+    fw_text_add(out, ",\n");
+    bodies(in, &figure, out);
+    fw_text_add(out, ",\n");
+    flexures(in, &bends, out);
+    fw_text_add(out, ",\n");
+    pins(in, out);
+    fw_text_add(out, ",\n");
+    loads(in, out);
+    return fw_text_end(out);
+}
