@@ -21,7 +21,7 @@ export function about() {
         h("h3", {}, "Libraries in this page"),
         h("table", { class: "plain" }, h("thead", {}, h("tr", {}, ["library", "for", "licence", "by"].map((x) => h("th", { scope: "col" }, x)))),
             h("tbody", {}, LIBRARIES.map((row) => h("tr", {}, row.map((x) => h("td", {}, x)))))),
-        h("p", { class: "doc" }, "CodeMirror, Lezer, crelt, style-mod, w3c-keyname and uPlot: permission is hereby granted, free of charge, to any person obtaining a copy of this software and associated documentation files, to deal in the software without restriction, including without limitation the rights to use, copy, modify, merge, publish, distribute, sublicense, and/or sell copies of the software, subject to the condition that the copyright notice and this permission notice are included in all copies or substantial portions. The software is provided \"as is\", without warranty of any kind."),
+        h("p", {}, h("a", { href: "/licences.txt", target: "_blank", rel: "noopener" }, "Their licences in full")),
         h("h3", {}, "Keys"),
         h("table", { class: "plain keys" }, h("tbody", {}, [
             ["Ctrl S", "save"], ["Ctrl Z, Ctrl Shift Z", "undo, redo: for form, sliders and text alike"], ["+ − 0, arrows", "zoom, fit, pan, in a picture"],

@@ -73,12 +73,13 @@ export class Mechanism {
         const ground = preview.bodies.findIndex((b) => b.fixed);
         this.flexures = preview.flexures.map((flexure) => {
             const path = s("path", { class: "flexure", "fill-rule": "evenodd", "data-id": flexure.id });
+            const edge = s("path", { class: "flexure-edge" });
             const title = s("title", {}, `hinge ${flexure.id}`);
             path.append(title);
             path.addEventListener("click", () => this.onhinge?.(flexure.id));
-            this.parts.append(path);
+            this.parts.append(edge, path);
             const [a, b] = flexure.between.map((id) => index.get(id) ?? ground);
-            return { id: flexure.id, a, b, path, title, bend: flexure.centre_line ? new Bend(flexure.path, lineOf(flexure.centre_line)) : null, rest: flexure.path };
+            return { id: flexure.id, a, b, path, edge, title, bend: flexure.centre_line ? new Bend(flexure.path, lineOf(flexure.centre_line)) : null, rest: flexure.path };
         });
         this.#pins(preview, index, ground);
         if (preview.box_um) this.view.setBox(preview.box_um);
@@ -104,8 +105,9 @@ export class Mechanism {
         this.motion = motion;
         q.forEach((pose, i) => this.bodies[i].setAttribute("transform", place(pose)));
         for (const f of this.flexures) {
-            if (f.bend) f.path.setAttribute("d", f.bend.path(motion[f.a] ?? REST, motion[f.b] ?? REST));
-            else f.path.setAttribute("d", f.rest);
+            const d = f.bend ? f.bend.path(motion[f.a] ?? REST, motion[f.b] ?? REST) : f.rest;
+            f.path.setAttribute("d", d);
+            f.edge.setAttribute("d", d);
         }
         this.#place();
     }
@@ -124,9 +126,11 @@ export class Mechanism {
     colour(shares, chosen) {
         for (const f of this.flexures) {
             const share = shares.get(f.id);
-            f.path.style.setProperty("fill", share === undefined || share === null ? "var(--piece)" : share > 1 ? `url(#${this.id}-over)` : scale(share));
-            f.path.classList.toggle("chosen", f.id === chosen);
-            f.path.classList.toggle("over", share > 1);
+            const colour = share === undefined || share === null ? "var(--piece)" : scale(share);
+            f.path.style.setProperty("fill", share > 1 ? `url(#${this.id}-over)` : colour);
+            f.path.style.setProperty("stroke", share > 1 ? `url(#${this.id}-over)` : colour);
+            f.edge.classList.toggle("chosen", f.id === chosen);
+            f.edge.classList.toggle("over", share > 1);
             f.title.textContent = `hinge ${f.id}${share === undefined || share === null ? "" : `: ${percent(share)} of its limit`}`;
         }
         for (const pin of this.pins) {

@@ -36,7 +36,7 @@ export class Motion {
         const seek = (t) => this.seek(t / 1e3, true);
         this.angles = new Plot(this.plots, { title: "Hinge angle / limit", unit: "%, over ms", onseek: seek });
         this.energy = new Plot(this.plots, { title: "Energy", unit: "nJ, over ms", onseek: seek });
-        this.norm = new Plot(this.plots, { title: "Constraints", unit: "norm of gaps, over ms", log: true, onseek: seek });
+        this.norm = new Plot(this.plots, { title: "Constraints", unit: "norm, over ms", log: true, onseek: seek });
         this.inDegrees = button("degrees", { class: "small toggle", "aria-pressed": "false" }, () => {
             this.inDegrees.setAttribute("aria-pressed", String(this.inDegrees.getAttribute("aria-pressed") !== "true"));
             this.#plotAll();
@@ -138,9 +138,9 @@ export class Motion {
         this.angles.heading.firstChild.textContent = inDegrees ? "Hinge angle" : "Hinge angle / limit";
         this.angles.heading.children[1].textContent = inDegrees ? "degrees, over ms" : "%, over ms";
         this.angles.show(ms, series, { marks, chosen, range: inDegrees ? undefined : most > 0.4 ? [-112, 112] : undefined });
-        const energies = [["kinetic", "kinetic_J"], ["potential", "potential_J"], ["dissipated", "dissipated_J"], ["work done", "work_J"]].filter(([, k]) => m.energy?.[k]);
+        const energies = [["kinetic", "kinetic_J"], ["potential", "potential_J"], ["dissipated", "dissipated_J"], ["work", "work_J"]].filter(([, k]) => m.energy?.[k]);
         this.energy.show(ms, energies.map(([name, k], i) => ({ name, key: i, values: m.energy[k].map((x) => (x === null ? null : x * 1e9)) })));
-        if (m.constraint_norm) this.norm.show(ms, [{ name: "norm", key: 6, values: m.constraint_norm.map((x) => Math.max(x ?? 0, 1e-18)) }]);
+        if (m.constraint_norm) this.norm.show(ms, [{ name: "norm", key: 6, solid: true, values: m.constraint_norm.map((x) => Math.max(x ?? 0, 1e-18)) }]);
         this.norm.root.hidden = !m.constraint_norm;
         this.#legend(p, energies);
     }

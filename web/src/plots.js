@@ -51,10 +51,10 @@ export class Plot {
             },
             axes: [
                 { ...axis, size: 26, values: (u, v) => v.map((x) => number(x, 4)) },
-                { ...axis, size: 46, values: (u, v) => v.map((x) => (x === null ? "" : number(x, 3))) },
+                { ...axis, size: 50, values: (u, v) => v.map((x) => (x === null ? "" : number(x, this.log ? 1 : 3))) },
             ],
             series: [{}, ...series.map((x, i) => ({
-                label: x.name, stroke: curve(x.key ?? i), dash: dash(x.key ?? i), points: { show: false },
+                label: x.name, stroke: curve(x.key ?? i), dash: x.solid ? [] : dash(x.key ?? i), points: { show: false },
                 width: chosen === null || chosen === x.name ? 1.8 : 0.9, alpha: chosen === null || chosen === x.name ? 1 : 0.4, spanGaps: true,
             }))],
             hooks: { draw: [(u) => this.#over(u)] },

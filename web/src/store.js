@@ -3,6 +3,7 @@
 // else here is either how it is looked at (options, theme, time) or an answer to that text.
 
 export const state = {
+    text: "",
     session: null, // flexwright.session/1
     table: null, // flexwright.table/1
     file: null, // {name, version, text (as on disk), writable}

@@ -15,6 +15,7 @@ export class Verdict {
     constructor(holder) {
         this.banner = h("div", { class: "banner", id: "banner" });
         this.problems = h("section", { class: "card problems", "aria-label": "Diagnostics", hidden: true });
+        this.notes = h("section", { class: "card notes", "aria-label": "Notes", hidden: true });
         this.bars = h("div", { class: "bars" });
         this.flows = h("div", { class: "flows" });
         this.ledger = h("div", { class: "ledger" });
@@ -26,7 +27,7 @@ export class Verdict {
             h("section", { class: "card", "aria-labelledby": "h-flows" }, h("h2", { id: "h-flows" }, "Flows"), this.flows),
             h("section", { class: "card", "aria-labelledby": "h-full" }, h("h2", { id: "h-full" }, "As fabricated"), full),
             h("section", { class: "card", "aria-labelledby": "h-ledger" }, h("h2", { id: "h-ledger" }, "Effects"), this.ledger),
-            h("section", { class: "card", "aria-labelledby": "h-cost" }, h("h2", { id: "h-cost" }, "Cost of this answer"), this.cost));
+            h("section", { class: "card", "aria-labelledby": "h-cost" }, h("h2", { id: "h-cost" }, "Cost of this answer"), this.cost), this.notes);
         this.full = new JobView(full, {
             kind: "check", action: "Judge as fabricated",
             intro: "The live verdict is of the drawing. This judges what each flow may make of it, at the corners of its ranges, and looks for changes that help.",
@@ -44,16 +45,19 @@ export class Verdict {
         this.banner.replaceChildren(h("p", { class: "empty" }, "No verdict yet."));
     }
 
+    /** Mistakes stand on top; what is only to be known stands last. */
     #answer() {
         this.#staleness();
-        const list = state.diagnostics;
-        this.problems.hidden = list.length === 0;
-        if (!list.length) return;
-        const errors = list.filter((d) => d.severity === "error").length;
-        this.problems.replaceChildren(
-            h("h2", {}, errors ? `${errors} ${errors === 1 ? "mistake" : "mistakes"} in the description` : "Notes on the description"),
-            h("ul", { class: "diagnostics" }, list.map((d) => diagnosticItem(d))));
-        if (errors) announce(`${errors} ${errors === 1 ? "mistake" : "mistakes"}: ${list.find((d) => d.severity === "error").message}`);
+        const errors = state.diagnostics.filter((d) => d.severity === "error");
+        const rest = state.diagnostics.filter((d) => d.severity !== "error");
+        const words = `${errors.length} ${errors.length === 1 ? "mistake" : "mistakes"}`;
+        this.problems.hidden = errors.length === 0;
+        this.problems.replaceChildren(h("h2", {}, `${words} in the description`), h("ul", { class: "diagnostics" }, errors.map((d) => diagnosticItem(d))));
+        this.notes.hidden = rest.length === 0;
+        this.notes.replaceChildren(h("h2", {}, "Warnings and notes"), h("ul", { class: "diagnostics" }, rest.map((d) => diagnosticItem(d))));
+        const said = errors.length ? `${words}: ${errors[0].message}` : "";
+        if (said && said !== this.said) announce(said);
+        this.said = said;
     }
 
     #staleness() {
@@ -88,8 +92,8 @@ export class Verdict {
         const most = Math.max(1.25, ...v.hinges.map((x) => Math.min(x.utilisation ?? 0, 4)));
         const rows = v.hinges.map((hinge) => bar(hinge, most, v.governing));
         this.bars.replaceChildren(
-            h("div", { class: "bar-axis", "aria-hidden": "true", style: { "--limit": `${100 / most}%` } }, h("span", {}, "limit")),
-            h("div", { class: "bar-list", style: { "--limit": `${100 / most}%` } }, rows));
+            h("div", { class: "bar-axis", "aria-hidden": "true", style: { "--at": `${100 / most}%` } }, h("span", {}, "limit")),
+            h("div", { class: "bar-list", style: { "--at": `${100 / most}%` } }, rows));
         this.#chosen();
     }
 
@@ -197,11 +201,12 @@ function bar(hinge, most, governing) {
 }
 
 export function diagnosticItem(d, jump = true) {
-    const place = d.line ? `${d.line}:${d.column}` : "";
-    const text = [h("span", { class: "place" }, place), h("span", {}, d.message), d.code ? h("span", { class: "code" }, d.code) : null];
+    const here = d.in_text !== false;
+    const place = !d.line ? "" : here ? `${d.line}:${d.column}` : (d.file ?? "").split("/").at(-1);
+    const text = [place ? h("span", { class: "place" }, place) : null, h("span", { class: "what" }, d.message), d.code ? h("span", { class: "code" }, d.code) : null];
     return h("li", { class: d.severity },
-        jump && d.line ? h("button", { type: "button", class: "jump", onclick: () => document.dispatchEvent(new CustomEvent("jump", { detail: d })) }, text) : h("div", { class: "jump" }, text),
-        d.explain ? h("details", { class: "explain" }, h("summary", {}, "more"), h("p", {}, d.explain)) : null);
+        jump && d.line && here ? h("button", { type: "button", class: "jump", onclick: () => document.dispatchEvent(new CustomEvent("jump", { detail: d })) }, text) : h("div", { class: "jump" }, text),
+        d.explain ? h("details", { class: "explain" }, h("summary", {}, d.title ?? "more"), h("p", {}, d.explain)) : null);
 }
 
 /** Selects of how the motion is computed, from the table's lists; kept in step with the preview. */
