@@ -96,10 +96,10 @@ fw_status fw_live_real(fw_live_request *r, const json_t *object, const char *key
 
 /* ---- the design of a request ---- */
 
-static fw_status read_options(fw_live_request *r, fw_design_options *o) {
-    static const char *const keys[] = {"scene",   "method",   "integrator", "stabilise",
-                                       "rtol",    "accuracy", "effects",    "hinge_model",
-                                       "samples", "corners",  "flow",       NULL};
+static fw_status read_options(fw_live_request *r, fw_design_options *o, bool *full) {
+    static const char *const keys[] = {"scene",    "method",  "integrator",  "stabilise", "rtol",
+                                       "accuracy", "effects", "hinge_model", "samples",   "corners",
+                                       "flow",     "detail",  NULL};
     double samples = FW_LIVE_SAMPLES;
     o->corners = "none";
     if (r->options) FW_TRY(only(r, r->options, keys));
@@ -117,6 +117,12 @@ static fw_status read_options(fw_live_request *r, fw_design_options *o) {
     if (!(samples >= 2 && samples <= FW_LIVE_SAMPLES_MOST) || samples != floor(samples))
         return fw_live_wrong(r, "samples must be a whole number from 2 to 2001", NULL);
     o->samples = (int32_t)samples;
+    const char *detail = "quick";
+    FW_TRY(fw_live_string(r, r->options, "detail", &detail));
+    *full = strcmp(detail, "full") == 0;
+    if (!*full && strcmp(detail, "quick") != 0)
+        return fw_live_wrong(r, "detail is \"quick\" or \"full\"", NULL);
+    if (!*full && !o->hinge_model) o->hinge_model = fw_hinge_model_text(FW_HINGE_REVOLUTE);
     return FW_OK;
 }
 
@@ -139,9 +145,12 @@ fw_status fw_live_design(const fw_live *live, fw_live_request *r, fw_design **de
     *design = NULL;
     options.data_directory = live->settings.data_directory;
     options.memory_cap = live->settings.memory_cap;
-    FW_TRY(read_options(r, &options));
+    FW_TRY(read_options(r, &options, &r->full));
     FW_NEED(*design = fw_design_new(&options));
-    fw_design_plan(*design)->options.verdict.with_advice = false;
+    fw_verdict_options *judge = &fw_design_plan(*design)->options.verdict;
+    judge->with_advice = false;
+    judge->at_a_glance = !r->full;
+    judge->motion.energies = !r->full; /* then its motion is the one that is shown */
     fw_status status = r->set ? apply_sets(r, *design) : FW_OK;
     if (status == FW_OK) return FW_OK;
     fw_design_free(*design);

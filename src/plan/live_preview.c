@@ -46,8 +46,25 @@ static bool corners_missing(const fw_plan *plan) {
     return missing && plan->options.verdict.corners != FW_CORNERS_AUTO;
 }
 
+/* pins where nobody asked for them: what that may be off by is in the bands */
+static bool only_pins(const fw_plan *plan) {
+    const fw_verdict_options *o = &plan->options.verdict;
+    return o->at_a_glance && o->motion.effects.hinge == FW_HINGE_REVOLUTE;
+}
+
+enum { LEFT_OUT_MOST = 5 };
+
 static int leave_out(const fw_plan *plan, bool judged, fw_report_left_out *item) {
     int n = 0;
+    if (judged && only_pins(plan))
+        item[n++] = (fw_report_left_out){
+            "hinge-model",
+            "Hinges are pins; what a better model of them would change is estimated, and in the "
+            "bands of the utilisations.",
+            true};
+    if (judged && plan->options.verdict.at_a_glance)
+        item[n++] = (fw_report_left_out){"closer-look",
+                                         "What is undecided was not computed more closely.", true};
     if (!judged)
         item[n++] = (fw_report_left_out){"verdict", "Nothing was judged.", true};
     else if (corners_missing(plan))
@@ -74,6 +91,22 @@ static fw_status verdict_of(fw_design *d, fw_report_preview *in) {
     return FW_OK;
 }
 
+/* of a design that was judged only: the scene that was asked for, or the first that has a motion,
+   in the first flow where it has */
+static void judged_motion(const fw_plan *plan, fw_report_preview *in) {
+    const char *wanted = plan->options.scene;
+    for (int k = 0; k < in->device->nscene; k++) {
+        const fw_scene *scene = &in->device->scene[k];
+        if (wanted && strcmp(wanted, scene->name) != 0) continue;
+        for (int i = 0; i < plan->nflow; i++) {
+            const fw_variant_verdict *v = &plan->verdict.variant[i];
+            if (!v->motion || !v->motion[k]) continue;
+            in->mechanism = v->mechanism, in->motion = v->motion[k], in->scene = scene;
+            return;
+        }
+    }
+}
+
 /* the exit status of `check` for the same, and whether it may still become worse */
 static void outcome(fw_design *d, fw_status status, fw_report_preview *in) {
     bool judged = d->done & JUDGED;
@@ -88,7 +121,7 @@ static void outcome(fw_design *d, fw_status status, fw_report_preview *in) {
 /* status: of what was tried last */
 static fw_status compose(fw_design *d, fw_status status, fw_text *out) {
     fw_plan *plan = d->plan;
-    fw_report_left_out left_out[3];
+    fw_report_left_out left_out[LEFT_OUT_MOST];
     bool judged = d->done & JUDGED, moved = d->done & SIMULATED;
     fw_report_preview in = {.status = plan->device ? "ok" : "invalid",
                             .left_out = left_out,
@@ -105,8 +138,9 @@ static fw_status compose(fw_design *d, fw_status status, fw_text *out) {
         FW_TRY(verdict_of(d, &in));
         if (moved)
             in.mechanism = d->mechanism, in.motion = d->motion, in.scene = d->scene;
-        else
-            FW_TRY(mechanism_of(plan, judged, &in.mechanism));
+        else if (judged)
+            judged_motion(plan, &in);
+        if (!in.mechanism) FW_TRY(mechanism_of(plan, judged, &in.mechanism));
         in.layout = plan->layout;
         if (status != FW_OK && !judged && !moved) in.status = "failed";
     }
@@ -141,8 +175,12 @@ static fw_status look(fw_design *d, fw_live_request *request, fw_text *out) {
     if (status == FW_STATUS_USAGE && d->wrong_option)
         return fw_live_wrong(request, d->wrong_option, NULL);
     if (status == FW_STATUS_OK) {
-        int moved = d->plan->device->nscene > 0 ? fw_design_simulate(d) : FW_STATUS_OK;
+        bool scenes = d->plan->device->nscene > 0;
         status = fw_design_judge(d);
+        /* its motions will do for a picture; what cannot be judged can be moved all the same */
+        int moved = FW_STATUS_OK;
+        if (scenes && !hopeless(status) && (request->full || status != FW_STATUS_OK))
+            moved = fw_design_simulate(d);
         if (hopeless(moved)) status = moved;
     }
     if (hopeless(status)) return (fw_status)status;

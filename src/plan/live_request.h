@@ -28,6 +28,7 @@ typedef struct fw_live_request {
     const char *text;
     size_t length;
     json_t *set, *options; /* objects or NULL */
+    bool full;             /* options.detail, after fw_live_design */
     const char *wrong;     /* a sentence; NULL: nothing is */
 } fw_live_request;
 
