@@ -7,17 +7,20 @@ pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo)
 pkg_check_modules(GSL REQUIRED IMPORTED_TARGET gsl)
 pkg_check_modules(JANSSON REQUIRED IMPORTED_TARGET jansson)
 pkg_check_modules(ZLIB REQUIRED IMPORTED_TARGET zlib)
+pkg_check_modules(MICROHTTPD REQUIRED IMPORTED_TARGET libmicrohttpd)
+pkg_check_modules(ZIP REQUIRED IMPORTED_TARGET libzip)
 find_library(LAPACKE_LIBRARY lapacke REQUIRED)
 find_library(LAPACK_LIBRARY lapack REQUIRED)
 
 set(FW_ROOMS base maths geometry quantity device flexure layout mechanism effects multibody assembly
              dynamics statics workspace
-             verdict continuum process schedule mask wafer recipe report plan cli)
+             verdict continuum process schedule mask wafer recipe report plan serve cli)
 set(FW_EXTERN_maths PkgConfig::GSL ${LAPACKE_LIBRARY} ${LAPACK_LIBRARY} m)
 set(FW_EXTERN_device PkgConfig::XML2)
 set(FW_EXTERN_process PkgConfig::XML2)
 set(FW_EXTERN_mask PkgConfig::ZLIB)
 set(FW_EXTERN_report PkgConfig::CAIRO)
+set(FW_EXTERN_serve PkgConfig::MICROHTTPD PkgConfig::ZIP)
 set(FW_EXTERN_base PkgConfig::JANSSON m)
 
 # the kernels are the same source compiled for each instruction set and chosen at run time; those of

@@ -55,6 +55,8 @@ fw_script_test(hard.valgrind LABEL hard COMMAND tests/build/valgrind.sh ${PROJEC
 set_tests_properties(hard.valgrind PROPERTIES SKIP_RETURN_CODE 77)
 set_tests_properties(build.clang build.sanitized build.bytes fuzz.device effects.absent PROPERTIES RUN_SERIAL ON)
 
+include(serve/serve.cmake)
+
 add_executable(fault_memory fault/memory.c)
 target_link_libraries(fault_memory PRIVATE fw_plan)
 fw_script_test(fault.memory COMMAND fault_memory docs/gallery/reference-six-bar/device.xml TIMEOUT 600)

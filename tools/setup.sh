@@ -3,7 +3,8 @@
 # FLEXWRIGHT_NO_INSTALL=1 leaves the system alone and only says what is missing.
 
 build_packages="gcc libc6-dev cmake ninja-build pkg-config libxml2-dev libcairo2-dev libgsl-dev
-liblapacke-dev liblapack-dev libjansson-dev zlib1g-dev libcmocka-dev"
+liblapacke-dev liblapack-dev libjansson-dev zlib1g-dev
+libmicrohttpd-dev libzip-dev libcmocka-dev"
 test_packages="g++ valgrind clang libclang-rt-14-dev libxml2-utils python3 klayout python3-gdspy python3-tk libgeos-dev
 calculix-ccx"
 

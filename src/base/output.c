@@ -28,15 +28,14 @@ static fw_status failed(fw_diags *diags, const char *path, const char *what) {
     return FW_IO;
 }
 
-/* removes a tree of our own making: plain files and directories, never through links */
-static void remove_tree(int parent, const char *name) {
+void fw_output_remove_tree(int parent, const char *name) {
     int fd = openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     if (fd >= 0) {
         DIR *dir = fdopendir(fd);
         if (dir) {
             for (struct dirent *e; (e = readdir(dir));)
                 if (strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0)
-                    remove_tree(fd, e->d_name);
+                    fw_output_remove_tree(fd, e->d_name);
             closedir(dir);
         } else
             close(fd);
@@ -68,7 +67,8 @@ static void remove_leftovers(fw_arena *arena, const char *path) {
         long pid = strtol(e->d_name + strlen(prefix), &end, 10);
         char proc[64];
         snprintf(proc, sizeof proc, "/proc/%ld", pid);
-        if (*end == '\0' && pid > 0 && access(proc, F_OK) != 0) remove_tree(dirfd(dir), e->d_name);
+        if (*end == '\0' && pid > 0 && access(proc, F_OK) != 0)
+            fw_output_remove_tree(dirfd(dir), e->d_name);
     }
     closedir(dir);
 }
@@ -187,7 +187,7 @@ fw_status fw_output_open(fw_arena *arena, const char *path, fw_diags *diags, fw_
     remove_leftovers(arena, o->path);
     o->build = fw_arena_printf(arena, "%s.tmp-%ld", o->path, (long)getpid());
     FW_NEED(o->build);
-    remove_tree(AT_FDCWD, o->build);
+    fw_output_remove_tree(AT_FDCWD, o->build);
     if (mkdir(o->build, 0777) != 0) return failed(diags, o->build, "make the directory");
     *output = o;
     return FW_OK;
@@ -265,7 +265,7 @@ fw_status fw_output_commit(fw_output *o) {
         if (rename(o->build, o->path) != 0)
             return failed(o->diags, o->path, "put the results in place");
     } else if (renameat2(AT_FDCWD, o->build, AT_FDCWD, o->path, RENAME_EXCHANGE) == 0) {
-        remove_tree(AT_FDCWD, o->build); /* now holds what was there before */
+        fw_output_remove_tree(AT_FDCWD, o->build); /* now holds what was there before */
     } else { /* a file system without exchange: move the old one aside first */
         const char *aside = fw_arena_printf(o->arena, "%s.tmp-%ld-old", o->path, (long)getpid());
         FW_NEED(aside);
@@ -275,7 +275,7 @@ fw_status fw_output_commit(fw_output *o) {
             rename(aside, o->path);
             return failed(o->diags, o->path, "put the results in place");
         }
-        remove_tree(AT_FDCWD, aside);
+        fw_output_remove_tree(AT_FDCWD, aside);
     }
     o->build = NULL;
     const char *slash = strrchr(o->path, '/');
@@ -288,7 +288,7 @@ fw_status fw_output_commit(fw_output *o) {
 
 void fw_output_abort(fw_output *o) {
     if (o && o->build) {
-        remove_tree(AT_FDCWD, o->build);
+        fw_output_remove_tree(AT_FDCWD, o->build);
         o->build = NULL;
     }
 }
@@ -356,8 +356,7 @@ fw_status fw_input_read(fw_arena *arena, const char *path, size_t most, fw_diags
     return FW_OK;
 }
 
-fw_status fw_data_path(fw_arena *arena, const char *override, const char *name,
-                       const char **path) {
+fw_status fw_data_path(fw_arena *arena, const char *override, const char *name, const char **path) {
     const char *const root[] = {override, FW_INSTALL_DATA_DIR, FW_SOURCE_DATA_DIR};
     bool given = override && override[0];
     for (size_t i = given ? 0 : 1; i < (given ? 1 : sizeof root / sizeof root[0]); i++) {

@@ -20,6 +20,9 @@ fw_status fw_output_open(fw_arena *arena, const char *path, fw_diags *diags, fw_
 fw_status fw_output_write(fw_output *output, const char *name, const void *data, size_t n);
 const fw_output_file *fw_output_files(const fw_output *output, size_t *count); /* by name */
 fw_status fw_output_commit(fw_output *output);
+/* removes a tree of our own making, `name` below the directory `parent`: plain files and directories,
+   never through links */
+void fw_output_remove_tree(int parent, const char *name);
 void fw_output_abort(fw_output *output); /* removes what was built; NULL and twice allowed */
 
 /* a single file, whole or not at all ("-" is standard output) */

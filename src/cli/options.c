@@ -315,6 +315,28 @@ static const char *take_lot(fw_cli_options *o, const char *v) {
     return *v && strlen(v) <= 100 ? NULL : "needs 1 to 100 characters";
 }
 
+/* ---- of serve ---- */
+
+static const char *take_port(fw_cli_options *o, const char *v) {
+    double n;
+    if (!fw_number_parse(v, strlen(v), &n) || n != floor(n) || !(n >= 0 && n <= 65535))
+        return "needs a whole number between 0 (any free port) and 65535";
+    o->port = (int)n;
+    return NULL;
+}
+
+static const char *take_no_browser(fw_cli_options *o, const char *v) {
+    (void)v;
+    o->no_browser = true;
+    return NULL;
+}
+
+static const char *take_ipv6(fw_cli_options *o, const char *v) {
+    (void)v;
+    o->ipv6 = true;
+    return NULL;
+}
+
 static const fw_option_row table[] = {
     {"output", 'o', "DIR", "directory of the results; it appears whole or not at all",
      FW_OPT_OUTPUT, take_output},
@@ -438,6 +460,9 @@ static const fw_option_row table[] = {
      "thickness=9.1\", further second, tool, bath, note and what the step measures",
      FW_OPT_LOG, take_entry},
     {"lot", 0, "NAME", "name of the lot, for a log that begins", FW_OPT_LOG, take_lot},
+    {"port", 0, "N", "port of the page; default: a free one", FW_OPT_SERVE, take_port},
+    {"no-browser", 0, NULL, "only print the address", FW_OPT_SERVE, take_no_browser},
+    {"ipv6", 0, NULL, "listen on ::1 as well as on 127.0.0.1", FW_OPT_SERVE, take_ipv6},
     {"quiet", 'q', NULL, "no messages but errors", FW_OPT_COMMON, take_quiet},
     {"verbose", 'v', NULL, "a line per stage, and every note", FW_OPT_COMMON, take_verbose},
     {"color", 0, "WHEN", "auto, always or never", FW_OPT_COMMON, take_colour},

@@ -19,6 +19,8 @@ typedef struct fw_cli_options {
     const char *svg;               /* of assemble and hinge */
     const char *level, *deck;      /* of hinge; NULL: by accuracy, none */
     const char *run, *entry, *lot; /* of log */
+    int port;                      /* of serve; 0: a free one */
+    bool no_browser, ipv6;
     bool json, quiet, verbose, no_progress, help, version;
     int colour; /* -1 auto, 0 never, 1 always */
 } fw_cli_options;
@@ -42,7 +44,8 @@ enum { /* option groups */
        FW_OPT_HINGE = 256,
        FW_OPT_SCHEDULE = 512,
        FW_OPT_CALIBRATE = 1024,
-       FW_OPT_LOG = 2048
+       FW_OPT_LOG = 2048,
+       FW_OPT_SERVE = 8192 /* 4096: the room beside */
 };
 
 /* fills options from argv[2..]; false: wrong usage, said on stderr */

@@ -16,6 +16,7 @@ int fw_command_log(fw_cli_options *options);
 int fw_command_workspace(fw_cli_options *options);
 int fw_command_hinge(fw_cli_options *options);
 int fw_command_calibrate(fw_cli_options *options);
+int fw_command_serve(fw_cli_options *options);
 int fw_command_init(fw_cli_options *options);
 int fw_command_explain(fw_cli_options *options);
 int fw_command_doctor(fw_cli_options *options);

@@ -16,6 +16,8 @@ ALLOWED = {  # header prefix -> rooms that may include it
     "cblas": {"maths"},
     "cairo": {"report"},
     "zlib": {"mask"},
+    "microhttpd": {"serve"},
+    "zip.h": {"serve"},
     "geos_c": {"geometry"},
     "jansson": set(ROOMS) - {"maths", "geometry", "quantity"},
 }

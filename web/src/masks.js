@@ -125,7 +125,7 @@ export class Masks {
             if (!shift && box && layer.childElementCount) shift = shiftOf(layer.getBBox(), box);
             const tick = h("input", { type: "checkbox", checked: true });
             tick.addEventListener("change", () => layer.classList.toggle("none", !tick.checked));
-            rows.push(h("label", { class: "layer-row" }, tick, h("span", { class: "swatch", style: { background: g.getAttribute("fill") }, "aria-hidden": "true" }), h("span", { class: "gds" }, g.getAttribute("data-gds")), h("span", {}, title)));
+            rows.push(h("label", { class: "layer-row" }, tick, h("span", { class: "swatch", style: { background: g.getAttribute("fill") }, "aria-hidden": "true" }), h("span", { class: "gds" }, g.getAttribute("data-gds")), h("span", { class: "layer-name", title }, h("b", {}, title.split(": ")[0]), h("span", {}, title.split(": ").slice(1).join(": ")))));
         }
         if (shift) this.layers.setAttribute("transform", shift);
         this.layerList.replaceChildren(h("h2", {}, "Layers"), ...rows, this.#overlaySwitches());

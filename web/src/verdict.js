@@ -133,14 +133,14 @@ export class Verdict {
         const list = state.preview.ledger ?? state.preview.verdict.effects ?? [];
         const called = list.filter((e) => e.called_for !== false);
         const rest = list.length - called.length;
+        const last = called.length === 0 ? h("p", { class: "empty" }, "This scene calls for no effect.")
+            : rest > 0 ? h("p", { class: "doc" }, `${rest} other effects are not called for by this scene and cost nothing.`) : "";
         this.ledger.replaceChildren(
             ...called.map((e) => h("details", { class: e.active ? "effect active" : "effect" },
                 h("summary", {}, h("span", { class: "effect-mark", "aria-hidden": "true" }, e.active ? "●" : "○"), h("span", {}, e.id ?? e.name),
                     h("span", { class: "bound", title: "most that leaving it out changes the peak" }, e.bound === null ? "∞" : percent(e.bound, 2)),
                     h("span", { class: "state" }, e.active ? "computed" : "left out")),
-                h("p", {}, e.reason ?? e.why ?? ""))),
-            rest > 0 ? h("p", { class: "doc" }, `${rest} other effects are not called for by this scene and cost nothing.`) : null,
-            called.length ? null : h("p", { class: "empty" }, "This scene calls for no effect."));
+                h("p", {}, e.reason ?? ""))), last);
     }
 
     #cost() {

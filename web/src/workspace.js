@@ -7,7 +7,7 @@ import { request } from "./design.js";
 import { announce, button, h, s, select, setOptions } from "./dom.js";
 import { degrees, micrometres, percent } from "./format.js";
 import { fileOf, hasFile, JobView } from "./jobs.js";
-import { colourLegend, Mechanism } from "./mechanism.js";
+import { colourLegend, Mechanism, posesOf } from "./mechanism.js";
 import { zoomButtons } from "./motion.js";
 import { lookAt, on, state } from "./store.js";
 
@@ -53,8 +53,11 @@ export class Workspace {
     }
 
     #panel() {
-        this.flow = select("Flow", [], "", () => {
-            this.show();
+        this.flow = select("Flow", [], "", () => this.show());
+        this.body = select("Body that is dragged", [], "", () => {
+            this.last = undefined;
+            this.platform = null;
+            this.ask({ x_m: 0, y_m: 0, phi_rad: 0 });
         });
         const box = (label, unit, key, factor) => {
             const input = h("input", { type: "number", step: unit === "°" ? 0.1 : 1, value: 0, id: `pose-${key}` });
@@ -67,7 +70,7 @@ export class Workspace {
         const job = h("section", { class: "card" }, h("h2", {}, "Certified set"));
         this.side.append(
             h("section", { class: "card" }, h("h2", {}, "Platform, from rest"),
-                h("label", { class: "option" }, h("span", {}, "flow"), this.flow),
+                h("div", { class: "row" }, h("label", { class: "option" }, h("span", {}, "body"), this.body), h("label", { class: "option" }, h("span", {}, "flow"), this.flow)),
                 h("div", { class: "pose-fields" }, box("x", "µm", "x_m", 1e6), box("y", "µm", "y_m", 1e6), box("φ", "°", "phi_rad", 180 / Math.PI)),
                 button("Back to rest", { class: "small" }, () => this.ask({ x_m: 0, y_m: 0, phi_rad: 0 })),
                 this.status, this.list),
@@ -88,6 +91,8 @@ export class Workspace {
         const p = state.preview;
         if (!p) return;
         setOptions(this.flow, p.flows.map((f) => [f.name, f.name]), this.flow.value || p.flows[0]?.name);
+        const bodies = p.bodies.filter((b) => !b.fixed);
+        setOptions(this.body, bodies.map((b) => [b.id, b.platform ? `${b.id}, platform` : b.id]), this.body.value || (bodies.find((b) => b.platform) ?? bodies[0])?.id);
         this.mechanism.show(p);
         this.#required();
         this.ask(this.at);
@@ -99,44 +104,41 @@ export class Workspace {
         this.y_m.value = round(at.y_m * 1e6, 2);
         this.phi_rad.value = round((at.phi_rad * 180) / Math.PI, 3);
         if (this.stage.offsetParent === null) return; // not on the screen
-        this.send({ ...request(), flow: this.flow.value || undefined, platform: at });
+        this.send({ ...request(), flow: this.flow.value || undefined, body: this.body.value || undefined, platform: at, q: this.last });
     }
 
     #answer(answer) {
         this.answer = answer;
         if (answer.status && answer.status !== "ok") {
-            this.status.textContent = answer.diagnostics?.[0]?.message ?? answer.why ?? "no pose for this device";
+            this.status.textContent = answer.diagnostics?.find((d) => d.severity === "error")?.message ?? "no pose for this device";
             this.status.className = "pose-status bad";
             return;
         }
-        this.platform = answer.platform_body ?? answer.body ?? this.platform;
-        if (answer.q) this.mechanism.pose(this.#poses(answer.q));
+        const first = this.platform !== answer.body;
+        this.platform = answer.body;
+        this.last = answer.how === "assembly" ? answer.q : undefined;
+        this.body.value = answer.body;
+        this.mechanism.pose(posesOf(state.preview, answer.q));
+        if (first) this.#required();
+        const flow = answer.flows.find((f) => f.name === answer.flow) ?? answer.flows[0];
+        this.hinges = flow.hinges;
         this.#colour();
         this.#handles();
-        const worst = answer.governing ?? answer.hinges.reduce((a, b) => ((b.utilisation ?? 0) > (a?.utilisation ?? -1) ? b : a), null);
-        const name = typeof worst === "string" ? worst : worst?.id;
-        const use = answer.hinges.find((x) => x.id === name)?.utilisation ?? 0;
-        const words = answer.reachable === false ? (answer.why ?? answer.reason ?? "This pose cannot be reached; the nearest one is shown.")
-            : use > 1 ? `Hinge ${name} would be beyond its limit: ${percent(use)}.` : `Within the limits; hinge ${name} governs with ${percent(use)}.`;
+        const use = flow.utilisation ?? 0;
+        const words = !answer.reachable ? `Out of reach: ${answer.reason ?? "no assembly"}. The nearest pose is shown.`
+            : flow.governing === null ? "No hinge of this device has a limit."
+            : use > 1 ? `Hinge ${flow.governing} would be beyond its limit: ${percent(use)}.` : `Within the limits; hinge ${flow.governing} governs with ${percent(use)}.`;
         if (this.status.textContent !== words) this.status.textContent = words;
-        this.status.className = `pose-status ${answer.reachable === false || use > 1 ? "bad" : "good"}`;
+        this.status.className = `pose-status ${!answer.reachable || use > 1 ? "bad" : "good"}`;
         this.handle.setAttribute("aria-valuetext", `x ${micrometres(this.at.x_m)}, y ${micrometres(this.at.y_m)}, turned by ${degrees(this.at.phi_rad)}; ${words}`);
-        this.list.replaceChildren(...answer.hinges.map((x) => h("div", { class: `pose-hinge${x.utilisation > 1 ? " over" : ""}` },
+        this.list.replaceChildren(...flow.hinges.map((x) => h("div", { class: `pose-hinge${x.utilisation > 1 ? " over" : ""}` },
             h("span", { class: "bar-id" }, x.id),
             h("span", { class: "bar-track" }, h("span", { class: "pose-fill", style: { width: `${Math.min((x.utilisation ?? 0) * 80, 100)}%`, background: scale(x.utilisation ?? 0) } }), h("span", { class: "pose-limit" })),
             h("span", { class: "bar-value" }, degrees(x.angle_rad)), h("span", { class: "bar-value" }, percent(x.utilisation, 3)))));
     }
 
-    /** poses in the order of the preview's bodies, from a list or an object by id */
-    #poses(q) {
-        const p = state.preview;
-        if (Array.isArray(q)) return q;
-        return p.bodies.map((b) => q[b.id] ?? b.rest ?? [0, 0, 0]);
-    }
-
     #colour() {
-        if (!this.answer?.hinges) return;
-        this.mechanism.colour(new Map(this.answer.hinges.map((x) => [x.id, x.utilisation])), state.hinge);
+        if (this.hinges) this.mechanism.colour(new Map(this.hinges.map((x) => [x.id, x.utilisation])), state.hinge);
     }
 
     #centre() {

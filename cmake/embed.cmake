@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Run at build time: cmake -D FROM=<directory> -D TO=<file.c> -P embed.cmake
+# The files below FROM as one table of C (src/serve/page.h): path, type, bytes, and the SHA-256 as the
+# strong entity tag. "index.html" is "/". Sorted by path, so that the same files give the same bytes.
+cmake_minimum_required(VERSION 3.22)
+string(REPEAT "." 120 line) # 24 bytes
+set(type_html "text/html; charset=utf-8")
+set(type_js "text/javascript; charset=utf-8")
+set(type_css "text/css; charset=utf-8")
+set(type_svg "image/svg+xml")
+set(type_png "image/png")
+set(type_json "application/json")
+set(type_txt "text/plain; charset=utf-8")
+set(type_woff2 "font/woff2")
+
+file(GLOB_RECURSE files RELATIVE ${FROM} ${FROM}/*)
+list(SORT files)
+if(NOT "index.html" IN_LIST files)
+    message(FATAL_ERROR "${FROM} has no index.html")
+endif()
+set(bytes "")
+set(rows "")
+set(count 0)
+foreach(file ${files})
+    string(REGEX MATCH "[^.]+$" ending ${file})
+    if(NOT DEFINED type_${ending})
+        continue() # maps of sources and the like are not served
+    endif()
+    file(READ ${FROM}/${file} hex HEX)
+    file(SHA256 ${FROM}/${file} hash)
+    string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," hex "${hex}")
+    string(REGEX REPLACE "(${line})" "\\1\n" hex "${hex}")
+    set(path "/${file}")
+    if(file STREQUAL "index.html")
+        set(path "/")
+    endif()
+    string(APPEND bytes "static const unsigned char file_${count}[] = {\n${hex}0};\n")
+    string(APPEND rows "    {\"${path}\", \"${type_${ending}}\", \"\\\"${hash}\\\"\", file_${count}, sizeof file_${count} - 1},\n")
+    math(EXPR count "${count} + 1")
+endforeach()
+file(WRITE ${TO}.new "/* made by cmake/embed.cmake */\n#include \"serve/page.h\"\n${bytes}const fw_page_file fw_page_files[] = {\n${rows}};\nconst size_t fw_page_count = ${count};\n")
+file(COPY_FILE ${TO}.new ${TO} ONLY_IF_DIFFERENT)
+file(REMOVE ${TO}.new)

@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The files of a job. A request names one by its path in this list; no path of a request reaches
+   the file system. */
+#include "serve/jobs.h"
+#include <dirent.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { MOST_DEPTH = 4 };
+
+const char *fw_job_type(const char *path) {
+    static const struct {
+        const char *ending, *type;
+    } known[] = {{".html", "text/html; charset=utf-8"},
+                 {".svg", "image/svg+xml"},
+                 {".png", "image/png"},
+                 {".json", "application/json"},
+                 {".csv", "text/csv; charset=utf-8"},
+                 {".txt", "text/plain; charset=utf-8"},
+                 {".ics", "text/calendar; charset=utf-8"},
+                 {".xml", "application/xml"}};
+    const char *dot = strrchr(path, '.');
+    for (size_t i = 0; dot && i < sizeof known / sizeof known[0]; i++)
+        if (strcmp(dot, known[i].ending) == 0) return known[i].type;
+    return "application/octet-stream";
+}
+
+typedef struct listing {
+    fw_job *job;
+    size_t capacity;
+} listing;
+
+static fw_status add(listing *l, const char *path, uint64_t bytes) {
+    fw_job *job = l->job;
+    if (job->files == FW_JOB_MOST_FILES) return FW_OK;
+    if (job->files == l->capacity) {
+        size_t more = l->capacity ? 2 * l->capacity : 64;
+        FW_NEED(job->file =
+                    fw_arena_grow(job->arena, job->file, l->capacity, more, sizeof *job->file));
+        l->capacity = more;
+    }
+    job->file[job->files++] =
+        (fw_job_file){.path = path, .type = fw_job_type(path), .bytes = bytes};
+    return FW_OK;
+}
+
+static fw_status list(listing *l, int parent, const char *name, const char *below, int depth);
+
+static fw_status one(listing *l, int fd, const char *name, const char *below, int depth) {
+    struct stat info;
+    const char *path = fw_arena_printf(l->job->arena, "%s%s", below, name);
+    FW_NEED(path);
+    if (fstatat(fd, name, &info, AT_SYMLINK_NOFOLLOW) != 0) return FW_OK;
+    if (S_ISREG(info.st_mode)) return add(l, path, (uint64_t)info.st_size);
+    if (!S_ISDIR(info.st_mode) || depth == MOST_DEPTH) return FW_OK;
+    const char *deeper = fw_arena_printf(l->job->arena, "%s/", path);
+    FW_NEED(deeper);
+    return list(l, fd, name, deeper, depth + 1);
+}
+
+static fw_status list(listing *l, int parent, const char *name, const char *below, int depth) {
+    int fd = openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    DIR *dir = fd >= 0 ? fdopendir(fd) : NULL;
+    if (!dir) {
+        if (fd >= 0) close(fd);
+        return FW_OK;
+    }
+    fw_status status = FW_OK;
+    for (struct dirent *e; status == FW_OK && (e = readdir(dir));)
+        if (strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0)
+            status = one(l, fd, e->d_name, below, depth);
+    closedir(dir);
+    return status;
+}
+
+static int by_path(const void *a, const void *b) {
+    return strcmp(((const fw_job_file *)a)->path, ((const fw_job_file *)b)->path);
+}
+
+fw_status fw_job_list(fw_job *job) {
+    listing l = {.job = job};
+    job->files = 0;
+    FW_TRY(list(&l, job->fd, "out", "", 0));
+    if (job->files) qsort(job->file, job->files, sizeof *job->file, by_path);
+    return FW_OK;
+}
+
+int fw_job_open(const fw_job *job, const fw_job_file *file) {
+    int out = openat(job->fd, "out", O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    int fd =
+        out >= 0 ? openat(out, file->path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC) : -1;
+    if (out >= 0) close(out);
+    struct stat info;
+    if (fd < 0 ||
+        (fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && (uint64_t)info.st_size == file->bytes))
+        return fd;
+    close(fd);
+    return -1;
+}

@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which commands a page may start, and with which options: what is not in these tables cannot be
+   said. No option here names a file. */
+#include "serve/jobs.h"
+#include <jansson.h>
+#include <string.h>
+
+enum { /* bit per kind */
+       PLAN = 1,
+       CHECK = 2,
+       WORKSPACE = 4,
+       MODES = 8,
+       STATICS = 16,
+       ASSEMBLE = 32,
+       TRADEOFF = 64,
+       HINGE = 128,
+       RECIPE = 256,
+       MASK = 512,
+       SIMULATE = 1024,
+       ALL = 2047,
+       MADE = PLAN | RECIPE | MASK
+};
+
+typedef struct kind_row {
+    const char *name;
+    unsigned bit;
+} kind_row;
+static const kind_row kinds[] = {
+    {"plan", PLAN},       {"check", CHECK},       {"workspace", WORKSPACE}, {"modes", MODES},
+    {"statics", STATICS}, {"assemble", ASSEMBLE}, {"tradeoff", TRADEOFF},   {"hinge", HINGE},
+    {"recipe", RECIPE},   {"mask", MASK},         {"simulate", SIMULATE},
+};
+
+typedef struct option_row {
+    const char *name, *option; /* in JSON, on the command line */
+    unsigned kinds;
+} option_row;
+static const option_row options[] = {
+    {"flow", "flow", ALL},
+    {"accuracy", "accuracy", ALL},
+    {"effects", "effects", ALL},
+    {"corners", "corners", ALL},
+    {"hinge_model", "hinge-model", ALL},
+    {"force", "force", MADE},
+    {"mask_tolerance", "mask-tolerance", MADE},
+    {"mask_flatten", "mask-flatten", MADE},
+    {"mask_format", "mask-format", MADE},
+    {"mask_vertices", "mask-vertices", MADE},
+    {"wafers", "wafers", PLAN | RECIPE},
+    {"operators", "operators", PLAN | RECIPE},
+    {"day", "day", PLAN | RECIPE},
+    {"planned", "planned", PLAN | RECIPE},
+    {"scene", "scene", SIMULATE | MODES | STATICS | ASSEMBLE},
+    {"at", "at", MODES},
+    {"path", "path", STATICS},
+    {"method", "method", SIMULATE},
+    {"integrator", "integrator", SIMULATE},
+    {"stabilise", "stabilise", SIMULATE},
+    {"rtol", "rtol", SIMULATE},
+    {"samples", "samples", SIMULATE},
+    {"independent", "independent", ASSEMBLE},
+    {"rates", "rates", ASSEMBLE},
+    {"accelerations", "accelerations", ASSEMBLE},
+    {"level", "level", HINGE},
+};
+
+enum { MOST_ARGUMENTS = 128, MOST_TEXT = 2000 };
+
+typedef struct command {
+    fw_arena *arena;
+    const char **argv;
+    size_t n;
+    const char *why;
+} command;
+
+static fw_status wrong(command *c, const char *what, const char *why) {
+    c->why = fw_arena_printf(c->arena, "%.80s %s", what, why);
+    return c->why ? FW_INPUT : FW_NOMEM;
+}
+
+static fw_status push(command *c, const char *argument) {
+    FW_NEED(argument);
+    if (c->n == MOST_ARGUMENTS) return wrong(c, "\"set\" and \"options\"", "are too many");
+    c->argv[c->n++] = argument;
+    return FW_OK;
+}
+
+/* a value as a text for the command line */
+static fw_status value_text(command *c, const char *name, const json_t *value, const char **text) {
+    char number[64];
+    if (json_is_string(value)) {
+        if (json_string_length(value) > MOST_TEXT ||
+            strlen(json_string_value(value)) != json_string_length(value))
+            return wrong(c, name, "has a value that is too long, or no text");
+        *text = json_string_value(value);
+        return FW_OK;
+    }
+    if (!json_is_number(value)) return wrong(c, name, "needs a text or a number");
+    FW_NEED(*text = fw_arena_strdup(
+                c->arena, fw_number_text(number, sizeof number, json_number_value(value), 17)));
+    return FW_OK;
+}
+
+static fw_status one_option(command *c, unsigned kind, const char *name, const json_t *value) {
+    for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) {
+        if (strcmp(options[i].name, name) != 0) continue;
+        /* a page keeps one set of options for all kinds */
+        if (!(options[i].kinds & kind) || json_is_null(value) || json_is_false(value)) return FW_OK;
+        if (json_is_true(value))
+            return push(c, fw_arena_printf(c->arena, "--%s", options[i].option));
+        const char *text;
+        FW_TRY(value_text(c, name, value, &text));
+        return push(c, fw_arena_printf(c->arena, "--%s=%s", options[i].option, text));
+    }
+    return wrong(c, name, "is no option");
+}
+
+static fw_status one_set(command *c, const char *path, const json_t *value) {
+    const char *text;
+    if (!*path || strchr(path, '=') || strlen(path) > MOST_TEXT)
+        return wrong(c, path, "cannot be set");
+    FW_TRY(value_text(c, path, value, &text));
+    return push(c, fw_arena_printf(c->arena, "--set=%s=%s", path, text));
+}
+
+static fw_status all(command *c, unsigned kind, const json_t *request) {
+    const char *name;
+    const json_t *value;
+    json_t *set = json_object_get(request, "set"), *option = json_object_get(request, "options");
+    if ((set && !json_is_object(set)) || (option && !json_is_object(option)))
+        return wrong(c, "\"set\" and \"options\"", "must be objects");
+    json_object_foreach(set, name, value) FW_TRY(one_set(c, name, value));
+    json_object_foreach(option, name, value) FW_TRY(one_option(c, kind, name, value));
+    return FW_OK;
+}
+
+static const kind_row *kind_named(const char *name) {
+    for (size_t i = 0; name && i < sizeof kinds / sizeof kinds[0]; i++)
+        if (strcmp(kinds[i].name, name) == 0) return &kinds[i];
+    return NULL;
+}
+
+fw_status fw_job_command(fw_arena *arena, const void *json, const char *file, const char **kind,
+                         const char *const **argv, const char **why) {
+    command c = {.arena = arena, .argv = fw_arena_array(arena, const char *, MOST_ARGUMENTS + 8)};
+    FW_NEED(c.argv);
+    const kind_row *row = kind_named(json_string_value(json_object_get(json, "kind")));
+    if (!row) {
+        *why =
+            "\"kind\" must be plan, check, workspace, modes, statics, assemble, tradeoff, hinge, "
+            "recipe, mask or simulate";
+        return FW_INPUT;
+    }
+    *kind = row->name;
+    c.argv[c.n++] = "flexwright";
+    c.argv[c.n++] = row->name;
+    fw_status status = all(&c, row->bit, json);
+    *why = c.why;
+    if (status != FW_OK) return status;
+    static const char *const last[] = {"--output=out", "--json", "--verbose", "--color=never",
+                                       "--"};
+    for (size_t i = 0; i < sizeof last / sizeof last[0]; i++)
+        c.argv[c.n++] = last[i];
+    c.argv[c.n++] = file;
+    c.argv[c.n] = NULL;
+    *argv = c.argv;
+    return FW_OK;
+}

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "serve/reply.h"
+#include "serve/events.h"
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Nothing but the page's own files; pictures may be made on the spot. No script or style stands in
+   the text of a page. */
+static const char page_policy[] =
+    "default-src 'self'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
+    "connect-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; "
+    "frame-ancestors 'none'";
+
+void fw_reply_json(fw_request *r, unsigned status, const char *text, size_t n) {
+    r->reply.status = status;
+    r->reply.type = "application/json";
+    r->reply.data = text;
+    r->reply.n = n;
+}
+
+void fw_reply_text(fw_request *r, unsigned status, const fw_text *text) {
+    if (fw_text_end(text) == FW_OK)
+        fw_reply_json(r, status, text->data, text->length);
+    else
+        fw_reply_error(r, 503, NULL, "out of memory");
+}
+
+void fw_reply_error(fw_request *r, unsigned status, const char *code, const char *format, ...) {
+    static const char short_of_memory[] =
+        "{\"error\": {\"message\": \"out of memory\", \"code\": null}}\n";
+    char message[600];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    fw_text text = fw_text_new(r->arena);
+    fw_text_add(&text, "{\"error\": {\"message\": ");
+    fw_text_json(&text, message);
+    fw_text_add(&text, ", \"code\": ");
+    if (code)
+        fw_text_json(&text, code);
+    else
+        fw_text_add(&text, "null");
+    fw_text_add(&text, "}}\n");
+    if (fw_text_end(&text) == FW_OK)
+        fw_reply_json(r, status, text.data, text.length);
+    else
+        fw_reply_json(r, 503, short_of_memory, sizeof short_of_memory - 1);
+}
+
+static struct MHD_Response *response_of(fw_request *r) {
+    fw_reply *reply = &r->reply;
+    if (r->stream) return fw_events_response(r);
+    if (!reply->file) /* the arena lives until the request is completed, which is after sending */
+        return MHD_create_response_from_buffer(reply->n, (void *)(uintptr_t)reply->data,
+                                               MHD_RESPMEM_PERSISTENT);
+    struct MHD_Response *response = MHD_create_response_from_fd64(reply->n, reply->fd);
+    if (!response) close(reply->fd);
+    reply->fd = -1; /* the response closes it */
+    return response;
+}
+
+static void header(struct MHD_Response *response, const char *name, const char *value) {
+    if (value) MHD_add_response_header(response, name, value);
+}
+
+enum MHD_Result fw_reply_queue(fw_request *r, struct MHD_Connection *mhd) {
+    fw_reply *reply = &r->reply;
+    struct MHD_Response *response = response_of(r);
+    if (!response) return MHD_NO;
+    header(response, "Content-Type", reply->type);
+    header(response, "Content-Security-Policy", reply->policy ? reply->policy : page_policy);
+    header(response, "X-Content-Type-Options", "nosniff");
+    header(response, "Referrer-Policy", "no-referrer");
+    header(response, "Cross-Origin-Opener-Policy", "same-origin");
+    header(response, "Cross-Origin-Resource-Policy", "same-origin");
+    header(response, "Cache-Control", reply->may_cache ? "no-cache" : "no-store");
+    header(response, "ETag", reply->etag);
+    header(response, "Location", reply->location);
+    header(response, "Set-Cookie", reply->cookie);
+    header(response, "Content-Disposition", reply->disposition);
+    if (reply->close) header(response, "Connection", "close");
+    enum MHD_Result queued = MHD_queue_response(mhd, reply->status, response);
+    MHD_destroy_response(response);
+    return queued;
+}

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The files of the page, the exchange of the one-time token, and what a session is told. */
+#include "serve/page.h"
+#include "serve/server.h"
+#include "serve/watch.h"
+#include <string.h>
+
+void fw_route_entry(fw_request *r) {
+    const fw_guard *guard = &r->server->guard;
+    static const char moved[] = "opening the page\n";
+    r->reply = (fw_reply){
+        .status = 303,
+        .type = "text/plain; charset=utf-8",
+        .data = moved,
+        .n = sizeof moved - 1,
+        .fd = -1,
+        .location = "/",
+        .cookie = fw_arena_printf(r->arena, "%s=%s; Path=/; HttpOnly; SameSite=Strict",
+                                  guard->cookie_name, guard->cookie),
+    };
+}
+
+void fw_route_page(fw_request *r) {
+    for (size_t i = 0; i < fw_page_count; i++) {
+        const fw_page_file *file = &fw_page_files[i];
+        if (strcmp(file->path, r->path) != 0) continue;
+        bool same = r->if_none_match && strcmp(r->if_none_match, file->etag) == 0;
+        r->reply = (fw_reply){
+            .status = same ? 304 : 200,
+            .type = file->type,
+            .data = file->data,
+            .n = same ? 0 : file->n,
+            .fd = -1,
+            .etag = file->etag,
+            .may_cache = true,
+        };
+        return;
+    }
+}
+
+void fw_route_session(fw_request *r) {
+    fw_text text = fw_text_new(r->arena);
+    fw_text_printf(&text,
+                   "{\"schema\": \"flexwright.session/1\", \"version\": \"%s\", \"token\": \"%s\", "
+                   "\"file\": ",
+                   FW_VERSION, r->server->guard.header);
+    const char *name = fw_watch_name(r->server->watch);
+    if (name)
+        fw_text_json(&text, name);
+    else
+        fw_text_add(&text, "null");
+    fw_text_printf(&text,
+                   ", \"limits\": {\"body_bytes\": %d, \"connections\": %d, \"streams\": %d, "
+                   "\"queued_jobs\": %d, \"preview_samples\": 2001}}\n",
+                   (int)FW_SERVE_MOST_BODY, (int)FW_SERVE_CONNECTIONS, (int)FW_SERVE_STREAMS,
+                   (int)FW_SERVE_QUEUED);
+    fw_reply_text(r, 200, &text);
+}

@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The server's directory for its jobs, below $TMPDIR or /tmp, for the owner alone. A lock in it
+   says that its server lives: what a killed one left, the next one removes. Private to the room. */
+#ifndef FW_SERVE_SCRATCH_H
+#define FW_SERVE_SCRATCH_H
+#include "base/diag.h"
+
+typedef struct fw_scratch fw_scratch;
+
+fw_status fw_scratch_open(fw_arena *arena, fw_diags *diags, fw_scratch **scratch);
+void fw_scratch_close(fw_scratch *scratch); /* with all that is in it; NULL allowed */
+/* a new directory in it: its descriptor, or -1 */
+int fw_scratch_make(fw_scratch *scratch, const char *name);
+void fw_scratch_remove(fw_scratch *scratch, const char *name);
+
+#endif

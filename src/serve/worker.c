@@ -1,0 +1,271 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "serve/worker.h"
+#include "serve/child.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+enum {
+    ANSWER_MS = 30000,   /* a computation that takes longer is ended */
+    CANCELLED_MS = 1000, /* one that nobody waits for any more has so long to stop */
+    RESTART_MS = 1000,   /* a worker that ends at once is not started more often than this */
+    MEMORY_MIB = 2048
+};
+
+typedef struct fw_worker {
+    pid_t pid; /* 0: none */
+    int fd;
+    int64_t started_ms, asked_ms;
+    bool busy, cancelled;
+    fw_request *request; /* NULL while busy: nobody waits for the answer */
+    fw_worker_head head; /* of the question */
+    size_t sent;
+    fw_worker_head answer;
+    size_t got; /* bytes of the answer with its head */
+    char *text; /* in the request's arena */
+} fw_worker;
+
+struct fw_pool {
+    fw_worker worker[FW_SERVE_WORKERS];
+    fw_request *first; /* waiting */
+};
+
+static bool start(fw_server *server, fw_worker *w) {
+    int pair[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0) return false;
+    const char *data = server->options.data_directory ? server->options.data_directory : "";
+    const char *const argv[] = {"flexwright", FW_SERVE_CHILD, "worker", data, NULL};
+    fw_child_plan plan = {
+        .argv = argv,
+        .directory = -1,
+        .in = -1,
+        .out = -1,
+        .err = -1,
+        .channel = pair[1],
+        .limits = {.memory_bytes = (uint64_t)MEMORY_MIB << 20, .file_bytes = 0, .files = 32}};
+    pid_t pid = fw_child_start(&plan);
+    close(pair[1]);
+    if (pid < 0) {
+        close(pair[0]);
+        return false;
+    }
+    fcntl(pair[0], F_SETFL, O_NONBLOCK);
+    *w = (fw_worker){.pid = pid, .fd = pair[0], .started_ms = fw_serve_now_ms()};
+    return true;
+}
+
+fw_status fw_pool_open(fw_server *server) {
+    FW_NEED(server->pool = fw_arena_one(server->arena, fw_pool));
+    for (int i = 0; i < FW_SERVE_WORKERS; i++)
+        if (!start(server, &server->pool->worker[i])) return FW_IO;
+    return FW_OK;
+}
+
+static void end(fw_worker *w) {
+    if (!w->pid) return;
+    fw_child_kill(w->pid);
+    close(w->fd);
+    w->pid = 0;
+    w->busy = false;
+}
+
+void fw_pool_close(fw_pool *pool) {
+    for (int i = 0; pool && i < FW_SERVE_WORKERS; i++)
+        end(&pool->worker[i]);
+}
+
+/* ---- requests ---- */
+
+void fw_pool_ask(fw_request *r, fw_compute what) {
+    fw_request **at = &r->server->pool->first;
+    while (*at)
+        at = &(*at)->next;
+    r->compute = what;
+    r->next = NULL;
+    *at = r;
+}
+
+void fw_route_table(fw_request *r) {
+    fw_pool_ask(r, FW_COMPUTE_TABLE);
+}
+void fw_route_preview(fw_request *r) {
+    fw_pool_ask(r, FW_COMPUTE_PREVIEW);
+}
+void fw_route_pose(fw_request *r) {
+    fw_pool_ask(r, FW_COMPUTE_POSE);
+}
+void fw_route_edit(fw_request *r) {
+    fw_pool_ask(r, FW_COMPUTE_EDIT);
+}
+
+/* nobody waits any more: a worker that has begun is asked to stop */
+void fw_pool_forget(fw_pool *pool, fw_request *r) {
+    if (!pool) return;
+    for (fw_request **at = &pool->first; *at; at = &(*at)->next)
+        if (*at == r) {
+            *at = r->next;
+            break;
+        }
+    for (int i = 0; i < FW_SERVE_WORKERS; i++) {
+        fw_worker *w = &pool->worker[i];
+        if (!w->busy || w->request != r) continue;
+        /* what was not sent or read yet was in the request's memory: such a worker is of no use */
+        if (w->sent < sizeof w->head + w->head.n || w->got > 0)
+            end(w);
+        else {
+            kill(w->pid, SIGINT);
+            w->asked_ms = fw_serve_now_ms();
+        }
+        w->cancelled = true;
+        w->request = NULL;
+        w->text = NULL;
+    }
+}
+
+static void finish(fw_worker *w) {
+    fw_request *r = w->request;
+    w->busy = w->cancelled = false;
+    w->request = NULL;
+    if (!r) return;
+    fw_reply_json(r, w->answer.what, w->text, w->answer.n);
+    fw_request_answer(r);
+}
+
+/* it crashed, reached a limit, or says what makes no sense */
+static void fail(fw_worker *w, const char *why) {
+    fw_request *r = w->request;
+    w->request = NULL;
+    end(w);
+    if (!r) return;
+    fw_reply_error(r, 500, "FW-D286", "%s", why);
+    fw_request_answer(r);
+}
+
+/* ---- bytes ---- */
+
+/* a request that was given up leaves no memory to read from or into: then the worker was ended, and
+   only the whole answer is still to come, which is thrown away */
+static bool send_more(fw_worker *w) {
+    size_t head = sizeof w->head;
+    while (w->sent < head + w->head.n) {
+        const char *from =
+            w->sent < head ? (const char *)&w->head + w->sent : w->request->body + (w->sent - head);
+        size_t n = w->sent < head ? head - w->sent : head + w->head.n - w->sent;
+        ssize_t done = send(w->fd, from, n, MSG_NOSIGNAL);
+        if (done < 0) return errno == EAGAIN || errno == EINTR;
+        w->sent += (size_t)done;
+    }
+    return true;
+}
+
+static bool room_for_answer(fw_worker *w) {
+    if (w->answer.n > FW_WORKER_MOST_ANSWER || w->answer.what < 200 || w->answer.what > 599)
+        return false;
+    if (!w->request) return true;
+    w->text = fw_arena_array(w->request->arena, char, (size_t)w->answer.n + 1);
+    return w->text != NULL;
+}
+
+/* 1: more to come, 0: whole, -1: it ended */
+static int read_more(fw_worker *w) {
+    char thrown_away[16384];
+    size_t head = sizeof w->answer;
+    for (;;) {
+        if (w->got == head + w->answer.n && w->got >= head) return 0;
+        char *to = thrown_away;
+        size_t n = sizeof thrown_away;
+        if (w->got < head) {
+            to = (char *)&w->answer + w->got;
+            n = head - w->got;
+        } else {
+            if (head + w->answer.n - w->got < n || w->request) n = head + w->answer.n - w->got;
+            if (w->request) to = w->text + (w->got - head);
+        }
+        ssize_t got = recv(w->fd, to, n, 0);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0 && errno == EAGAIN) return 1;
+        if (got <= 0) return -1;
+        w->got += (size_t)got;
+        if (w->got == head && !room_for_answer(w)) return -1;
+    }
+}
+
+/* ---- the loop's share ---- */
+
+static void give(fw_worker *w, fw_request *r) {
+    w->request = r;
+    w->busy = true;
+    w->cancelled = false;
+    w->head = (fw_worker_head){.what = (uint32_t)r->compute, .n = (uint32_t)r->received};
+    w->answer = (fw_worker_head){0};
+    w->sent = w->got = 0;
+    w->asked_ms = fw_serve_now_ms();
+}
+
+/* a worker remembers the mechanism that it posed last, so that poses go to the same one; previews
+   go to the other while it is free */
+static fw_worker *free_worker(fw_pool *pool, int what) {
+    int first = what == FW_COMPUTE_POSE ? FW_SERVE_WORKERS - 1 : 0;
+    for (int i = 0; i < FW_SERVE_WORKERS; i++) {
+        fw_worker *w = &pool->worker[(first + i) % FW_SERVE_WORKERS];
+        if (w->pid && !w->busy) return w;
+    }
+    return NULL;
+}
+
+static void run_worker(fw_server *server, fw_worker *w, int64_t now) {
+    if (!w->pid) {
+        if (now - w->started_ms >= RESTART_MS || now - w->started_ms < 0) start(server, w);
+        return;
+    }
+    int status;
+    if (!w->busy) { /* it has nothing to say, unless it ended */
+        if (fw_child_ended(w->pid, &status)) {
+            close(w->fd);
+            w->pid = 0;
+        }
+        return;
+    }
+    if (!send_more(w)) {
+        fail(w, "the computation ended unexpectedly");
+        return;
+    }
+    int more = read_more(w);
+    if (more == 0)
+        finish(w);
+    else if (more < 0)
+        fail(w, "the computation ended unexpectedly: it crashed or reached a limit of memory");
+    else if (now - w->asked_ms > (w->cancelled ? CANCELLED_MS : ANSWER_MS))
+        fail(w, "the computation took longer than 30 s and was ended");
+}
+
+void fw_pool_run(fw_server *server) {
+    fw_pool *pool = server->pool;
+    int64_t now = fw_serve_now_ms();
+    for (int i = 0; i < FW_SERVE_WORKERS; i++)
+        run_worker(server, &pool->worker[i], now);
+    while (pool->first) {
+        fw_worker *w = free_worker(pool, pool->first->compute);
+        if (!w) return;
+        fw_request *r = pool->first;
+        pool->first = r->next;
+        give(w, r);
+        if (!send_more(w)) fail(w, "the computation could not be started");
+    }
+}
+
+size_t fw_pool_poll(const fw_pool *pool, struct pollfd *poll, size_t most) {
+    size_t n = 0;
+    for (int i = 0; i < FW_SERVE_WORKERS && n < most; i++) {
+        const fw_worker *w = &pool->worker[i];
+        if (!w->pid) continue;
+        bool sending = w->busy && w->sent < sizeof w->head + w->head.n;
+        poll[n++] =
+            (struct pollfd){.fd = w->fd, .events = (short)(POLLIN | (sending ? POLLOUT : 0))};
+    }
+    return n;
+}

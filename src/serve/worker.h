@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Processes that wait for work of milliseconds: preview, pose, edit, table. They were started
+   beforehand, have limits, and are started anew after a crash or a limit; the server itself never
+   reads a description. Private to the room.
+
+   Over a socket, native bytes: request {uint32 kind, uint32 n} and n bytes; answer {uint32 HTTP
+   status, uint32 n} and n bytes. */
+#ifndef FW_SERVE_WORKER_H
+#define FW_SERVE_WORKER_H
+#include "serve/server.h"
+#include <poll.h>
+
+typedef struct fw_pool fw_pool;
+
+typedef enum fw_compute {
+    FW_COMPUTE_TABLE,
+    FW_COMPUTE_PREVIEW,
+    FW_COMPUTE_POSE,
+    FW_COMPUTE_EDIT
+} fw_compute;
+
+typedef struct fw_worker_head {
+    uint32_t what, n;
+} fw_worker_head;
+enum { FW_WORKER_MOST_ANSWER = 32 * 1024 * 1024 };
+
+fw_status fw_pool_open(fw_server *server);
+void fw_pool_close(fw_pool *pool);
+/* the request's body goes to a worker as soon as one is free; the answer comes by
+   fw_request_answer */
+void fw_pool_ask(fw_request *request, fw_compute what);
+void fw_pool_forget(fw_pool *pool, fw_request *request); /* when it is one of them */
+/* what to poll, at most `most`; and what to do afterwards */
+size_t fw_pool_poll(const fw_pool *pool, struct pollfd *poll, size_t most);
+void fw_pool_run(fw_server *server);
+
+/* the other side: serves descriptor 3 until it is closed */
+int fw_worker_main(const char *data_directory);
+
+#endif

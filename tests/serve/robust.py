@@ -1,0 +1,436 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The server under load, slow clients, signals and kill -9; jobs, files, archive, watching and saving.
+
+    robust.py PROGRAM [TEST ...]"""
+import concurrent.futures
+import io
+import json
+import os
+import pathlib
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import zipfile
+
+from client import DEVICE, Server
+
+TEXT = DEVICE.read_text()
+QUICK = {"kind": "check", "text": TEXT, "options": {"accuracy": 0.05, "corners": "none"}}
+SLOW = {"kind": "workspace", "text": TEXT, "options": {"accuracy": 1e-6}}
+DEADLINE_S = 12.0  # a client that is too slow is cut by then
+
+
+def processes(session_of):
+    """(pid, parent, name, resident bytes) of all processes below this one"""
+    found, rows = [session_of], {}
+    for entry in pathlib.Path("/proc").iterdir():
+        if entry.name.isdigit():
+            try:
+                stat = (entry / "stat").read_text()
+            except OSError:
+                continue
+            fields = stat[stat.rindex(")") + 2:].split()
+            rows[int(entry.name)] = (int(fields[1]), fields[0], int(fields[21]) * os.sysconf("SC_PAGE_SIZE"))
+    for pid in found:
+        found += [p for p, row in rows.items() if row[0] == pid and p not in found]
+    return {pid: rows[pid] for pid in found if pid in rows}
+
+
+def scratch(directory):
+    return [p for p in pathlib.Path(directory).iterdir() if p.name.startswith("flexwright-serve-")]
+
+
+# ---- sockets ----
+
+def only_loopback(program, directory):
+    """the listening sockets of the server, from the kernel's own table"""
+    with Server(program, directory) as server:
+        inodes = set()
+        for fd in pathlib.Path(f"/proc/{server.process.pid}/fd").iterdir():
+            try:
+                target = os.readlink(fd)
+            except OSError:
+                continue
+            if target.startswith("socket:["):
+                inodes.add(target[8:-1])
+        listening = []
+        for table in ("tcp", "tcp6", "udp", "udp6", "raw", "raw6"):
+            for line in pathlib.Path(f"/proc/net/{table}").read_text().splitlines()[1:]:
+                field = line.split()
+                if field[9] in inodes and (field[3] == "0A" or not table.startswith("tcp")):
+                    listening.append((table, field[1]))
+        assert listening == [("tcp", f"0100007F:{server.port:04X}")], listening
+
+
+def half_open(program, directory):
+    """40 clients that stop in the head and 20 that drip: an honest request within 5 s, all cut within 12 s"""
+    with Server(program, directory) as server:
+        server.enter()
+        quiet = [server.connect() for _ in range(40)]
+        for s in quiet:
+            s.sendall(b"GET /api/session HTTP/1.1\r\nHost: ")
+        dripping = [server.connect() for _ in range(20)]
+        stop, cut = threading.Event(), {}
+        began = time.monotonic()
+
+        def drip():
+            alive = set(dripping)
+            while alive and not stop.wait(0.5):
+                for s in list(alive):
+                    try:
+                        s.sendall(b"x")
+                        s.setblocking(False)
+                        if s.recv(1000) == b"":
+                            raise ConnectionResetError
+                    except BlockingIOError:
+                        s.setblocking(True)
+                    except OSError:
+                        alive.discard(s)
+                        cut[s] = time.monotonic() - began
+
+        thread = threading.Thread(target=drip)
+        thread.start()
+        try:
+            for _ in range(3):
+                at = time.monotonic()
+                assert server.ask("GET", "/api/session", timeout=10)[0] == 200
+                took = time.monotonic() - at
+                assert took <= 5.0, f"an honest request took {took:.1f} s"
+            for s in quiet:
+                s.settimeout(max(0.1, DEADLINE_S - (time.monotonic() - began)))
+                try:
+                    while s.recv(1000):
+                        pass
+                except socket.timeout:
+                    raise AssertionError("a half-open client is still there after 12 s") from None
+                except ConnectionError:
+                    pass
+            thread.join(timeout=DEADLINE_S)
+        finally:
+            stop.set()
+            thread.join()
+            for s in quiet + dripping:
+                s.close()
+        assert len(cut) == len(dripping) and max(cut.values()) <= DEADLINE_S, sorted(cut.values())
+
+
+def drip_alone(program, directory):
+    """with room for all, a client that always sends a little is cut by the deadline of the whole request"""
+    with Server(program, directory) as server:
+        server.enter()
+        write = (f"Host: {server.host}\r\nCookie: {server.cookie}\r\nX-Flexwright-Token: {server.token}\r\n"
+                 "Content-Type: application/json\r\nContent-Length: 5000\r\n\r\n")
+        began, alive = time.monotonic(), {}
+        for begin in ("G", "GET / HTTP/1.1\r\nX: ", "POST /api/jobs HTTP/1.1\r\n" + write):
+            s = server.connect()
+            s.sendall(begin.encode())
+            alive[s] = begin
+        while alive and time.monotonic() - began < DEADLINE_S:
+            time.sleep(0.5)
+            for s in list(alive):
+                try:
+                    s.sendall(b"x")
+                    s.setblocking(False)
+                    if not s.recv(1000):
+                        raise ConnectionResetError
+                except BlockingIOError:
+                    s.setblocking(True)
+                except OSError:
+                    s.close()
+                    del alive[s]
+        for s in alive:
+            s.close()
+        assert not alive, f"they still drip after {DEADLINE_S} s: {[b[:20] for b in alive.values()]}"
+
+
+def loaded(program, directory):
+    """200 previews at once: none ends in a fault of the server, and its processes stay below 200 MiB"""
+    with Server(program, directory) as server:
+        server.enter()
+        server.ask("POST", "/api/preview", {"text": TEXT})
+        most, stop = [0], threading.Event()
+
+        def watch():
+            while not stop.wait(0.2):
+                most[0] = max(most[0], sum(row[2] for row in processes(server.process.pid).values()))
+
+        thread = threading.Thread(target=watch)
+        thread.start()
+        began = time.monotonic()
+        with concurrent.futures.ThreadPoolExecutor(200) as pool:
+            many = list(pool.map(lambda i: server.ask("POST", "/api/preview", {
+                "text": TEXT, "set": {"arc": f"{240 + i % 20} deg"}, "options": {"samples": 101}})[0], range(200)))
+        took = time.monotonic() - began
+        stop.set()
+        thread.join()
+        live = 501 not in many  # a build without live computing answers 501
+        print(f"  200 previews in {took:.1f} s, at most {most[0] / 2**20:.0f} MiB resident, live: {live}")
+        assert all(status == 200 for status in many) or not live, sorted(set(many))
+        assert most[0] <= 200 * 2**20
+
+
+# ---- jobs ----
+
+def unpacked(data):
+    with zipfile.ZipFile(io.BytesIO(data)) as z:
+        assert {i.date_time for i in z.infolist()} == {(1980, 1, 1, 0, 0, 0)}
+        return {i.filename: z.read(i) for i in z.infolist()}
+
+
+def archive(program, directory):
+    """the archive is what the command line writes, byte by byte, and twice the same"""
+    there = pathlib.Path(directory, "device.xml")
+    there.write_text(TEXT)
+    subprocess.run([program, "plan", "device.xml", "--set", "arc=250 deg", "--accuracy", "0.01", "-o", "planned", "-q"],
+                   cwd=directory, check=False, stdout=subprocess.DEVNULL)
+    planned = {str(p.relative_to(there.parent / "planned")): p.read_bytes()
+               for p in sorted((there.parent / "planned").rglob("*")) if p.is_file()}
+    assert len(planned) > 20
+    with Server(program, directory, device="device.xml") as server:
+        server.enter()
+        job = server.job({"kind": "plan", "text": TEXT, "set": {"arc": "250 deg"}, "options": {"accuracy": 0.01, "at": "rest"}})
+        assert job["state"] == "done" and job["exit_status"] == 0 and job["result"]["schema"] == "flexwright.verdict/1", job
+        assert {f["path"]: f["bytes"] for f in job["files"]} == {k: len(v) for k, v in planned.items()}
+        base = f"/api/jobs/{job['id']}"
+        for path, data in planned.items():
+            status, headers, got = server.ask("GET", f"{base}/files/{path}")
+            assert (status, got) == (200, data), path
+            assert "sandbox" in headers["content-security-policy"] and "same-origin" not in headers["content-security-policy"]
+        status, headers, first = server.ask("GET", f"{base}/archive")
+        assert status == 200 and headers["content-type"] == "application/zip", (status, first[:200])
+        inside = unpacked(first)
+        assert list(inside) == sorted(planned) and inside == planned
+        # packed anew at another time of another zone the bytes are the same
+        again = server.job({"kind": "plan", "text": TEXT, "set": {"arc": "250 deg"}, "options": {"accuracy": 0.01}})
+        assert server.ask("GET", f"/api/jobs/{again['id']}/archive")[2] == first
+        assert server.ask("DELETE", base)[0] == 200
+        assert server.ask("GET", base)[0] == 404 and server.ask("GET", f"{base}/archive")[0] == 404
+        assert len(list(scratch(directory)[0].iterdir())) == 2  # the lock and the second job
+
+
+def jobs(program, directory):
+    """queue, cancel, errors, options that are refused, forgetting"""
+    with Server(program, directory) as server:
+        server.enter()
+        events = server.events()
+        events.until("retry")
+        first = server.json("POST", "/api/jobs", SLOW)["id"]
+        events.until(f'"id": {first}, "state": "running"')
+        waiting = [server.json("POST", "/api/jobs", QUICK)["id"] for _ in range(4)]
+        status, _, data = server.ask("POST", "/api/jobs", QUICK)
+        assert status == 429 and json.loads(data)["error"]["code"] == "FW-D287", data
+        running = [pid for pid, row in processes(server.process.pid).items() if row[0] == server.process.pid]
+        assert len(running) >= 3  # two workers and the job
+        began = time.monotonic()
+        assert server.json("DELETE", f"/api/jobs/{first}")["state"] == "cancelled"
+        assert time.monotonic() - began < 1.0
+        events.until(f'"id": {first}, "state": "cancelled"')
+        assert server.json("DELETE", f"/api/jobs/{waiting[3]}")["state"] == "cancelled"
+        events.until(f'"id": {waiting[2]}, "state": "done"', timeout=60)
+        assert server.json("GET", f"/api/jobs/{waiting[0]}")["result"]["schema"] == "flexwright.verdict/1"
+        bad = server.job({"kind": "check", "text": "<device"})
+        assert bad["state"] == "failed" and bad["exit_status"] == 3 and any("FW-D" in m for m in bad["messages"]), bad
+        for wrong in ({"kind": "check"}, {"kind": "rm", "text": ""}, {"kind": ["check"], "text": ""}, [], 1, "x",
+                      {"kind": "check", "text": "", "options": {"output": "/tmp/x"}},
+                      {"kind": "check", "text": "", "options": {"lab": "/etc/passwd"}},
+                      {"kind": "check", "text": "", "options": {"accuracy": {"a": 1}}},
+                      {"kind": "check", "text": "", "options": []}, {"kind": "check", "text": "", "set": {"": "1"}},
+                      {"kind": "check", "text": "", "set": {"a=b": "1"}}, {"kind": "check", "text": "", "set": {"a": None}}):
+            assert server.ask("POST", "/api/jobs", wrong)[0] == 400, wrong
+        assert server.ask("POST", "/api/jobs", b'{"kind": "check", "text": "')[0] == 400
+        assert server.ask("POST", "/api/jobs", b'\xff\xfe')[0] == 400
+        for _ in range(14):  # beyond the 16 that are kept, the oldest is forgotten
+            last = server.job({"kind": "check", "text": "<device"})["id"]
+        assert server.ask("GET", f"/api/jobs/{last}")[0] == 200 and server.ask("GET", f"/api/jobs/{waiting[0]}")[0] == 404
+        assert len(list(scratch(directory)[0].iterdir())) <= 17
+        events.close()
+        assert not server.said()
+
+
+def limits(program, directory):
+    """what a child process may: the limits of jobs and workers, as the kernel has them"""
+    with Server(program, directory) as server:
+        server.enter()
+        server.json("POST", "/api/jobs", SLOW)
+        time.sleep(0.5)
+        children = [pid for pid, row in processes(server.process.pid).items() if row[0] == server.process.pid]
+        assert len(children) == 3, children
+        sanitized = b"libasan" in pathlib.Path(f"/proc/{children[0]}/maps").read_bytes()
+        for pid in children:
+            found = {line[:25].strip(): line[26:46].strip()
+                     for line in pathlib.Path(f"/proc/{pid}/limits").read_text().splitlines()[1:]}
+            status = pathlib.Path(f"/proc/{pid}/status").read_text()
+            assert "NoNewPrivs:\t1" in status
+            assert found["Max core file size"] == "0" and int(found["Max open files"]) <= 256
+            assert found["Max file size"] != "unlimited" and (sanitized or found["Max address space"] != "unlimited")
+            assert os.getpgid(pid) == pid
+            secrets = pathlib.Path(f"/proc/{pid}/environ").read_bytes() + pathlib.Path(f"/proc/{pid}/cmdline").read_bytes()
+            assert server.cookie.split("=")[1].encode() not in secrets
+            held = [os.readlink(f) for f in pathlib.Path(f"/proc/{pid}/fd").iterdir()]
+            assert sum(h.startswith("socket:") for h in held) <= 1, held  # its channel; no socket of a client
+
+
+def crash(program, directory):
+    """a worker that is killed: the request says so, the next one is served"""
+    with Server(program, directory) as server:
+        server.enter()
+        for _ in range(2):
+            for pid, row in processes(server.process.pid).items():
+                if row[0] == server.process.pid:
+                    os.kill(pid, signal.SIGSEGV)
+            time.sleep(2.2)
+            status, _, data = server.ask("POST", "/api/preview", {"text": TEXT})
+            assert status in (200, 501), data
+        assert len(processes(server.process.pid)) == 3
+
+
+# ---- the file ----
+
+def file(program, directory):
+    """read, save whole or not at all, conflicts, and what an editor saves"""
+    there = pathlib.Path(directory, "device.xml")
+    there.write_text(TEXT)
+    there.chmod(0o640)
+    link = pathlib.Path(directory, "link.xml")
+    link.symlink_to("device.xml")
+    with Server(program, directory, device="link.xml") as server:
+        server.enter()
+        events = server.events()
+        events.until("retry")
+        first = server.json("GET", "/api/file")
+        assert first["text"] == TEXT and first["name"] == "device.xml" and first["writable"]
+        assert server.json("GET", "/api/session")["file"] == "device.xml"
+        second = server.json("POST", "/api/file", {"text": TEXT + "<!-- é -->\n", "version": first["version"]})
+        assert there.read_text() == TEXT + "<!-- é -->\n" and link.is_symlink() and there.stat().st_mode & 0o777 == 0o640
+        events.until(second["version"])
+        status, _, data = server.ask("POST", "/api/file", {"text": "lost", "version": first["version"]})
+        conflict = json.loads(data)
+        assert status == 409 and conflict["version"] == second["version"] and conflict["text"].endswith("<!-- é -->\n")
+        there.write_text("by an editor, in place")
+        third = events.until(r'event: file\ndata: {"version": "(?!%s)([0-9a-f]{64})"}' % second["version"], timeout=3).group(1)
+        assert server.json("GET", "/api/file")["version"] == third
+        other = pathlib.Path(directory, ".device.xml.swp")
+        other.write_text("by an editor that puts a new file in place")
+        other.rename(there)
+        events.until(r'event: file\ndata: {"version": "(?!%s|%s)[0-9a-f]{64}"}' % (second["version"], third), timeout=3)
+        there.unlink()
+        assert server.ask("GET", "/api/file")[0] == 404
+        there.write_bytes(b"\xff\xfe not UTF-8")
+        time.sleep(0.2)
+        assert server.ask("GET", "/api/file")[0] == 422
+        there.write_bytes(b"x" * (2 << 20))
+        assert server.ask("GET", "/api/file")[0] == 404
+        for wrong in ({}, {"text": 1, "version": ""}, {"text": ""}, []):
+            assert server.ask("POST", "/api/file", wrong)[0] == 400, wrong
+        events.close()
+        assert not server.said() and not [p for p in pathlib.Path(directory).iterdir() if ".tmp-" in p.name]
+    with Server(program, directory) as server:
+        server.enter()
+        assert server.ask("GET", "/api/file")[0] == 404
+        assert server.ask("POST", "/api/file", {"text": "", "version": ""})[0] == 404
+
+
+def streams(program, directory):
+    """four pages may listen; one that goes away makes room"""
+    with Server(program, directory) as server:
+        server.enter()
+        four = [server.events() for _ in range(4)]
+        for e in four:
+            e.until("retry")
+        assert server.ask("GET", "/api/events")[0] == 429
+        four[0].close()
+        time.sleep(0.3)
+        four[0] = server.events()
+        four[0].until("retry")
+        for e in four:
+            e.close()
+
+
+# ---- the end ----
+
+def signals(program, directory):
+    """SIGTERM and SIGINT end it within 2 s, whatever it does; nothing is left"""
+    for number in (signal.SIGTERM, signal.SIGINT):
+        server = Server(program, directory).enter()
+        server.json("POST", "/api/jobs", SLOW)
+        events = server.events()
+        events.until("retry")
+        half = server.connect()
+        half.sendall(b"GET / HT")
+        children = [pid for pid in processes(server.process.pid) if pid != server.process.pid]
+        took = server.stop(number)
+        events.close()
+        half.close()
+        assert took <= 2.0, f"{took:.1f} s"
+        assert server.process.returncode == 0 and not server.said(), (server.process.returncode, server.said())
+        assert not scratch(directory) and not any(os.path.exists(f"/proc/{pid}") for pid in children)
+
+
+def killed(program, directory):
+    """kill -9: its processes end with it, and the next server removes what it left; what lives is left alone"""
+    living = Server(program, directory).enter()
+    living.job(QUICK)
+    killed_one = Server(program, directory).enter()
+    killed_one.json("POST", "/api/jobs", SLOW)
+    time.sleep(0.3)
+    children = [pid for pid in processes(killed_one.process.pid) if pid != killed_one.process.pid]
+    assert len(children) == 3 and len(scratch(directory)) == 2
+    killed_one.stop(signal.SIGKILL)
+    end = time.monotonic() + 3
+    while any(os.path.exists(f"/proc/{pid}") and "Z" not in pathlib.Path(f"/proc/{pid}/stat").read_text().split(")")[1][:3]
+              for pid in children):
+        assert time.monotonic() < end, "a child lives on"
+        time.sleep(0.05)
+    assert len(scratch(directory)) == 2
+    pathlib.Path(directory, "flexwright-serve-notes").mkdir()  # not ours: no lock in it
+    with Server(program, directory):
+        assert len(scratch(directory)) == 3
+    assert len(scratch(directory)) == 2 and living.json("GET", "/api/jobs/1")["state"] == "done"
+    living.stop()
+
+
+def started_wrongly(program, directory):
+    """a port that is taken, a file that is not there"""
+    with Server(program, directory) as server:
+        run = subprocess.run([program, "serve", "--no-browser", "--port", str(server.port)], capture_output=True, timeout=10,
+                             check=False, env={**os.environ, "TMPDIR": str(directory)})
+        assert run.returncode == 5 and b"FW-D284" in run.stderr and not run.stdout, run
+    for arguments, status in ((["nowhere.xml"], 5), (["--port", "x"], 2), (["--port", "65536"], 2), (["a", "b"], 2)):
+        run = subprocess.run([program, "serve", "--no-browser", *arguments], capture_output=True, timeout=10, check=False,
+                             env={**os.environ, "TMPDIR": str(directory)})
+        assert run.returncode == status and run.stderr and not run.stdout, (arguments, run)
+    assert not scratch(directory)
+
+
+TESTS = [only_loopback, half_open, drip_alone, loaded, archive, jobs, limits, crash, file, streams, signals, killed,
+         started_wrongly]
+
+
+def main():
+    program, wanted = str(pathlib.Path(sys.argv[1]).resolve()), [a for a in sys.argv[2:] if not a.startswith("-")]
+    wrong = 0
+    for test in TESTS:
+        if wanted and test.__name__ not in wanted:
+            continue
+        directory, began = tempfile.mkdtemp(), time.monotonic()
+        try:
+            test(program, directory)
+            print(f"{test.__name__}: {time.monotonic() - began:.1f} s", flush=True)
+        except Exception as error:  # pylint: disable=broad-except
+            wrong += 1
+            print(f"{test.__name__} FAILED: {type(error).__name__}: {error}", flush=True)
+            if "--trace" in sys.argv:
+                raise
+        finally:
+            shutil.rmtree(directory, ignore_errors=True)
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
