@@ -24,10 +24,11 @@ export class Assembly {
             kind: "assemble", action: "Assemble", auto: true, options: () => (state.options.scene ? { scene: state.options.scene } : {}),
             intro: "Takes the poses of the bodies as a guess and closes all joints.", render: (job, into) => this.#show(job.result, into),
         });
-        on("preview", (p) => this.mechanism.show(p));
+        on("preview", (p) => this.visible && this.mechanism.show(p));
     }
 
     shown(yes) {
+        this.visible = yes;
         this.view.show(yes);
         if (yes && state.preview) this.mechanism.show(state.preview);
         if (yes) this.#draw();

@@ -57,7 +57,7 @@ export class Editor {
         this.quiet = false;
         this.extensions = [
             lineNumbers(), foldGutter(), highlightActiveLineGutter(), history(), drawSelection(), indentOnInput(),
-            bracketMatching(), highlightActiveLine(), highlightSelectionMatches(), search({ top: true }), lintGutter(),
+            bracketMatching(), EditorView.lineWrapping, highlightActiveLine(), highlightSelectionMatches(), search({ top: true }), lintGutter(),
             xml({ autoCloseTags: true }), syntaxHighlighting(colours), look, EditorState.tabSize.of(2),
             EditorView.contentAttributes.of({ "aria-label": "XML text of the device" }),
             keymap.of([...defaultKeymap, ...historyKeymap, ...searchKeymap, ...foldKeymap, indentWithTab]),

@@ -62,7 +62,8 @@ function editArea() {
     const editor = h("div", { class: "editor", id: "editor" });
     const list = h("div", { class: "xml-problems" });
     xml.append(editor, list);
-    parts.editTabs = makeTabs("Description", [{ id: "form", label: "Form", panel: form }, { id: "xml", label: "XML", panel: xml }]);
+    parts.editTabs = makeTabs("Description", [{ id: "form", label: "Form", panel: form }, { id: "xml", label: "XML", panel: xml }],
+        { onselect: (id) => document.body.classList.toggle("text-shown", id === "xml") });
     $("edit").append(parts.editTabs.bar, form, xml);
     parts.editor = new Editor(editor, {
         onchange: (text) => {

@@ -40,7 +40,7 @@ export class Masks {
             if (e.key === "Escape") this.#clearRuler();
         });
         this.#panel();
-        on("preview", () => this.#drawn());
+        on("preview", () => this.visible && this.#drawn());
     }
 
     #panel() {
@@ -58,6 +58,7 @@ export class Masks {
     }
 
     shown(yes) {
+        this.visible = yes;
         this.job.show(yes);
         if (yes) this.#drawn();
     }
@@ -117,8 +118,7 @@ export class Masks {
         const rows = [];
         let shift = null;
         for (const g of picture.querySelectorAll("g[data-gds]")) {
-            const layer = s("g", { fill: g.getAttribute("fill"), "data-gds": g.getAttribute("data-gds"), "fill-rule": "evenodd" },
-                [...g.querySelectorAll("path")].map((p) => s("path", { d: p.getAttribute("d") }, s("title", {}, p.querySelector("title")?.textContent ?? ""))));
+            const layer = s("g", { fill: g.getAttribute("fill"), "data-gds": g.getAttribute("data-gds"), "fill-rule": "evenodd" }, shapesOf(picture, g));
             this.layers.append(layer);
             const title = [...g.children].find((c) => c.localName === "title")?.textContent ?? g.id;
             const box = boxes.get(g.getAttribute("data-gds"));
@@ -174,7 +174,7 @@ export class Masks {
             s("line", { x1: v.at_um[0][0], y1: v.at_um[0][1], x2: v.at_um[1][0], y2: v.at_um[1][1] }))));
         const items = list.map((v, i) => h("li", { class: v.severity }, h("button", { type: "button", class: "jump violation", onclick: () => this.#jump(v, i) },
             h("span", { class: "place" }, `${number(v.at_um[0][0], 5)}, ${number(v.at_um[0][1], 5)}`),
-            h("span", {}, `${v.what}: ${number(v.value, 3)} ${unit(v.unit)}, needs ${number(v.needed, 4)} ${unit(v.unit)}`),
+            h("span", {}, v.needed ? `${v.what}: ${number(v.value, 3)} ${unit(v.unit)}, needs ${number(v.needed, 4)} ${unit(v.unit)}` : v.what),
             h("span", { class: "code" }, `${v.layer} · ${v.pieces.join(" and ")}`))));
         this.violations.replaceChildren(
             h("h2", {}, list.length ? `${list.length} ${list.length === 1 ? "place breaks" : "places break"} a rule` : "Design rules"),
@@ -249,6 +249,18 @@ export class Masks {
 }
 
 const unit = (u) => ({ um: "µm", um2: "µm²", deg: "°", 1: "" })[u] ?? u;
+
+/** The shapes of a layer, those too that are written once and used again. */
+function shapesOf(picture, g) {
+    return [...g.children].map((e) => {
+        const title = s("title", {}, e.querySelector("title")?.textContent ?? "");
+        if (e.localName === "path") return s("path", { d: e.getAttribute("d") }, title);
+        if (e.localName !== "use") return null;
+        const id = (e.getAttributeNS("http://www.w3.org/1999/xlink", "href") ?? e.getAttribute("href") ?? "").slice(1);
+        const d = picture.getElementById(id)?.getAttribute("d");
+        return d ? s("path", { d, transform: `translate(${Number(e.getAttribute("x"))} ${Number(e.getAttribute("y"))})` }, title) : null;
+    }).filter(Boolean);
+}
 
 /** Takes a picture (y down) whose box is known in the drawing (nm, y up) to the drawing, in um. */
 function shiftOf(b, [x0, , , y1]) {

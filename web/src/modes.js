@@ -29,7 +29,7 @@ export class Modes {
         this.chosen = 0;
         this.moving = !matchMedia("(prefers-reduced-motion: reduce)").matches;
         this.visible = false;
-        on("preview", (p) => this.mechanism.show(p));
+        on("preview", (p) => this.visible && this.mechanism.show(p));
     }
 
     shown(yes) {

@@ -42,9 +42,13 @@ export class Motion {
             this.#plotAll();
         });
         this.angles.heading.append(this.inDegrees);
-        on("preview", () => this.show());
-        on("hinge", () => this.show());
-        on("theme", () => this.paint());
+        for (const event of ["preview", "hinge", "theme"]) on(event, () => this.visible && this.show());
+    }
+
+    shown(yes) {
+        this.visible = yes;
+        if (yes) this.show();
+        else this.toggle(false);
     }
 
     start(table) {

@@ -1,24 +1,44 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Outlines of bodies and bent flexures.
-import { s } from "./dom.js";
+const STEP_UM = 5; // between points of a bent outline: about a pixel of a 3 mm device on a screen
 
-const STEP_UM = 4; // between points of a bent outline: below half a pixel of a 3 mm device on a screen
+/** Points of a circular arc from p to q, without p (SVG 1.1, appendix F.6.5, for equal radii). */
+function arc(p, r, large, sweep, q) {
+    const dx = (p[0] - q[0]) / 2;
+    const dy = (p[1] - q[1]) / 2;
+    const half = Math.hypot(dx, dy);
+    const radius = Math.max(r, half);
+    const k = (large === sweep ? -1 : 1) * Math.sqrt(Math.max(radius * radius - half * half, 0)) / (half || 1);
+    const c = [(p[0] + q[0]) / 2 + k * dy, (p[1] + q[1]) / 2 - k * dx];
+    const from = Math.atan2(p[1] - c[1], p[0] - c[0]);
+    let turn = Math.atan2(q[1] - c[1], q[0] - c[0]) - from;
+    if (sweep && turn < 0) turn += 2 * Math.PI;
+    if (!sweep && turn > 0) turn -= 2 * Math.PI;
+    const n = Math.max(Math.ceil((Math.abs(turn) * radius) / STEP_UM), Math.ceil(Math.abs(turn) / 0.3), 1);
+    return Array.from({ length: n }, (_, i) => {
+        if (i === n - 1) return q;
+        const at = from + (turn * (i + 1)) / n;
+        return [c[0] + radius * Math.cos(at), c[1] + radius * Math.sin(at)];
+    });
+}
 
-/** Rings of points of an SVG path (absolute commands M L A Z), arcs within some nanometres. */
+function line(p, q) {
+    const n = Math.max(Math.ceil(Math.hypot(q[0] - p[0], q[1] - p[1]) / STEP_UM), 1);
+    return Array.from({ length: n }, (_, i) => [p[0] + ((q[0] - p[0]) * (i + 1)) / n, p[1] + ((q[1] - p[1]) * (i + 1)) / n]);
+}
+
+/** Rings of points of a path of absolute M, L, A and Z, as the server writes outlines. */
 export function rings(d) {
-    const probe = s("path", {});
-    return d
-        .split(/(?=M)/)
-        .filter((part) => part.trim())
-        .map((part) => {
-            probe.setAttribute("d", part);
-            const length = probe.getTotalLength();
-            const n = Math.min(Math.max(Math.ceil(length / STEP_UM), 8), 1500);
-            return Array.from({ length: n }, (_, i) => {
-                const p = probe.getPointAtLength((length * i) / n);
-                return [p.x, p.y];
-            });
-        });
+    const out = [];
+    for (const [, command, list] of d.matchAll(/([MLAZ])([^MLAZ]*)/g)) {
+        const v = list.trim() ? list.trim().split(/[ ,]+/).map(Number) : [];
+        const ring = out.at(-1);
+        if (command === "M") out.push([[v[0], v[1]]]);
+        else if (command === "L") ring.push(...line(ring.at(-1), [v[0], v[1]]));
+        else if (command === "A") ring.push(...arc(ring.at(-1), v[0], v[3] === 1, v[4] === 1, [v[5], v[6]]));
+        else ring.push(...line(ring.at(-1), ring[0]));
+    }
+    return out;
 }
 
 /** Direction and place of every point of a centre line: [{x, y, s (0..1)}]. */

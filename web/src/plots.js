@@ -15,7 +15,7 @@ export class Plot {
         this.root = h("figure", { class: "plot" }, this.heading, this.box);
         holder.append(this.root);
         new ResizeObserver(() => this.#resize()).observe(this.box);
-        on("theme", () => this.#make());
+        on("theme", () => (this.shape = null)); // whoever shows it shows it again
         this.box.addEventListener("pointerdown", (e) => this.#seek(e));
         this.box.addEventListener("pointermove", (e) => e.buttons & 1 && this.#seek(e));
     }

@@ -51,9 +51,16 @@ export class Recipe {
                 fact("this device", made[0], made[1]),
                 h("div", { class: "recipe-links" }, link(`${base}.html`, "Run sheet"), save(`${base}.csv`, "CSV"), save(`${base}.ics`, "Calendar"))),
             r.reasons?.length ? h("details", { class: "reasons" }, h("summary", {}, `${r.reasons.length} remarks on making it`), h("ul", {}, r.reasons.map((x) => h("li", {}, x)))) : "",
-            hasFile(job, `${base}.schedule.svg`) ? h("figure", { class: "schedule", tabIndex: 0, role: "region", "aria-label": "Schedule" }, h("figcaption", {}, "Schedule"), h("img", { src: fileOf(job, `${base}.schedule.svg`), alt: `Schedule of ${r.flow}: machines over days` })) : "",
+            picture(job, `${base}.schedule.svg`, "Schedule", `Schedule of ${r.flow}: machines over days`),
+            picture(job, `${base}.stack.svg`, "The wafer after every step", `The wafer after every step of ${r.flow}, in space`),
             h("ol", { class: "steps" }, r.steps.map((x) => step(x, sectionOf(sheet, x.id)))));
     }
+}
+
+/** A picture of the job, wide: it scrolls by itself. */
+function picture(job, path, caption, alt) {
+    if (!hasFile(job, path)) return "";
+    return h("figure", { class: "schedule", tabIndex: 0, role: "region", "aria-label": caption }, h("figcaption", {}, caption), h("img", { src: fileOf(job, path), alt }));
 }
 
 const fact = (name, value, kind) => h("div", { class: `fact ${kind ?? ""}` }, h("span", {}, name), h("strong", {}, value));

@@ -147,7 +147,8 @@ export class Verdict {
         const p = state.preview;
         const stats = p.motion?.stats ?? p.stats ?? {};
         const rows = [
-            ["read, judge, move", ["read_s", "judge_s", "simulate_s"].map((k) => (p.cost?.[k] === undefined ? "–" : si(p.cost[k], "s", 2))).join(" + ")],
+            ["read and lay out", si(p.cost?.read_s ?? NaN, "s", 2)],
+            ["judge and move", si((p.cost?.judge_s ?? NaN) + (p.cost?.simulate_s ?? 0), "s", 2)],
             ["steps", `${number(stats.steps, 6)}${stats.rejected ? `, ${stats.rejected} rejected` : ""}`],
             ["evaluations", number(stats.rhs, 7)],
             ["energy balance", number(stats.energy_error, 2)],
@@ -179,7 +180,7 @@ export class Verdict {
 export function sentence(g) {
     if (!g) return "No hinge carries a limit.";
     const where = g.t_s === null || g.t_s === undefined ? "at a required pose" : `in ${g.scene} at ${si(g.t_s, "s")}`;
-    const band = g.utilisation_band ? ` (${Math.round(g.utilisation_band[0] * 100)} to ${Math.round(g.utilisation_band[1] * 100)} %)` : "";
+    const band = g.utilisation_band ? ` (${number(g.utilisation_band[0] * 100, 2)} to ${number(g.utilisation_band[1] * 100, 2)} %)` : "";
     return `Hinge ${g.id} governs: ${percent(g.utilisation)}${band} of its limit, ${where}, ${g.flow}.`;
 }
 

@@ -48,7 +48,7 @@ export class Workspace {
         this.send = latest((body) => post("/api/pose", body), (answer) => this.#answer(answer), (error) => {
             if (!error.lost) this.status.textContent = error.message;
         });
-        on("preview", () => this.show());
+        on("preview", () => this.visible && this.show());
         on("hinge", () => this.#colour());
     }
 
@@ -83,6 +83,7 @@ export class Workspace {
     }
 
     shown(yes) {
+        this.visible = yes;
         this.view.show(yes);
         if (yes) this.show();
     }
@@ -134,7 +135,7 @@ export class Workspace {
         this.list.replaceChildren(...flow.hinges.map((x) => h("div", { class: `pose-hinge${x.utilisation > 1 ? " over" : ""}` },
             h("span", { class: "bar-id" }, x.id),
             h("span", { class: "bar-track" }, h("span", { class: "pose-fill", style: { width: `${Math.min((x.utilisation ?? 0) * 80, 100)}%`, background: scale(x.utilisation ?? 0) } }), h("span", { class: "pose-limit" })),
-            h("span", { class: "bar-value" }, degrees(x.angle_rad)), h("span", { class: "bar-value" }, percent(x.utilisation, 3)))));
+            h("span", { class: "bar-value" }, `${((x.angle_rad * 180) / Math.PI).toFixed(2).replace("-", "\u2212")}°`), h("span", { class: "bar-value" }, `${(x.utilisation * 100).toFixed(1)} %`))));
     }
 
     #colour() {
