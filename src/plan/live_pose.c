@@ -87,9 +87,9 @@ static fw_status asked_of(fw_live_request *r, double asked[3]) {
     const json_t *platform = json_object_get(r->root, "platform");
     if (!json_is_object(platform)) return fw_live_wrong(r, "an object is wanted for", "platform");
     for (int k = 0; k < 3; k++) {
-        asked[k] = 0.0;
+        asked[k] = k < 2 ? 0.0 : (double)NAN; /* any angle */
         FW_TRY(fw_live_real(r, platform, name[k], &asked[k]));
-        if (!(fabs(asked[k]) <= 1e6)) return fw_live_wrong(r, "too far away:", name[k]);
+        if (fabs(asked[k]) > 1e6) return fw_live_wrong(r, "too far away:", name[k]);
     }
     return FW_OK;
 }
@@ -117,8 +117,7 @@ static fw_status body_of(fw_live_request *r, const fw_mechanism *m, int *body) {
     const char *name = NULL;
     FW_TRY(fw_live_string(r, r->root, "body", &name));
     *body = fw_pose_body(m);
-    if (!name && *body == FW_NONE)
-        return fw_live_wrong(r, "the device has no platform; name a body with", "body");
+    if (!name && *body == FW_NONE) return fw_live_wrong(r, "the device has no body to move", NULL);
     for (int b = 0; name && b < m->nbody; b++)
         if (strcmp(m->body[b].id, name) == 0) {
             *body = b;

@@ -17,9 +17,10 @@ typedef struct fw_posed {
 
 /* size of the mechanism at rest: larger extent of its pins and centres of mass, m */
 double fw_pose_size(const fw_mechanism *mechanism);
-/* the body that is meant without a name: the platform, or FW_NONE */
+/* the body that is meant without a name: the platform, else the heaviest; FW_NONE: no bodies */
 int fw_pose_body(const fw_mechanism *mechanism);
-/* asked: displacement of `body` from rest (x m, y m, phi rad), finite. from (3 nbody): poses of the
+/* asked: displacement of `body` from rest (x m, y m, phi rad), finite; phi NaN: any (of a
+   six-bar's platform: as drawn). from (3 nbody): poses of the
    other bodies to start from, NULL: at rest. *posed is in `arena`. FW_SOLVER: no pose was found. */
 fw_status fw_pose_solve(fw_arena *arena, const fw_mechanism *mechanism, int body,
                         const double asked[3], const double *from, fw_posed *posed);

@@ -28,9 +28,12 @@ double fw_pose_size(const fw_mechanism *m) {
 }
 
 int fw_pose_body(const fw_mechanism *m) {
-    for (int b = 0; b < m->nbody; b++)
+    int heaviest = FW_NONE;
+    for (int b = 0; b < m->nbody; b++) {
         if (m->device->body[b].platform) return b;
-    return FW_NONE;
+        if (heaviest == FW_NONE || m->body[b].mass_kg > m->body[heaviest].mass_kg) heaviest = b;
+    }
+    return heaviest;
 }
 
 static void angles_of(const fw_mechanism *m, const double *q, double *angle) {
@@ -129,8 +132,9 @@ static fw_status six_bar(fw_arena *arena, const fw_mechanism *m, const double as
 
 static const double heavy = 1e6;
 
-/* bodies that weigh alike but the one that is held; drivers let go */
-static fw_status held(fw_arena *arena, const fw_mechanism *from, int body, double size,
+/* bodies that weigh alike but the one that is held, which may turn where its angle is not asked
+   for; drivers let go */
+static fw_status held(fw_arena *arena, const fw_mechanism *from, int body, bool turns, double size,
                       fw_mechanism *to) {
     *to = *from;
     to->ndriver = 0;
@@ -138,21 +142,22 @@ static fw_status held(fw_arena *arena, const fw_mechanism *from, int body, doubl
     for (int b = 0; b < from->nbody; b++) {
         to->body[b] = from->body[b];
         to->body[b].mass_kg = b == body ? heavy : 1.0;
-        to->body[b].inertia_kg_m2 = to->body[b].mass_kg * size * size / 12.0;
+        to->body[b].inertia_kg_m2 = (turns ? 1.0 : to->body[b].mass_kg) * size * size / 12.0;
     }
     return FW_OK;
 }
 
-static double apart(const double *a, const double *b, double size) {
-    return hypot(hypot(a[0] - b[0], a[1] - b[1]) / size, a[2] - b[2]);
+static double apart(const double *a, const double *b, bool turns, double size) {
+    return hypot(hypot(a[0] - b[0], a[1] - b[1]) / size, turns ? 0.0 : a[2] - b[2]);
 }
 
 /* closes all joints with `body` at `target`, or as near to it as they allow; q is start and result.
    The closed pose nearest in the mass metric leaves a heavy body behind its place by about
    1/heavy of what the others have to move: aimed so much farther, it stands there. */
 static fw_status close_at(fw_arena *arena, const fw_mechanism *m, int body, const double target[3],
-                          double size, double *q) {
+                          bool turns, double size, double *q) {
     double aim[3] = {target[0], target[1], target[2]}, moved;
+    if (turns) aim[2] = q[3 * body + 2];
     for (int round = 0; round < 4; round++) {
         fw_mark mark = fw_arena_mark(arena);
         fw_diags quiet = fw_diags_new(arena);
@@ -160,9 +165,9 @@ static fw_status close_at(fw_arena *arena, const fw_mechanism *m, int body, cons
         fw_status status = fw_assemble(arena, m, q, &moved, &quiet);
         fw_arena_rewind(arena, mark);
         FW_TRY(status);
-        double off = apart(q + (size_t)3 * (size_t)body, target, size);
+        double off = apart(q + (size_t)3 * (size_t)body, target, turns, size);
         if (off < 1e-13 || off > 1e-3) break; /* there, or as near as it goes */
-        for (int k = 0; k < 3; k++)
+        for (int k = 0; k < 2 + !turns; k++)
             aim[k] += target[k] - q[3 * body + k];
     }
     return FW_OK;
@@ -170,10 +175,10 @@ static fw_status close_at(fw_arena *arena, const fw_mechanism *m, int body, cons
 
 /* In steps of a twentieth of the mechanism or a tenth of a radian, so that it stays on its branch.
    in: displacement of `body` from rest (m, m, rad), start (3 nbody) or NULL; out: q with joints
-   closed to round-off, at[] as asked to 1e-9 of the size or `reachable` false: then the pose
-   nearest in the mass metric. Cost: some 50 us per step and body. Source: docs/theory/assembly.md.
-   Test: test_live_pose.c (against the closed form of the six-bar, four-bar against its coupler
-   curve). */
+   closed to round-off, at[] as asked to 1e-7 of the size (what the search for the nearest pose
+   leaves) or `reachable` false: then the pose nearest in the mass metric. Cost: some 50 us per step
+   and body. Source: docs/theory/assembly.md. Test: test_live_pose.c (against the closed form of the
+   six-bar, four-bar against its coupler curve). */
 static fw_status closing(fw_arena *arena, const fw_mechanism *m, int body, const double asked[3],
                          const double *from, fw_posed *out) {
     enum { STEPS_MOST = 40 };
@@ -183,7 +188,8 @@ static fw_status closing(fw_arena *arena, const fw_mechanism *m, int body, const
     FW_NEED(rest = fw_arena_array(arena, double, n));
     rest_of(m, rest);
     memcpy(out->q, from ? from : rest, n * sizeof *rest);
-    FW_TRY(held(arena, m, body, size, &free_mechanism));
+    bool turns = isnan(asked[2]);
+    FW_TRY(held(arena, m, body, turns, size, &free_mechanism));
     const double *at_rest = rest + (size_t)3 * (size_t)body,
                  *now = out->q + (size_t)3 * (size_t)body;
     double way[3], far = 0.0;
@@ -191,18 +197,19 @@ static fw_status closing(fw_arena *arena, const fw_mechanism *m, int body, const
         double most = k < 2 ? 20.0 * size : 100.0; /* beyond, it is out of reach all the same */
         start[k] = now[k];
         way[k] = at_rest[k] + fmax(-most, fmin(most, asked[k])) - start[k];
+        if (k == 2 && turns) way[k] = 0.0;
     }
     far = fmax(hypot(way[0], way[1]) / (0.05 * size), fabs(way[2]) / 0.1);
     int steps = (int)fmin(STEPS_MOST, fmax(1.0, ceil(far)));
     for (int i = 1; i <= steps; i++) {
         for (int k = 0; k < 3; k++)
             target[k] = start[k] + way[k] * i / steps;
-        FW_TRY(close_at(arena, &free_mechanism, body, target, size, out->q));
+        FW_TRY(close_at(arena, &free_mechanism, body, target, turns, size, out->q));
     }
     angles_of(m, out->q, out->angle_rad);
     for (int k = 0; k < 3; k++)
         out->at[k] = now[k] - at_rest[k];
-    out->reachable = apart(out->at, asked, size) < 1e-9;
+    out->reachable = apart(out->at, asked, turns, size) < 1e-7;
     out->share = (double)NAN;
     if (!out->reachable)
         out->reason =
@@ -219,6 +226,7 @@ fw_status fw_pose_solve(fw_arena *arena, const fw_mechanism *m, int body, const 
     if (body < 0 || body >= m->nbody) return FW_USAGE;
     /* further joints would take freedom from the platform */
     bool plain = m->device->six_bar && m->npin == FW_SIX && m->ntie == 0 && m->nbody == 5;
-    if (plain && body == 2) return six_bar(arena, m, asked, out);
+    const double upright[3] = {asked[0], asked[1], isnan(asked[2]) ? 0.0 : asked[2]};
+    if (plain && body == 2) return six_bar(arena, m, upright, out);
     return closing(arena, m, body, asked, from, out);
 }

@@ -111,7 +111,7 @@ static void judged_motion(const fw_plan *plan, fw_report_preview *in) {
 static void outcome(fw_design *d, fw_status status, fw_report_preview *in) {
     bool judged = d->done & JUDGED;
     in->exit_status = judged ? fw_design_decision(d) : fw_status_exit(status);
-    in->provisional = !judged || d->plan->verdict.decision != FW_REJECT;
+    in->provisional = judged && d->plan->verdict.decision != FW_REJECT;
     bool could = false;
     for (int i = 0; i < in->nleft_out; i++)
         could = could || in->left_out[i].could_reject;

@@ -261,7 +261,7 @@ static void column(fw_text *out, const char *name, const double *value, int stri
     fw_text_printf(out, "\"%s\":[", name);
     for (int i = 0; i < count; i++) {
         fw_text_add(out, i ? "," : "");
-        fw_report_preview_number(out, value[(size_t)i * (size_t)stride], 5);
+        fw_report_preview_number(out, value[(size_t)i * (size_t)stride], 7);
     }
     fw_text_add(out, "]");
 }

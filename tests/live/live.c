@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The four functions behind the page, without a server:
+     live KIND <REQUEST          the answer to one request (table, preview, pose, edit)
+     live memory                 10 000 requests in one process: what it holds must not grow
+     live speed FILE NAME FROM TO UNIT [N]
+                                 previews with a parameter moved like a slider; percentiles of CPU
+ */
+#include "plan/live.h"
+#include <jansson.h>
+#include <malloc.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum { MOST = 32 << 20 };
+
+static char *read_all(FILE *f, size_t *n) {
+    char *data = malloc(MOST);
+    if (!f || !data) {
+        fputs("live: cannot read\n", stderr);
+        exit(2);
+    }
+    *n = fread(data, 1, MOST - 1, f);
+    data[*n] = '\0';
+    return data;
+}
+
+typedef fw_live_answer (*function)(fw_live *live, const char *request, size_t n);
+
+static fw_live_answer table(fw_live *live, const char *request, size_t n) {
+    (void)request, (void)n;
+    return fw_live_table(live);
+}
+
+static function named(const char *kind) {
+    return strcmp(kind, "table") == 0     ? table
+           : strcmp(kind, "preview") == 0 ? fw_live_preview
+           : strcmp(kind, "pose") == 0    ? fw_live_pose
+           : strcmp(kind, "edit") == 0    ? fw_live_edit
+                                          : NULL;
+}
+
+static int once(fw_live *live, function f) {
+    size_t n = 0;
+    char *request = f == table ? NULL : read_all(stdin, &n);
+    fw_live_answer a = f(live, request, n);
+    fwrite(a.text, 1, a.length, stdout);
+    free(request);
+    return a.status == FW_OK ? 0 : 2;
+}
+
+/* {"text": of the file, "set": {...}, ...} */
+static char *request_of(const char *file, json_t *more) {
+    size_t n;
+    FILE *f = fopen(file, "rb");
+    char *text = read_all(f, &n);
+    fclose(f);
+    json_t *root = json_pack("{s:s#}", "text", text, (int)n);
+    json_object_update(root, more);
+    char *request = json_dumps(root, JSON_COMPACT);
+    json_decref(root);
+    json_decref(more);
+    free(text);
+    return request;
+}
+
+static double cpu_s(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* ---- memory ---- */
+
+static size_t held(void) {
+    struct mallinfo2 m = mallinfo2();
+    return m.uordblks + m.hblkhd;
+}
+
+static void must(fw_live_answer a, const char *part) {
+    if (a.status == FW_OK && strstr(a.text, part)) return;
+    fprintf(stderr, "live memory: no %s in %.300s\n", part, a.text);
+    exit(1);
+}
+
+/* 10 000 in all: small mechanisms, devices with flexures, poses, changes, mistakes */
+static int memory(fw_live *live) {
+    enum { ROUNDS = 10000, WARM = 500 };
+    static const char small[] = "tests/data/effect-costs/free.xml";
+    static const char six_bar[] = "docs/gallery/reference-six-bar/device.xml";
+    char *few = request_of(small, json_pack("{s:{s:i}}", "options", "samples", 20));
+    char *whole = request_of(six_bar, json_object());
+    char *wrong = request_of(six_bar, json_pack("{s:{s:s}}", "set", "arc", "7 deg"));
+    char *drag = request_of(six_bar, json_pack("{s:{s:f}}", "platform", "x_m", 1e-4));
+    char *change = request_of(
+        six_bar, json_pack("{s:[{s:s,s:s}]}", "changes", "path", "arc", "value", "200 deg"));
+    size_t before = 0;
+    for (int i = 0; i < ROUNDS; i++) {
+        if (i % 50 == 0)
+            must(fw_live_preview(live, whole, strlen(whole)), "\"accept\"");
+        else if (i % 50 == 1)
+            must(fw_live_preview(live, wrong, strlen(wrong)), "\"invalid\"");
+        else if (i % 50 == 2)
+            must(fw_live_edit(live, change, strlen(change)), "200 deg");
+        else if (i % 10 == 3)
+            must(fw_live_pose(live, drag, strlen(drag)), "\"reachable\":true");
+        else if (i % 50 == 4)
+            must(fw_live_table(live), "flexure");
+        else if (i % 50 == 5 && fw_live_preview(live, few, 9).status != FW_USAGE)
+            exit(1);
+        else
+            must(fw_live_preview(live, few, strlen(few)), "\"motion\":{");
+        if (i == WARM) before = held();
+    }
+    size_t after = held();
+    printf("%d requests: %zu bytes held behind the first %d, %zu at the end\n", ROUNDS, before,
+           WARM, after);
+    free(few), free(whole), free(wrong), free(drag), free(change);
+    return after > before + 4096;
+}
+
+/* ---- speed ---- */
+
+static int rising(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static int speed(fw_live *live, int argc, char **argv) {
+    int n = argc > 7 ? atoi(argv[7]) : 100;
+    double from = atof(argv[4]), to = atof(argv[5]);
+    double *spent = calloc((size_t)(n > 0 ? n : 1), sizeof *spent);
+    if (!spent || n < 1) return 2;
+    for (int i = 0; i < n; i++) {
+        char value[64];
+        snprintf(value, sizeof value, "%.6g %s", from + (to - from) * i / (n > 1 ? n - 1 : 1),
+                 argv[6]);
+        char *request = request_of(argv[2], json_pack("{s:{s:s}}", "set", argv[3], value));
+        double start = cpu_s();
+        fw_live_answer a = fw_live_preview(live, request, strlen(request));
+        spent[i] = cpu_s() - start;
+        if (a.status != FW_OK || !strstr(a.text, "\"status\":\"ok\""))
+            printf("%s: %.200s\n", value, a.text);
+        free(request);
+    }
+    qsort(spent, (size_t)n, sizeof *spent, rising);
+    printf("%d previews: CPU median %.1f ms, 95 %% %.1f ms, most %.1f ms\n", n, 1e3 * spent[n / 2],
+           1e3 * spent[(int)(0.95 * n)], 1e3 * spent[n - 1]);
+    free(spent);
+    return 0;
+}
+
+int main(int argc, char **argv) {
+    fw_live *live = fw_live_new(NULL);
+    function f = argc > 1 ? named(argv[1]) : NULL;
+    int status = 2;
+    if (live && f)
+        status = once(live, f);
+    else if (live && argc > 1 && strcmp(argv[1], "memory") == 0)
+        status = memory(live);
+    else if (live && argc > 6 && strcmp(argv[1], "speed") == 0)
+        status = speed(live, argc, argv);
+    else
+        fputs("live table|preview|pose|edit|memory|speed ...; see tests/live/live.c\n", stderr);
+    fw_live_free(live);
+    return status;
+}
