@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -16,7 +17,7 @@
 #endif
 #endif
 
-static int limit(int which, uint64_t value) {
+static int limit(unsigned which, uint64_t value) {
     struct rlimit r = {.rlim_cur = (rlim_t)value, .rlim_max = (rlim_t)value};
     return setrlimit(which, &r);
 }
@@ -51,7 +52,7 @@ static int place_all(const fw_child_plan *p) {
     return close_range(fd[3] >= 0 ? 4 : 3, ~0U, 0);
 }
 
-/* in the new process, between fork and exec: only calls that are safe there */
+/* in the new process, between fork and exec; the server has one thread, so no lock can be held */
 static void become(const fw_child_plan *p, pid_t server) {
     sigset_t none;
     sigemptyset(&none);
@@ -59,6 +60,7 @@ static void become(const fw_child_plan *p, pid_t server) {
     if (setpgid(0, 0) != 0 || prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != server) return;
     if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return;
     if (p->directory >= 0 && fchdir(p->directory) != 0) return;
+    if (p->temporary && setenv("TMPDIR", p->temporary, 1) != 0) return;
     if (place_all(p) != 0 || limit_all(&p->limits) != 0) return;
     execv("/proc/self/exe", (char *const *)(uintptr_t)p->argv);
 }

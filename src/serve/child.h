@@ -19,6 +19,7 @@ typedef struct fw_child_limits {
 typedef struct fw_child_plan {
     const char *const *argv; /* NULL-terminated, [0] is the program's name */
     int directory;           /* to start in; -1: the server's */
+    const char *temporary;   /* its $TMPDIR; NULL: the server's */
     int in, out, err;        /* become 0, 1 and 2; -1: /dev/null (err: the server's) */
     int channel;             /* becomes 3; -1: none */
     fw_child_limits limits;

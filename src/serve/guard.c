@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Every check has a switch FW_SERVE_WITHOUT_... that only tests/serve/mutants.py sets, to see that
-   a hostile request gets through without it. */
 #include "serve/guard.h"
+#include "serve/defence.h"
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -65,18 +64,15 @@ bool fw_guard_is_entry(const fw_guard_facts *f) {
 
 static fw_refusal request_line(const fw_guard_facts *f) {
     if (strcmp(f->version, "HTTP/1.1") != 0) REFUSE(505, "only HTTP/1.1 is spoken here");
-#ifndef FW_SERVE_WITHOUT_METHOD
     if (!is_get(f) && strcmp(f->method, "POST") != 0 && strcmp(f->method, "DELETE") != 0)
         REFUSE(405, "only GET, POST and DELETE are known");
-#endif
-#ifndef FW_SERVE_WITHOUT_PATH
     if (!plain_path(f->path)) REFUSE(400, "no such path");
-#endif
     if (f->query && !fw_guard_is_entry(f)) REFUSE(400, "no page here takes a query");
     if (f->repeated) REFUSE(400, "a header is there twice");
     /* the parser hands texts on that end at their first zero byte: what is behind one must not be
        there, so that what was checked is what was sent */
-    if (f->head_bytes > f->seen_bytes) REFUSE(400, "the head holds bytes that belong to nothing");
+    if (FW_DEFENDED(HEAD) && f->head_bytes > f->seen_bytes)
+        REFUSE(400, "the head holds bytes that belong to nothing");
     PASS;
 }
 
@@ -84,41 +80,29 @@ static fw_refusal request_line(const fw_guard_facts *f) {
 
 /* DNS rebinding: a page of another name that was made to point here sends its own name */
 static fw_refusal host(const fw_guard *g, const fw_guard_facts *f) {
-#ifndef FW_SERVE_WITHOUT_HOST
+    if (!FW_DEFENDED(HOST)) PASS;
     for (int i = 0; f->host && i < g->addresses; i++)
         if (strcmp(f->host, g->host[i]) == 0) PASS;
     REFUSE(421, "the address in Host is not this server's");
-#else
-    (void)g, (void)f;
-    PASS;
-#endif
 }
 
 /* a page of another origin; the origin must be that of the host that is asked */
 static fw_refusal origin(const fw_guard *g, const fw_guard_facts *f) {
-#ifndef FW_SERVE_WITHOUT_ORIGIN
+    if (!FW_DEFENDED(ORIGIN)) PASS;
     if (!f->origin) PASS;
     for (int i = 0; i < g->addresses; i++)
         if (strcmp(f->origin, g->origin[i]) == 0 && (!f->host || strcmp(f->host, g->host[i]) == 0))
             PASS;
     REFUSE(403, "another page may not ask this server");
-#else
-    (void)g, (void)f;
-    PASS;
-#endif
 }
 
 /* same-origin, or none for what a person types; another port of this machine is same-site and as
    foreign as any other page */
 static fw_refusal fetch_site(const fw_guard_facts *f) {
-#ifndef FW_SERVE_WITHOUT_FETCH_SITE
+    if (!FW_DEFENDED(FETCH_SITE)) PASS;
     if (!f->fetch_site || strcmp(f->fetch_site, "same-origin") == 0) PASS;
     if (strcmp(f->fetch_site, "none") == 0 && is_get(f)) PASS;
     REFUSE(403, "another page may not ask this server");
-#else
-    (void)f;
-    PASS;
-#endif
 }
 
 /* ---- the body ---- */
@@ -147,16 +131,13 @@ static fw_refusal body(const fw_guard_facts *f) {
         PASS;
     }
     if (!f->content_length) REFUSE(411, "the length of a body must be stated in Content-Length");
-#ifndef FW_SERVE_WITHOUT_BODY
-    if (bytes > FW_SERVE_MOST_BODY) REFUSE(413, "the body is larger than 1 MiB");
-#endif
-#ifndef FW_SERVE_WITHOUT_CONTENT_TYPE
+    if (FW_DEFENDED(BODY) && bytes > FW_SERVE_MOST_BODY)
+        REFUSE(413, "the body is larger than 1 MiB");
     const char *type = f->content_type ? f->content_type : "";
-    if (strcasecmp(type, "application/json") != 0 &&
+    if (FW_DEFENDED(CONTENT_TYPE) && strcasecmp(type, "application/json") != 0 &&
         strcasecmp(type, "application/json; charset=utf-8") != 0 &&
         strcasecmp(type, "application/json;charset=utf-8") != 0)
         REFUSE(415, "a body must be application/json");
-#endif
     PASS;
 }
 
@@ -183,24 +164,20 @@ static bool our_cookie(const fw_guard *g, const char *header, char value[FW_SERV
 
 static fw_refusal identity(const fw_guard *g, const fw_guard_facts *f) {
     if (fw_guard_is_entry(f)) {
-#ifndef FW_SERVE_WITHOUT_ONE_TIME
-        if (g->entry_used)
+        if (FW_DEFENDED(ONE_TIME) && g->entry_used)
             REFUSE(403, "this address was used already; it opens the page once. Start flexwright "
                         "serve again for a new one");
-#endif
         if (!fw_guard_equal(f->entry, g->entry))
             REFUSE(403, "this is not the address that flexwright serve printed");
         PASS;
     }
-#ifndef FW_SERVE_WITHOUT_COOKIE
     char value[FW_SERVE_SECRET];
-    if (!f->cookie || !our_cookie(g, f->cookie, value) || !fw_guard_equal(value, g->cookie))
+    bool known = f->cookie && our_cookie(g, f->cookie, value) && fw_guard_equal(value, g->cookie);
+    if (FW_DEFENDED(COOKIE) && !known)
         REFUSE(401, "open the address that flexwright serve printed; without it nothing is shown");
-#endif
-#ifndef FW_SERVE_WITHOUT_HEADER_TOKEN
-    if (!is_get(f) && (!f->token || !fw_guard_equal(f->token, g->header)))
+    if (FW_DEFENDED(HEADER_TOKEN) && !is_get(f) &&
+        (!f->token || !fw_guard_equal(f->token, g->header)))
         REFUSE(403, "the header X-Flexwright-Token is missing or wrong");
-#endif
     PASS;
 }
 

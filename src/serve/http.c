@@ -2,6 +2,7 @@
 /* libmicrohttpd's callbacks. It parses HTTP and moves bytes; who may ask is guard.c's, what is
    answered the rows' of routes.c. Never more than one thread: the daemons have none, server.c runs
    them. */
+#include "serve/defence.h"
 #include "serve/events.h"
 #include "serve/jobs.h"
 #include "serve/reply.h"
@@ -162,6 +163,7 @@ static enum MHD_Result on_request(void *context, struct MHD_Connection *mhd, con
     if (r->answered) return send_reply(r, mhd);
     if (r->received != r->declared) return MHD_NO;
     phase(r->connection, FW_WORKING);
+    r->server->asked = true;
     r->route->handle(r);
     if (r->reply.status) return send_reply(r, mhd);
     r->suspended = true;
@@ -265,12 +267,11 @@ void fw_http_reap(fw_server *server) {
         if (slot->fd < 0) continue;
         taken++;
         notice_gone(slot);
-#ifndef FW_SERVE_WITHOUT_REAPER
         int64_t age = now - slot->since_ms;
+        if (!FW_DEFENDED(REAPER)) continue;
         if ((slot->phase == FW_RECEIVING && age > FW_SERVE_REQUEST_MS) ||
             (slot->phase == FW_SENDING && age > FW_SERVE_REPLY_MS))
             cut(slot);
-#endif
     }
     if (taken >= FW_SERVE_CONNECTIONS) make_room(server, now);
 }
@@ -283,14 +284,9 @@ static struct MHD_Daemon *listen_on(fw_server *server, const struct sockaddr *ad
         flags | MHD_USE_EPOLL | MHD_ALLOW_SUSPEND_RESUME, 0, NULL, NULL, on_request, server,
         MHD_OPTION_SOCK_ADDR, address, MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)HEAD_BYTES,
         MHD_OPTION_CONNECTION_LIMIT, (unsigned)FW_SERVE_CONNECTIONS, MHD_OPTION_CONNECTION_TIMEOUT,
-#ifndef FW_SERVE_WITHOUT_REAPER
-        (unsigned)FW_SERVE_IDLE_S,
-#else
-        0U,
-#endif
-        MHD_OPTION_NOTIFY_COMPLETED, on_completed, server, MHD_OPTION_NOTIFY_CONNECTION,
-        on_connection, server, MHD_OPTION_UNESCAPE_CALLBACK, as_it_is, NULL,
-        MHD_OPTION_STRICT_FOR_CLIENT, 1, MHD_OPTION_LISTEN_BACKLOG_SIZE, 256U,
+        (unsigned)FW_SERVE_IDLE_S, MHD_OPTION_NOTIFY_COMPLETED, on_completed, server,
+        MHD_OPTION_NOTIFY_CONNECTION, on_connection, server, MHD_OPTION_UNESCAPE_CALLBACK, as_it_is,
+        NULL, MHD_OPTION_STRICT_FOR_CLIENT, 1, MHD_OPTION_LISTEN_BACKLOG_SIZE, 256U,
         MHD_OPTION_SIGPIPE_HANDLED_BY_APP, 1, MHD_OPTION_END);
 }
 

@@ -77,6 +77,7 @@ fw_status fw_job_prepare(fw_server *server, fw_job *job, const char *text, size_
     job->message = fw_arena_array(job->arena, const char *, FW_JOB_MOST_LINES);
     FW_NEED(job->message);
     FW_NEED(job->directory);
+    FW_NEED(job->path = fw_scratch_path(job->arena, server->scratch, job->directory));
     job->fd = fw_scratch_make(server->scratch, job->directory);
     if (job->fd < 0 || !write_device(job, text, n)) return FW_IO;
     tell(server, job);
@@ -93,6 +94,7 @@ static bool start(fw_job *job) {
     }
     fw_child_plan plan = {.argv = job->argv,
                           .directory = job->fd,
+                          .temporary = job->path,
                           .in = -1,
                           .out = out,
                           .err = errors[1],
@@ -215,6 +217,7 @@ bool fw_job_pack(fw_job *job) {
     if (job->packer || job->packed) return true;
     fw_child_plan plan = {.argv = argv,
                           .directory = job->fd,
+                          .temporary = job->path,
                           .in = -1,
                           .out = -1,
                           .err = -1,

@@ -31,7 +31,8 @@ typedef struct fw_job_file {
 typedef struct fw_job {
     unsigned id; /* 0: the slot is free */
     fw_arena *arena;
-    const char *kind, *name, *directory;
+    const char *kind, *name, *directory,
+        *path; /* directory: below the scratch; path: from the root */
     const char *const *argv;
     fw_job_state state;
     pid_t pid;

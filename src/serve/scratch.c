@@ -14,7 +14,7 @@
 #define PREFIX "flexwright-serve-"
 
 struct fw_scratch {
-    const char *parent, *name;
+    const char *path, *name;
     int parent_fd, fd, lock;
 };
 
@@ -46,12 +46,16 @@ static void remove_left_behind(int parent) {
 
 fw_status fw_scratch_open(fw_arena *arena, fw_diags *diags, fw_scratch **scratch) {
     const char *wanted = getenv("TMPDIR");
+    if (!wanted || !*wanted) wanted = "/tmp";
+    char *parent = realpath(wanted, NULL);
+    char *path = fw_arena_printf(arena, "%s/" PREFIX "XXXXXX", parent ? parent : wanted);
+    free(parent);
+    FW_NEED(path);
     fw_scratch *s = fw_arena_one(arena, fw_scratch);
     FW_NEED(s);
-    *s = (fw_scratch){.parent = wanted && *wanted ? wanted : "/tmp", .fd = -1, .lock = -1};
-    s->parent_fd = open(s->parent, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    char *path = fw_arena_printf(arena, "%s/" PREFIX "XXXXXX", s->parent);
-    FW_NEED(path);
+    *s = (fw_scratch){.path = path, .name = strrchr(path, '/') + 1, .fd = -1, .lock = -1};
+    FW_NEED(parent = fw_arena_strndup(arena, path, (size_t)(s->name - path)));
+    s->parent_fd = open(parent, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (s->parent_fd >= 0) {
         remove_left_behind(s->parent_fd);
         if (mkdtemp(path)) s->fd = open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
@@ -62,7 +66,6 @@ fw_status fw_scratch_open(fw_arena *arena, fw_diags *diags, fw_scratch **scratch
                       "cannot make a directory for the work of the page: %s", strerror(errno));
         return FW_IO;
     }
-    s->name = strrchr(path, '/') + 1;
     *scratch = s;
     return FW_OK;
 }
@@ -78,6 +81,10 @@ void fw_scratch_close(fw_scratch *s) {
 int fw_scratch_make(fw_scratch *s, const char *name) {
     if (mkdirat(s->fd, name, 0700) != 0) return -1;
     return openat(s->fd, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+}
+
+const char *fw_scratch_path(fw_arena *arena, const fw_scratch *s, const char *name) {
+    return fw_arena_printf(arena, "%s/%s", s->path, name);
 }
 
 void fw_scratch_remove(fw_scratch *s, const char *name) {

@@ -11,6 +11,8 @@ fw_status fw_scratch_open(fw_arena *arena, fw_diags *diags, fw_scratch **scratch
 void fw_scratch_close(fw_scratch *scratch); /* with all that is in it; NULL allowed */
 /* a new directory in it: its descriptor, or -1 */
 int fw_scratch_make(fw_scratch *scratch, const char *name);
+/* where it is, from the root */
+const char *fw_scratch_path(fw_arena *arena, const fw_scratch *scratch, const char *name);
 void fw_scratch_remove(fw_scratch *scratch, const char *name);
 
 #endif

@@ -57,8 +57,9 @@ static void round_once(fw_server *server) {
     struct pollfd at[MOST_POLLED];
     int wait_ms;
     size_t n = what_to_poll(server, at, &wait_ms);
-    poll(at, n, wait_ms);
+    poll(at, n, server->asked ? 0 : wait_ms);
     run_http(server);
+    server->asked = false;
     fw_pool_run(server);
     fw_jobs_run(server);
     fw_watch_run(server);

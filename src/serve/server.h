@@ -75,7 +75,7 @@ struct fw_request {
     bool suspended, answered;
     bool gone;          /* the client went away */
     fw_request *next;   /* waiting for a worker */
-    int compute;        /* what the worker is to do: a row of live_rows.c */
+    unsigned compute;   /* what the worker is to do: a row of live_rows.c */
     struct fw_job *job; /* whose archive is awaited */
     fw_stream *stream;
 };
@@ -99,7 +99,7 @@ struct fw_server {
     struct fw_jobs *jobs;
     struct fw_watch *watch;
     struct fw_scratch *scratch;
-    bool stopping;
+    bool asked; /* something was asked for since workers and jobs were looked at */
 };
 
 int64_t fw_serve_now_ms(void);

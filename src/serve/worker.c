@@ -200,7 +200,7 @@ static void give(fw_worker *w, fw_request *r) {
     w->request = r;
     w->busy = true;
     w->cancelled = false;
-    w->head = (fw_worker_head){.what = (uint32_t)r->compute, .n = (uint32_t)r->received};
+    w->head = (fw_worker_head){.what = r->compute, .n = (uint32_t)r->received};
     w->answer = (fw_worker_head){0};
     w->sent = w->got = 0;
     w->asked_ms = fw_serve_now_ms();
@@ -208,7 +208,7 @@ static void give(fw_worker *w, fw_request *r) {
 
 /* a worker remembers the mechanism that it posed last, so that poses go to the same one; previews
    go to the other while it is free */
-static fw_worker *free_worker(fw_pool *pool, int what) {
+static fw_worker *free_worker(fw_pool *pool, unsigned what) {
     int first = what == FW_COMPUTE_POSE ? FW_SERVE_WORKERS - 1 : 0;
     for (int i = 0; i < FW_SERVE_WORKERS; i++) {
         fw_worker *w = &pool->worker[(first + i) % FW_SERVE_WORKERS];

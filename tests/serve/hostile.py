@@ -110,7 +110,7 @@ def cases(s, other_cookie):
     yield "a request hidden in a refused body", None, post("/api/jobs", *mine, kind, length=10) + get("/api/session", *mine)
     # ---- methods and request lines ----
     for method in ("HEAD", "OPTIONS", "TRACE", "PUT", "PATCH", "CONNECT", "PROPFIND", "get", "GETGET", "M-SEARCH"):
-        yield f"method {method}", "METHOD" if method == "PUT" else None, get("/api/session", *mine, method=method)
+        yield f"method {method}", None, get("/api/session", *mine, method=method)
     yield "CONNECT elsewhere", None, get("evil.example:443", *mine, method="CONNECT")
     yield "absolute form elsewhere", None, get("http://evil.example/", *mine)
     yield "absolute form of ourselves", None, get(f"http://{s.host}/api/session", *mine)
@@ -124,8 +124,8 @@ def cases(s, other_cookie):
     yield "only line ends", None, b"\r\n" * 200
     yield "no method", None, f" /api/session HTTP/1.1\r\n{host}{good}\r\n".encode()
     yield "WebSocket", None, get("/api/socket", *mine, "Upgrade: websocket\r\nConnection: Upgrade\r\n")
-    yield "zero byte in the path", None, f"GET /api/session\0 HTTP/1.1\r\n{host}{good}\r\n".encode()
-    yield "zero byte behind the host", None, get("/api/session", f"Host: {s.host}\0.evil.example\r\n", good)
+    yield "zero byte in the path", "HEAD", f"GET /api/session\0 HTTP/1.1\r\n{host}{good}\r\n".encode()
+    yield "zero byte behind the host", "HEAD", get("/api/session", f"Host: {s.host}\0.evil.example\r\n", good)
     yield "zero byte behind the method", None, f"GET\0 /api/session HTTP/1.1\r\n{host}{good}\r\n".encode()
     yield "zero byte in a header's name", None, get("/api/session", *mine, "X\0Y: 1\r\n")
     yield "folded header", None, f"GET /api/session HTTP/1.1\r\nHost:\r\n {s.host}x\r\n{good}\r\n".encode()
@@ -137,7 +137,7 @@ def cases(s, other_cookie):
                  "/api/jobs/1/files/%2e%2e/%2e%2e/lock", "/api/jobs/1/files//etc/passwd", "/api/jobs/1/files/etc/passwd",
                  "/api/jobs/-1", "/api/jobs/4294967297", "/api/jobs/1x", "/api/jobs/1/printed", "/api/jobs/0", "/api/jobs/"):
         yield f"path {path}", None, get(path, *mine)
-    yield "encoded letter", "PATH", get("/api/sessio%6e", *mine)
+    yield "encoded letter", None, get("/api/sessio%6e", *mine)
     yield "a query", None, get("/api/session?x", *mine)
     yield "a query without a question", None, get("/api/session?callback=alert", *mine)
 
@@ -169,8 +169,8 @@ def main():
                 assert server.process.poll() is None, f"{name} ended the server: {server.said()}"
             status, _, _ = server.ask("GET", "/api/session")
             said = server.said()
-            leftover = server.json("GET", "/api/jobs/2", expect=(404,))  # no hostile request began a job
-            assert "error" in leftover
+            if server.ask("GET", "/api/jobs/2")[0] != 404:
+                wrong.append("a hostile request began a job")
     print(*wrong, sep="\n")
     print(f"{count} hostile requests, {len(wrong)} served, {failed_with} answered with a fault; the honest one after them: {status}")
     if said:

@@ -290,6 +290,36 @@ def crash(program, directory):
         assert len(processes(server.process.pid)) == 3
 
 
+def abandoned(program, directory):
+    """a slider that moves on: requests whose page went away are given up, and do not hold up the last one"""
+    with Server(program, directory) as server:
+        server.enter()
+        if server.ask("POST", "/api/preview", {"text": TEXT})[0] == 501:
+            print("  this build computes nothing live")
+            return
+
+        def ask(options):
+            body = json.dumps({"text": TEXT, "options": options}).encode()
+            return (f"POST /api/preview HTTP/1.1\r\nHost: {server.host}\r\nCookie: {server.cookie}\r\n"
+                    f"X-Flexwright-Token: {server.token}\r\nContent-Type: application/json\r\n"
+                    f"Content-Length: {len(body)}\r\n\r\n").encode() + body
+
+        began = time.monotonic()
+        for _ in range(25):
+            with server.connect() as s:
+                s.sendall(ask({"corners": "auto", "accuracy": 1e-9}))
+                time.sleep(0.02)
+        status, _, data = server.ask("POST", "/api/preview", {"text": TEXT})
+        took = time.monotonic() - began
+        assert status == 200 and json.loads(data)["status"] == "ok", data[:300]
+        began = time.monotonic()  # the same 25, waited for
+        for _ in range(2):
+            assert server.ask("POST", "/api/preview", {"text": TEXT, "options": {"corners": "auto", "accuracy": 1e-9}})[0] == 200
+        one = (time.monotonic() - began) / 2
+        print(f"  after 25 that were given up: {took:.2f} s; one of them takes {one:.2f} s")
+        assert took < 0.5 * 25 * one or took < 2.0
+
+
 # ---- the file ----
 
 def file(program, directory):
@@ -395,6 +425,42 @@ def killed(program, directory):
     living.stop()
 
 
+def six(program, directory):
+    """::1 only when asked for, with the same rules"""
+    try:
+        socket.create_server(("::1", 0), family=socket.AF_INET6).close()
+    except OSError:
+        print("  this machine has no ::1")
+        return
+    with Server(program, directory, options=["--ipv6"]) as server:
+        server.enter()
+        host = f"[::1]:{server.port}"
+        head = f"GET /api/session HTTP/1.1\r\nHost: {host}\r\n"
+        for headers, status in ((f"Cookie: {server.cookie}\r\n", 200), ("", 401),
+                                (f"Cookie: {server.cookie}\r\nOrigin: http://{server.host}\r\n", 403)):
+            with server.connect("::1") as s:
+                s.sendall((head + headers + "\r\n").encode())
+                assert s.recv(12).decode() == f"HTTP/1.1 {status}"
+
+
+def browser(program, directory):
+    """in a terminal with a display the browser is tried; one that is not there ends nothing"""
+    if os.path.exists("/usr/bin/xdg-open"):
+        print("  there is a browser here; not opened")
+        return
+    ours, theirs = os.openpty()
+    run = subprocess.Popen([program, "serve"], stdout=theirs, stderr=theirs, stdin=theirs,
+                           env={**os.environ, "DISPLAY": ":9", "TMPDIR": str(directory)})
+    os.close(theirs)
+    text = b""
+    while b"FW-D285" not in text:
+        text += os.read(ours, 1000)
+    assert run.poll() is None and text.startswith(b"http://127.0.0.1:")
+    run.terminate()
+    assert run.wait(timeout=5) == 0
+    os.close(ours)
+
+
 def started_wrongly(program, directory):
     """a port that is taken, a file that is not there"""
     with Server(program, directory) as server:
@@ -408,8 +474,8 @@ def started_wrongly(program, directory):
     assert not scratch(directory)
 
 
-TESTS = [only_loopback, half_open, drip_alone, loaded, archive, jobs, limits, crash, file, streams, signals, killed,
-         started_wrongly]
+TESTS = [only_loopback, half_open, drip_alone, loaded, archive, jobs, limits, crash, abandoned, file, streams, signals, killed,
+         six, browser, started_wrongly]
 
 
 def main():
