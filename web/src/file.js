@@ -3,7 +3,7 @@
 import { get, post } from "./api.js";
 import { announce } from "./dom.js";
 import { notice } from "./notices.js";
-import { emit, state } from "./store.js";
+import { emit, on, state } from "./store.js";
 
 const STARTER = `<?xml version="1.0" encoding="UTF-8"?>
 <device xmlns="urn:flexwright:device:1" name="new-device">
@@ -19,7 +19,34 @@ export async function startFile(editor) {
         state.file = null;
         editor.open(STARTER);
     }
+    restore(editor);
+    on("text", keep);
     emit("file");
+}
+
+// ---- what was not saved survives a reload and a server that was started anew on the same port ----
+
+const KEPT = "unsaved";
+
+function keep() {
+    try {
+        if (state.file && state.text !== state.file.text) sessionStorage.setItem(KEPT, JSON.stringify([state.file.version, state.text]));
+        else sessionStorage.removeItem(KEPT);
+    } catch {
+        // no room: it is only a comfort
+    }
+}
+
+function restore(editor) {
+    let kept = null;
+    try {
+        kept = JSON.parse(sessionStorage.getItem(KEPT));
+    } catch {
+        return;
+    }
+    if (!state.file || !kept || kept[0] !== state.file.version || kept[1] === state.file.text) return;
+    editor.replace(kept[1]);
+    notice({ kind: "info", stay: true, text: "Changes that were not saved are back.", actions: [["Take the file's instead", () => editor.replace(state.file.text)], ["Keep them", () => {}]] });
 }
 
 /** The file has changed: follow it, unless there are changes here that would be lost. */
@@ -63,6 +90,7 @@ export async function save(editor) {
     try {
         const answer = await post("/api/file", { text, version: state.file.version });
         state.file = { ...state.file, text, version: answer.version };
+        keep();
         announce("saved");
         emit("notice", { kind: "info", text: `Saved ${state.file.name}.` });
     } catch (error) {

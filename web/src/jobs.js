@@ -33,6 +33,7 @@ export async function run(kind, { text = state.text, options = {}, onprogress, s
     jobs.set(id, job);
     const cancel = () => remove(`/api/jobs/${id}`).catch(() => {});
     signal?.addEventListener("abort", cancel);
+    if (signal?.aborted) cancel(); // while it was asked for
     emit("jobs", job);
     try {
         for (;;) {

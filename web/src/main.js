@@ -6,7 +6,7 @@ import { get, onConnection, openSession } from "./api.js";
 import { download } from "./archive.js";
 import { Assembly } from "./assembly.js";
 import { startPreviews, useEditor } from "./design.js";
-import { $, announce, button, h, icon, s } from "./dom.js";
+import { $, button, h, s } from "./dom.js";
 import { Editor } from "./editor.js";
 import { follow, save, startFile } from "./file.js";
 import { Form } from "./form.js";
@@ -175,4 +175,4 @@ start().catch((error) => {
 });
 
 // for the tests of the page, which look and do not touch
-globalThis.flexwright = { state, parts, announce, icon };
+globalThis.flexwright = { state, parts, on };

@@ -93,9 +93,10 @@ export class Motion {
         setOptions(this.scene, p.scenes.map((x) => [x.name, x.name]), p.motion?.scene ?? state.options.scene ?? "");
         this.player.hidden = this.plots.hidden = !p.motion;
         if (!p.motion) return this.#still(p);
+        const first = this.t === undefined;
         const share = this.t ? this.time / this.#end() : 0;
         this.t = p.motion.t_s;
-        this.time = share * this.#end();
+        this.time = first ? peakTime(p) : share * this.#end();
         this.flow = p.motion.flow ?? p.scenes.find((x) => x.name === p.motion.scene)?.flow ?? p.flows[0]?.name;
         this.limits = p.pins.map((pin) => limitOf(p, pin, this.flow));
         this.mechanism.show(p);
@@ -215,6 +216,12 @@ export class Motion {
         }
         return [low, t[high] > t[low] ? Math.min((time - t[low]) / (t[high] - t[low]), 1) : 0];
     }
+}
+
+/** When the first of the largest angles is there: what a first look should show. */
+function peakTime(p) {
+    const peaks = p.motion.peaks.map((x, i) => ({ ...x, share: Math.abs(x.angle_rad) / (limitOf(p, p.pins[i], p.motion.flow) ?? Infinity) }));
+    return peaks.reduce((a, b) => (b.share > (a?.share ?? -1) ? b : a), null)?.t_s ?? 0;
 }
 
 export function zoomButtons(view) {
