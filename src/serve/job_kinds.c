@@ -50,7 +50,7 @@ static const option_row options[] = {
     {"operators", "operators", PLAN | RECIPE},
     {"day", "day", PLAN | RECIPE},
     {"planned", "planned", PLAN | RECIPE},
-    {"scene", "scene", SIMULATE | MODES | STATICS | ASSEMBLE},
+    {"scene", "scene", SIMULATE | MODES | STATICS | ASSEMBLE | TRADEOFF},
     {"at", "at", MODES},
     {"path", "path", STATICS},
     {"method", "method", SIMULATE},

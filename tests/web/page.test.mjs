@@ -100,6 +100,9 @@ describe("the six-bar", () => {
         assert.match(await page.textContent(".run-stats"), /^minimal/);
         await answered(page, () => page.selectOption('select[aria-label="integrator"]', "radau5"));
         assert.match(await page.textContent(".run-stats"), /radau5/);
+        await answered(page, () => page.selectOption('select[aria-label="tolerance"]', "1e-4"));
+        assert.match(await page.textContent(".run-stats"), /rtol (1\.0e.4|0\.0001)/);
+        await answered(page, () => page.selectOption('select[aria-label="tolerance"]', ""));
         await answered(page, () => page.selectOption("#scene", "gentle-step"));
         assert.equal(await page.evaluate(() => globalThis.flexwright.state.preview.motion.scene), "gentle-step");
         for (const label of ["method", "integrator"]) await answered(page, () => page.selectOption(`select[aria-label="${label}"]`, ""));
@@ -250,6 +253,17 @@ describe("the six-bar", () => {
         await page.waitForSelector('#panel-workspace .job-content:has-text("volume")', { timeout: 40000 });
     });
 
+    test("the trade-off is begun and cancelled, or said not to be in this program", async () => {
+        await view(page, "accuracy");
+        await page.click('button:has-text("Measure the trade-off")');
+        const told = await Promise.race([
+            page.waitForSelector('#panel-accuracy .job-errors:has-text("not in this version")').then(() => "missing"),
+            page.waitForSelector('#panel-accuracy .job-message:has-text("s")', { state: "visible" }).then(() => "running"),
+        ]);
+        if (told === "running" && (await page.isVisible("#panel-accuracy .cancel"))) await page.click("#panel-accuracy .cancel").catch(() => {}); // it may just have ended
+        await page.waitForFunction(() => /cancelled|not in this version/.test(document.querySelector("#panel-accuracy .job-errors").textContent));
+    });
+
     test("the slider: how long until the new motion is seen", async (t) => {
         await view(page, "motion");
         const slider = page.locator('[data-parameter="arc"]');
@@ -351,6 +365,7 @@ describe("text and file", () => {
     test("a file that another editor changes is followed", async () => {
         const now = readFileSync(server.file, "utf8").replace("A parallel", "Followed: a parallel").replace('name="push" value="30 uN"', 'name="push" value="12 uN"');
         if (await page.isEnabled("#save")) await page.click("#save");
+        await page.waitForFunction(() => document.querySelector("#file-state").textContent === "device.xml");
         writeFileSync(server.file, now);
         await page.waitForFunction((t) => globalThis.flexwright.state.text === t, now);
         await verdict(page, "accept");

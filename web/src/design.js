@@ -44,15 +44,23 @@ export async function letGo(name, value) {
     emit("change");
 }
 
-export function setOption(name, value) {
-    if (value === null || value === "" || value === "auto-default") delete state.options[name];
-    else state.options[name] = value;
+/** How it is computed: {method, integrator, rtol, scene ...}; "" leaves the choice to the program. */
+export function setOptionsTogether(values) {
+    for (const [name, value] of Object.entries(values)) {
+        if (value === "") delete state.options[name];
+        else state.options[name] = value;
+    }
     emit("options");
     emit("change");
 }
+export const setOption = (name, value) => setOptionsTogether({ [name]: value });
 
 /** What a job or a preview of the present state is asked with. */
-export const request = () => ({ text: state.text, set: { ...state.set }, options: { ...state.options } });
+export function request() {
+    const options = { ...state.options };
+    if (options.rtol !== undefined) options.rtol = Number(options.rtol);
+    return { text: state.text, set: { ...state.set }, options };
+}
 
 const ask = latest(
     ({ body }) => post("/api/preview", body),

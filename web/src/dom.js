@@ -13,7 +13,7 @@ function fill(element, attributes, children) {
             element[name] = value;
         else element.setAttribute(name, value === true ? "" : value);
     }
-    element.append(...children.flat().filter((c) => c !== null && c !== undefined && c !== false));
+    element.append(...children.flat(Infinity).filter((c) => c !== null && c !== undefined && c !== false));
     return element;
 }
 

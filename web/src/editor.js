@@ -66,6 +66,9 @@ export class Editor {
             }),
         ];
         this.view = new EditorView({ state: this.#fresh(""), root, parent: root });
+        this.view.scrollDOM.tabIndex = 0; // it scrolls; keys must reach it
+        this.view.scrollDOM.setAttribute("role", "group");
+        this.view.scrollDOM.setAttribute("aria-label", "XML text, scrolled by arrow keys");
     }
 
     #fresh(doc) {

@@ -16,6 +16,9 @@ export function number(x, digits = 3) {
 
 const PREFIXES = [["G", 1e9], ["M", 1e6], ["k", 1e3], ["", 1], ["m", 1e-3], ["µ", 1e-6], ["n", 1e-9], ["p", 1e-12], ["f", 1e-15]];
 
+/** So many decimals, without a minus before zero. */
+export const fixed = (x, digits) => sign((Number(x.toFixed(digits)) + 0).toFixed(digits));
+
 /** 1.23e-6, "J" -> "1.23 µJ" */
 export function si(x, unit, digits = 3) {
     if (!Number.isFinite(x)) return number(x);

@@ -25,55 +25,47 @@ onConnection((error) => {
     if (error) for (const look of waiting.values()) look();
 });
 
+/** Until the server says something of a job, or a while has passed. */
+const news = (id) => new Promise((resolve) => {
+    const timer = setTimeout(resolve, POLL_MS);
+    waiting.set(id, () => {
+        clearTimeout(timer);
+        resolve();
+    });
+});
+
 /** Starts a job and waits for its end; onprogress(job). Throws when it could not be started. */
 export async function run(kind, { text = state.text, options = {}, onprogress, signal } = {}) {
-    const set = { ...state.set };
-    const { id } = await post("/api/jobs", { kind, text, set, options });
-    const job = { id, kind, state: "queued", seconds: 0, stage: null, started: performance.now() };
+    const { id } = await post("/api/jobs", { kind, text, set: { ...state.set }, options });
+    const job = { id, kind, state: "queued", seconds: 0, stage: null };
     jobs.set(id, job);
-    const cancel = () => remove(`/api/jobs/${id}`).catch(() => {});
+    const cancel = () => waiting.get(id)?.();
     signal?.addEventListener("abort", cancel);
-    if (signal?.aborted) cancel(); // while it was asked for
     emit("jobs", job);
     try {
-        for (;;) {
-            await new Promise((resolve) => {
-                const timer = setTimeout(resolve, POLL_MS);
-                waiting.set(id, () => {
-                    clearTimeout(timer);
-                    resolve();
-                });
-            });
-            waiting.delete(id);
-            let now;
-            try {
-                now = await get(`/api/jobs/${id}`);
-            } catch (error) {
-                if (error.status === 404 || signal?.aborted) now = { state: "cancelled" };
-                else throw error;
-            }
-            Object.assign(job, now);
-            if (signal?.aborted && ENDED.has(job.state)) job.state = "cancelled";
+        while (!ENDED.has(job.state)) {
+            if (!signal?.aborted) await news(id);
+            if (signal?.aborted) {
+                forget(job);
+                job.state = "cancelled";
+            } else Object.assign(job, await get(`/api/jobs/${id}`));
             onprogress?.(job);
             emit("jobs", job);
-            if (ENDED.has(job.state)) return job;
         }
+        return job;
     } catch (error) {
-        job.state = "failed";
-        emit("jobs", job);
+        if (!error.lost) forget(job);
         throw error;
     } finally {
         waiting.delete(id);
         signal?.removeEventListener("abort", cancel);
-        if (job.state !== "done") jobs.delete(id);
     }
 }
 
-/** Forgets a finished job and its files on the server. */
+/** Ends a job, if it has not ended, and forgets it with its files on the server. */
 export function forget(job) {
-    if (!job) return;
-    jobs.delete(job.id);
-    remove(`/api/jobs/${job.id}`).catch(() => {});
+    if (!job || !jobs.delete(job.id)) return;
+    remove(`/api/jobs/${job.id}`).catch(() => {}); // it is gone either way
 }
 
 export const fileOf = (job, path) => `/api/jobs/${job.id}/files/${path.split("/").map(encodeURIComponent).join("/")}`;
@@ -84,10 +76,11 @@ const AUTO_MS = 500; // an automatic job waits until nothing has changed for so 
 export class JobView {
     /**
      * kind, options(): of the job; intro: what it gives, shown while there is nothing; action: label of
-     * the button; render(job, holder): fills the holder, may be async; auto: runs by itself while shown.
+     * the button; render(job, holder): fills the holder, may be async; auto: runs by itself while shown,
+     * when nothing has changed for `quiet` ms.
      */
-    constructor(holder, { kind, options = () => ({}), intro, action, render, auto = false, accept }) {
-        Object.assign(this, { kind, options, action, render, auto, accept });
+    constructor(holder, { kind, options = () => ({}), intro, action, render, auto = false, accept, quiet = AUTO_MS }) {
+        Object.assign(this, { kind, options, action, render, auto, accept, quiet });
         this.shown = false;
         this.job = null;
         this.forText = null;
@@ -121,11 +114,12 @@ export class JobView {
 
     #moved() {
         this.#look();
-        if (!this.auto || !this.shown || this.#key === this.forText || this.#key === this.tried) return;
+        const auto = typeof this.auto === "function" ? this.auto() : this.auto;
+        if (!auto || !this.shown || this.#key === this.forText || this.#key === this.tried) return;
         clearTimeout(this.timer);
         this.timer = setTimeout(() => {
             if (this.shown && this.#key !== this.forText && !state.stale) this.run();
-        }, AUTO_MS);
+        }, this.quiet);
     }
 
     async run() {
@@ -163,9 +157,8 @@ export class JobView {
         const good = job.state === "done" && (this.accept ? this.accept(job) : job.result !== null);
         if (!good) {
             this.#failed(job.messages?.length ? job.messages : [`ended with status ${job.exit_status ?? "?"}`]);
-            if (job.state !== "done") return;
+            return forget(job);
         }
-        if (!good) return forget(job);
         forget(this.job);
         this.job = job;
         this.forText = key;

@@ -8,7 +8,6 @@ import { degrees, number, percent, si } from "./format.js";
 import { colourLegend, Mechanism, posesOf, restOf } from "./mechanism.js";
 import { Plot } from "./plots.js";
 import { lookAt, on, state } from "./store.js";
-import { optionNames } from "./verdict.js";
 
 const SECONDS = 4; // that a whole scene takes at speed 1
 const RTOL = ["1e-3", "1e-4", "1e-6", "1e-8", "1e-10"];
@@ -18,6 +17,9 @@ export function limitOf(preview, pin, flow) {
     const i = preview.flows.findIndex((f) => f.name === flow);
     return pin.shown_limit_rad ?? pin.limit_rad?.[Math.max(i, 0)] ?? null;
 }
+
+/** Options of a <select> from a list of the table: [value, text, sentence]. */
+const optionNames = (list) => (list ?? []).map((o) => (typeof o === "string" ? [o, o] : [o.name, o.name, o.sentence]));
 
 export class Motion {
     constructor(holder) {
@@ -42,6 +44,7 @@ export class Motion {
             this.#plotAll();
         });
         this.angles.heading.append(this.inDegrees);
+        on("options", () => this.picks?.forEach((refresh) => refresh()));
         for (const event of ["preview", "hinge", "theme"]) on(event, () => this.visible && this.show());
     }
 
@@ -53,8 +56,14 @@ export class Motion {
 
     start(table) {
         const o = table.options ?? table;
+        this.picks = [];
         const pick = (label, name, list, first) => {
-            const box = select(label, [["", first], ...optionNames(list).filter(([v]) => v !== "auto" || first !== "auto")], "", (v) => setOption(name, v));
+            const names = [["", first], ...optionNames(list).filter(([v]) => v !== "auto" || first !== "auto")];
+            const box = select(label, names, "", (v) => setOption(name, v));
+            this.picks.push(() => { // chosen elsewhere, and maybe none of the list
+                const now = state.options[name] ?? "";
+                setOptions(box, names.some(([v]) => v === now) ? names : [...names, [now, now]], now);
+            });
             return h("label", { class: "option" }, h("span", {}, label), box);
         };
         this.scene = select("Scene", [], "", (v) => setOption("scene", v), { id: "scene" });

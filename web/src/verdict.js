@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The right column: decision, governing hinge, utilisation against the limit, what each flow can make,
 // which effects were computed and why, what it cost.
-import { edit, setOption } from "./design.js";
+import { edit } from "./design.js";
 import { announce, button, h, icon } from "./dom.js";
 import { degrees, number, percent, si } from "./format.js";
 import { JobView } from "./jobs.js";
 import { lookAt, on, state } from "./store.js";
 
+const SLOW_S = 3;
+const ORDER = ["accept", "inconclusive", "reject"]; // the worse one counts
 const WORDS = {
     accept: ["Accepted", "check"], reject: ["Rejected", "cross"], inconclusive: ["Inconclusive", "question"],
 };
@@ -31,12 +33,14 @@ export class Verdict {
         this.full = new JobView(full, {
             kind: "check", action: "Judge as fabricated",
             intro: "The live verdict is of the drawing. This judges what each flow may make of it, at the corners of its ranges, and looks for changes that help.",
+            auto: () => (this.full?.job?.seconds ?? 0) < SLOW_S && state.preview !== null, quiet: 900, // a long one is only made when it is asked for
             accept: (job) => job.result?.verdict !== undefined, render: (job, into) => this.#fabricated(job.result, into),
         });
         this.full.show(true);
         on("preview", () => this.show());
         on("answer", () => this.#answer());
         on("text", () => this.#staleness());
+        on("preview", () => this.full.show(true));
         on("hinge", () => this.#chosen());
         this.#wait();
     }
@@ -70,15 +74,18 @@ export class Verdict {
     show() {
         const v = state.preview.verdict;
         if (!v) return this.#wait();
-        const [word, sign] = WORDS[v.verdict] ?? WORDS.inconclusive;
+        const made = this.#made();
+        const decision = ORDER[Math.max(ORDER.indexOf(v.verdict), made ? ORDER.indexOf(made.verdict) : 0)];
+        const [word, sign] = WORDS[decision] ?? WORDS.inconclusive;
         const g = v.governing;
-        const changed = this.last !== v.verdict;
-        this.last = v.verdict;
-        this.banner.className = `banner ${v.verdict}`;
-        this.banner.dataset.verdict = v.verdict;
+        const changed = this.last !== decision;
+        this.last = decision;
+        this.banner.className = `banner ${decision}`;
+        this.banner.dataset.verdict = decision;
         this.banner.replaceChildren(
-            h("div", { class: "decision" }, icon(sign), h("strong", {}, word), h("span", { class: "as-drawn" }, "as drawn")),
+            h("div", { class: "decision" }, icon(sign), h("strong", {}, word), h("span", { class: "as-drawn" }, made ? "as drawn and as fabricated" : "as drawn")),
             h("p", {}, sentence(g)),
+            made ? h("p", {}, `As fabricated: ${WORDS[made.verdict][0].toLowerCase()}, worst ${percent(made.worst)} of a limit.`) : "",
             (v.reasons ?? []).slice(0, 3).map((r) => h("p", { class: "reason" }, r.text, r.code ? h("span", { class: "code" }, ` ${r.code}`) : null)),
             h("p", { class: "stale-note", hidden: !state.stale }, "Last good answer: the present text has none."));
         if (changed) announce(`${word}. ${sentence(g)}`);
@@ -88,9 +95,18 @@ export class Verdict {
         this.#cost();
     }
 
+    /** The full judgement, while it is of the present text. */
+    #made() {
+        const full = this.full.job && !this.full.stale ? this.full.job.result : null;
+        if (!full) return null;
+        const of = (x) => x.as_fabricated?.utilisation ?? x.utilisation ?? 0;
+        return { verdict: full.verdict, hinges: new Map(full.hinges.map((x) => [x.id, x.as_fabricated?.utilisation])), worst: Math.max(0, ...full.flows.flatMap((f) => f.hinges.map(of))) };
+    }
+
     #bars(v) {
         const most = Math.max(1.25, ...v.hinges.map((x) => Math.min(x.utilisation ?? 0, 4)));
-        const rows = v.hinges.map((hinge) => bar(hinge, most, v.governing));
+        const made = this.#made()?.hinges;
+        const rows = v.hinges.map((hinge) => bar(hinge, most, v.governing, made?.get(hinge.id)));
         this.bars.replaceChildren(
             h("div", { class: "bar-axis", "aria-hidden": "true", style: { "--at": `${100 / most}%` } }, h("span", {}, "limit")),
             h("div", { class: "bar-list", style: { "--at": `${100 / most}%` } }, rows));
@@ -174,6 +190,7 @@ export class Verdict {
             advice.length ? h("div", { class: "advice" }, h("h3", {}, "What would be accepted"), h("ul", {}, advice)) : "",
             single.length ? h("div", { class: "advice" }, h("h3", {}, "One parameter alone"), h("ul", {}, single)) : "",
             v.advice_note ? h("p", { class: "doc" }, v.advice_note) : "");
+        this.show();
     }
 }
 
@@ -184,11 +201,10 @@ export function sentence(g) {
     return `Hinge ${g.id} governs: ${percent(g.utilisation)}${band} of its limit, ${where}, ${g.flow}.`;
 }
 
-function bar(hinge, most, governing) {
+function bar(hinge, most, governing, made) {
     const use = hinge.utilisation ?? 0;
     const [low, high] = hinge.utilisation_band ?? [use, use];
     const x = (v) => `${(100 * Math.min(Math.max(v, 0), most)) / most}%`;
-    const made = hinge.as_fabricated?.utilisation;
     return h("button", {
         type: "button", class: `bar${use > 1 ? " over" : ""}${governing?.id === hinge.id ? " governs" : ""}`, "data-hinge": hinge.id, "aria-pressed": "false",
         "aria-label": `Hinge ${hinge.id}: ${percent(use)} of its limit${governing?.id === hinge.id ? ", governs" : ""}`, onclick: () => lookAt(hinge.id),
@@ -197,7 +213,7 @@ function bar(hinge, most, governing) {
     h("span", { class: "bar-track" },
         h("span", { class: "bar-fill", style: { width: x(use) } }),
         h("span", { class: "bar-band", style: { left: x(low), width: `calc(${x(high)} - ${x(low)})` } }),
-        made ? h("span", { class: "bar-made", style: { left: x(made) } }) : null),
+        made ? h("span", { class: "bar-made", title: `as fabricated: ${percent(made)}`, style: { left: x(made) } }) : null),
     h("span", { class: "bar-value" }, percent(use, use < 0.1 ? 2 : 3)));
 }
 
@@ -209,7 +225,3 @@ export function diagnosticItem(d, jump = true) {
         jump && d.line && here ? h("button", { type: "button", class: "jump", onclick: () => document.dispatchEvent(new CustomEvent("jump", { detail: d })) }, text) : h("div", { class: "jump" }, text),
         d.explain ? h("details", { class: "explain" }, h("summary", {}, d.title ?? "more"), h("p", {}, d.explain)) : null);
 }
-
-/** Selects of how the motion is computed, from the table's lists; kept in step with the preview. */
-export const optionNames = (list) => (list ?? []).map((o) => (typeof o === "string" ? [o, o] : [o.name, o.name, o.sentence]));
-export const choose = (name) => (value) => setOption(name, value);

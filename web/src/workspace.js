@@ -5,7 +5,7 @@ import { latest, post } from "./api.js";
 import { scale } from "./colours.js";
 import { request } from "./design.js";
 import { announce, button, h, s, select, setOptions } from "./dom.js";
-import { degrees, micrometres, percent } from "./format.js";
+import { degrees, fixed, micrometres, number } from "./format.js";
 import { fileOf, hasFile, JobView } from "./jobs.js";
 import { colourLegend, Mechanism, posesOf } from "./mechanism.js";
 import { zoomButtons } from "./motion.js";
@@ -128,14 +128,14 @@ export class Workspace {
         const use = flow.utilisation ?? 0;
         const words = !answer.reachable ? `Out of reach: ${answer.reason ?? "no assembly"}. The nearest pose is shown.`
             : flow.governing === null ? "No hinge of this device has a limit."
-            : use > 1 ? `Hinge ${flow.governing} would be beyond its limit: ${percent(use)}.` : `Within the limits; hinge ${flow.governing} governs with ${percent(use)}.`;
+            : use > 1 ? `Hinge ${flow.governing} would be beyond its limit: ${fixed(use * 100, 1)} %.` : `Within the limits; hinge ${flow.governing} governs with ${fixed(use * 100, 1)} %.`;
         if (this.status.textContent !== words) this.status.textContent = words;
         this.status.className = `pose-status ${!answer.reachable || use > 1 ? "bad" : "good"}`;
         this.handle.setAttribute("aria-valuetext", `x ${micrometres(this.at.x_m)}, y ${micrometres(this.at.y_m)}, turned by ${degrees(this.at.phi_rad)}; ${words}`);
         this.list.replaceChildren(...flow.hinges.map((x) => h("div", { class: `pose-hinge${x.utilisation > 1 ? " over" : ""}` },
             h("span", { class: "bar-id" }, x.id),
             h("span", { class: "bar-track" }, h("span", { class: "pose-fill", style: { width: `${Math.min((x.utilisation ?? 0) * 80, 100)}%`, background: scale(x.utilisation ?? 0) } }), h("span", { class: "pose-limit" })),
-            h("span", { class: "bar-value" }, `${((x.angle_rad * 180) / Math.PI).toFixed(2).replace("-", "\u2212")}°`), h("span", { class: "bar-value" }, `${(x.utilisation * 100).toFixed(1)} %`))));
+            h("span", { class: "bar-value" }, `${fixed((x.angle_rad * 180) / Math.PI, 2)}°`), h("span", { class: "bar-value" }, `${fixed(x.utilisation * 100, 1)} %`))));
     }
 
     #colour() {
@@ -215,10 +215,10 @@ export class Workspace {
         into.replaceChildren(...flows.map((f) => {
             if (!f.reachable?.volume) return h("p", {}, `${f.flow}: ${f.reachable?.none ?? f.reachable ?? "no set"}`);
             const r = f.reachable;
-            const range = (e, say) => `${say(e[0][1])} to ${say(e[1][0])}`;
-            return h("div", {}, h("h3", {}, f.flow), h("dl", { class: "facts-list" },
-                [["x", range(r.extents.x_m, micrometres)], ["y", range(r.extents.y_m, micrometres)], ["φ", range(r.extents.phi_rad, degrees)],
-                    ["volume", `${(r.volume.m2_rad[0] * 1e12).toPrecision(3)} to ${(r.volume.m2_rad[1] * 1e12).toPrecision(3)} µm² rad`],
+            const range = (e, factor, unit) => `${number(e[0][1] * factor, 4)} to ${number(e[1][0] * factor, 4)} ${unit}`;
+            return h("div", { class: "certified" }, h("h3", {}, f.flow), h("dl", { class: "facts-list" },
+                [["x", range(r.extents.x_m, 1e6, "µm")], ["y", range(r.extents.y_m, 1e6, "µm")], ["φ", range(r.extents.phi_rad, 180 / Math.PI, "°")],
+                    ["volume", `${number(r.volume.m2_rad[0] * 1e6, 3)} to ${number(r.volume.m2_rad[1] * 1e6, 3)} mm² rad`],
                     ["required box", f.required?.length ? (f.required.every((b) => b.certified) ? "inside, proved" : "not proved") : "none"]].flatMap(([k, v]) => [h("dt", {}, k), h("dd", {}, v)])));
         }), hasFile(job, "workspace.svg") ? h("a", { href: fileOf(job, "workspace.svg"), target: "_blank", rel: "noopener", class: "picture-link" }, h("img", { src: fileOf(job, "workspace.svg"), alt: "Areas that are reachable at constant rotation" })) : "");
         announce("reachable set computed");
