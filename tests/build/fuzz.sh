@@ -1,18 +1,34 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # A short run of every fuzz harness, from the gallery and the broken files, under ASan and UBSan.
-# RUNS=1000000 tests/build/fuzz.sh for a long one.
+# RUNS=1000000 tests/build/fuzz.sh for a long one. LIVE_RUNS=3000: the functions behind the page, too, whose
+# harness needs all rooms (some minutes to build); test_live_hostile has a short run of the same.
 set -eu
 cd "$(dirname "$0")/../.."
 cmake -S . -B build-fuzz -G Ninja -DCMAKE_C_COMPILER=clang -DFW_FUZZ=ON -DFW_SANITIZE=ON >/dev/null
-cmake --build build-fuzz --target fuzz_device >/dev/null
+cmake --build build-fuzz --target fuzz_device ${LIVE_RUNS:+fuzz_live} >/dev/null
 corpus=$(mktemp -d)
 trap 'rm -rf "$corpus"' EXIT
-cp docs/gallery/*/device.xml tests/bad/*.xml "$corpus" 2>/dev/null || true
-log=$corpus.log
-status=0
-build-fuzz/tests/fuzz/fuzz_device -runs="${RUNS:-100000}" -timeout=5 -rss_limit_mb=1024 \
-    -dict=tests/fuzz/device.dict -print_final_stats=1 "$corpus" >"$log" 2>&1 || status=$?
-tail -12 "$log"
-rm -f "$log"
-exit $status
+mkdir "$corpus/device" "$corpus/live"
+cp docs/gallery/*/device.xml tests/bad/*.xml "$corpus/device" 2>/dev/null || true
+# a byte that chooses the function, then a small mechanism or a whole request
+for file in docs/mechanisms/*.xml tests/data/effect-costs/free.xml; do
+    for which in 200 201 202 203; do
+        { printf "\\$which"; cat "$file"; } >"$corpus/live/$which-$(basename "$file")"
+    done
+done
+for which in 0 1 2; do
+    printf "\\$which"'{"text":"<device xmlns=\"urn:flexwright:device:1\" name=\"d\"/>","set":{"a":"1 um"},"options":{"samples":3},
+"platform":{"x_m":1e-6,"phi_rad":0},"q":[1,2,3],"body":"b","flow":"f","changes":[{"path":"device/@name","value":"e"}]}' \
+        >"$corpus/live/request-$which"
+done
+run() { # HARNESS RUNS
+    log=$corpus/log
+    status=0
+    build-fuzz/tests/fuzz/fuzz_$1 -runs="$2" -timeout=20 -rss_limit_mb=1024 \
+        -dict=tests/fuzz/device.dict -print_final_stats=1 "$corpus/$1" >"$log" 2>&1 || status=$?
+    tail -12 "$log"
+    return $status
+}
+run device "${RUNS:-100000}"
+[ -z "${LIVE_RUNS:-}" ] || run live "$LIVE_RUNS"

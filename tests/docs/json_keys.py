@@ -95,5 +95,32 @@ with tempfile.TemporaryDirectory() as here:
                    timeout=120)
     walk(json.loads((pathlib.Path(here) / "w/masks/al-masked-rie-wafer.json").read_text()), "wafer")
 
+# documents of the page, and requests as they are explained
+live = pathlib.Path(sys.argv[2]).resolve()
+text = (ROOT / SIX).read_text()
+LIVE = (
+    ("table", None),
+    ("preview", {"text": text, "set": {"arc": "230 deg"}, "options": {"samples": 5}}),
+    ("preview", {"text": (ROOT / COMB).read_text(), "options": {"samples": 5, "detail": "full"}}),
+    ("preview", {"text": text.replace("<flexure ", "<flexur ")}),
+    ("pose", {"text": text, "platform": {"x_m": 1e-4}}),
+    ("pose", {"text": (ROOT / COMB).read_text(), "body": "stage", "platform": {"x_m": 1e-6, "phi_rad": 0.0}}),
+    ("edit", {"text": text, "changes": [{"path": "arc", "value": "1 deg"}, {"add": "", "element": "flow", "attributes": {}},
+                                        {"remove": "flow[3]"}]}),
+)
+for kind, request in LIVE:
+    done = subprocess.run([live, kind], cwd=ROOT, input=json.dumps(request), capture_output=True, text=True, timeout=60)
+    document = json.loads(done.stdout)
+    documents += 1
+    if done.returncode or document["schema"] != f"flexwright.{kind}/1":
+        problems.append(f"live {kind}: status {done.returncode}, {done.stdout[:200]}")
+    walk(document.pop("verdict", None), "verdict")
+    walk(document.pop("effects", None), kind)  # names, not a ledger
+    document.pop("hinge_model", None)  # a word here, an object elsewhere
+    walk(document, kind)
+    for key in request or {}:
+        if key not in sections[kind]:
+            problems.append(f"json.md does not explain {key} of the request '## {kind}'")
+
 print("\n".join(dict.fromkeys(problems)) or f"{documents} documents, {sum(map(len, seen.values()))} keys explained")
 sys.exit(1 if problems else 0)

@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Requests with bytes changed, cut and repeated at random: every answer is one JSON document,
+   either with a schema or with an error, and the next sound request is answered as ever. */
+#include "live_case.h"
+
+static uint64_t seed = 0x9e3779b97f4a7c15ULL;
+
+static size_t below(size_t n) { /* xorshift64 (Marsaglia 2003) */
+    seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17;
+    return n ? (size_t)(seed >> 11) % n : 0;
+}
+
+enum { ROOM = 1 << 16 };
+
+/* one change of n bytes; returns how many there are then */
+static size_t mutate(char *s, size_t n) {
+    static const char *const word[] = {"\"", "{}", "[",    "null", "1e309", "-1",   "\\u0000",
+                                       "<",  "&",  "\xff", "\\",   "/@",    "[99]", "\"set\":"};
+    size_t at = below(n), length = 1 + below(12);
+    if (at + length > n) length = n - at;
+    switch (below(4)) {
+    case 0: /* another byte */
+        if (n) s[at] = (char)below(256);
+        return n;
+    case 1: /* cut out */
+        memmove(s + at, s + at + length, n - at - length);
+        return n - length;
+    case 2: /* twice */
+        if (n + length > ROOM) return n;
+        memmove(s + at + length, s + at, n - at);
+        return n + length;
+    default: { /* something that means something */
+        const char *w = word[below(sizeof word / sizeof word[0])];
+        size_t k = strlen(w);
+        if (n + k > ROOM) return n;
+        memmove(s + at + k, s + at, n - at);
+        memcpy(s + at, w, k);
+        return n + k;
+    }
+    }
+}
+
+static void is_an_answer(fw_live_answer a) {
+    json_t *root = json_loadb(a.text, a.length, JSON_REJECT_DUPLICATES, NULL);
+    if (!root) fail_msg("no JSON: %.400s", a.text);
+    bool error = json_object_get(root, "error") != NULL;
+    assert_true(error == (a.status != FW_OK));
+    assert_true(error != json_is_string(json_object_get(root, "schema")));
+    json_decref(root);
+}
+
+static void mutated_requests(const char *request, live_function f, int count) {
+    fw_live *live = live_new();
+    char *s = malloc(ROOM + 1);
+    size_t whole = strlen(request);
+    assert_true(s && whole < ROOM);
+    json_t *before = ask(live, f, request, FW_OK);
+    for (int i = 0; i < count; i++) {
+        memcpy(s, request, whole);
+        size_t n = whole;
+        for (size_t k = 1 + below(3); k > 0; k--)
+            n = mutate(s, n);
+        is_an_answer(f(live, s, n));
+    }
+    json_t *after = ask(live, f, request, FW_OK);
+    json_object_del(before, "cost"), json_object_del(after, "cost"); /* CPU time */
+    json_object_del(json_object_get(json_object_get(before, "motion"), "stats"), "cpu_s");
+    json_object_del(json_object_get(json_object_get(after, "motion"), "stats"), "cpu_s");
+    json_object_del(json_object_get(json_object_get(before, "motion"), "stats"), "estimate_cpu_s");
+    json_object_del(json_object_get(json_object_get(after, "motion"), "stats"), "estimate_cpu_s");
+    assert_true(json_equal(before, after));
+    json_decref(before), json_decref(after);
+    free(s);
+    fw_live_free(live);
+}
+
+#define SMALL "tests/data/effect-costs/free.xml"
+
+static void previews(void **state) {
+    (void)state;
+    char *r =
+        request_of(SMALL, "\"set\":{},\"options\":{\"samples\":5,\"scene\":null,\"rtol\":1e-6}");
+    mutated_requests(r, fw_live_preview, 300);
+    free(r);
+}
+
+static void poses(void **state) {
+    (void)state;
+    char *r =
+        request_of(SMALL, "\"platform\":{\"x_m\":1e-4,\"y_m\":0,\"phi_rad\":0.1},\"q\":[1,2,3]");
+    mutated_requests(r, fw_live_pose, 300);
+    free(r);
+}
+
+static void edits(void **state) {
+    (void)state;
+    char *r = request_of(
+        SIX_BAR, "\"changes\":[{\"path\":\"scene[step-load]/force[1]/@fx\",\"value\":\"1 N\"},"
+                 "{\"add\":\"flexure[A]\",\"element\":\"line\",\"attributes\":{\"length\":\"1 "
+                 "um\"}},{\"remove\":\"workspace[1]\"},{\"path\":\"die/@title\",\"value\":null}]");
+    mutated_requests(r, fw_live_edit, 300);
+    free(r);
+}
+
+/* nested far deeper than anything needs, and larger than anything may be */
+static void deep_and_large(void **state) {
+    (void)state;
+    enum { MANY = 200000 };
+    fw_live *live = live_new();
+    char *s = malloc(MANY + 1);
+    assert_non_null(s);
+    memset(s, '[', MANY);
+    is_an_answer(fw_live_preview(live, s, MANY));
+    memset(s, ' ', MANY);
+    is_an_answer(fw_live_edit(live, s, MANY));
+    is_an_answer(fw_live_pose(live, s, (size_t)1 << 40)); /* not one byte of it is looked at */
+    is_an_answer(fw_live_preview(live, NULL, 0));
+    free(s);
+    fw_live_free(live);
+}
+
+/* a limit on memory is an error object, and the next request is answered */
+static void memory_that_is_short(void **state) {
+    (void)state;
+    char *r = request_of(SIX_BAR, NULL);
+    for (size_t cap = 1 << 16; cap < (size_t)1 << 26; cap *= 2) {
+        fw_live_settings settings = {.data_directory = FW_TEST_SOURCE_DIR, .memory_cap = cap};
+        fw_live *live = fw_live_new(&settings);
+        assert_non_null(live);
+        is_an_answer(fw_live_preview(live, r, strlen(r)));
+        is_an_answer(fw_live_table(live));
+        fw_live_free(live);
+    }
+    free(r);
+    fw_live_free(NULL);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(previews),
+        cmocka_unit_test(poses),
+        cmocka_unit_test(edits),
+        cmocka_unit_test(deep_and_large),
+        cmocka_unit_test(memory_that_is_short),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
