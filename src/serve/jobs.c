@@ -190,6 +190,9 @@ void fw_job_cancel(fw_server *server, fw_job *job) {
     if (job->err >= 0) close(job->err);
     job->pid = 0;
     job->err = -1;
+    if (job->fd >= 0) close(job->fd);
+    job->fd = -1;
+    fw_scratch_remove(server->scratch, job->directory);
     if (job->began_ms) job->ended_ms = fw_serve_now_ms();
     job->state = FW_JOB_CANCELLED;
     tell(server, job);

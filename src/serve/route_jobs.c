@@ -185,9 +185,10 @@ void fw_route_job_delete(fw_request *r) {
         return;
     }
     fw_text text = fw_text_new(r->arena);
-    if (job->state == FW_JOB_QUEUED || job->state == FW_JOB_RUNNING) fw_job_cancel(r->server, job);
+    bool ended = job->state != FW_JOB_QUEUED && job->state != FW_JOB_RUNNING;
+    if (!ended) fw_job_cancel(r->server, job);
     fw_text_printf(&text, "{\"id\": %u, \"state\": \"%s\"}\n", job->id,
                    fw_job_state_name(job->state));
     fw_reply_text(r, 200, &text);
-    fw_job_forget(r->server, job);
+    if (ended) fw_job_forget(r->server, job);
 }

@@ -11,10 +11,10 @@
 #include <stdint.h>
 
 enum {
-    FW_SERVE_CONNECTIONS = 32,   /* at once; more wait until one is free */
-    FW_SERVE_IDLE_S = 5,         /* a connection on which nothing moves */
-    FW_SERVE_REQUEST_MS = 10000, /* a request must be complete by then */
-    FW_SERVE_REPLY_MS = 60000,   /* and its answer taken */
+    FW_SERVE_CONNECTIONS = 32,  /* at once; more wait until one is free */
+    FW_SERVE_IDLE_S = 5,        /* a connection on which nothing moves */
+    FW_SERVE_REQUEST_MS = 9000, /* a request must be complete by then */
+    FW_SERVE_REPLY_MS = 60000,  /* and its answer taken */
     FW_SERVE_CROWDED_MS =
         500,              /* when all connections are taken, who is slower than this makes room */
     FW_SERVE_STREAMS = 4, /* of events */

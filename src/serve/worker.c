@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 enum {
-    ANSWER_MS = 30000,   /* a computation that takes longer is ended */
+    ANSWER_MS = 20000,   /* a computation that takes longer is ended */
     CANCELLED_MS = 1000, /* one that nobody waits for any more has so long to stop */
     RESTART_MS = 1000,   /* a worker that ends at once is not started more often than this */
     MEMORY_MIB = 2048
@@ -240,7 +240,7 @@ static void run_worker(fw_server *server, fw_worker *w, int64_t now) {
     else if (more < 0)
         fail(w, "the computation ended unexpectedly: it crashed or reached a limit of memory");
     else if (now - w->asked_ms > (w->cancelled ? CANCELLED_MS : ANSWER_MS))
-        fail(w, "the computation took longer than 30 s and was ended");
+        fail(w, "the computation took longer than 20 s and was ended");
 }
 
 void fw_pool_run(fw_server *server) {
