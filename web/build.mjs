@@ -25,6 +25,7 @@ const common = {
     outdir: out,
     logLevel: "warning",
     metafile: true,
+    loader: { ".xml": "text" },
 };
 const script = await build({ ...common, entryPoints: { page: "src/main.js" }, format: "esm" });
 const style = await build({ ...common, entryPoints: { page: "style/page.css" } });

@@ -23,14 +23,14 @@ export async function theBrowser() {
 }
 export const closeBrowser = () => browser?.close();
 
-/** {url, port, file, directory, stop(), restart()}; device: a directory of docs/gallery. */
+/** {url, port, file, directory, stop(), restart()}; device: a directory of docs/gallery, null: no file. */
 export async function serve(device, { port = 0 } = {}) {
     const directory = mkdtempSync(join(tmpdir(), "flexwright-web-"));
     const file = join(directory, "device.xml");
-    copyFileSync(join(source, "docs/gallery", device, "device.xml"), file);
+    if (device) copyFileSync(join(source, "docs/gallery", device, "device.xml"), file);
     const server = { directory, file, foreign: [] };
     const start = (at) => new Promise((resolve, reject) => {
-        const child = spawn(program, ["serve", file, "--no-browser", ...(at ? ["--port", String(at)] : [])], { cwd: source, stdio: ["ignore", "pipe", "pipe"] });
+        const child = spawn(program, ["serve", ...(device ? [file] : []), "--no-browser", ...(at ? ["--port", String(at)] : [])], { cwd: source, stdio: ["ignore", "pipe", "pipe"] });
         server.child = child;
         let said = "";
         child.stdout.on("data", (d) => {

@@ -3,22 +3,13 @@
 import { get, post } from "./api.js";
 import { announce } from "./dom.js";
 import { notice } from "./notices.js";
+import starter from "./starter.xml"; // what `flexwright init` prints
 import { emit, on, state } from "./store.js";
 
-const STARTER = `<?xml version="1.0" encoding="UTF-8"?>
-<device xmlns="urn:flexwright:device:1" name="new-device">
-</device>
-`;
 
 export async function startFile(editor) {
-    try {
-        state.file = await get("/api/file");
-        editor.open(state.file.text);
-    } catch (error) {
-        if (error.status !== 404) throw error;
-        state.file = null;
-        editor.open(STARTER);
-    }
+    state.file = state.session.file === null ? null : await get("/api/file");
+    editor.open(state.file?.text ?? starter);
     restore(editor);
     on("text", keep);
     emit("file");
@@ -74,6 +65,17 @@ function conflict(editor, now) {
         kind: "warn", stay: true, text: `${now.name} has changed on disk, and so has the text here.`,
         actions: [["Take the file's", () => editor.replace(now.text)], ["Keep mine", () => {}]],
     });
+}
+
+/** Without a file on disk: a text of the user's, read by the browser. */
+export async function openText(editor) {
+    const input = document.createElement("input");
+    input.type = "file";
+    input.accept = ".xml,application/xml,text/xml";
+    input.addEventListener("change", async () => {
+        if (input.files[0]) editor.open(await input.files[0].text());
+    });
+    input.click();
 }
 
 let saving = null;

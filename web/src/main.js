@@ -8,7 +8,7 @@ import { Assembly } from "./assembly.js";
 import { startPreviews, useEditor } from "./design.js";
 import { $, button, h, s } from "./dom.js";
 import { Editor } from "./editor.js";
-import { follow, save, startFile } from "./file.js";
+import { follow, openText, save, startFile } from "./file.js";
 import { Form } from "./form.js";
 import { heard } from "./jobs.js";
 import { Masks } from "./masks.js";
@@ -34,10 +34,12 @@ function header() {
     parts.file = h("span", { class: "file-state", id: "file-state" });
     parts.undo = button("Undo", { icon: "undo", hidden: true, id: "undo" }, () => parts.editor.undo());
     parts.redo = button("Redo", { icon: "redo", hidden: true, id: "redo" }, () => parts.editor.redo());
+    parts.open = button("Open", { icon: "open", id: "open" }, () => openText(parts.editor));
+    parts.open.hidden = true;
     parts.save = button("Save", { icon: "save", id: "save" }, () => save(parts.editor));
     $("top").append(
         h("h1", { class: "brand" }, mark, h("span", {}, "Flexwright")), parts.device, parts.file, h("span", { class: "space" }),
-        parts.undo, parts.redo, parts.save,
+        parts.undo, parts.redo, parts.open, parts.save,
         button("Plan and download", { icon: "download", id: "download", class: "primary" }, download),
         button("Print", { icon: "print", hidden: true, class: "quiet" }, () => window.print()), themeButton(),
         button("About", { icon: "info", hidden: true, class: "quiet", id: "about" }, about));
@@ -126,8 +128,11 @@ on("show-xml", ([from, to]) => {
 
 // ---- start ----
 
-function listen() {
+const MOST_WAIT_MS = 30000;
+
+function listen(wait = 1500) {
     const stream = new EventSource("/api/events");
+    stream.addEventListener("open", () => (wait = 1500));
     stream.addEventListener("file", () => follow(parts.editor));
     stream.addEventListener("job", (e) => heard(JSON.parse(e.data)));
     stream.addEventListener("error", () => {
@@ -135,11 +140,11 @@ function listen() {
         setTimeout(async () => {
             try {
                 await openSession();
-                listen();
-            } catch {
-                setTimeout(listen, 3000);
+                listen(Math.min(2 * wait, MOST_WAIT_MS)); // four pages may listen; this one may be the fifth
+            } catch (error) {
+                if (error.status === 0) setTimeout(listen, wait);
             }
-        }, 1500);
+        }, wait);
     });
 }
 
@@ -160,6 +165,7 @@ async function start() {
     state.table = await get("/api/table");
     parts.form.start(state.table);
     parts.motion.start(state.table);
+    parts.open.hidden = state.session.file !== null;
     await startFile(parts.editor);
     headerState();
     listen();

@@ -10,7 +10,7 @@ import { Plot } from "./plots.js";
 import { lookAt, on, state } from "./store.js";
 
 const SECONDS = 4; // that a whole scene takes at speed 1
-const RTOL = ["1e-3", "1e-4", "1e-6", "1e-8", "1e-10"];
+const RTOL = ["1e-5", "1e-6", "1e-7", "1e-8", "1e-9", "1e-10", "1e-11"]; // all that the program takes
 
 /** Limit of a pin in the flow of the motion, rad, or null. */
 export function limitOf(preview, pin, flow) {

@@ -44,7 +44,8 @@ export function connection(error) {
         emit("change");
         return;
     }
-    if (lost) return;
+    if (lost && (lost.status === error.status || error.status === 0)) return;
+    lost?.remove();
     const text = error.status === 0
         ? "The server does not answer. Your text is kept in this page; it goes on when the server does. If you have started it anew, open the address that it printed."
         : "This session is over. Open the address that flexwright serve printed last.";
@@ -52,6 +53,7 @@ export function connection(error) {
         button("Try again", { class: "small" }, retry),
         state.text ? button("Save the text as a file", { class: "small" }, keep) : null,
     ]);
+    lost.status = error.status;
     if (error.status === 0) setTimeout(retry, RETRY_MS);
 }
 
@@ -59,7 +61,7 @@ async function retry() {
     if (!lost) return;
     try {
         await openSession();
-    } catch {
-        if (lost) setTimeout(retry, RETRY_MS);
+    } catch (error) {
+        if (lost && error.status === 0) setTimeout(retry, RETRY_MS); // a session that is over stays over
     }
 }

@@ -46,7 +46,10 @@ export class Verdict {
     }
 
     #wait() {
-        this.banner.replaceChildren(h("p", { class: "empty" }, "No verdict yet."));
+        this.banner.className = "banner";
+        delete this.banner.dataset.verdict;
+        for (const box of [this.bars, this.flows]) box.replaceChildren(h("p", { class: "empty" }, "–"));
+        this.banner.replaceChildren(h("p", { class: "empty" }, state.preview ? "Nothing is judged: no hinge here has a limit. Motion, modes and assembly work all the same." : "No verdict yet."));
     }
 
     /** Mistakes stand on top; what is only to be known stands last. */
@@ -73,7 +76,11 @@ export class Verdict {
 
     show() {
         const v = state.preview.verdict;
-        if (!v) return this.#wait();
+        if (!v) {
+            this.#wait();
+            this.#effects();
+            return this.#cost();
+        }
         const made = this.#made();
         const decision = ORDER[Math.max(ORDER.indexOf(v.verdict), made ? ORDER.indexOf(made.verdict) : 0)];
         const [word, sign] = WORDS[decision] ?? WORDS.inconclusive;
@@ -83,7 +90,7 @@ export class Verdict {
         this.banner.className = `banner ${decision}`;
         this.banner.dataset.verdict = decision;
         this.banner.replaceChildren(
-            h("div", { class: "decision" }, icon(sign), h("strong", {}, word), h("span", { class: "as-drawn" }, made ? "as drawn and as fabricated" : "as drawn")),
+            h("div", { class: "decision" }, icon(sign), h("strong", {}, word), h("span", { class: "as-drawn", title: (state.preview.left_out ?? []).map((x) => x.sentence).join(" ") }, made ? "as drawn and as fabricated" : "as drawn")),
             h("p", {}, sentence(g)),
             made ? h("p", {}, `As fabricated: ${WORDS[made.verdict][0].toLowerCase()}, worst ${percent(made.worst)} of a limit.`) : "",
             (v.reasons ?? []).slice(0, 3).map((r) => h("p", { class: "reason" }, r.text, r.code ? h("span", { class: "code" }, ` ${r.code}`) : null)),
@@ -146,7 +153,7 @@ export class Verdict {
     }
 
     #effects() {
-        const list = state.preview.ledger ?? state.preview.verdict.effects ?? [];
+        const list = state.preview.ledger ?? [];
         const called = list.filter((e) => e.called_for !== false);
         const rest = list.length - called.length;
         const last = called.length === 0 ? h("p", { class: "empty" }, "This scene calls for no effect.")
@@ -198,7 +205,7 @@ export function sentence(g) {
     if (!g) return "No hinge carries a limit.";
     const where = g.t_s === null || g.t_s === undefined ? "at a required pose" : `in ${g.scene} at ${si(g.t_s, "s")}`;
     const band = g.utilisation_band ? ` (${number(g.utilisation_band[0] * 100, 2)} to ${number(g.utilisation_band[1] * 100, 2)} %)` : "";
-    return `Hinge ${g.id} governs: ${percent(g.utilisation)}${band} of its limit, ${where}, ${g.flow}.`;
+    return `Hinge ${g.id} governs: ${percent(g.utilisation)}${band} of its ${g.criterion ?? "elastic"} limit, ${where}, ${g.flow}.`;
 }
 
 function bar(hinge, most, governing, made) {
