@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# run.sh PROGRAM BUILD-DIRECTORY: the page in headless Chromium. Exit status 77: there is no Chromium or
+# run.sh PROGRAM BUILD-DIRECTORY [SCRIPT]: the tests of the page in headless Chromium, or another script of
+# this directory. Exit status 77: there is no Chromium or
 # no npm on this machine. The libraries are fetched once for each lock file.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
@@ -18,4 +19,5 @@ if ! cmp -s "$here/package-lock.json" "$place/done.json"; then
 fi
 export FW_PROGRAM="$program" FW_SOURCE="${here%/tests/web}" FW_WEB_LIBRARIES="$place" FW_CHROMIUM="$chromium"
 export FLEXWRIGHT_DATA="$FW_SOURCE"
+[ -z "${3:-}" ] || exec "$node" "$here/$3"
 exec "$node" --test "$here/page.test.mjs"

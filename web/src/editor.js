@@ -22,7 +22,7 @@ const colours = HighlightStyle.define([
 
 // No picture by data: address (the policy of the page forbids them): markers are signs and lines.
 const look = EditorView.theme({
-    "&": { height: "100%", fontSize: "12.5px", color: "var(--ink)", backgroundColor: "var(--panel)" },
+    "&": { height: "100%", fontSize: "var(--code-size, 12.5px)", color: "var(--ink)", backgroundColor: "var(--panel)" },
     ".cm-scroller": { fontFamily: "var(--mono)", lineHeight: "1.55" },
     ".cm-content": { caretColor: "var(--ink)" },
     ".cm-cursor": { borderLeftColor: "var(--ink)" },

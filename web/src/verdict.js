@@ -90,7 +90,7 @@ export class Verdict {
         this.banner.className = `banner ${decision}`;
         this.banner.dataset.verdict = decision;
         this.banner.replaceChildren(
-            h("div", { class: "decision" }, icon(sign), h("strong", {}, word), h("span", { class: "as-drawn", title: (state.preview.left_out ?? []).map((x) => x.sentence).join(" ") }, made ? "as drawn and as fabricated" : "as drawn")),
+            h("div", { class: "decision" }, icon(sign), h("strong", {}, word), h("span", { class: "as-drawn", title: (state.preview.left_out ?? []).map((x) => x.sentence).join(" ") }, made ? "as fabricated too" : "as drawn")),
             h("p", {}, sentence(g)),
             made ? h("p", {}, `As fabricated: ${WORDS[made.verdict][0].toLowerCase()}, worst ${percent(made.worst)} of a limit.`) : "",
             (v.reasons ?? []).slice(0, 3).map((r) => h("p", { class: "reason" }, r.text, r.code ? h("span", { class: "code" }, ` ${r.code}`) : null)),
