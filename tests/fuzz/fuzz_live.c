@@ -26,10 +26,11 @@ static void check(fw_live_answer a) {
 
 /* the rest of the input as the text of a request that is otherwise whole */
 static void as_text(const uint8_t *data, size_t n, unsigned which) {
-    static const char *const more[] = {
-        "{\"options\":{\"samples\":3,\"effects\":\"none\"}}", "{\"platform\":{\"x_m\":1e-5}}",
-        "{\"changes\":[{\"path\":\"arc\",\"value\":\"<\\\"&\"},{\"add\":\"\",\"element\":\"flow\"},"
-        "{\"remove\":\"scene[1]\"}]}"};
+    static const char *const more[] = {"{\"options\":{\"samples\":3,\"effects\":\"none\"}}",
+                                       "{\"platform\":{\"x_m\":1e-5}}",
+                                       ("{\"changes\":[{\"path\":\"arc\",\"value\":\"<\\\"&\"},{"
+                                        "\"add\":\"\",\"element\":\"flow\"},"
+                                        "{\"remove\":\"scene[1]\"}]}")};
     json_t *root = json_loads(more[which % 3], 0, NULL);
     json_t *text = json_stringn((const char *)data, n);
     if (root && text) {

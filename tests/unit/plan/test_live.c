@@ -360,62 +360,6 @@ static void what_can_be_done_is_done(void **state) {
     json_decref(p);
 }
 
-/* ---- requests that are not what they should be ---- */
-
-static void wrong_requests_are_said(void **state) {
-    (void)state;
-    static const char *const wrong[] = {"",
-                                        "[",
-                                        "[]",
-                                        "1",
-                                        "null",
-                                        "{}",
-                                        "{\"text\":1}",
-                                        "{\"text\":null}",
-                                        "{\"text\":\"\",\"x\":1}",
-                                        "{\"text\":\"\",\"text\":\"\"}",
-                                        "{\"text\":\"\",\"set\":[]}",
-                                        "{\"text\":\"\",\"set\":{\"a\":1}}",
-                                        "{\"text\":\"\",\"set\":{\"\":\"1\"}}",
-                                        "{\"text\":\"\",\"options\":{\"scene\":3}}",
-                                        "{\"text\":\"\",\"options\":{\"samples\":2.5}}",
-                                        "{\"text\":\"\",\"options\":{\"samples\":1e9}}",
-                                        "{\"text\":\"\",\"options\":{\"accuracy\":\"1\"}}",
-                                        "{\"text\":\"\",\"options\":{\"nothing\":1}}",
-                                        "{\"text\":\"\",\"options\":{\"detail\":\"huge\"}}",
-                                        "{\"text\":\"\",\"options\":{\"method\":\"no\"}}",
-                                        "{\"text\":\"\",\"options\":{\"accuracy\":7}}",
-                                        "{\"text\":\"\",\"options\":{\"corners\":\"x\"}}",
-                                        "{\"text\":\"\\u0000\"}",
-                                        "{\"text\":\"\xff\"}"};
-    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        json_t *e = ask(live, fw_live_preview, wrong[i], FW_USAGE);
-        assert_string_equal(text_at(at(e, "error"), "code"), "FW-D289");
-        assert_true(text_at(at(e, "error"), "message")[0]);
-        json_decref(e);
-    }
-    static const char *const edits[] = {
-        "{\"text\":\"<a/>\"}",
-        "{\"text\":\"<a/>\",\"changes\":{}}",
-        "{\"text\":\"<a/>\",\"changes\":[1]}",
-        "{\"text\":\"<a/>\",\"changes\":[{}]}",
-        "{\"text\":\"<a/>\",\"changes\":[{\"path\":\"a\"}]}",
-        "{\"text\":\"<a/>\",\"changes\":[{\"path\":\"a\",\"remove\":\"b\",\"value\":\"\"}]}",
-        "{\"text\":\"<a/>\",\"changes\":[{\"add\":\"a\"}]}",
-        "{\"text\":\"<a/"
-        ">\",\"changes\":[{\"add\":\"a\",\"element\":\"b\",\"attributes\":{\"c\":1}}]}"};
-    for (size_t i = 0; i < sizeof edits / sizeof edits[0]; i++)
-        json_decref(ask(live, fw_live_edit, edits[i], FW_USAGE));
-    static const char *const poses[] = {"{\"text\":\"<a/>\"}", "{\"text\":\"<a/>\",\"platform\":3}",
-                                        "{\"text\":\"<a/>\",\"platform\":{\"x_m\":\"1\"}}",
-                                        "{\"text\":\"<a/>\",\"platform\":{\"x_m\":1e300}}"};
-    for (size_t i = 0; i < sizeof poses / sizeof poses[0]; i++)
-        json_decref(ask(live, fw_live_pose, poses[i], FW_USAGE));
-    json_t *invalid = ask(live, fw_live_pose, "{\"text\":\"<a/>\",\"platform\":{}}", FW_OK);
-    assert_string_equal(text_at(invalid, "status"), "invalid");
-    json_decref(invalid);
-}
-
 /* a change that cannot be made leaves no text, and says where it was wanted */
 static void edits_that_fail_say_so(void **state) {
     (void)state;
@@ -518,7 +462,6 @@ int main(void) {
         cmocka_unit_test(set_and_edit_agree),
         cmocka_unit_test(mistakes_have_their_place),
         cmocka_unit_test(what_can_be_done_is_done),
-        cmocka_unit_test(wrong_requests_are_said),
         cmocka_unit_test(edits_that_fail_say_so),
         cmocka_unit_test(the_table_has_everything),
         cmocka_unit_test(documents_of_the_library),

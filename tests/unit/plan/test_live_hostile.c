@@ -135,6 +135,75 @@ static void memory_that_is_short(void **state) {
     fw_live_free(NULL);
 }
 
+/* ---- requests that are not what they should be ---- */
+
+#define EMPTY "{\"text\":\"\","
+#define EDIT  "{\"text\":\"<a/>\",\"changes\":"
+#define DRAG  "{\"text\":\"<a/>\",\"platform\":"
+
+typedef struct wrong {
+    const char *request, *says;
+} wrong;
+
+static void refused(fw_live *live, live_function f, const wrong *row, size_t n) {
+    for (size_t i = 0; i < n; i++) {
+        json_t *e = ask(live, f, row[i].request, FW_USAGE), *o = json_object_get(e, "error");
+        assert_string_equal(text_at(o, "code"), "FW-D289");
+        if (!strstr(text_at(o, "message"), row[i].says))
+            fail_msg("%s: %s", row[i].request, text_at(o, "message"));
+        json_decref(e);
+    }
+}
+
+static void wrong_requests_are_said(void **state) {
+    (void)state;
+    fw_live *live = live_new();
+    static const wrong preview[] = {{"", "no JSON object"},
+                                    {"[", "no JSON object"},
+                                    {"[]", "no JSON object"},
+                                    {"1", "no JSON object"},
+                                    {"null", "no JSON object"},
+                                    {"{}", "\"text\""},
+                                    {"{\"text\":1}", "\"text\""},
+                                    {"{\"text\":null}", "\"text\""},
+                                    {EMPTY "\"x\":1}", "\"x\""},
+                                    {EMPTY "\"text\":\"\"}", "no JSON object"},
+                                    {EMPTY "\"set\":[]}", "\"set\""},
+                                    {EMPTY "\"set\":{\"a\":1}}", "\"a\""},
+                                    {EMPTY "\"set\":{\"\":\"1\"}}", "names"},
+                                    {EMPTY "\"options\":{\"scene\":3}}", "\"scene\""},
+                                    {EMPTY "\"options\":{\"samples\":2.5}}", "samples"},
+                                    {EMPTY "\"options\":{\"samples\":1e9}}", "samples"},
+                                    {EMPTY "\"options\":{\"accuracy\":\"1\"}}", "\"accuracy\""},
+                                    {EMPTY "\"options\":{\"accuracy\":7}}", "accuracy"},
+                                    {EMPTY "\"options\":{\"nothing\":1}}", "\"nothing\""},
+                                    {EMPTY "\"options\":{\"detail\":\"huge\"}}", "detail"},
+                                    {EMPTY "\"options\":{\"method\":\"no\"}}", "method"},
+                                    {EMPTY "\"options\":{\"corners\":\"x\"}}", "corners"},
+                                    {"{\"text\":\"\\u0000\"}", "no JSON object"},
+                                    {"{\"text\":\"\xff\"}", "no JSON object"}};
+    static const wrong edit[] = {
+        {"{\"text\":\"<a/>\"}", "\"changes\""},
+        {EDIT "{}}", "\"changes\""},
+        {EDIT "[1]}", "a change is an object"},
+        {EDIT "[{}]}", "one of"},
+        {EDIT "[{\"path\":\"a\"}]}", "a value is wanted"},
+        {EDIT "[{\"path\":\"a\",\"remove\":\"b\",\"value\":\"\"}]}", "one of"},
+        {EDIT "[{\"add\":\"a\"}]}", "an element is wanted"},
+        {EDIT "[{\"add\":\"a\",\"element\":\"b\",\"attributes\":{\"c\":1}}]}", "\"c\""}};
+    static const wrong pose[] = {{"{\"text\":\"<a/>\"}", "\"platform\""},
+                                 {DRAG "3}", "\"platform\""},
+                                 {DRAG "{\"x_m\":\"1\"}}", "\"x_m\""},
+                                 {DRAG "{\"x_m\":1e300}}", "too far"}};
+    refused(live, fw_live_preview, preview, sizeof preview / sizeof preview[0]);
+    refused(live, fw_live_edit, edit, sizeof edit / sizeof edit[0]);
+    refused(live, fw_live_pose, pose, sizeof pose / sizeof pose[0]);
+    json_t *invalid = ask(live, fw_live_pose, DRAG "{}}", FW_OK);
+    assert_string_equal(text_at(invalid, "status"), "invalid");
+    json_decref(invalid);
+    fw_live_free(live);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(previews),
@@ -142,6 +211,7 @@ int main(void) {
         cmocka_unit_test(edits),
         cmocka_unit_test(deep_and_large),
         cmocka_unit_test(memory_that_is_short),
+        cmocka_unit_test(wrong_requests_are_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
