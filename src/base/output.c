@@ -54,8 +54,7 @@ static int directory_is_empty(const char *path) {
     return empty;
 }
 
-/* leftovers of a run that was killed: PATH.tmp-PID whose process is gone */
-static void remove_leftovers(fw_arena *arena, const char *path) {
+void fw_output_remove_leftovers(fw_arena *arena, const char *path) {
     const char *slash = strrchr(path, '/');
     const char *parent = slash ? fw_arena_strndup(arena, path, (size_t)(slash - path) + 1) : ".";
     const char *prefix = fw_arena_printf(arena, "%s.tmp-", slash ? slash + 1 : path);
@@ -184,7 +183,7 @@ fw_status fw_output_open(fw_arena *arena, const char *path, fw_diags *diags, fw_
     FW_NEED(o->path);
     FW_TRY(check_target(o));
     FW_TRY(make_parents(arena, o->path, diags));
-    remove_leftovers(arena, o->path);
+    fw_output_remove_leftovers(arena, o->path);
     o->build = fw_arena_printf(arena, "%s.tmp-%ld", o->path, (long)getpid());
     FW_NEED(o->build);
     fw_output_remove_tree(AT_FDCWD, o->build);

@@ -20,9 +20,11 @@ fw_status fw_output_open(fw_arena *arena, const char *path, fw_diags *diags, fw_
 fw_status fw_output_write(fw_output *output, const char *name, const void *data, size_t n);
 const fw_output_file *fw_output_files(const fw_output *output, size_t *count); /* by name */
 fw_status fw_output_commit(fw_output *output);
-/* removes a tree of our own making, `name` below the directory `parent`: plain files and directories,
-   never through links */
+/* removes a tree of our own making, `name` below the directory `parent`: plain files and
+   directories, never through links */
 void fw_output_remove_tree(int parent, const char *name);
+/* what a run that was killed left: PATH.tmp-PID whose process is gone */
+void fw_output_remove_leftovers(fw_arena *arena, const char *path);
 void fw_output_abort(fw_output *output); /* removes what was built; NULL and twice allowed */
 
 /* a single file, whole or not at all ("-" is standard output) */
@@ -36,7 +38,6 @@ fw_status fw_input_read(fw_arena *arena, const char *path, size_t most, fw_diags
 
 /* where packs and layer tables are: the caller's directory ($FLEXWRIGHT_DATA) and no other when it
    is given, else the installed one, else the source tree. A path of `name` that exists, or NULL. */
-fw_status fw_data_path(fw_arena *arena, const char *override, const char *name,
-                       const char **path);
+fw_status fw_data_path(fw_arena *arena, const char *override, const char *name, const char **path);
 
 #endif

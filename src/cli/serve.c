@@ -15,7 +15,7 @@ static bool somebody_looks(void) {
 }
 
 /* twice forked, so that the browser is nobody's child and outlives the server */
-static void open_browser(const char *url) {
+static void open_browser(const char *page) {
     pid_t first = fork();
     if (first != 0) {
         int status = 0;
@@ -32,19 +32,19 @@ static void open_browser(const char *url) {
     signal(SIGPIPE, SIG_DFL);
     pid_t second = access("/usr/bin/xdg-open", X_OK) == 0 ? fork() : -1;
     if (second == 0) {
-        execl("/usr/bin/xdg-open", "xdg-open", url, (char *)NULL);
+        execl("/usr/bin/xdg-open", "xdg-open", page, (char *)NULL);
         _exit(1);
     }
     _exit(second < 0);
 }
 
-static void ready(const char *url, void *context) {
+static void ready(const char *url, const char *page, void *context) {
     const fw_cli_options *options = context;
     printf("%s\n", url);
     if (!options->quiet)
         puts("The address opens once, on this machine only. Ctrl-C ends the server.");
     fflush(stdout);
-    if (!options->no_browser && somebody_looks()) open_browser(url);
+    if (page && !options->no_browser && somebody_looks()) open_browser(page);
 }
 
 int fw_command_serve(fw_cli_options *options) {
@@ -52,7 +52,6 @@ int fw_command_serve(fw_cli_options *options) {
                                     .data_directory = options->design.data_directory,
                                     .port = options->port,
                                     .ipv6 = options->ipv6,
-                                    .quiet = options->quiet,
                                     .ready = ready,
                                     .context = options};
     return fw_serve_run(&serve);

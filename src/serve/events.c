@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "serve/events.h"
+#include "serve/watch.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -14,6 +15,11 @@ void fw_route_events(fw_request *r) {
         if (!room) break;
         *stream = (fw_stream){.request = r, .waiting = room, .last_ms = fw_serve_now_ms()};
         stream->length = (size_t)snprintf(room, WAITING_BYTES, ": flexwright\nretry: 1000\n\n");
+        const char *version = fw_watch_version(server->watch); /* it may have missed a change */
+        if (version)
+            stream->length +=
+                (size_t)snprintf(room + stream->length, WAITING_BYTES - stream->length,
+                                 "event: file\ndata: {\"version\": \"%s\"}\n\n", version);
         r->stream = stream;
         r->reply.status = 200;
         r->reply.type = "text/event-stream";

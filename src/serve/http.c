@@ -6,6 +6,7 @@
 #include "serve/events.h"
 #include "serve/jobs.h"
 #include "serve/reply.h"
+#include "serve/scratch.h"
 #include "serve/worker.h"
 #include <arpa/inet.h>
 #include <errno.h>
@@ -133,9 +134,12 @@ static void admit(fw_request *r, struct MHD_Connection *mhd, const char *path, c
         fw_reply_error(r, 503, NULL, "out of memory");
         return;
     }
+    r->foreign = facts.fetch_site && strcmp(facts.fetch_site, "same-origin") != 0 &&
+                 strcmp(facts.fetch_site, "none") != 0;
     if (fw_guard_is_entry(&facts)) {
         guard->entry_used = true;
         fw_route_entry(r);
+        fw_scratch_drop_page(r->server->scratch);
         return;
     }
     r->reply.close = false;

@@ -115,9 +115,11 @@ static void one_line(fw_server *server, fw_job *job) {
     static const char ours[] = "flexwright: ";
     job->line[job->line_length] = '\0';
     job->line_length = 0;
+    fw_reply_clean(job->line);
     const char *text = job->line + sizeof ours - 1;
     if (strncmp(job->line, ours, sizeof ours - 1) == 0 && strncmp(text, "error", 5) != 0) {
         snprintf(job->stage, sizeof job->stage, "%.119s", text);
+        fw_reply_clean(job->stage);
         tell(server, job);
     } else if (job->line[0] && job->messages < FW_JOB_MOST_LINES) {
         const char *copy = fw_arena_strdup(job->arena, job->line);

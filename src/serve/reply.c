@@ -12,6 +12,31 @@ static const char page_policy[] =
     "connect-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; "
     "frame-ancestors 'none'";
 
+/* bytes of the UTF-8 sequence at `s`, 0 where none begins (RFC 3629: no long forms, no surrogates)
+ */
+static size_t sequence(const unsigned char *s) {
+    unsigned char first = s[0];
+    size_t n = first < 0x80                    ? 1
+               : first >= 0xC2 && first < 0xE0 ? 2
+               : first >= 0xE0 && first < 0xF0 ? 3
+               : first >= 0xF0 && first < 0xF5 ? 4
+                                               : 0;
+    for (size_t i = 1; i < n; i++)
+        if ((s[i] & 0xC0) != 0x80) return 0;
+    if ((first == 0xE0 && s[1] < 0xA0) || (first == 0xED && s[1] >= 0xA0) ||
+        (first == 0xF0 && s[1] < 0x90) || (first == 0xF4 && s[1] >= 0x90))
+        return 0;
+    return n;
+}
+
+void fw_reply_clean(char *text) {
+    for (char *at = text; *at;) {
+        size_t n = sequence((const unsigned char *)at);
+        if (n == 0) *at = '?';
+        at += n ? n : 1;
+    }
+}
+
 void fw_reply_json(fw_request *r, unsigned status, const char *text, size_t n) {
     r->reply.status = status;
     r->reply.type = "application/json";
@@ -34,6 +59,7 @@ void fw_reply_error(fw_request *r, unsigned status, const char *code, const char
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
+    fw_reply_clean(message);
     fw_text text = fw_text_new(r->arena);
     fw_text_add(&text, "{\"error\": {\"message\": ");
     fw_text_json(&text, message);

@@ -5,16 +5,22 @@
 #include "serve/watch.h"
 #include <string.h>
 
+/* To what a person opened the browser goes on by itself. When a file led here (the one of
+   cli/serve.c), the browser takes the whole chain for another page's and would keep the cookie
+   back: then a page of ours leads on. */
 void fw_route_entry(fw_request *r) {
     const fw_guard *guard = &r->server->guard;
     static const char moved[] = "opening the page\n";
+    static const char onward[] =
+        "<!doctype html><meta http-equiv=\"refresh\" content=\"0;url=/\">\n"
+        "<title>Flexwright</title><p><a href=\"/\">Open the page</a>\n";
     r->reply = (fw_reply){
-        .status = 303,
-        .type = "text/plain; charset=utf-8",
-        .data = moved,
-        .n = sizeof moved - 1,
+        .status = r->foreign ? 200 : 303,
+        .type = r->foreign ? "text/html; charset=utf-8" : "text/plain; charset=utf-8",
+        .data = r->foreign ? onward : moved,
+        .n = r->foreign ? sizeof onward - 1 : sizeof moved - 1,
         .fd = -1,
-        .location = "/",
+        .location = r->foreign ? NULL : "/",
         .cookie = fw_arena_printf(r->arena, "%s=%s; Path=/; HttpOnly; SameSite=Strict",
                                   guard->cookie_name, guard->cookie),
     };
@@ -45,9 +51,11 @@ void fw_route_session(fw_request *r) {
                    "\"file\": ",
                    FW_VERSION, r->server->guard.header);
     const char *name = fw_watch_name(r->server->watch);
-    if (name)
-        fw_text_json(&text, name);
-    else
+    char *clean = fw_arena_strdup(r->arena, name);
+    if (clean) {
+        fw_reply_clean(clean);
+        fw_text_json(&text, clean);
+    } else
         fw_text_add(&text, "null");
     fw_text_printf(&text,
                    ", \"limits\": {\"body_bytes\": %d, \"connections\": %d, \"streams\": %d, "

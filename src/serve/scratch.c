@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #define PREFIX "flexwright-serve-"
+#define PAGE   "open.html"
 
 struct fw_scratch {
     const char *path, *name;
@@ -85,6 +86,23 @@ int fw_scratch_make(fw_scratch *s, const char *name) {
 
 const char *fw_scratch_path(fw_arena *arena, const fw_scratch *s, const char *name) {
     return fw_arena_printf(arena, "%s/%s", s->path, name);
+}
+
+const char *fw_scratch_page(fw_arena *arena, fw_scratch *s, const char *url) {
+    const char *path = fw_scratch_path(arena, s, PAGE);
+    const char *text =
+        fw_arena_printf(arena,
+                        "<!doctype html><meta charset=\"utf-8\"><title>Flexwright</title>"
+                        "<meta http-equiv=\"refresh\" content=\"0;url=%s\">\n",
+                        url);
+    int fd = openat(s->fd, PAGE, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+    if (fd < 0) return NULL;
+    bool ok = text && write(fd, text, strlen(text)) == (ssize_t)strlen(text);
+    return close(fd) == 0 && ok ? path : NULL;
+}
+
+void fw_scratch_drop_page(fw_scratch *s) {
+    unlinkat(s->fd, PAGE, 0);
 }
 
 void fw_scratch_remove(fw_scratch *s, const char *name) {

@@ -13,6 +13,10 @@ void fw_scratch_close(fw_scratch *scratch); /* with all that is in it; NULL allo
 int fw_scratch_make(fw_scratch *scratch, const char *name);
 /* where it is, from the root */
 const char *fw_scratch_path(fw_arena *arena, const fw_scratch *scratch, const char *name);
+/* open.html, for the owner alone, which leads to the address: a command line would show its token
+   to every user of the machine. Its path, NULL when it cannot be written. */
+const char *fw_scratch_page(fw_arena *arena, fw_scratch *scratch, const char *url);
+void fw_scratch_drop_page(fw_scratch *scratch); /* it has served */
 void fw_scratch_remove(fw_scratch *scratch, const char *name);
 
 #endif

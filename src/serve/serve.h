@@ -10,8 +10,9 @@ typedef struct fw_serve_options {
     const char *data_directory; /* of packs and layer tables, as fw_design_options; may be NULL */
     int port;                   /* 0: a free one */
     bool ipv6;                  /* listen on ::1 as well */
-    bool quiet;                 /* nothing but the address */
-    void (*ready)(const char *url, void *context); /* called once the server listens */
+    /* called once the server listens; `page` is a file that leads to the address, for a browser
+       that is started by a command line, which others can read; NULL: it could not be written */
+    void (*ready)(const char *url, const char *page, void *context);
     void *context;
 } fw_serve_options;
 

@@ -100,7 +100,8 @@ static void say(const fw_server *server, const fw_diags *diags) {
 static void announce(const fw_server *server) {
     char url[200];
     snprintf(url, sizeof url, "http://%s/?token=%s", server->guard.host[0], server->guard.entry);
-    if (server->options.ready) server->options.ready(url, server->options.context);
+    const char *page = fw_scratch_page(server->arena, server->scratch, url);
+    server->options.ready(url, page, server->options.context);
 }
 
 static fw_status serve(fw_server *server) {

@@ -68,6 +68,7 @@ struct fw_request {
     const struct fw_route *route;
     const char *path, *method;
     const char *if_none_match;
+    bool foreign;    /* comes from a page that is not ours: only the entry may */
     size_t declared; /* bytes of body */
     char *body;      /* (declared) and a NUL */
     size_t received;
@@ -113,6 +114,8 @@ void fw_http_reap(fw_server *server);
 void fw_request_answer(fw_request *request);
 
 /* ---- replies ---- */
+/* what is no UTF-8 becomes '?': texts of other programs, and such as were cut, go into JSON */
+void fw_reply_clean(char *text);
 /* text in the request's arena, or static */
 void fw_reply_json(fw_request *request, unsigned status, const char *text, size_t n);
 void fw_reply_text(fw_request *request, unsigned status, const fw_text *text);

@@ -55,6 +55,7 @@ fw_status fw_watch_open(fw_arena *arena, const char *path, fw_diags *diags, fw_w
     FW_NEED(w);
     *w = (fw_watch){.fd = -1};
     FW_TRY(resolve(arena, w, path, diags));
+    fw_output_remove_leftovers(arena, w->path); /* of a server that was killed while it saved */
     fw_arena *scratch = fw_arena_new(0);
     FW_NEED(scratch);
     char *text;
@@ -77,6 +78,10 @@ fw_status fw_watch_open(fw_arena *arena, const char *path, fw_diags *diags, fw_w
 
 void fw_watch_close(fw_watch *w) {
     if (w && w->fd >= 0) close(w->fd);
+}
+
+const char *fw_watch_version(const fw_watch *w) {
+    return w && w->version[0] ? w->version : NULL;
 }
 
 const char *fw_watch_name(const fw_watch *w) {
