@@ -19,11 +19,14 @@ const PREFIXES = [["G", 1e9], ["M", 1e6], ["k", 1e3], ["", 1], ["m", 1e-3], ["µ
 /** So many decimals, without a minus before zero. */
 export const fixed = (x, digits) => sign((Number(x.toFixed(digits)) + 0).toFixed(digits));
 
+/** The prefix that a size is written with, and its factor. */
+export const prefixOf = (x) => (x === 0 ? ["", 1] : PREFIXES.find(([, f]) => Math.abs(x) >= f * 0.9995) ?? PREFIXES.at(-1));
+
 /** 1.23e-6, "J" -> "1.23 µJ" */
 export function si(x, unit, digits = 3) {
     if (!Number.isFinite(x)) return number(x);
     if (x === 0) return `0 ${unit}`;
-    const [prefix, factor] = PREFIXES.find(([, f]) => Math.abs(x) >= f * 0.9995) ?? PREFIXES.at(-1);
+    const [prefix, factor] = prefixOf(x);
     return `${number(x / factor, digits)} ${prefix}${unit}`;
 }
 

@@ -168,7 +168,8 @@ export class JobView {
     }
 
     #failed(messages) {
-        this.errors.replaceChildren(h("ul", { class: "messages" }, messages.map((m) => h("li", {}, typeof m === "string" ? m : m.message))));
+        const said = messages.filter((m) => !/^\s*\d*\s*\|/.test(m)); // without the lines of the text below a message
+        this.errors.replaceChildren(h("ul", { class: "messages" }, said.map((m) => h("li", {}, m))));
     }
 
     #look(ms = 0) {

@@ -4,7 +4,7 @@
 import { curve, dash } from "./colours.js";
 import { setOption } from "./design.js";
 import { button, h, s, select, setOptions } from "./dom.js";
-import { degrees, number, percent, si } from "./format.js";
+import { degrees, number, percent, prefixOf, si } from "./format.js";
 import { colourLegend, Mechanism, posesOf, restOf } from "./mechanism.js";
 import { Plot } from "./plots.js";
 import { lookAt, on, state } from "./store.js";
@@ -140,7 +140,7 @@ export class Motion {
         if (!p?.motion) return;
         const m = p.motion;
         const ms = m.t_s.map((t) => t * 1e3);
-        const inDegrees = this.inDegrees.getAttribute("aria-pressed") === "true";
+        const inDegrees = this.inDegrees.getAttribute("aria-pressed") === "true" || this.limits.every((x) => !x);
         const chosen = state.hinge !== null && p.pins.some((x) => x.id === state.hinge) ? state.hinge : null;
         const series = p.pins.map((pin, i) => {
             const factor = inDegrees ? 180 / Math.PI : this.limits[i] ? 100 / this.limits[i] : NaN;
@@ -153,7 +153,10 @@ export class Motion {
         this.angles.heading.children[1].textContent = inDegrees ? "degrees, over ms" : "%, over ms";
         this.angles.show(ms, series, { marks, chosen, range: inDegrees ? undefined : most > 0.4 ? [-112, 112] : undefined });
         const energies = [["kinetic", "kinetic_J"], ["potential", "potential_J"], ["dissipated", "dissipated_J"], ["work", "work_J"]].filter(([, k]) => m.energy?.[k]);
-        this.energy.show(ms, energies.map(([name, k], i) => ({ name, key: i, values: m.energy[k].map((x) => (x === null ? null : x * 1e9)) })));
+        const largest = Math.max(0, ...energies.flatMap(([, k]) => m.energy[k].map((x) => Math.abs(x ?? 0))));
+        const [prefix, size] = prefixOf(largest);
+        this.energy.heading.children[1].textContent = `${prefix}J, over ms`;
+        this.energy.show(ms, energies.map(([name, k], i) => ({ name, key: i, values: m.energy[k].map((x) => (x === null ? null : x / size)) })));
         if (m.constraint_norm) this.norm.show(ms, [{ name: "norm", key: 6, solid: true, values: m.constraint_norm.map((x) => Math.max(x ?? 0, 1e-18)) }]);
         this.norm.root.hidden = !m.constraint_norm;
         this.#legend(p, energies);
@@ -230,7 +233,7 @@ export class Motion {
 /** When the first of the largest angles is there: what a first look should show. */
 function peakTime(p) {
     const peaks = p.motion.peaks.map((x, i) => ({ ...x, share: Math.abs(x.angle_rad) / (limitOf(p, p.pins[i], p.motion.flow) ?? Infinity) }));
-    return peaks.reduce((a, b) => (b.share > (a?.share ?? -1) ? b : a), null)?.t_s ?? 0;
+    return peaks.reduce((a, b) => (b.share > (a?.share ?? 0) ? b : a), null)?.t_s ?? 0;
 }
 
 export function zoomButtons(view) {

@@ -33,7 +33,7 @@ export class Verdict {
         this.full = new JobView(full, {
             kind: "check", action: "Judge as fabricated",
             intro: "The live verdict is of the drawing. This judges what each flow may make of it, at the corners of its ranges, and looks for changes that help.",
-            auto: () => (this.full?.job?.seconds ?? 0) < SLOW_S && state.preview !== null, quiet: 900, // a long one is only made when it is asked for
+            auto: () => (this.full?.job?.seconds ?? 0) < SLOW_S && Boolean(state.preview?.verdict), quiet: 900, // a long one is only made when it is asked for
             accept: (job) => job.result?.verdict !== undefined, render: (job, into) => this.#fabricated(job.result, into),
         });
         this.full.show(true);
