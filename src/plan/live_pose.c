@@ -73,7 +73,8 @@ static fw_status prepare(fw_live *live, fw_live_request *r) {
     live->posed = posed;
     int status = fw_design_read_memory(posed->design, "device.xml", r->text, r->length);
     if (status == FW_STATUS_OK) status = fw_design_run(posed->design, build, posed);
-    if (status == FW_STATUS_USAGE) return fw_live_wrong(r, "an option is wrong", NULL);
+    if (status == FW_STATUS_USAGE)
+        return fw_live_wrong(r, design->wrong_option ? design->wrong_option : "wrong usage", NULL);
     if (status == FW_STATUS_NOMEM || status == FW_STATUS_CANCELLED) return (fw_status)status;
     posed->status = (fw_status)status;
     memcpy(posed->key, key, sizeof key); /* only now is it whole */

@@ -170,12 +170,22 @@ static fw_status document(fw_design *d, void *argument) {
     return compose(d, w->status, w->out);
 }
 
+/* so many rows that a page can still take them: fewer of a mechanism with hundreds of bodies */
+static void shorten(fw_plan *plan) {
+    enum { NUMBERS_MOST = 400000 };
+    int each = 3 * plan->device->nbody + plan->device->njoint + 6;
+    int most = NUMBERS_MOST / each > 2 ? NUMBERS_MOST / each : 2, *samples;
+    samples = &plan->options.verdict.motion.samples;
+    if (*samples > most) *samples = most;
+}
+
 static fw_status look(fw_design *d, fw_live_request *request, fw_text *out) {
     int status = fw_design_read_memory(d, "device.xml", request->text, request->length);
     if (status == FW_STATUS_USAGE && d->wrong_option)
         return fw_live_wrong(request, d->wrong_option, NULL);
     if (status == FW_STATUS_OK) {
         bool scenes = d->plan->device->nscene > 0;
+        shorten(d->plan);
         status = fw_design_judge(d);
         /* its motions will do for a picture; what cannot be judged can be moved all the same */
         int moved = FW_STATUS_OK;

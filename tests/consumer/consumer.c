@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a user of the installed library writes, in the common part of C and C++:
-   consumer DEVICE.xml DATA_DIRECTORY OUT: opens the device from memory, judges, prints the decision,
-   writes the results. Exit status: the decision, or 100 + status. */
+   consumer DEVICE.xml DATA_DIRECTORY OUT: opens the device from memory, judges, prints the
+   decision, writes the results. Exit status: the decision, or 100 + status. */
 #include <flexwright.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static int finish(fw_design *design, int status) {
     for (size_t i = 0; i < fw_design_diagnostics(design); i++) {
@@ -16,6 +17,21 @@ static int finish(fw_design *design, int status) {
     int decision = fw_design_decision(design);
     fw_design_free(design);
     return status == FW_STATUS_OK ? decision : 100 + status;
+}
+
+/* what a page of one's own would be made from: the table of elements, and shapes and motion */
+static int for_a_page(fw_design *design) {
+    const int document[2] = {FW_DOCUMENT_TABLE_JSON, FW_DOCUMENT_PREVIEW_JSON};
+    const char *begins[2] = {"{\"schema\":\"flexwright.table/1\"",
+                             "{\"schema\":\"flexwright.preview/1\",\"status\":\"ok\""};
+    for (int i = 0; i < 2; i++) {
+        const char *text;
+        size_t n;
+        int status = fw_design_document(design, document[i], &text, &n);
+        if (status != FW_STATUS_OK) return status;
+        if (n < 1000 || strncmp(text, begins[i], strlen(begins[i])) != 0) return FW_STATUS_INTERNAL;
+    }
+    return FW_STATUS_OK;
 }
 
 int main(int argc, char **argv) {
@@ -34,6 +50,7 @@ int main(int argc, char **argv) {
     if (status == FW_STATUS_OK) status = fw_design_fabricate(design);
     if (status == FW_STATUS_OK) status = fw_design_write(design, argv[3], FW_DESIGN_EVERYTHING);
     const char *text;
+    if (status == FW_STATUS_OK) status = for_a_page(design);
     if (status == FW_STATUS_OK)
         status = fw_design_document(design, FW_DOCUMENT_VERDICT_TEXT, &text, NULL);
     if (status == FW_STATUS_OK)
