@@ -24,12 +24,11 @@ static int limit(unsigned which, uint64_t value) {
 
 static int limit_all(const fw_child_limits *l) {
 #ifndef SANITIZED
-    if (limit(RLIMIT_AS, l->memory_bytes) != 0) return -1;
+    if (limit(RLIMIT_AS, l->memory_bytes) != 0 || limit(RLIMIT_FSIZE, l->file_bytes) != 0)
+        return -1;
 #endif
     if (l->cpu_s && limit(RLIMIT_CPU, l->cpu_s) != 0) return -1;
-    if (limit(RLIMIT_FSIZE, l->file_bytes) != 0 || limit(RLIMIT_NOFILE, l->files) != 0 ||
-        limit(RLIMIT_CORE, 0) != 0)
-        return -1;
+    if (limit(RLIMIT_NOFILE, l->files) != 0 || limit(RLIMIT_CORE, 0) != 0) return -1;
     if (l->nice) setpriority(PRIO_PROCESS, 0, l->nice);
     return 0;
 }

@@ -9,9 +9,10 @@
 #include <sys/types.h>
 
 typedef struct fw_child_limits {
-    uint64_t memory_bytes; /* address space; not under a sanitizer, which needs it all */
-    uint64_t cpu_s;        /* 0: none */
+    /* these two not under a sanitizer, which needs it all and has to say what it found */
+    uint64_t memory_bytes; /* address space */
     uint64_t file_bytes;   /* of one file */
+    uint64_t cpu_s;        /* 0: none */
     uint64_t files;        /* open at once */
     int nice;              /* so much behind the server itself */
 } fw_child_limits;

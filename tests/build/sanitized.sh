@@ -17,3 +17,6 @@ for device in docs/gallery/*/device.xml; do
     esac
     build-asan/flexwright simulate "$device" --accuracy 3e-2 --json >/dev/null
 done
+# the server and its workers; the tests fail when anything is said on standard error
+python3 tests/serve/hostile.py build-asan/flexwright
+python3 tests/serve/robust.py build-asan/flexwright file words entry streams signals
