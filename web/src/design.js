@@ -15,7 +15,11 @@ export function useEditor(e) {
 export function edit(list, words) {
     changes = changes.then(async () => {
         try {
-            const answer = await post("/api/edit", { text: state.text, changes: list });
+            let before, answer;
+            do { // again, where somebody has typed meanwhile
+                before = state.text;
+                answer = await post("/api/edit", { text: before, changes: list });
+            } while (state.text !== before);
             if (answer.text !== undefined && answer.text !== null && !(answer.status && answer.status !== "ok")) {
                 editor.replace(answer.text);
                 if (words) announce(words);
@@ -58,7 +62,7 @@ export const setOption = (name, value) => setOptionsTogether({ [name]: value });
 /** What a job or a preview of the present state is asked with. */
 export function request() {
     const options = { ...state.options };
-    if (options.rtol !== undefined) options.rtol = Number(options.rtol);
+    for (const name of ["rtol", "accuracy"]) if (options[name] !== undefined) options[name] = Number(options[name]);
     return { text: state.text, set: { ...state.set }, options };
 }
 

@@ -158,6 +158,7 @@ export class Form {
             id, autocomplete: "off", spellcheck: false, placeholder: attribute.default ?? "", "data-path": full, "aria-describedby": `${id}-help`,
         });
         if (!attribute.choices?.length) enter(input, () => now() ?? "", change);
+        const names = attribute.refers_to ? this.#suggest(input, `${id}-names`, attribute) : null;
         input.required = attribute.required;
         const refresh = () => {
             if (document.activeElement !== input || input.tagName === "SELECT") input.value = now() ?? "";
@@ -166,8 +167,19 @@ export class Form {
         refresh();
         return h("div", { class: "field" },
             h("label", { for: id }, attribute.name, attribute.required ? h("span", { class: "required", title: "required" }, "*") : null),
-            input,
+            input, names,
             h("p", { id: `${id}-help`, class: "help" }, help(attribute)));
+    }
+
+    /** Ids that a reference may name, made when the field is entered. */
+    #suggest(input, id, attribute) {
+        const list = h("datalist", { id });
+        input.setAttribute("list", id);
+        input.addEventListener("focus", () => {
+            const ids = [...walk(this.root)].filter((e) => e.id && this.row(e.name).id_space === attribute.refers_to).map((e) => e.id);
+            list.replaceChildren(...[...new Set([...ids, ...(attribute.ground ? ["ground"] : [])])].map((x) => h("option", { value: x })));
+        });
+        return list;
     }
 
     #tools(element, row, top) {
@@ -204,6 +216,8 @@ export class Form {
 // ---- helpers ----
 
 function enter(input, present, commit) {
+    input.addEventListener("input", () => (input.dataset.dirty = "yes"));
+    input.addEventListener("blur", () => delete input.dataset.dirty);
     input.addEventListener("keydown", (e) => {
         if (e.key === "Enter") input.blur();
         if (e.key === "Escape") {
@@ -222,6 +236,7 @@ function enter(input, present, commit) {
         }
     });
     input.addEventListener("change", () => {
+        delete input.dataset.dirty;
         const v = input.value.trim();
         if (v !== present()) commit(v);
     });

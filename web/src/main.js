@@ -104,8 +104,8 @@ document.addEventListener("keydown", (e) => {
         e.preventDefault();
         save(parts.editor);
     } else if (!inEditor && e.key.toLowerCase() === "z") {
+        if (document.activeElement?.dataset.dirty) return; // a field that is being typed in undoes its own letters
         e.preventDefault();
-        document.activeElement?.blur?.();
         parts.editor[e.shiftKey ? "redo" : "undo"]();
     } else if (!inEditor && e.key === "y") {
         e.preventDefault();

@@ -195,6 +195,7 @@ export class Masks {
         this.files.hidden = !list.length;
         this.files.replaceChildren(h("h2", {}, "Files"),
             h("ul", { class: "file-list" }, list.map((f) => h("li", {}, h("a", { href: fileOf(job, f.path), download: f.path.split("/").at(-1) }, f.path.split("/").at(-1)), h("span", {}, bytes(f.bytes))))),
+            hasFile(job, `masks/${this.flow.value}-wafer-map.svg`) ? h("a", { href: fileOf(job, `masks/${this.flow.value}-wafer-map.svg`), target: "_blank", rel: "noopener", class: "picture-link" }, h("img", { src: fileOf(job, `masks/${this.flow.value}-wafer-map.svg`), alt: "Map of the wafer" })) : "",
             mask ? h("p", { class: "doc" }, `Grid ${mask.grid_nm} nm, edges within ${number(mask.edge_error_nm)} nm, ${mask.bias}.`) : "");
     }
 

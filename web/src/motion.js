@@ -10,7 +10,7 @@ import { Plot } from "./plots.js";
 import { lookAt, on, state } from "./store.js";
 
 const SECONDS = 4; // that a whole scene takes at speed 1
-const RTOL = ["1e-5", "1e-6", "1e-7", "1e-8", "1e-9", "1e-10", "1e-11"]; // all that the program takes
+const RTOL = ["1e-5", "1e-6", "1e-7", "1e-8", "1e-9", "1e-10", "1e-11"]; // what explicit integrators take
 
 /** Limit of a pin in the flow of the motion, rad, or null. */
 export function limitOf(preview, pin, flow) {
@@ -76,6 +76,7 @@ export class Motion {
             pick("tolerance", "rtol", RTOL, "auto"),
             pick("hinges", "hinge_model", o.hinge_models, "auto"),
             pick("effects", "effects", ["all", "none"], "auto"),
+            pick("accuracy", "accuracy", ["1e-2", "1e-4", "1e-5"], "1e-3"),
             this.stats);
     }
 
@@ -129,10 +130,10 @@ export class Motion {
     #stats() {
         const m = state.preview.motion;
         const stats = m.stats ?? {};
-        const facts = [m.method, m.integrator, m.rtol ? `rtol ${number(m.rtol, 2)}` : null, `${number(stats.steps, 6)} steps`, `${number(stats.rhs, 6)} evaluations`,
+        const facts = [m.method, m.integrator, state.preview.hinge_model ? `hinges: ${state.preview.hinge_model}` : null, m.rtol ? `rtol ${number(m.rtol, 2)}` : null, `${number(stats.steps, 6)} steps`, `${number(stats.rhs, 6)} evaluations`,
             stats.cpu_s !== undefined ? `${si(stats.cpu_s, "s", 2)} CPU` : null];
         this.stats.textContent = facts.filter(Boolean).join(" · ");
-        this.stats.title = m.reason ?? "";
+        this.stats.title = [m.reason, state.preview.hinge_model_why].filter(Boolean).join("; ");
     }
 
     #plotAll() {
@@ -159,6 +160,7 @@ export class Motion {
         this.energy.show(ms, energies.map(([name, k], i) => ({ name, key: i, values: m.energy[k].map((x) => (x === null ? null : x / size)) })));
         if (m.constraint_norm) this.norm.show(ms, [{ name: "norm", key: 6, solid: true, values: m.constraint_norm.map((x) => Math.max(x ?? 0, 1e-18)) }]);
         this.norm.root.hidden = !m.constraint_norm;
+        this.energy.root.hidden = energies.length === 0; // a row of equilibria has none
         this.#legend(p, energies);
     }
 

@@ -8,6 +8,7 @@ import { JobView } from "./jobs.js";
 import { lookAt, on, state } from "./store.js";
 
 const SLOW_S = 3;
+const MOST = 100; // diagnostics in a list
 const ORDER = ["accept", "inconclusive", "reject"]; // the worse one counts
 const WORDS = {
     accept: ["Accepted", "check"], reject: ["Rejected", "cross"], inconclusive: ["Inconclusive", "question"],
@@ -31,7 +32,7 @@ export class Verdict {
             h("section", { class: "card", "aria-labelledby": "h-ledger" }, h("h2", { id: "h-ledger" }, "Effects"), this.ledger),
             h("section", { class: "card", "aria-labelledby": "h-cost" }, h("h2", { id: "h-cost" }, "Cost of this answer"), this.cost), this.notes);
         this.full = new JobView(full, {
-            kind: "check", action: "Judge as fabricated",
+            kind: "check", action: "Judge as fabricated", options: judging,
             intro: "The live verdict is of the drawing. This judges what each flow may make of it, at the corners of its ranges, and looks for changes that help.",
             auto: () => (this.full?.job?.seconds ?? 0) < SLOW_S && Boolean(state.preview?.verdict), quiet: 900, // a long one is only made when it is asked for
             accept: (job) => job.result?.verdict !== undefined, render: (job, into) => this.#fabricated(job.result, into),
@@ -59,9 +60,9 @@ export class Verdict {
         const rest = state.diagnostics.filter((d) => d.severity !== "error");
         const words = `${errors.length} ${errors.length === 1 ? "mistake" : "mistakes"}`;
         this.problems.hidden = errors.length === 0;
-        this.problems.replaceChildren(h("h2", {}, `${words} in the description`), h("ul", { class: "diagnostics" }, errors.map((d) => diagnosticItem(d))));
+        this.problems.replaceChildren(h("h2", {}, `${words} in the description`), h("ul", { class: "diagnostics" }, errors.slice(0, MOST).map((d) => diagnosticItem(d))));
         this.notes.hidden = rest.length === 0;
-        this.notes.replaceChildren(h("h2", {}, "Warnings and notes"), h("ul", { class: "diagnostics" }, rest.map((d) => diagnosticItem(d))));
+        this.notes.replaceChildren(h("h2", {}, "Warnings and notes"), h("ul", { class: "diagnostics" }, rest.slice(0, MOST).map((d) => diagnosticItem(d))));
         const said = errors.length ? `${words}: ${errors[0].message}` : "";
         if (said && said !== this.said) announce(said);
         this.said = said;
@@ -91,9 +92,9 @@ export class Verdict {
         this.banner.dataset.verdict = decision;
         this.banner.replaceChildren(
             h("div", { class: "decision" }, icon(sign), h("strong", {}, word), h("span", { class: "as-drawn", title: (state.preview.left_out ?? []).map((x) => x.sentence).join(" ") }, made ? "as fabricated too" : "as drawn")),
-            h("p", {}, sentence(g)),
+            g || !v.reasons?.length ? h("p", {}, sentence(g)) : "",
             made ? h("p", {}, `As fabricated: ${WORDS[made.verdict][0].toLowerCase()}, worst ${percent(made.worst)} of a limit.`) : "",
-            (v.reasons ?? []).slice(0, 3).map((r) => h("p", { class: "reason" }, r.text, r.code ? h("span", { class: "code" }, ` ${r.code}`) : null)),
+            ...(v.reasons ?? []).slice(0, 3).map((r) => h("p", { class: "reason" }, r.text, r.code ? h("span", { class: "code" }, ` ${r.code}`) : null)),
             h("p", { class: "stale-note", hidden: !state.stale }, "Last good answer: the present text has none."));
         if (changed) announce(`${word}. ${sentence(g)}`);
         this.#bars(v);
@@ -111,6 +112,10 @@ export class Verdict {
     }
 
     #bars(v) {
+        if (!v.hinges.length) {
+            this.bars.replaceChildren(h("p", { class: "empty" }, "No motion, no utilisation."));
+            return;
+        }
         const most = Math.max(1.25, ...v.hinges.map((x) => Math.min(x.utilisation ?? 0, 4)));
         const made = this.#made()?.hinges;
         const rows = v.hinges.map((hinge) => bar(hinge, most, v.governing, made?.get(hinge.id)));
@@ -156,7 +161,7 @@ export class Verdict {
         const list = state.preview.ledger ?? [];
         const called = list.filter((e) => e.called_for !== false);
         const rest = list.length - called.length;
-        const last = called.length === 0 ? h("p", { class: "empty" }, "This scene calls for no effect.")
+        const last = called.length === 0 ? h("p", { class: "empty" }, state.preview.motion ? "This scene calls for no effect." : "Nothing was moved.")
             : rest > 0 ? h("p", { class: "doc" }, `${rest} other effects are not called for by this scene and cost nothing.`) : "";
         this.ledger.replaceChildren(
             ...called.map((e) => h("details", { class: e.active ? "effect active" : "effect" },
@@ -199,6 +204,12 @@ export class Verdict {
             v.advice_note ? h("p", { class: "doc" }, v.advice_note) : "");
         this.show();
     }
+}
+
+/** Of how it is computed, what a verdict depends on. */
+function judging() {
+    const { accuracy, effects, hinge_model } = state.options;
+    return Object.fromEntries(Object.entries({ accuracy, effects, hinge_model }).filter(([, v]) => v !== undefined));
 }
 
 export function sentence(g) {
