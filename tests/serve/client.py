@@ -105,6 +105,8 @@ class Server:
         with self.connect() as s:
             try:
                 s.sendall(data)
+                if half_close:
+                    s.shutdown(socket.SHUT_WR)
             except OSError:
                 pass
             got = b""

@@ -7,6 +7,7 @@ must get through, so that the test is known to see the defence.
     hostile.py PROGRAM [--only DEFENCE]   exit status 0: none served; 1: some were"""
 import concurrent.futures
 import json
+import random
 import sys
 import tempfile
 
@@ -142,6 +143,28 @@ def cases(s, other_cookie):
     yield "a query without a question", None, get("/api/session?callback=alert", *mine)
 
 
+def garbage(s, count):
+    """requests of somebody who has no cookie, changed in random places: cut, doubled, other bytes"""
+    dice = random.Random(20261121)
+    whole = (f"POST /api/jobs HTTP/1.1\r\nHost: {s.host}\r\nCookie: flexwright-{s.port}={'a' * 64}\r\nContent-Type: "
+             f"application/json\r\nX-Flexwright-Token: {'b' * 64}\r\nContent-Length: 20\r\n\r\n" + "{\"kind\": \"check\"}   ").encode()
+    for _ in range(count):
+        data = bytearray(whole)
+        for _ in range(dice.randint(1, 6)):
+            at, what = dice.randrange(len(data)), dice.randrange(4)
+            if what == 0:
+                data[at] = dice.choice(b"\0\r\n :;=/%?\xff\x80{0A")
+            elif what == 1:
+                del data[at:at + dice.randint(1, 30)]
+            elif what == 2:
+                data[at:at] = data[at:at + dice.randint(1, 60)]
+            else:
+                data[at:at] = bytes([dice.choice(b"\0\r\n :;,\t")]) * dice.randint(1, 40)
+            if len(data) < 2:
+                data = bytearray(whole)
+        yield bytes(data)
+
+
 def served(answer):
     """an answer that gives anything: 2xx, 3xx, or something that is no HTTP"""
     codes = statuses(answer)
@@ -169,6 +192,11 @@ def main():
                 assert server.process.poll() is None, f"{name} ended the server: {server.said()}"
             status, _, _ = server.ask("GET", "/api/session")
             said = server.said()
+            if not only:
+                with concurrent.futures.ThreadPoolExecutor(28) as pool:
+                    for answer in pool.map(lambda data: server.raw(data, wait=6.0, half_close=True), garbage(server, 300)):
+                        if served(answer):
+                            wrong.append(f"garbage: {answer[:80]!r}")
             if server.ask("GET", "/api/jobs/2")[0] != 404:
                 wrong.append("a hostile request began a job")
     print(*wrong, sep="\n")
