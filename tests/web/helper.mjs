@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A server with a device in a directory of its own, a Chromium with one page of it, and a record of
 // everything that must not happen: errors, requests to elsewhere, refused content.
+import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { copyFileSync, mkdtempSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -53,7 +54,7 @@ export async function serve(device, { port = 0 } = {}) {
     return start(port);
 }
 
-export const wrongs = []; // what must not happen, of all pages
+const wrongs = []; // what must not happen, of all pages
 
 /** Opens the page of a server and waits for its first answer. */
 export async function open(server, { width = 1440, height = 900, colorScheme = "light" } = {}) {
@@ -83,6 +84,12 @@ export const ready = (page) => page.waitForFunction(() => globalThis.flexwright?
 export async function close(page) {
     wrongs.push(...(await page.evaluate(() => globalThis.refused)).map((x) => `refused by the policy: ${x}`));
     await page.context().close();
+}
+
+/** At the end of a file of tests: the browser is closed, and nothing was wrong meanwhile. */
+export async function finish() {
+    await closeBrowser();
+    assert.deepEqual(wrongs, [], "errors, refused content or requests to elsewhere");
 }
 
 /** A new answer of the server to what `act` does. */

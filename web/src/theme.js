@@ -13,8 +13,10 @@ function read() {
     }
 }
 
+let printing = false; // paper is light
+
 function apply() {
-    const theme = chosen ?? (system.matches ? "dark" : "light");
+    const theme = printing ? "light" : chosen ?? (system.matches ? "dark" : "light");
     document.documentElement.dataset.theme = theme;
     emit("theme", theme);
 }
@@ -23,6 +25,11 @@ export function startTheme() {
     chosen = read();
     apply();
     system.addEventListener("change", apply);
+    for (const [event, on] of [["beforeprint", true], ["afterprint", false]])
+        window.addEventListener(event, () => {
+            printing = on;
+            apply();
+        });
 }
 
 export function themeButton() {
