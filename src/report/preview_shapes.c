@@ -309,31 +309,113 @@ static void pins(const fw_report_preview *in, fw_text *out) {
     fw_text_add(out, "]");
 }
 
-/* ---- loads, to be drawn as arrows ---- */
+/* ---- what else joins bodies, and what drives them ---- */
+
+/* bodies a and b with their points in the bodies' axes (ground: the file's) */
+static void between(fw_text *out, int a, int b, fw_vec2 on_a, fw_vec2 on_b) {
+    fw_text_printf(out, ",\"bodies\":[%d,%d],", a, b);
+    pair_um(out, "on_a_um", on_a);
+    fw_text_add(out, ",");
+    pair_um(out, "on_b_um", on_b);
+}
+
+static void ties_and_springs(const fw_mechanism *m, fw_text *out) {
+    static const char *const kind[] = {
+        [FW_TIE_PRISMATIC] = "prismatic", [FW_TIE_DISTANCE] = "distance", [FW_TIE_WELD] = "weld"};
+    fw_text_add(out, "\"ties\":[");
+    for (int i = 0; i < m->ntie; i++) {
+        const fw_tie *t = &m->tie[i];
+        fw_text_add(out, i ? ",{\"id\":" : "{\"id\":");
+        fw_report_preview_string(out, t->id);
+        fw_text_printf(out, ",\"kind\":\"%s\"", kind[t->kind]);
+        between(out, t->body_a, t->body_b, (fw_vec2){t->ax_m, t->ay_m},
+                (fw_vec2){t->bx_m, t->by_m});
+        fw_text_add(out, ",\"axis_rad\":"); /* in the frame of a */
+        fw_report_preview_number(out, t->kind == FW_TIE_PRISMATIC ? t->axis_rad : (double)NAN, 9);
+        fw_text_add(out, "}");
+    }
+    fw_text_add(out, "],\n\"springs\":[");
+    for (int i = 0; i < m->nspring; i++) {
+        const fw_spring *s = &m->spring[i];
+        fw_text_add(out, i ? ",{\"id\":" : "{\"id\":");
+        fw_report_preview_string(out, s->id);
+        between(out, s->body_a, s->body_b, (fw_vec2){s->ax_m, s->ay_m},
+                (fw_vec2){s->bx_m, s->by_m});
+        fw_text_printf(out, ",\"cable\":%s}", s->cable ? "true" : "false");
+    }
+    fw_text_add(out, "]");
+}
+
+static void law(fw_text *out, const fw_law *of) {
+    fw_text_add(out, ",\"law\":");
+    fw_report_preview_string(out, of ? fw_law_kind_text(of->kind) : NULL);
+    fw_text_add(out, "}");
+}
+
+static void tendon(const fw_tendon *t, fw_text *out) {
+    fw_text_add(out, "{\"kind\":\"tendon\",\"id\":");
+    fw_report_preview_string(out, t->id);
+    fw_text_add(out, ",\"eyelets\":[");
+    for (int k = 0; k < t->neyelet; k++) {
+        fw_text_printf(out, "%s{\"body\":%d,", k ? "," : "", t->eyelet[k].body);
+        pair_um(out, "at_um", (fw_vec2){t->eyelet[k].x_m, t->eyelet[k].y_m});
+        fw_text_add(out, "}");
+    }
+    fw_text_add(out, "],\"pull_N\":");
+    fw_report_preview_number(out, t->pull_N, 6);
+    fw_text_add(out, ",\"draw_m\":");
+    fw_report_preview_number(out, t->draw_m, 6);
+    law(out, t->law);
+}
+
+static void comb(const fw_comb *c, fw_text *out) {
+    fw_text_add(out, "{\"kind\":\"comb-drive\",\"id\":");
+    fw_report_preview_string(out, c->id);
+    fw_text_printf(out, ",\"bodies\":[%d,%d],", c->body_a, c->body_b);
+    pair_um(out, "at_um", (fw_vec2){c->bx_m, c->by_m}); /* of the rotor, bodies[1] */
+    fw_text_add(out, ",\"direction_rad\":");
+    fw_report_preview_number(out, c->direction_rad, 9);
+    fw_text_add(out, ",\"voltage_V\":");
+    fw_report_preview_number(out, c->voltage_V, 6);
+    law(out, c->law);
+}
+
+static void force(const fw_force *f, fw_text *out) {
+    fw_text_printf(out, "{\"kind\":\"force\",\"body\":%d,", f->body);
+    pair_um(out, "at_um", (fw_vec2){f->x_m, f->y_m});
+    fw_text_add(out, ",\"force_N\":[");
+    fw_report_preview_number(out, f->fx_N, 6);
+    fw_text_add(out, ",");
+    fw_report_preview_number(out, f->fy_N, 6);
+    fw_text_add(out, "]");
+    law(out, f->law);
+}
+
+static void torque(const fw_torque *t, fw_text *out) {
+    fw_text_printf(out, "{\"kind\":\"torque\",\"body\":%d,\"torque_Nm\":", t->body);
+    fw_report_preview_number(out, t->value_Nm, 6);
+    law(out, t->law);
+}
 
 static void loads(const fw_report_preview *in, fw_text *out) {
     const fw_scene *s = in->scene;
+    int n = 0;
     fw_text_add(out, "\"loads\":[");
-    for (int i = 0; s && i < s->nforce; i++) {
-        fw_text_printf(out, "%s{\"kind\":\"force\",\"body\":%d,", i ? "," : "", s->force[i].body);
-        pair_um(out, "at_um", (fw_vec2){s->force[i].x_m, s->force[i].y_m});
-        fw_text_add(out, ",\"force_N\":[");
-        fw_report_preview_number(out, s->force[i].fx_N, 6);
-        fw_text_add(out, ",");
-        fw_report_preview_number(out, s->force[i].fy_N, 6);
-        fw_text_add(out, "],\"law\":");
-        fw_report_preview_string(out,
-                                 s->force[i].law ? fw_law_kind_text(s->force[i].law->kind) : NULL);
-        fw_text_add(out, "}");
+    for (int i = 0; s && i < s->nforce; i++, n++) {
+        fw_text_add(out, n ? "," : "");
+        force(&s->force[i], out);
     }
-    for (int i = 0; s && i < s->ntorque; i++) {
-        fw_text_printf(out, "%s{\"kind\":\"torque\",\"body\":%d,\"torque_Nm\":",
-                       i + s->nforce ? "," : "", s->torque[i].body);
-        fw_report_preview_number(out, s->torque[i].value_Nm, 6);
-        fw_text_add(out, ",\"law\":");
-        fw_report_preview_string(out, s->torque[i].law ? fw_law_kind_text(s->torque[i].law->kind)
-                                                       : NULL);
-        fw_text_add(out, "}");
+    for (int i = 0; s && i < s->ntorque; i++, n++) {
+        fw_text_add(out, n ? "," : "");
+        torque(&s->torque[i], out);
+    }
+    for (int i = 0; s && i < s->ntendon; i++, n++) {
+        fw_text_add(out, n ? ",\n" : "");
+        tendon(&s->tendon[i], out);
+    }
+    for (int i = 0; s && i < s->ncomb; i++, n++) {
+        fw_text_add(out, n ? "," : "");
+        comb(&s->comb[i], out);
     }
     fw_text_add(out, "]");
 }
@@ -369,7 +451,8 @@ static void box_of(const fw_report_preview *in, fw_text *out) {
 fw_status fw_report_preview_shapes(fw_arena *arena, const fw_report_preview *in, fw_text *out) {
     const fw_mechanism *m = in->mechanism;
     if (!m) {
-        fw_text_add(out, "\"box_um\":null,\"bodies\":[],\"flexures\":[],\"pins\":[],\"loads\":[]");
+        fw_text_add(out, "\"box_um\":null,\"bodies\":[],\"flexures\":[],\"pins\":[],\"ties\":[],"
+                         "\"springs\":[],\"loads\":[]");
         return fw_text_end(out);
     }
     fw_figure figure = {0};
@@ -390,6 +473,8 @@ fw_status fw_report_preview_shapes(fw_arena *arena, const fw_report_preview *in,
     flexures(in, &bends, out);
     fw_text_add(out, ",\n");
     pins(in, out);
+    fw_text_add(out, ",\n");
+    ties_and_springs(m, out);
     fw_text_add(out, ",\n");
     loads(in, out);
     return fw_text_end(out);

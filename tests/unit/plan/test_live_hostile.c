@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Requests with bytes changed, cut and repeated at random: every answer is one JSON document,
    either with a schema or with an error, and the next sound request is answered as ever. */
+#include "base/arena.h"
 #include "live_case.h"
 
 static uint64_t seed = 0x9e3779b97f4a7c15ULL;
@@ -135,6 +136,40 @@ static void memory_that_is_short(void **state) {
     fw_live_free(NULL);
 }
 
+/* whichever allocation fails, alone or with all behind it: an error object or a whole answer */
+static void any_allocation_may_fail(void **state) {
+    (void)state;
+    static const char *const more[] = {
+        "\"options\":{\"samples\":3}", "\"platform\":{\"x_m\":1e-5}",
+        "\"changes\":[{\"path\":\"device/"
+        "@name\",\"value\":\"x\"},{\"add\":\"\",\"element\":\"flow\"}]"};
+    static const live_function function[] = {fw_live_preview, fw_live_pose, fw_live_edit};
+    for (int k = 0; k < 3; k++) {
+        char *r = request_of(SMALL, more[k]);
+        long before = fw_arena_count();
+        fw_live *live = live_new();
+        is_an_answer(function[k](live, r, strlen(r)));
+        long all = fw_arena_count() - before, failed = 0;
+        fw_live_free(live);
+        assert_true(all > 20);
+        for (long n = 1; n <= all; n += 1 + all / 60)
+            for (int ever_after = 0; ever_after < 2; ever_after++) {
+                fw_arena_fail_at(n, ever_after);
+                live = fw_live_new(&(fw_live_settings){.data_directory = FW_TEST_SOURCE_DIR});
+                if (live) {
+                    fw_live_answer a = function[k](live, r, strlen(r));
+                    is_an_answer(a);
+                    failed += a.status == FW_NOMEM;
+                }
+                fw_arena_fail_at(0, 0);
+                if (live) is_an_answer(function[k](live, r, strlen(r)));
+                fw_live_free(live);
+            }
+        assert_true(failed > 20);
+        free(r);
+    }
+}
+
 /* ---- requests that are not what they should be ---- */
 
 #define EMPTY "{\"text\":\"\","
@@ -212,6 +247,7 @@ int main(void) {
         cmocka_unit_test(deep_and_large),
         cmocka_unit_test(memory_that_is_short),
         cmocka_unit_test(wrong_requests_are_said),
+        cmocka_unit_test(any_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
