@@ -62,6 +62,8 @@ static const option_row options[] = {
     {"rates", "rates", ASSEMBLE},
     {"accelerations", "accelerations", ASSEMBLE},
     {"level", "level", HINGE},
+    {"budget", "budget", TRADEOFF},
+    {"no_time", "no-time", TRADEOFF},
 };
 
 enum { MOST_ARGUMENTS = 128, MOST_TEXT = 2000 };

@@ -8,6 +8,7 @@
 #include "serve/watch.h"
 #include "serve/worker.h"
 #include <poll.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -104,7 +105,13 @@ static void announce(const fw_server *server) {
     server->options.ready(url, page, server->options.context);
 }
 
+static void hung_up(int number) {
+    fw_cancel_request(number);
+}
+
 static fw_status serve(fw_server *server) {
+    struct sigaction closed = {.sa_handler = hung_up};
+    sigaction(SIGHUP, &closed, NULL); /* of the terminal; SIGINT and SIGTERM are the program's */
     fw_diags diags = fw_diags_new(server->arena);
     fw_status status = absolute(server);
     if (status == FW_OK) status = prepare(server, &diags);

@@ -500,7 +500,7 @@ class Usage(InTemporary):
                           ["plan", "--set"], ["plan", "--set", "novalue", "a"],
                           ["check", GALLERY, "--accuracy", "2"], ["check", GALLERY, "--accuracy", "x"],
                           ["simulate", GALLERY, "--method", "magic"], ["explain", "FW-D999"],
-                          ["serve"], ["simulate", GALLERY, "--samples", "1"]):
+                          ["serve", "a", "b"], ["serve", "--port", "x"], ["simulate", GALLERY, "--samples", "1"]):
             result = self.expect(run(*arguments), 2)
             self.assertIn("FW-D230", result.stderr)
             self.assertEqual(result.stdout, "")

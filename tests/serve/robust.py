@@ -464,9 +464,9 @@ def streams(program, directory):
 # ---- the end ----
 
 def signals(program, directory):
-    """SIGTERM and SIGINT end it within 2 s, whatever it does; nothing is left"""
-    port = 0  # the second one takes the port of the first
-    for number in (signal.SIGTERM, signal.SIGINT):
+    """SIGTERM, SIGINT and SIGHUP end it within 2 s, whatever it does; nothing is left"""
+    port = 0  # the next one takes the port of the first
+    for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
         server = Server(program, directory, options=["--port", str(port)]).enter()
         port = server.port
         server.json("POST", "/api/jobs", SLOW)

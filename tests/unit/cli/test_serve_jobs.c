@@ -39,6 +39,8 @@ static const struct {
     {"rates", "\"1 rad/s\"", "assemble"},
     {"accelerations", "\"1 rad/s^2\"", "assemble"},
     {"level", "\"auto\"", "hinge"},
+    {"budget", "30", "tradeoff"},
+    {"no_time", "true", "tradeoff"},
 };
 enum { NKINDS = sizeof kinds / sizeof kinds[0], NOPTIONS = sizeof options / sizeof options[0] };
 
