@@ -41,11 +41,6 @@ describe("text and file", () => {
         await verdict(page, "reject");
     });
 
-    test("a rejected design keeps its masks, and says so", async () => {
-        await view(page, "masks");
-        await page.waitForSelector("#panel-masks .job-errors li, #panel-masks .violation, #panel-masks .empty:visible");
-    });
-
     test("wrong text: a marker at its place, the last good answer stays, the fix is seen", async () => {
         const good = await text(page);
         await page.click("#tab-xml");

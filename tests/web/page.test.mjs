@@ -5,7 +5,7 @@ import { execFileSync, spawnSync } from "node:child_process";
 import { readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { join, relative } from "node:path";
 import { after, before, describe, test } from "node:test";
-import { answered, close, computed, finish, open, program, serve, source, text, theBrowser, verdict, view } from "./helper.mjs";
+import { answered, close, computed, finish, open, program, serve, setText, source, text, theBrowser, verdict, view } from "./helper.mjs";
 
 after(finish);
 
@@ -35,6 +35,10 @@ describe("the six-bar", () => {
         const told = JSON.parse(execFileSync(program, ["check", server.file, "--corners", "none", "--json"], { cwd: source, stdio: ["ignore", "pipe", "ignore"] }));
         assert.match(banner, new RegExp(`Hinge ${told.governing.id} governs: ${(100 * told.governing.utilisation).toPrecision(3)} % .*of its strength limit`));
         assert.equal(await page.locator(".bar").count(), told.hinges.length);
+        const flow = told.flows[1];
+        await page.selectOption('select[aria-label="Utilisation in"]', flow.id);
+        assert.match(await page.locator(".bar.governs").getAttribute("aria-label"), new RegExp(`^Hinge ${flow.governing.id}: ${(100 * flow.governing.utilisation).toPrecision(3)} %`));
+        await page.selectOption('select[aria-label="Utilisation in"]', "");
     });
 
     test("the form is the table: unit, range, default and sentence of an attribute", async () => {
@@ -196,6 +200,20 @@ describe("the six-bar", () => {
         await page.waitForFunction(() => document.querySelectorAll("#panel-masks .layers path").length > 500);
         await page.selectOption('#panel-masks select[aria-label="Cell"]', "");
         await page.click('#panel-masks button:has-text("Ruler")');
+    });
+
+    test("a rejected design has no masks, unless they are asked for all the same", async () => {
+        const good = await text(page);
+        await answered(page, () => setText(page, ['strength="2.5 GPa"', 'strength="0.9 GPa"']));
+        await verdict(page, "reject");
+        await page.waitForSelector("#panel-masks .job-errors li, #panel-masks .job-content.stale", { state: "attached" });
+        await page.locator('#panel-masks label:has-text("though it is rejected") input').check();
+        await page.waitForFunction(() => /REJECTED/.test(globalThis.flexwright.parts.masks.result?.masks[0]?.cell));
+        await page.waitForFunction(() => document.querySelectorAll("#panel-masks .layers path").length > 20);
+        await page.locator('#panel-masks label:has-text("though it is rejected") input').uncheck();
+        await page.click("#undo");
+        await verdict(page, "accept");
+        assert.equal(await text(page), good);
     });
 
     test("recipes: times, what is not computable, sections, schedule, a run sheet to read", async () => {

@@ -87,10 +87,8 @@ export function latest(send, done, failed) {
             run(next);
         }
     }
-    const ask = (input) => {
+    return (input) => {
         if (busy) waiting = input;
         else run(input);
     };
-    Object.defineProperty(ask, "busy", { get: () => busy });
-    return ask;
 }

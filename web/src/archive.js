@@ -2,7 +2,7 @@
 // Download of everything: the directory of `flexwright plan` as one archive.
 import { announce, button, h } from "./dom.js";
 import { bytes, duration } from "./format.js";
-import { forget, run } from "./jobs.js";
+import { forget, giveWay, run } from "./jobs.js";
 import { openDialog } from "./dialog.js";
 import { state } from "./store.js";
 
@@ -15,6 +15,7 @@ export async function download() {
     ], [button("Cancel", { class: "cancel" }, () => control.abort())]);
     dialog.addEventListener("cancel", () => control.abort());
     const begun = performance.now();
+    giveWay();
     let name = null;
     const clock = setInterval(() => (stage.textContent = `${name ?? "working"} · ${((performance.now() - begun) / 1e3).toFixed(1)} s`), 200);
     try {

@@ -206,11 +206,6 @@ export class Form {
         this.opened.add(element.path);
         edit([{ add: element.path, element: kind.name, attributes }], `${kind.name} added`);
     }
-
-    /** Opens the branch that holds an offset of the text. */
-    reveal(offset) {
-        for (const e of this.places?.values() ?? []) if (e.from <= offset) this.opened.add(e.path);
-    }
 }
 
 // ---- helpers ----

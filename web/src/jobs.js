@@ -71,16 +71,33 @@ export function forget(job) {
 export const fileOf = (job, path) => `/api/jobs/${job.id}/files/${path.split("/").map(encodeURIComponent).join("/")}`;
 export const hasFile = (job, path) => job.files?.some((f) => f.path === path) ?? false;
 
+/** "make it of a rejected design, too": {label, options()} of a job that makes masks or recipes. */
+export function forceTick(view) {
+    const tick = h("input", { type: "checkbox" });
+    tick.addEventListener("change", () => view().run());
+    const label = h("label", { class: "force-row", hidden: true }, tick, h("span", {}, "though it is rejected (marked so)"));
+    on("preview", (p) => (label.hidden = p.verdict?.verdict !== "reject" && !tick.checked));
+    return { label, options: () => (tick.checked ? { force: true } : {}) };
+}
+
+// One job runs at a time. What nobody has asked for gives way to what somebody waits for, and comes again.
+const background = new Set();
+export function giveWay() {
+    for (const view of background) view.giveWay();
+}
+
 const AUTO_MS = 500; // an automatic job waits until nothing has changed for so long
 
 export class JobView {
     /**
      * kind, options(): of the job; intro: what it gives, shown while there is nothing; action: label of
      * the button; render(job, holder): fills the holder, may be async; auto: runs by itself while shown,
-     * when nothing has changed for `quiet` ms.
+     * when nothing has changed for `quiet` ms; humble: then it gives way to other jobs.
      */
-    constructor(holder, { kind, options = () => ({}), intro, action, render, auto = false, accept, quiet = AUTO_MS }) {
+    constructor(holder, { kind, options = () => ({}), intro, action, render, auto = false, accept, quiet = AUTO_MS, humble = false }) {
         Object.assign(this, { kind, options, action, render, auto, accept, quiet });
+        if (humble) background.add(this);
+        this.humble = humble;
         this.shown = false;
         this.job = null;
         this.forText = null;
@@ -118,12 +135,21 @@ export class JobView {
         if (!auto || !this.shown || this.#key === this.forText || this.#key === this.tried) return;
         clearTimeout(this.timer);
         this.timer = setTimeout(() => {
-            if (this.shown && this.#key !== this.forText && !state.stale) this.run();
+            if (this.shown && this.#key !== this.forText && !state.stale) this.run(true);
         }, this.quiet);
     }
 
-    async run() {
+    giveWay() {
+        if (!this.control || !this.byItself) return;
+        this.gaveWay = true;
+        this.control.abort();
+    }
+
+    async run(byItself = false) {
         this.control?.abort();
+        this.gaveWay = false;
+        this.byItself = byItself;
+        if (!this.humble) giveWay();
         const control = (this.control = new AbortController());
         const key = (this.tried = this.#key);
         this.errors.replaceChildren();
@@ -149,6 +175,10 @@ export class JobView {
     }
 
     async #ended(job, key) {
+        if (job.state === "cancelled" && this.gaveWay) {
+            this.tried = null; // it comes again when the others are done
+            return;
+        }
         if (job.state === "cancelled") {
             this.#failed(["cancelled"]);
             announce(`${this.action}: cancelled`);

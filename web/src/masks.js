@@ -4,7 +4,7 @@
 import { get, request as fetchText } from "./api.js";
 import { button, h, s, select, setOptions } from "./dom.js";
 import { bytes, number } from "./format.js";
-import { fileOf, hasFile, JobView } from "./jobs.js";
+import { fileOf, forceTick, hasFile, JobView } from "./jobs.js";
 import { zoomButtons } from "./motion.js";
 import { on, state } from "./store.js";
 import { scaleBar, Viewport } from "./viewport.js";
@@ -51,10 +51,12 @@ export class Masks {
         this.violations = h("section", { class: "card", hidden: true });
         this.files = h("section", { class: "card", hidden: true });
         this.side.append(card, this.violations, this.layerList, this.files);
+        const force = forceTick(() => this.job);
         this.job = new JobView(card, {
-            kind: "mask", action: "Make the masks", auto: true, intro: "GDSII, SVG and what every flow's design rules say.",
+            kind: "mask", action: "Make the masks", auto: true, options: force.options, intro: "GDSII, SVG and what every flow's design rules say.",
             accept: (job) => Array.isArray(job.result?.masks), render: (job) => this.#take(job),
         });
+        card.append(force.label);
     }
 
     shown(yes) {
@@ -85,7 +87,8 @@ export class Masks {
         this.result = job.result;
         this.done = job;
         const flows = [...new Set([...job.result.masks.map((m) => m.flow), ...(job.result.violations ?? []).map((v) => v.flow)])];
-        setOptions(this.flow, flows.map((f) => [f, f]), this.flow.value || flows[0]);
+        const broken = (f) => (job.result.violations ?? []).find((v) => v.flow === f)?.findings.length ?? 0;
+        setOptions(this.flow, flows.map((f) => [f, broken(f) ? `${f}: ${broken(f)} broken` : f]), this.flow.value || (flows.find(broken) ?? flows[0]));
         await this.#draw();
     }
 

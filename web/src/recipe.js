@@ -3,7 +3,7 @@
 import { get, request as fetchText } from "./api.js";
 import { h, icon, select, setOptions } from "./dom.js";
 import { duration, number } from "./format.js";
-import { fileOf, hasFile, JobView } from "./jobs.js";
+import { fileOf, forceTick, hasFile, JobView } from "./jobs.js";
 
 export class Recipe {
     constructor(holder) {
@@ -12,10 +12,12 @@ export class Recipe {
         const head = h("div", { class: "recipe-head" }, h("label", { class: "option" }, h("span", {}, "flow"), this.flow));
         this.scroll = h("div", { class: "recipe" }, head, this.body);
         holder.append(this.scroll);
+        const force = forceTick(() => this.job);
         this.job = new JobView(head, {
-            kind: "recipe", action: "Compute the recipes", auto: true, intro: "Every step of every flow with computed times, the schedule and the run sheet.",
+            kind: "recipe", action: "Compute the recipes", auto: true, options: force.options, intro: "Every step of every flow with computed times, the schedule and the run sheet.",
             accept: (job) => Boolean(job.result?.recipes ?? job.result?.steps), render: (job) => this.#take(job),
         });
+        head.append(force.label);
     }
 
     shown(yes) {

@@ -13,7 +13,7 @@ export const state = {
     stale: false, // the text has moved on and has no good answer
     diagnostics: [],
     hinge: null, // id of the hinge that is looked at
-    flow: null, // id of the flow that is looked at
+    flow: "", // whose utilisation is shown; "": the worst of all
     latency: [], // ms from a change to its picture, of the last ones
 };
 
@@ -22,17 +22,8 @@ export const on = (name, f) => bus.addEventListener(name, (e) => f(e.detail));
 export const emit = (name, detail) => bus.dispatchEvent(new CustomEvent(name, { detail }));
 
 /** Names of events: "text" (editor's text changed), "change" (ask for a preview), "preview" (a good answer),
- *  "answer" (any answer), "hinge" and "flow" (looked at), "jobs" (any job), "theme". */
+ *  "answer" (any answer), "hinge" (looked at), "jobs" (any job), "theme". */
 export function lookAt(hinge) {
     state.hinge = state.hinge === hinge ? null : hinge;
     emit("hinge", state.hinge);
-}
-
-/** The verdict's entry of the hinge that is looked at or governs. */
-export function governing(preview = state.preview) {
-    return preview?.verdict?.governing ?? null;
-}
-
-export function fixedBody(preview) {
-    return preview.bodies.find((b) => b.fixed);
 }

@@ -2,7 +2,7 @@
 // The right column: decision, governing hinge, utilisation against the limit, what each flow can make,
 // which effects were computed and why, what it cost.
 import { edit } from "./design.js";
-import { announce, button, h, icon } from "./dom.js";
+import { announce, button, h, icon, select, setOptions } from "./dom.js";
 import { degrees, number, percent, si } from "./format.js";
 import { JobView } from "./jobs.js";
 import { lookAt, on, state } from "./store.js";
@@ -20,13 +20,17 @@ export class Verdict {
         this.problems = h("section", { class: "card problems", "aria-label": "Diagnostics", hidden: true });
         this.notes = h("section", { class: "card notes", "aria-label": "Notes", hidden: true });
         this.bars = h("div", { class: "bars" });
+        this.whose = select("Utilisation in", [["", "worst of all flows"]], "", (v) => {
+            state.flow = v;
+            this.show();
+        });
         this.flows = h("div", { class: "flows" });
         this.ledger = h("div", { class: "ledger" });
         this.cost = h("dl", { class: "facts-list" });
         const full = h("div", { class: "full-check" });
         holder.append(
             this.banner, this.problems,
-            h("section", { class: "card", "aria-labelledby": "h-use" }, h("h2", { id: "h-use" }, "Utilisation of the elastic limit"), this.bars),
+            h("section", { class: "card", "aria-labelledby": "h-use" }, h("h2", { id: "h-use" }, "Utilisation of the elastic limit"), this.whose, this.bars),
             h("section", { class: "card", "aria-labelledby": "h-flows" }, h("h2", { id: "h-flows" }, "Flows"), this.flows),
             h("section", { class: "card", "aria-labelledby": "h-full" }, h("h2", { id: "h-full" }, "As fabricated"), full),
             h("section", { class: "card", "aria-labelledby": "h-ledger" }, h("h2", { id: "h-ledger" }, "Effects"), this.ledger),
@@ -34,7 +38,7 @@ export class Verdict {
         this.full = new JobView(full, {
             kind: "check", action: "Judge as fabricated", options: judging,
             intro: "The live verdict is of the drawing. This judges what each flow may make of it, at the corners of its ranges, and looks for changes that help.",
-            auto: () => (this.full?.job?.seconds ?? 0) < SLOW_S && Boolean(state.preview?.verdict), quiet: 900, // a long one is only made when it is asked for
+            auto: () => (this.full?.job?.seconds ?? 0) < SLOW_S && Boolean(state.preview?.verdict), quiet: 900, humble: true, // a long one is only made when it is asked for
             accept: (job) => job.result?.verdict !== undefined, render: (job, into) => this.#fabricated(job.result, into),
         });
         this.full.show(true);
@@ -108,17 +112,23 @@ export class Verdict {
         const full = this.full.job && !this.full.stale ? this.full.job.result : null;
         if (!full) return null;
         const of = (x) => x.as_fabricated?.utilisation ?? x.utilisation ?? 0;
-        return { verdict: full.verdict, hinges: new Map(full.hinges.map((x) => [x.id, x.as_fabricated?.utilisation])), worst: Math.max(0, ...full.flows.flatMap((f) => f.hinges.map(of))) };
+        return { verdict: full.verdict, hinges: (flow) => new Map((full.flows.find((f) => f.id === flow) ?? full).hinges.map((x) => [x.id, x.as_fabricated?.utilisation])), worst: Math.max(0, ...full.flows.flatMap((f) => f.hinges.map(of))) };
     }
 
     #bars(v) {
-        if (!v.hinges.length) {
+        setOptions(this.whose, [["", "worst of all flows"], ...v.flows.map((f) => [f.id, f.id])], state.flow);
+        this.whose.hidden = v.flows.length < 2;
+        state.flow = this.whose.value;
+        const own = v.flows.find((f) => f.id === state.flow);
+        const list = own?.hinges ?? v.hinges;
+        const governing = own ? own.governing : v.governing;
+        if (!list.length) {
             this.bars.replaceChildren(h("p", { class: "empty" }, "No motion, no utilisation."));
             return;
         }
-        const most = Math.max(1.25, ...v.hinges.map((x) => Math.min(x.utilisation ?? 0, 4)));
-        const made = this.#made()?.hinges;
-        const rows = v.hinges.map((hinge) => bar(hinge, most, v.governing, made?.get(hinge.id)));
+        const most = Math.max(1.25, ...list.map((x) => Math.min(x.utilisation ?? 0, 4)));
+        const made = this.#made()?.hinges(state.flow);
+        const rows = list.map((hinge) => bar(hinge, most, governing, made?.get(hinge.id)));
         this.bars.replaceChildren(
             h("div", { class: "bar-axis", "aria-hidden": "true", style: { "--at": `${100 / most}%` } }, h("span", {}, "limit")),
             h("div", { class: "bar-list", style: { "--at": `${100 / most}%` } }, rows));
@@ -127,7 +137,8 @@ export class Verdict {
 
     #chosen() {
         for (const row of this.bars.querySelectorAll(".bar")) row.setAttribute("aria-pressed", String(row.dataset.hinge === state.hinge));
-        const hinge = state.preview?.verdict?.hinges.find((x) => x.id === state.hinge);
+        const v = state.preview?.verdict;
+        const hinge = (v?.flows.find((f) => f.id === state.flow) ?? v)?.hinges.find((x) => x.id === state.hinge);
         this.bars.querySelector(".bar-detail")?.remove();
         if (!hinge) return;
         const facts = [
