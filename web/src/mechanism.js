@@ -10,6 +10,11 @@ import { scaleBar, Viewport } from "./viewport.js";
 const REST = [0, 0, 0];
 let count = 0;
 
+const grown = ([x0, y0, x1, y1], share) => {
+    const [dx, dy] = [(x1 - x0) * share, (y1 - y0) * share];
+    return [x0 - dx, y0 - dy, x1 + dx, y1 + dy];
+};
+
 /** Row of a motion, x, y, phi of body after body, as poses in the order of the preview's bodies. */
 export const posesOf = (preview, row) => preview.bodies.map((b, i) => (b.fixed ? REST : row.slice(3 * i, 3 * i + 3)));
 export const restOf = (preview) => preview.bodies.map((b) => b.rest ?? REST);
@@ -20,10 +25,12 @@ const place = (pose) =>
     `translate(${(pose[0] * 1e6).toFixed(3)} ${(pose[1] * 1e6).toFixed(3)}) rotate(${((pose[2] * 180) / Math.PI).toFixed(5)})`;
 
 export class Mechanism {
-    /** holder: an element that gets the picture; label: its name for assistive programs */
-    constructor(holder, { label, onhinge, pan } = {}) {
+    /** holder: an element that gets the picture; label: its name for assistive programs; around: room for what
+     *  moves, as a share of the device */
+    constructor(holder, { label, onhinge, pan, around = 0 } = {}) {
         this.id = `mechanism${++count}`;
         this.onhinge = onhinge;
+        this.around = around;
         this.svg = s("svg", { class: "mechanism" });
         holder.append(this.svg);
         this.view = new Viewport(this.svg, { label, pan, onview: () => this.#resize() });
@@ -82,7 +89,7 @@ export class Mechanism {
             return { id: flexure.id, a, b, path, edge, title, bend: flexure.centre_line ? new Bend(flexure.path, lineOf(flexure.centre_line)) : null, rest: flexure.path };
         });
         this.#pins(preview, index, ground);
-        if (preview.box_um) this.view.setBox(preview.box_um);
+        if (preview.box_um) this.view.setBox(grown(preview.box_um, this.around));
         this.pose(this.rest);
     }
 

@@ -14,7 +14,7 @@ export class Modes {
         this.stage = h("div", { class: "stage" });
         this.side = h("div", { class: "side-panel" });
         holder.append(h("div", { class: "split" }, this.stage, this.side));
-        this.mechanism = new Mechanism(this.stage, { label: "A mode shape of the mechanism, moving." });
+        this.mechanism = new Mechanism(this.stage, { label: "A mode shape of the mechanism, moving.", around: 0.08 });
         this.stage.append(zoomButtons(() => this.mechanism.view));
         this.at = select("About", [["rest", "about rest"], ["equilibrium", "about the equilibrium"]], "rest", () => this.view.run());
         this.amplitude = h("input", { type: "range", min: 1, max: 100, value: 30, "aria-label": "Amplitude of the picture" });

@@ -19,7 +19,7 @@ export class Workspace {
         this.stage = h("div", { class: "stage" });
         this.side = h("div", { class: "side-panel" });
         holder.append(h("div", { class: "split" }, this.stage, this.side));
-        this.mechanism = new Mechanism(this.stage, { label: "Workspace: drag the platform, or use the numbers beside the picture.", onhinge: lookAt });
+        this.mechanism = new Mechanism(this.stage, { label: "Workspace: drag the platform, or use the numbers beside the picture.", onhinge: lookAt, around: 0.12 });
         this.stage.append(colourLegend(), zoomButtons(() => this.mechanism.view));
         this.boxes = s("g", { class: "boxes" });
         this.mechanism.above.append(this.boxes);
