@@ -126,7 +126,7 @@ export class Workspace {
         this.#colour();
         this.#handles();
         const use = flow.utilisation ?? 0;
-        const words = !answer.reachable ? `Out of reach: ${answer.reason ?? "no assembly"}. The nearest pose is shown.`
+        const words = !answer.reachable ? `Out of reach: ${answer.reason ?? "the joints do not let it go there; the nearest pose is shown"}.`
             : flow.governing === null ? "No hinge of this device has a limit."
             : use > 1 ? `Hinge ${flow.governing} would be beyond its limit: ${fixed(use * 100, 1)} %.` : `Within the limits; hinge ${flow.governing} governs with ${fixed(use * 100, 1)} %.`;
         if (this.status.textContent !== words) this.status.textContent = words;
