@@ -54,7 +54,7 @@ export class Recipe {
                 h("div", { class: "recipe-links" }, link(`${base}.html`, "Run sheet"), save(`${base}.csv`, "CSV"), save(`${base}.ics`, "Calendar"))),
             r.reasons?.length ? h("details", { class: "reasons" }, h("summary", {}, `${r.reasons.length} remarks on making it`), h("ul", {}, r.reasons.map((x) => h("li", {}, x)))) : "",
             picture(job, `${base}.schedule.svg`, "Schedule", `Schedule of ${r.flow}: machines over days`),
-            picture(job, `${base}.stack.svg`, "The wafer after every step", `The wafer after every step of ${r.flow}, in space`),
+            folded("The wafer after every step, in space", picture(job, `${base}.stack.svg`, "The wafer after every step", `The wafer after every step of ${r.flow}, in space`)),
             h("ol", { class: "steps" }, r.steps.map((x) => step(x, sectionOf(sheet, x.id)))));
     }
 }
@@ -64,6 +64,9 @@ function picture(job, path, caption, alt) {
     if (!hasFile(job, path)) return "";
     return h("figure", { class: "schedule", tabIndex: 0, role: "region", "aria-label": caption }, h("figcaption", {}, caption), h("img", { src: fileOf(job, path), alt }));
 }
+
+/** What is tall and not always wanted. */
+const folded = (words, figure) => (figure === "" ? "" : h("details", { class: "reasons" }, h("summary", {}, words), figure));
 
 const fact = (name, value, kind) => h("div", { class: `fact ${kind ?? ""}` }, h("span", {}, name), h("strong", {}, value));
 
