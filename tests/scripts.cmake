@@ -57,11 +57,12 @@ fw_script_test(hard.valgrind LABEL hard COMMAND tests/build/valgrind.sh ${PROJEC
 set_tests_properties(hard.valgrind PROPERTIES SKIP_RETURN_CODE 77)
 set_tests_properties(build.clang build.sanitized build.bytes fuzz.device effects.absent PROPERTIES RUN_SERIAL ON)
 
+include(serve/serve.cmake)
+include(web/web.cmake)
 # the functions behind the page without a server
 add_executable(live live/live.c)
 target_link_libraries(live PRIVATE fw_plan)
 fw_script_test(live.memory COMMAND live memory)
-include(serve/serve.cmake)
 
 add_executable(fault_memory fault/memory.c)
 target_link_libraries(fault_memory PRIVATE fw_plan)

@@ -33,11 +33,11 @@ def build(name, *options):
 
 
 def level(flags):
-    return ("-DFW_TESTS=OFF", "-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_C_COMPILER=gcc", "-DCMAKE_C_FLAGS_DEBUG=" + flags)
+    return ("-DFW_TESTS=OFF", "-DFW_PAGE=OFF", "-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_C_COMPILER=gcc", "-DCMAKE_C_FLAGS_DEBUG=" + flags)
 
 
 def programs(own):
-    found = {"gcc -O2": own, "clang -O2": build("build-clang", "-DCMAKE_C_COMPILER=clang", "-DFW_TESTS=ON")}
+    found = {"gcc -O2": own, "clang -O2": build("build-clang", "-DCMAKE_C_COMPILER=clang", "-DFW_TESTS=ON", "-DFW_PAGE=OFF")}
     for flags in ("-O0", "-O3") if os.environ.get("FW_BYTES_LEVELS") else ():
         found["gcc " + flags] = build("build" + flags, *level(flags))
     sanitized = ROOT / "build-asan/flexwright"

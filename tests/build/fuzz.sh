@@ -5,7 +5,7 @@
 # harness needs all rooms (some minutes to build); test_live_hostile has a short run of the same.
 set -eu
 cd "$(dirname "$0")/../.."
-cmake -S . -B build-fuzz -G Ninja -DCMAKE_C_COMPILER=clang -DFW_FUZZ=ON -DFW_SANITIZE=ON >/dev/null
+cmake -S . -B build-fuzz -G Ninja -DCMAKE_C_COMPILER=clang -DFW_FUZZ=ON -DFW_SANITIZE=ON -DFW_PAGE=OFF >/dev/null
 cmake --build build-fuzz --target fuzz_device ${LIVE_RUNS:+fuzz_live} >/dev/null
 corpus=$(mktemp -d)
 trap 'rm -rf "$corpus"' EXIT

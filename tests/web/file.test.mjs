@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The text and its file: mistakes, another editor, saving, a server that ends.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, describe, test } from "node:test";
+import { answered, close, finish, open, program, ready, serve, setText, text, verdict, view } from "./helper.mjs";
+
+after(finish);
+
+describe("text and file", () => {
+    let server, page;
+    before(async () => {
+        server = await serve("copper-nodder");
+        page = await open(server);
+    });
+    after(async () => {
+        await close(page);
+        await server.stop();
+    });
+
+    test("a slider flips the verdict, and back", async () => {
+        await verdict(page, "reject");
+        const slider = page.locator('[data-parameter="push"]');
+        await slider.focus();
+        await page.keyboard.press("Home");
+        await verdict(page, "accept");
+        await page.waitForFunction(() => /name="push" value="1 uN"/.test(globalThis.flexwright.state.text));
+        await page.keyboard.press("End");
+        await verdict(page, "reject");
+        const b = await slider.boundingBox(); // and held by the mouse: the answer comes before the text
+        await page.mouse.move(b.x + b.width - 8, b.y + b.height / 2);
+        await page.mouse.down();
+        await page.mouse.move(b.x + 10, b.y + b.height / 2, { steps: 5 });
+        await verdict(page, "accept");
+        assert.match(await text(page), /name="push" value="50 uN"/);
+        await page.mouse.up();
+        await page.waitForFunction(() => !/name="push" value="50 uN"/.test(globalThis.flexwright.state.text));
+        await page.click("#undo");
+        await verdict(page, "reject");
+    });
+
+    test("wrong text: a marker at its place, the last good answer stays, the fix is seen", async () => {
+        const good = await text(page);
+        await page.click("#tab-xml");
+        await answered(page, () => setText(page, ['kind="leaf"', 'kind="leef"']));
+        await page.waitForSelector(".problems li.error");
+        assert.match(await page.textContent(".problems"), /leef|leaf/);
+        await page.waitForSelector("#editor .cm-lint-marker-error");
+        await page.waitForSelector("#editor .cm-lintRange-error");
+        assert.ok(await page.isVisible(".stale-note"), "the old verdict is not told to be old");
+        await page.click(".problems button.jump");
+        const chosen = await page.evaluate(() => {
+            const { state } = globalThis.flexwright.parts.editor.view;
+            return state.sliceDoc(state.selection.main.from, state.selection.main.to);
+        });
+        assert.match(chosen, /leef/);
+        await answered(page, () => page.keyboard.press("Control+z"));
+        assert.equal(await text(page), good);
+        await page.waitForSelector(".problems", { state: "hidden" });
+        assert.ok(!(await page.isVisible(".stale-note")));
+        await answered(page, () => setText(page, ["</device>", "</devise>"]));
+        await page.waitForSelector(".problems li.error");
+        await page.waitForSelector('.slider[data-name="push"]', { state: "attached" }); // the form is still there
+        await answered(page, () => page.evaluate(() => globalThis.flexwright.parts.editor.undo()));
+        await page.waitForSelector(".problems", { state: "hidden" });
+    });
+
+    test("typing in the editor", async () => {
+        await page.click("#tab-xml");
+        const line = page.locator("#editor .cm-line", { hasText: 'name="push"' });
+        await line.click({ position: { x: 4, y: 5 } });
+        await page.keyboard.press("End");
+        await answered(page, () => page.keyboard.type("<!-- typed -->"));
+        assert.match(await text(page), /<!-- typed -->/);
+        await answered(page, () => page.keyboard.press("Control+z"));
+        assert.doesNotMatch(await text(page), /<!-- typed -->/);
+    });
+
+    test("text of a file is never markup", async () => {
+        const good = await text(page);
+        await page.click("#tab-form");
+        await answered(page, () => setText(page, ['doc="amplitude of the force"', 'doc="&lt;img src=x onerror=alert(1)>&lt;script>globalThis.owned=1&lt;/script>"']));
+        assert.match(await page.textContent('.slider[data-name="push"] .doc'), /^<img src=x/);
+        assert.equal(await page.evaluate(() => [globalThis.owned, document.querySelectorAll("main img[src=x], main script").length].join()), ",0");
+        await answered(page, () => page.evaluate(() => globalThis.flexwright.parts.editor.undo()));
+        assert.equal(await text(page), good);
+    });
+
+    test("a file that another editor changes is followed", async () => {
+        const now = readFileSync(server.file, "utf8").replace("A parallel", "Followed: a parallel").replace('name="push" value="30 uN"', 'name="push" value="12 uN"');
+        if (await page.isEnabled("#save")) await page.click("#save");
+        await page.waitForFunction(() => document.querySelector("#file-state").textContent === "device.xml");
+        writeFileSync(server.file, now);
+        await page.waitForFunction((t) => globalThis.flexwright.state.text === t, now);
+        await verdict(page, "accept");
+        assert.equal(await page.textContent("#file-state"), "device.xml");
+    });
+
+    test("saving writes the text and nothing else; a conflict is asked about", async () => {
+        await answered(page, () => setText(page, ['value="12 uN"', 'value="13 uN"']));
+        assert.match(await page.textContent("#file-state"), /changed/);
+        await page.keyboard.press("Control+s");
+        await page.waitForFunction(() => document.querySelector("#file-state").textContent === "device.xml");
+        assert.equal(readFileSync(server.file, "utf8"), await text(page));
+        await answered(page, () => setText(page, ['value="13 uN"', 'value="11 uN"']));
+        const theirs = readFileSync(server.file, "utf8").replace("13 uN", "9 uN");
+        writeFileSync(server.file, theirs);
+        await page.click('button:has-text("Take the file\'s")');
+        assert.equal(await text(page), theirs);
+    });
+
+    test("the server ends and is started anew: the text survives, the page goes on", async () => {
+        page.expected = [/Failed to load resource/, /ERR_|EventSource/];
+        await answered(page, () => setText(page, ['value="9 uN"', 'value="8 uN"']));
+        const mine = await text(page);
+        await server.halt();
+        await setText(page, ['value="8 uN"', 'value="7 uN"']);
+        await page.waitForSelector('.notice.bad:has-text("does not answer")');
+        assert.equal(await text(page), mine.replace("8 uN", "7 uN"));
+        await server.restart();
+        await page.waitForSelector('.notice.bad:has-text("session is over"), .notice.bad:has-text("open the address")');
+        page.once("dialog", (d) => d.accept());
+        await page.goto(server.url);
+        await ready(page);
+        await page.waitForSelector('.notice:has-text("were not saved are back")');
+        assert.equal(await text(page), mine.replace("8 uN", "7 uN"));
+        await verdict(page, "accept");
+        page.expected = [];
+    });
+});
+
+test("without a file: the starter of `flexwright init`, judged, to be changed and downloaded", async () => {
+    const server = await serve(null);
+    const page = await open(server);
+    assert.equal(await text(page), execFileSync(program, ["init"]).toString());
+    await verdict(page, "accept");
+    const [saved] = await Promise.all([page.waitForEvent("download"), page.click("#save")]);
+    assert.equal(saved.suggestedFilename(), "my-device.xml");
+    await close(page);
+    await server.stop();
+});

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A server with a device in a directory of its own, a Chromium with one page of it, and a record of
+// everything that must not happen: errors, requests to elsewhere, refused content.
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { copyFileSync, mkdtempSync, rmSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+
+const [libraries, program, source] = ["FW_WEB_LIBRARIES", "FW_PROGRAM", "FW_SOURCE"].map((name) => {
+    if (!process.env[name]) throw new Error(`${name} is not set: run tests/web/run.sh`);
+    return process.env[name];
+});
+export { program, source };
+const require = createRequire(join(libraries, "package.json"));
+const { chromium } = require("playwright-core");
+export const axeSource = require("axe-core").source;
+
+let browser = null;
+export async function theBrowser() {
+    browser ??= await chromium.launch({ executablePath: process.env.FW_CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"] });
+    return browser;
+}
+export const closeBrowser = () => browser?.close();
+
+/** {url, port, file, directory, stop(), restart()}; device: a directory of docs/gallery, null: no file. */
+export async function serve(device, { port = 0 } = {}) {
+    const directory = mkdtempSync(join(tmpdir(), "flexwright-web-"));
+    const file = join(directory, "device.xml");
+    if (device) copyFileSync(join(source, "docs/gallery", device, "device.xml"), file);
+    const server = { directory, file, foreign: [] };
+    const start = (at) => new Promise((resolve, reject) => {
+        const child = spawn(program, ["serve", ...(device ? [file] : []), "--no-browser", ...(at ? ["--port", String(at)] : [])], { cwd: source, stdio: ["ignore", "pipe", "pipe"] });
+        server.child = child;
+        let said = "";
+        child.stdout.on("data", (d) => {
+            said += d;
+            const m = /(http:\/\/127\.0\.0\.1:(\d+)\/\S*)\n/.exec(said);
+            if (m) resolve(Object.assign(server, { url: m[1], port: Number(m[2]) }));
+        });
+        child.stderr.on("data", () => {});
+        child.on("exit", (code) => reject(new Error(`the server ended with ${code}: ${said}`)));
+    });
+    server.halt = () => new Promise((resolve) => {
+        server.child.on("exit", resolve);
+        server.child.kill("SIGTERM");
+    });
+    server.restart = () => start(server.port);
+    server.stop = async () => {
+        if (server.child.exitCode === null && server.child.signalCode === null) await server.halt();
+        rmSync(directory, { recursive: true, force: true });
+    };
+    return start(port);
+}
+
+const wrongs = []; // what must not happen, of all pages
+
+/** Opens the page of a server and waits for its first answer. */
+export async function open(server, { width = 1440, height = 900, colorScheme = "light" } = {}) {
+    const context = await (await theBrowser()).newContext({ viewport: { width, height }, colorScheme, acceptDownloads: true });
+    context.setDefaultTimeout(15000);
+    await context.addInitScript(() => {
+        globalThis.refused = [];
+        document.addEventListener("securitypolicyviolation", (e) => globalThis.refused.push(`${e.violatedDirective} ${e.blockedURI} ${e.sourceFile}:${e.lineNumber}`));
+    });
+    const page = await context.newPage();
+    page.expected = []; // errors that a test provokes
+    page.on("console", (m) => {
+        if (["error", "warning"].includes(m.type()) && !page.expected.some((x) => x.test(m.text()))) wrongs.push(`console: ${m.text()} ${m.location().url}`);
+    });
+    page.on("pageerror", (e) => wrongs.push(`exception: ${e.stack}`));
+    context.on("request", (r) => {
+        const url = new URL(r.url());
+        if (!["127.0.0.1"].includes(url.hostname) && !["blob:", "data:"].includes(url.protocol)) wrongs.push(`request to ${r.url()}`);
+    });
+    await page.goto(server.url);
+    await ready(page);
+    return page;
+}
+
+export const ready = (page) => page.waitForFunction(() => globalThis.flexwright?.state.preview && document.body.dataset.ready);
+
+export async function close(page) {
+    wrongs.push(...(await page.evaluate(() => globalThis.refused)).map((x) => `refused by the policy: ${x}`));
+    await page.context().close();
+}
+
+/** At the end of a file of tests: the browser is closed, and nothing was wrong meanwhile. */
+export async function finish() {
+    await closeBrowser();
+    assert.deepEqual(wrongs, [], "errors, refused content or requests to elsewhere");
+}
+
+/** A new answer of the server to what `act` does. */
+export async function answered(page, act) {
+    const before = await page.evaluate(() => {
+        globalThis.answers ??= 0;
+        if (!globalThis.counting) {
+            globalThis.counting = true;
+            globalThis.flexwright.on("answer", () => globalThis.answers++);
+        }
+        return globalThis.answers;
+    });
+    await act();
+    await page.waitForFunction((n) => globalThis.answers > n, before);
+}
+
+export const view = async (page, id) => {
+    await page.click(`#tab-${id}`);
+    await page.waitForSelector(`#panel-${id}:not([hidden])`);
+};
+export const text = (page) => page.evaluate(() => globalThis.flexwright.state.text);
+export const setText = (page, change) => page.evaluate((c) => {
+    const { editor } = globalThis.flexwright.parts;
+    editor.replace(editor.text.replace(c[0], c[1]));
+}, change);
+export const verdict = (page, word) => page.waitForSelector(`#banner[data-verdict="${word}"]`);
+export const computed = (page, id) => page.waitForFunction((p) => /^computed/.test(document.querySelector(`#panel-${p} .job-message`)?.textContent ?? ""), id);

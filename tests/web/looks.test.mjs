@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Broken rules, small screens, keyboard, paper, both themes.
+import assert from "node:assert/strict";
+import { existsSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, describe, test } from "node:test";
+import { axeSource, close, computed, finish, open, serve, source, text, verdict, view } from "./helper.mjs";
+
+after(finish);
+
+describe("rules and looks", () => {
+    let server, page;
+    before(async () => {
+        server = await serve("reference-six-bar");
+        writeFileSync(server.file, readFileSync(server.file, "utf8").replaceAll('gap="8 um"', 'gap="2 um"'));
+        page = await open(server, { width: 1024, height: 768 });
+    });
+    after(async () => {
+        await close(page);
+        await server.stop();
+    });
+
+    test("a rule that is broken is found, and the list goes to its place", async () => {
+        await view(page, "masks");
+        await page.waitForSelector(".violation", { timeout: 30000 });
+        const entry = page.locator('.violation:has-text("space")').first();
+        await entry.click();
+        const [place, middle, k] = await page.evaluate(() => {
+            const { view: v, result } = globalThis.flexwright.parts.masks;
+            const f = result.violations[0].findings.find((x) => x.what === "space");
+            return [[0, 1].map((i) => (f.at_um[0][i] + f.at_um[1][i]) / 2), v.toWorld(v.size[0] / 2, v.size[1] / 2), v.k];
+        });
+        assert.ok(Math.hypot(place[0] - middle[0], place[1] - middle[1]) < 0.01 && k > 3, `${place} is not in the middle, ${middle}`);
+        assert.equal(await entry.getAttribute("aria-current"), "true");
+    });
+
+    test("at 1024 pixels nothing is cut off or hidden behind another", async () => {
+        const wide = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth, ...["top", "edit", "centre", "right"].map((id) => document.getElementById(id).getBoundingClientRect().right)]);
+        assert.ok(wide[0] <= wide[1] && wide.slice(2).every((x) => x <= wide[1]), wide.join());
+    });
+
+    test("by keyboard alone: tabs, slider, views", async () => {
+        await page.focus("#tab-masks");
+        await page.keyboard.press("Home");
+        assert.equal(await page.getAttribute("#tab-motion", "aria-selected"), "true");
+        await page.keyboard.press("ArrowRight");
+        assert.equal(await page.evaluate(() => document.activeElement.id), "tab-workspace");
+        const seen = new Set();
+        for (let i = 0; i < 60; i++) {
+            await page.keyboard.press("Tab");
+            seen.add(await page.evaluate(() => document.activeElement.id || document.activeElement.getAttribute("aria-label") || document.activeElement.className.baseVal || document.activeElement.className));
+        }
+        for (const wanted of ["download", "arc, slider", "tab-form", "pose-x_m"]) assert.ok(seen.has(wanted), `${wanted} is not reached: ${[...seen].join("; ")}`);
+    });
+
+    test("on paper: picture and verdict, no controls", async () => {
+        await view(page, "motion");
+        await page.emulateMedia({ media: "print", colorScheme: "dark" });
+        assert.ok(!(await page.isVisible("#edit")) && !(await page.isVisible("#save")));
+        assert.ok(await page.isVisible("#banner"));
+        await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+        assert.equal(await page.getAttribute("html", "data-theme"), "light");
+        await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+        await page.emulateMedia({ media: "screen", colorScheme: "light" });
+    });
+
+    for (const theme of ["light", "dark"])
+        test(`no serious finding of axe in any view, ${theme}`, async () => {
+            await page.emulateMedia({ colorScheme: theme });
+            await page.waitForFunction((t) => document.documentElement.dataset.theme === t, theme);
+            await page.evaluate(axeSource);
+            const found = [];
+            for (const id of ["motion", "workspace", "modes", "assembly", "masks", "recipe", "accuracy", "xml", "about"]) {
+                if (id === "xml") await page.click("#tab-xml");
+                else if (id === "about") await page.click("#about");
+                else await view(page, id);
+                if (["modes", "assembly", "recipe"].includes(id)) await computed(page, id);
+                const result = await page.evaluate(() => globalThis.axe.run(document, { resultTypes: ["violations"] }));
+                for (const v of result.violations)
+                    if (["serious", "critical"].includes(v.impact)) found.push(`${id}: ${v.id}: ${v.nodes.slice(0, 3).map((n) => `${n.target} ${n.any[0]?.message ?? ""}`).join("; ")}`);
+            }
+            await page.keyboard.press("Escape");
+            await page.click("#tab-form");
+            assert.deepEqual(found, []);
+        });
+
+    test("every library is named with its licence", async () => {
+        const answer = await page.request.get(`http://127.0.0.1:${server.port}/licences.txt`);
+        const body = await answer.text();
+        for (const name of ["@codemirror/view", "@lezer/xml", "uplot"]) assert.ok(body.includes(`${name} `), name);
+        assert.ok(existsSync(join(source, "web/package-lock.json")));
+        assert.doesNotMatch(readFileSync(join(source, "web/package-lock.json"), "utf8"), /"resolved": "(?!https:\/\/registry\.npmjs\.org\/)/);
+    });
+});

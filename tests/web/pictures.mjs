@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The pictures of docs/page.md: tests/web/run.sh PROGRAM BUILD pictures.mjs, then in docs/pictures
+//   pngquant --nofs --force --strip --speed 1 --ext .png 256 page-*.png
+import { join } from "node:path";
+import { answered, close, closeBrowser, computed, open, serve, setText, source, verdict, view } from "./helper.mjs";
+
+const size = { width: 1440, height: 900 };
+const save = (page, name) => page.screenshot({ path: join(source, "docs/pictures", name) });
+
+const server = await serve("reference-six-bar");
+const page = await open(server, size);
+await page.waitForSelector("#banner:has-text('As fabricated')", { timeout: 30000 });
+await page.waitForTimeout(300);
+await save(page, "page-motion.png");
+
+await page.emulateMedia({ colorScheme: "dark" });
+await view(page, "workspace");
+for (const [key, value] of [["x_m", 420], ["y_m", -150], ["phi_rad", -6]]) {
+    await page.fill(`#pose-${key}`, String(value));
+    await page.press(`#pose-${key}`, "Enter");
+}
+await page.waitForTimeout(600);
+await save(page, "page-workspace.png");
+
+await page.emulateMedia({ colorScheme: "light" });
+await answered(page, () => setText(page, ['gap="8 um"/>', 'gap="2 um"/>']));
+await verdict(page, "accept");
+await view(page, "masks");
+await computed(page, "masks");
+await page.locator(".violation:has-text('space')").first().click();
+await page.waitForTimeout(600);
+await save(page, "page-masks.png");
+await close(page);
+await server.stop();
+await closeBrowser();

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The assembly problem: poses of the description before, closed joints after.
+import { h, select, setOptions } from "./dom.js";
+import { degrees, micrometres, number } from "./format.js";
+import { JobView } from "./jobs.js";
+import { Mechanism } from "./mechanism.js";
+import { zoomButtons } from "./motion.js";
+import { on, state } from "./store.js";
+
+export class Assembly {
+    constructor(holder) {
+        this.stage = h("div", { class: "stage" });
+        this.side = h("div", { class: "side-panel" });
+        holder.append(h("div", { class: "split" }, this.stage, this.side));
+        this.mechanism = new Mechanism(this.stage, { label: "Assembly: outline before, filled after." });
+        this.stage.append(zoomButtons(() => this.mechanism.view), h("div", { class: "picture-key" }, h("span", { class: "ghost-key" }), "before", h("span", { class: "after-key" }), "after"));
+        this.blend = h("input", { type: "range", min: 0, max: 100, value: 100, "aria-label": "From before to after" });
+        this.blend.addEventListener("input", () => this.#draw());
+        this.which = select("Assembly shown", [], "found", () => this.#draw());
+        const card = h("section", { class: "card" }, h("h2", {}, "Assembly"),
+            h("label", { class: "option" }, h("span", {}, "before"), this.blend, h("span", {}, "after")), this.which);
+        this.side.append(card);
+        this.view = new JobView(card, {
+            kind: "assemble", action: "Assemble", auto: true, options: () => (state.options.scene ? { scene: state.options.scene } : {}),
+            intro: "Takes the poses of the bodies as a guess and closes all joints.", render: (job, into) => this.#show(job.result, into),
+        });
+        on("preview", (p) => this.visible && this.mechanism.show(p));
+    }
+
+    shown(yes) {
+        this.visible = yes;
+        this.view.show(yes);
+        if (yes && state.preview) this.mechanism.show(state.preview);
+        if (yes) this.#draw();
+    }
+
+    #show(result, into) {
+        this.result = result;
+        const others = result.alternatives ?? [];
+        setOptions(this.which, [["found", "found assembly"], ...others.map((a, i) => [String(i), `elbow ${a.elbows_mirrored.join(", ")} mirrored`])], this.which.value);
+        this.which.hidden = !others.length;
+        const f = result.freedom ?? {};
+        into.replaceChildren(
+            h("dl", { class: "facts-list" }, [
+                ["closed", result.closed ? "yes" : "no"], ["largest gap", `${number(result.gap_before_m * 1e6, 3)} → ${number(result.gap_after_m * 1e6, 3)} µm`],
+                ["moved by", `${micrometres(result.moved_m)}, ${degrees(result.turned_rad)}`], ["iterations", `${result.iterations}, ${result.restarts} restarts`],
+                ["freedoms", `${f.dof} (${f.unknowns} coordinates, rank ${f.rank} of ${f.rows})`], ["redundant", f.redundant?.length ? f.redundant.join(", ") : "none"],
+            ].flatMap(([k, v]) => [h("dt", {}, k), h("dd", {}, v)])),
+            result.branches?.length ? h("table", { class: "plain" }, h("thead", {}, h("tr", {}, ["elbow", "guess", "found"].map((x) => h("th", { scope: "col" }, x)))),
+                h("tbody", {}, result.branches.map((b) => h("tr", {}, h("td", {}, b.elbow), h("td", {}, side(b.guess)), h("td", {}, side(b.found)))))) : "");
+        this.#draw();
+    }
+
+    #draw() {
+        const p = state.preview;
+        if (!p || !this.result) return;
+        const other = this.which.value === "found" ? null : this.result.alternatives?.[Number(this.which.value)];
+        const after = other ? other.q : this.result.after;
+        const t = Number(this.blend.value) / 100;
+        const rest = (b) => b.rest ?? [0, 0, 0];
+        const at = p.bodies.map((b) => {
+            const from = this.result.before?.[b.id] ?? rest(b);
+            const to = after?.[b.id] ?? rest(b);
+            return from.map((x, i) => x + t * (to[i] - x));
+        });
+        this.mechanism.pose(at);
+        this.mechanism.ghostAt(p.bodies.map((b) => this.result.before?.[b.id] ?? rest(b)));
+    }
+}
+
+const side = (n) => (n > 0 ? "left" : n < 0 ? "right" : "stretched");

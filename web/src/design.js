@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The design: text of the editor, changes to it by way of the server, previews of it.
+import { latest, post } from "./api.js";
+import { announce } from "./dom.js";
+import { emit, on, state } from "./store.js";
+
+let editor = null;
+let changes = Promise.resolve(); // one after the other: each needs the text that the last one made
+
+export function useEditor(e) {
+    editor = e;
+}
+
+/** changes: [{path, value}] as /api/edit takes them; one step of the history. */
+export function edit(list, words) {
+    changes = changes.then(async () => {
+        try {
+            let before, answer;
+            do { // again, where somebody has typed meanwhile
+                before = state.text;
+                answer = await post("/api/edit", { text: before, changes: list });
+            } while (state.text !== before);
+            if (answer.text !== undefined && answer.text !== null && !(answer.status && answer.status !== "ok")) {
+                editor.replace(answer.text);
+                if (words) announce(words);
+            } else refuse(answer.diagnostics?.[0]?.message ?? "the change cannot be made");
+        } catch (error) {
+            if (!error.lost) refuse(error.message);
+        }
+    });
+    return changes;
+}
+
+function refuse(message) {
+    emit("notice", { kind: "warn", text: `Not changed: ${message}` });
+    emit("text", state.text); // fields show again what the text says
+}
+
+/** A slider that is held: the value counts at once, the text gets it when it is let go. */
+export function hold(name, value) {
+    state.set[name] = value;
+    emit("change");
+}
+
+export async function letGo(name, value) {
+    await edit([{ path: name, value }]);
+    delete state.set[name];
+    emit("change");
+}
+
+/** How it is computed: {method, integrator, rtol, scene ...}; "" leaves the choice to the program. */
+export function setOptionsTogether(values) {
+    for (const [name, value] of Object.entries(values)) {
+        if (value === "") delete state.options[name];
+        else state.options[name] = value;
+    }
+    emit("options");
+    emit("change");
+}
+export const setOption = (name, value) => setOptionsTogether({ [name]: value });
+
+/** What a job or a preview of the present state is asked with. */
+export function request() {
+    const options = { ...state.options };
+    for (const name of ["rtol", "accuracy"]) if (options[name] !== undefined) options[name] = Number(options[name]);
+    return { text: state.text, set: { ...state.set }, options };
+}
+
+const ask = latest(
+    ({ body }) => post("/api/preview", body),
+    (answer, input) => take(answer, input),
+    (error) => {
+        if (error.lost) return;
+        state.stale = state.preview !== null;
+        state.diagnostics = [{ severity: "error", code: error.body?.error?.code ?? null, message: error.message, line: 0, column: 0 }];
+        emit("answer");
+    },
+);
+
+function take(answer, input) {
+    state.diagnostics = answer.diagnostics ?? [];
+    const good = answer.status === "ok";
+    if (good) {
+        state.preview = answer;
+        state.stale = false;
+        state.previewText = input.body.text;
+        emit("preview", answer);
+        requestAnimationFrame(() => setTimeout(() => {
+            state.latency.push(performance.now() - input.since);
+            if (state.latency.length > 400) state.latency.shift();
+        }));
+    } else {
+        state.stale = true;
+        if (!state.diagnostics.length) state.diagnostics = [{ severity: "error", code: null, message: answer.message ?? "this design cannot be computed", line: 0, column: 0 }];
+    }
+    emit("answer", answer);
+}
+
+export function startPreviews() {
+    let timer = 0;
+    on("change", () => {
+        clearTimeout(timer);
+        ask({ body: request(), since: performance.now() });
+    });
+    on("text", () => {
+        clearTimeout(timer); // somebody may be typing
+        timer = setTimeout(() => emit("change"), 90);
+    });
+}

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Elements without HTML text: nothing of a device's file is ever parsed as markup, and no attribute
+// is one that the content security policy forbids (styles go through the CSSOM).
+const SVG = "http://www.w3.org/2000/svg";
+
+function fill(element, attributes, children) {
+    for (const [name, value] of Object.entries(attributes ?? {})) {
+        if (value === null || value === undefined || value === false) continue;
+        if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
+        else if (name === "style") for (const [k, v] of Object.entries(value)) element.style.setProperty(k, v);
+        else if (name === "class") element.setAttribute("class", value);
+        else if (name in element && !(element instanceof SVGElement) && name !== "list" && name !== "form")
+            element[name] = value;
+        else element.setAttribute(name, value === true ? "" : value);
+    }
+    element.append(...children.flat(Infinity).filter((c) => c !== null && c !== undefined && c !== false));
+    return element;
+}
+
+/** h("p", {class: "note"}, "text", child): an HTML element. */
+export const h = (name, attributes, ...children) => fill(document.createElement(name), attributes, children);
+
+/** s("path", {d}): an SVG element. */
+export const s = (name, attributes, ...children) => fill(document.createElementNS(SVG, name), attributes, children);
+
+export const $ = (id) => document.getElementById(id);
+
+const ICONS = {
+    undo: "M9 14 4 9l5-5M4 9h10a6 6 0 0 1 0 12h-3",
+    redo: "m15 14 5-5-5-5M20 9H10a6 6 0 0 0 0 12h3",
+    save: "M5 3h11l3 3v15H5zM8 3v6h7V3M8 21v-7h8v7",
+    download: "M12 3v12m-5-5 5 5 5-5M4 20h16",
+    play: "M7 4v16l13-8z",
+    pause: "M7 4v16M17 4v16",
+    fit: "M4 9V4h5M20 9V4h-5M4 15v5h5M20 15v5h-5",
+    plus: "M12 5v14M5 12h14",
+    minus: "M5 12h14",
+    ruler: "m3 17 14-14 4 4L7 21zM8 12l2 2M11 9l3 3M14 6l2 2",
+    close: "M6 6l12 12M18 6 6 18",
+    sun: "M12 8a4 4 0 1 0 0 8 4 4 0 0 0 0-8M12 2v2M12 20v2M2 12h2M20 12h2M5 5l1.5 1.5M17.5 17.5 19 19M5 19l1.5-1.5M17.5 6.5 19 5",
+    moon: "M20 14A8.5 8.5 0 0 1 10 4a8.5 8.5 0 1 0 10 10z",
+    info: "M12 11v6M12 7.5v.5M12 3a9 9 0 1 0 0 18 9 9 0 0 0 0-18",
+    check: "m5 12 5 5L20 7",
+    cross: "M6 6l12 12M18 6 6 18",
+    question: "M9 9a3 3 0 1 1 4.5 2.6c-1 .6-1.5 1.2-1.5 2.4M12 17.5v.5",
+    warn: "M12 4 2.5 20h19zM12 10v5M12 17.5v.3",
+    open: "M14 4h6v6M20 4l-9 9M18 14v6H4V6h6",
+    print: "M7 8V3h10v5M7 17H4V8h16v9h-3M7 14h10v7H7z",
+    target: "M12 5a7 7 0 1 0 0 14 7 7 0 0 0 0-14M12 2v4M12 18v4M2 12h4M18 12h4",
+};
+
+/** A line icon of 24 units; it says nothing by itself (aria-hidden). */
+export function icon(name) {
+    return s("svg", { viewBox: "0 0 24 24", class: "icon", "aria-hidden": "true" }, s("path", { d: ICONS[name] }));
+}
+
+/** A button with an icon; its label is text (shown) or a name for assistive programs (hidden). */
+export function button(label, { icon: name, hidden = false, ...attributes } = {}, onclick) {
+    return h(
+        "button",
+        { type: "button", title: hidden ? label : null, "aria-label": hidden ? label : null, onclick, ...attributes },
+        name ? icon(name) : null,
+        hidden ? null : h("span", {}, label),
+    );
+}
+
+/** <select> of [value, text] pairs. */
+export function select(label, options, value, onchange, attributes) {
+    const box = h("select", { "aria-label": label, onchange: () => onchange(box.value), ...attributes });
+    setOptions(box, options, value);
+    return box;
+}
+
+export function setOptions(box, options, value) {
+    const key = JSON.stringify(options);
+    if (box.dataset.key !== key) {
+        box.dataset.key = key;
+        box.replaceChildren(...options.map(([v, text, title]) => h("option", { value: v, title }, text)));
+    }
+    box.value = value;
+    if (box.selectedIndex < 0 && options.length) box.selectedIndex = 0;
+}
+
+/** Puts text into a live region of the page, so that it is read aloud once. */
+export function announce(text) {
+    $("announce").textContent = text;
+}

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The form: the tree of the text's elements, each with the attributes that the description table has
+// for it. It holds nothing: every change goes to the text, and the form is made from the text again.
+import { edit, hold, letGo } from "./design.js";
+import { button, h, setOptions } from "./dom.js";
+import { number, splitQuantity } from "./format.js";
+import { parse, walk } from "./model.js";
+import { emit, on, state } from "./store.js";
+
+let nextId = 0;
+
+export class Form {
+    constructor(holder) {
+        this.opened = new Set();
+        this.fields = new Map(); // path of an attribute -> {refresh(element)}
+        this.sliders = h("div", { class: "sliders" });
+        this.tree = h("div", { class: "tree" });
+        holder.append(
+            h("section", { class: "card", "aria-label": "Parameters" }, h("h2", {}, "Parameters"), this.sliders),
+            h("section", { class: "card", "aria-label": "Elements" }, h("h2", {}, "Description"), this.tree));
+        on("text", () => this.update());
+        on("preview", () => this.#bounds());
+    }
+
+    start(table) {
+        this.rows = new Map(table.elements.map((e) => [e.name, e]));
+        this.update();
+    }
+
+    row(name) {
+        return this.rows.get(name) ?? { name, attributes: [], sentence: "" };
+    }
+
+    update() {
+        if (!this.rows) return;
+        const root = parse(state.text, (name) => this.rows.get(name)?.key ?? null);
+        if (!root) return; // the last good form stays while the text is no XML
+        const shape = JSON.stringify([...walk(root)].map((e) => [e.path, [...e.attributes.keys()]]));
+        this.root = root;
+        this.places = new Map([...walk(root)].map((e) => [e.path, e]));
+        if (shape !== this.shape) {
+            this.shape = shape;
+            this.#build();
+        } else for (const field of this.fields.values()) field.refresh();
+    }
+
+    #build() {
+        const focus = document.activeElement?.closest?.("[data-path]")?.dataset.path;
+        this.fields.clear();
+        this.#parameters();
+        this.tree.replaceChildren(this.#element(this.root, true));
+        if (focus) document.querySelector(`[data-path="${CSS.escape(focus)}"]`)?.focus({ preventScroll: true });
+    }
+
+    // ---- parameters ----
+
+    #parameters() {
+        const list = this.root.children.filter((c) => c.name === "parameter");
+        this.sliders.replaceChildren(...list.map((p) => this.#slider(p)));
+        if (!list.length) this.sliders.append(h("p", { class: "empty" }, "This file declares no parameter. One with min and max becomes a slider: <parameter name=\"t\" value=\"10 um\" min=\"5 um\" max=\"20 um\"/>."));
+        this.#bounds();
+    }
+
+    #slider(element) {
+        const id = `p${++nextId}`;
+        const path = element.path;
+        const name = () => this.places.get(path)?.attributes.get("name")?.value ?? "";
+        const text = (a) => this.places.get(path)?.attributes.get(a)?.value;
+        const label = h("label", { for: `${id}-text` }, name());
+        const value = h("input", { id: `${id}-text`, class: "value", autocomplete: "off", spellcheck: false, "data-path": `${path}/@value`, "aria-describedby": `${id}-doc` });
+        const range = h("input", { type: "range", "aria-label": `${name()}, slider`, "data-parameter": name(), "aria-describedby": `${id}-doc` });
+        const doc = h("p", { id: `${id}-doc`, class: "doc" });
+        const ends = h("div", { class: "ends", "aria-hidden": "true" }, h("span"), h("span"));
+        let unit = "";
+        const shown = () => `${Number(Number(range.value).toPrecision(12))}${unit ? ` ${unit}` : ""}`;
+        range.addEventListener("input", () => {
+            value.value = shown();
+            range.setAttribute("aria-valuetext", shown());
+            hold(name(), shown());
+        });
+        range.addEventListener("change", () => letGo(name(), shown()));
+        enter(value, () => text("value") ?? "", (v) => edit([{ path: `${path}/@value`, value: v }], `${name()} is ${v}`));
+        const holder = h("div", { class: "slider", "data-name": name() }, h("div", { class: "slider-head" }, label, value), range, ends, doc);
+        const refresh = () => {
+            label.textContent = name();
+            doc.textContent = text("doc") ?? "";
+            const present = state.set[name()] ?? text("value") ?? "";
+            if (document.activeElement !== value) value.value = present;
+            const b = bounds(name(), present, text("min"), text("max"));
+            range.hidden = ends.hidden = !b;
+            if (!b) return;
+            unit = b.unit;
+            range.min = b.min;
+            range.max = b.max;
+            range.step = b.step;
+            if (!(name() in state.set)) range.value = b.value;
+            range.setAttribute("aria-valuetext", present);
+            ends.firstChild.textContent = `${number(b.min, 4)} ${unit}`;
+            ends.lastChild.textContent = `${number(b.max, 4)} ${unit}`;
+        };
+        this.fields.set(`${path} slider`, { refresh });
+        refresh();
+        return holder;
+    }
+
+    #bounds() {
+        for (const [key, field] of this.fields) if (key.endsWith(" slider")) field.refresh();
+    }
+
+    // ---- elements ----
+
+    #element(element, top = false) {
+        const row = this.row(element.name);
+        const path = element.path;
+        const body = h("div", { class: "element-body" });
+        const details = h("details", { class: "element", open: top || this.opened.has(path) },
+            h("summary", {}, h("span", { class: "element-name" }, element.name), h("span", { class: "element-id" }, title(element)),
+                h("span", { class: "element-note" }, summary(element))),
+            body);
+        let filled = false;
+        const fillIt = () => {
+            if (filled) return;
+            filled = true;
+            body.append(...this.#attributes(element, row), ...this.#children(element), this.#tools(element, row, top));
+        };
+        details.addEventListener("toggle", () => {
+            if (details.open) {
+                fillIt();
+                this.opened.add(path);
+            } else this.opened.delete(path);
+        });
+        if (details.open) fillIt();
+        return details;
+    }
+
+    #children(element) {
+        return element.children.filter((c) => !(c.name === "parameter" && element === this.root)).map((c) => this.#element(c));
+    }
+
+    #attributes(element, row) {
+        const present = row.attributes.filter((a) => element.attributes.has(a.name));
+        const absent = row.attributes.filter((a) => !element.attributes.has(a.name));
+        const out = [h("p", { class: "sentence" }, row.sentence), ...present.map((a) => this.#field(element.path, a))];
+        if (absent.length) {
+            const more = h("details", { class: "more" }, h("summary", {}, `${absent.length} more ${absent.length === 1 ? "attribute" : "attributes"}`));
+            more.addEventListener("toggle", () => more.childElementCount === 1 && more.append(...absent.map((a) => this.#field(element.path, a))), { once: true });
+            out.push(more);
+        }
+        return out;
+    }
+
+    #field(path, attribute) {
+        const id = `f${++nextId}`;
+        const full = `${path}/@${attribute.name}`;
+        const now = () => this.places.get(path)?.attributes.get(attribute.name)?.value;
+        const change = (v) => edit([{ path: full, value: v === "" && !attribute.required ? null : v }], `${attribute.name} is ${v}`);
+        const input = attribute.choices?.length ? choice(id, attribute, change) : h("input", {
+            id, autocomplete: "off", spellcheck: false, placeholder: attribute.default ?? "", "data-path": full, "aria-describedby": `${id}-help`,
+        });
+        if (!attribute.choices?.length) enter(input, () => now() ?? "", change);
+        const names = attribute.refers_to ? this.#suggest(input, `${id}-names`, attribute) : null;
+        input.required = attribute.required;
+        const refresh = () => {
+            if (document.activeElement !== input || input.tagName === "SELECT") input.value = now() ?? "";
+        };
+        this.fields.set(full, { refresh });
+        refresh();
+        return h("div", { class: "field" },
+            h("label", { for: id }, attribute.name, attribute.required ? h("span", { class: "required", title: "required" }, "*") : null),
+            input, names,
+            h("p", { id: `${id}-help`, class: "help" }, help(attribute)));
+    }
+
+    /** Ids that a reference may name, made when the field is entered. */
+    #suggest(input, id, attribute) {
+        const list = h("datalist", { id });
+        input.setAttribute("list", id);
+        input.addEventListener("focus", () => {
+            const ids = [...walk(this.root)].filter((e) => e.id && this.row(e.name).id_space === attribute.refers_to).map((e) => e.id);
+            list.replaceChildren(...[...new Set([...ids, ...(attribute.ground ? ["ground"] : [])])].map((x) => h("option", { value: x })));
+        });
+        return list;
+    }
+
+    #tools(element, row, top) {
+        const add = h("select", { "aria-label": `Add an element to ${element.name}`, class: "add" });
+        const kinds = [...this.rows.values()].filter((r) => mayStandIn(r, element.name) && !(r.once && element.children.some((c) => c.name === r.name)));
+        setOptions(add, [["", "Add…"], ...kinds.map((r) => [r.name, r.name, r.sentence])], "");
+        add.addEventListener("change", () => {
+            const kind = this.rows.get(add.value);
+            add.value = "";
+            if (kind) this.#add(element, kind);
+        });
+        return h("div", { class: "element-tools" },
+            kinds.length ? add : null,
+            button("Show in XML", { icon: "open", class: "quiet" }, () => {
+                const e = this.places.get(element.path);
+                emit("show-xml", [e.from, e.to]);
+            }),
+            top ? null : button("Remove", { icon: "close", class: "quiet" }, () => edit([{ remove: element.path }], `${element.name} removed`)));
+    }
+
+    #add(element, kind) {
+        const attributes = {};
+        for (const a of kind.attributes) if (a.required) attributes[a.name] = a.name === kind.key ? freeId(this.root, kind) : starter(a);
+        this.opened.add(element.path);
+        edit([{ add: element.path, element: kind.name, attributes }], `${kind.name} added`);
+    }
+}
+
+// ---- helpers ----
+
+function enter(input, present, commit) {
+    input.addEventListener("input", () => (input.dataset.dirty = "yes"));
+    input.addEventListener("blur", () => delete input.dataset.dirty);
+    input.addEventListener("keydown", (e) => {
+        if (e.key === "Enter") input.blur();
+        if (e.key === "Escape") {
+            input.value = present();
+            input.blur();
+            e.preventDefault();
+        }
+        if (e.key === "ArrowUp" || e.key === "ArrowDown") {
+            const q = splitQuantity(input.value);
+            if (!q) return;
+            e.preventDefault();
+            const digits = (/\.(\d*)/.exec(input.value)?.[1] ?? "").length;
+            const step = 10 ** -digits * (e.shiftKey ? 10 : 1) * (e.key === "ArrowUp" ? 1 : -1);
+            input.value = `${(q.value + step).toFixed(digits)}${q.unit ? ` ${q.unit}` : ""}`;
+            commit(input.value);
+        }
+    });
+    input.addEventListener("change", () => {
+        delete input.dataset.dirty;
+        const v = input.value.trim();
+        if (v !== present()) commit(v);
+    });
+}
+
+function choice(id, attribute, change) {
+    const box = h("select", { id, "data-path": "", "aria-describedby": `${id}-help`, onchange: () => change(box.value) });
+    setOptions(box, [...(attribute.required ? [] : [["", attribute.default ? `${attribute.default} (default)` : "–"]]), ...attribute.choices.map((c) => [c, c])], "");
+    return box;
+}
+
+function help(a) {
+    const facts = [];
+    if (a.unit) facts.push(a.unit);
+    else if (a.type) facts.push(a.type);
+    const low = a.minimum ?? null;
+    const high = a.maximum ?? null;
+    const say = (v) => (typeof v === "number" ? number(v) : v);
+    if (low !== null && high !== null) facts.push(`${say(low)} to ${say(high)}`);
+    else if (low !== null) facts.push(`at least ${say(low)}`);
+    else if (high !== null) facts.push(`at most ${say(high)}`);
+    if (a.default) facts.push(`default ${a.default}`);
+    return [h("span", { class: "facts" }, facts.join(" · ")), facts.length ? " " : "", a.sentence ?? ""];
+}
+
+const mayStandIn = (row, parent) => row.parent === parent;
+
+function title(element) {
+    return element.id ?? "";
+}
+
+function summary(element) {
+    const shown = [...element.attributes].filter(([name, a]) => a.value !== element.id && name !== "xmlns").slice(0, 4);
+    return shown.map(([name, a]) => `${name} ${a.value}`).join(", ");
+}
+
+function freeId(root, kind) {
+    const taken = new Set([...walk(root)].map((e) => e.id));
+    for (let i = 1; ; i++) if (!taken.has(`${kind.name}-${i}`)) return `${kind.name}-${i}`;
+}
+
+function starter(a) {
+    if (a.choices?.length) return a.choices[0];
+    if (a.unit) return `0 ${a.unit}`;
+    return a.type === "number" ? "0" : "";
+}
+
+/** Range of a slider in the unit of the value; from the last preview where it knows it. */
+function bounds(name, present, min, max) {
+    const q = splitQuantity(present);
+    const low = splitQuantity(min ?? "");
+    const high = splitQuantity(max ?? "");
+    if (q && low && high && low.unit === high.unit && low.unit === q.unit) return finish(low.value, high.value, q.value, q.unit);
+    const known = state.preview?.parameters?.find((p) => p.name === name);
+    if (!known || known.minimum === null || known.maximum === null || known.minimum === undefined || known.maximum === undefined) return null;
+    return finish(known.minimum, known.maximum, known.value, known.unit);
+}
+
+function finish(min, max, value, unit) {
+    if (!(max > min)) return null;
+    const raw = (max - min) / 240;
+    const power = 10 ** Math.floor(Math.log10(raw));
+    const step = [1, 2, 5, 10].map((f) => f * power).find((f) => f >= raw * 0.999);
+    return { min, max, value, unit, step: Number(step.toPrecision(6)) };
+}

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Long work: jobs of the server, with progress and a way to end them. A JobView is the part of a tab
+// that is filled by a job: it says what is missing, shows progress, keeps the last good result while
+// the next one is made, and marks it when the text has moved on.
+import { get, onConnection, post, remove } from "./api.js";
+import { announce, button, h } from "./dom.js";
+import { duration } from "./format.js";
+import { emit, on, state } from "./store.js";
+
+const POLL_MS = 1000;
+const ENDED = new Set(["done", "failed", "cancelled"]);
+export const jobs = new Map(); // id -> job, as last heard of
+const waiting = new Map(); // id -> function that looks at it again
+
+/** Called for every `job` event of the server's stream. */
+export function heard(event) {
+    const job = jobs.get(event.id);
+    if (!job) return;
+    Object.assign(job, event);
+    emit("jobs", job);
+    waiting.get(event.id)?.();
+}
+
+onConnection((error) => {
+    if (error) for (const look of waiting.values()) look();
+});
+
+/** Until the server says something of a job, or a while has passed. */
+const news = (id) => new Promise((resolve) => {
+    const timer = setTimeout(resolve, POLL_MS);
+    waiting.set(id, () => {
+        clearTimeout(timer);
+        resolve();
+    });
+});
+
+/** Starts a job and waits for its end; onprogress(job). Throws when it could not be started. */
+export async function run(kind, { text = state.text, options = {}, onprogress, signal } = {}) {
+    const { id } = await post("/api/jobs", { kind, text, set: { ...state.set }, options });
+    const job = { id, kind, state: "queued", seconds: 0, stage: null };
+    jobs.set(id, job);
+    const cancel = () => waiting.get(id)?.();
+    signal?.addEventListener("abort", cancel);
+    emit("jobs", job);
+    try {
+        while (!ENDED.has(job.state)) {
+            if (!signal?.aborted) await news(id);
+            if (signal?.aborted) {
+                forget(job);
+                job.state = "cancelled";
+            } else Object.assign(job, await get(`/api/jobs/${id}`));
+            onprogress?.(job);
+            emit("jobs", job);
+        }
+        return job;
+    } catch (error) {
+        if (!error.lost) forget(job);
+        throw error;
+    } finally {
+        waiting.delete(id);
+        signal?.removeEventListener("abort", cancel);
+    }
+}
+
+/** Ends a job, if it has not ended, and forgets it with its files on the server. */
+export function forget(job) {
+    if (!job || !jobs.delete(job.id)) return;
+    remove(`/api/jobs/${job.id}`).catch(() => {}); // it is gone either way
+}
+
+export const fileOf = (job, path) => `/api/jobs/${job.id}/files/${path.split("/").map(encodeURIComponent).join("/")}`;
+export const hasFile = (job, path) => job.files?.some((f) => f.path === path) ?? false;
+
+/** "make it of a rejected design, too": {label, options()} of a job that makes masks or recipes. */
+export function forceTick(view) {
+    const tick = h("input", { type: "checkbox" });
+    tick.addEventListener("change", () => view().run());
+    const label = h("label", { class: "force-row", hidden: true }, tick, h("span", {}, "though it is rejected (marked so)"));
+    on("preview", (p) => (label.hidden = p.verdict?.verdict !== "reject" && !tick.checked));
+    return { label, options: () => (tick.checked ? { force: true } : {}) };
+}
+
+// One job runs at a time. What nobody has asked for gives way to what somebody waits for, and comes again.
+const background = new Set();
+export function giveWay() {
+    for (const view of background) view.giveWay();
+}
+
+const AUTO_MS = 500; // an automatic job waits until nothing has changed for so long
+
+export class JobView {
+    /**
+     * kind, options(): of the job; intro: what it gives, shown while there is nothing; action: label of
+     * the button; render(job, holder): fills the holder, may be async; auto: runs by itself while shown,
+     * when nothing has changed for `quiet` ms; humble: then it gives way to other jobs.
+     */
+    constructor(holder, { kind, options = () => ({}), intro, action, render, auto = false, accept, quiet = AUTO_MS, humble = false }) {
+        Object.assign(this, { kind, options, action, render, auto, accept, quiet });
+        if (humble) background.add(this);
+        this.humble = humble;
+        this.shown = false;
+        this.job = null;
+        this.forText = null;
+        this.control = null;
+        this.message = h("span", { class: "job-message" });
+        this.start = button(action, { icon: "target", class: "primary" }, () => this.run());
+        this.cancel = button("Cancel", { icon: "close", hidden: false, class: "cancel" }, () => this.control?.abort());
+        this.bar = h("div", { class: "job-bar" }, this.start, h("progress", { "aria-label": `${action}: progress` }), this.message, this.cancel);
+        this.progress = this.bar.querySelector("progress");
+        this.intro = h("p", { class: "empty" }, intro);
+        this.errors = h("div", { class: "job-errors", role: "status" });
+        this.content = h("div", { class: "job-content" });
+        holder.append(this.bar, this.errors, this.intro, this.content);
+        this.#look();
+        on("text", () => this.#moved());
+        on("options", () => this.#moved());
+    }
+
+    /** Shown or hidden with its tab. */
+    show(shown) {
+        this.shown = shown;
+        if (shown) this.#moved();
+    }
+
+    get #key() {
+        return JSON.stringify([state.text, this.options()]);
+    }
+    get stale() {
+        return this.job !== null && this.forText !== this.#key;
+    }
+
+    #moved() {
+        this.#look();
+        const auto = typeof this.auto === "function" ? this.auto() : this.auto;
+        if (!auto || !this.shown || this.#key === this.forText || this.#key === this.tried) return;
+        clearTimeout(this.timer);
+        this.timer = setTimeout(() => {
+            if (this.shown && this.#key !== this.forText && !state.stale) this.run(true);
+        }, this.quiet);
+    }
+
+    giveWay() {
+        if (!this.control || !this.byItself) return;
+        this.gaveWay = true;
+        this.control.abort();
+    }
+
+    async run(byItself = false) {
+        this.control?.abort();
+        this.gaveWay = false;
+        this.byItself = byItself;
+        if (!this.humble) giveWay();
+        const control = (this.control = new AbortController());
+        const key = (this.tried = this.#key);
+        this.errors.replaceChildren();
+        this.working = { state: "queued", seconds: 0 };
+        this.#look();
+        const begun = performance.now();
+        const clock = setInterval(() => this.#look(performance.now() - begun), 200);
+        try {
+            const job = await run(this.kind, { options: this.options(), signal: control.signal, onprogress: (j) => (this.working = j) });
+            if (control !== this.control) return forget(job);
+            await this.#ended(job, key);
+        } catch (error) {
+            if (control === this.control) this.#failed([error.message]);
+        } finally {
+            clearInterval(clock);
+            if (control === this.control) {
+                this.working = null;
+                this.control = null;
+                this.#look();
+                this.#moved();
+            }
+        }
+    }
+
+    async #ended(job, key) {
+        if (job.state === "cancelled" && this.gaveWay) {
+            this.tried = null; // it comes again when the others are done
+            return;
+        }
+        if (job.state === "cancelled") {
+            this.#failed(["cancelled"]);
+            announce(`${this.action}: cancelled`);
+            return;
+        }
+        const good = job.state === "done" && (this.accept ? this.accept(job) : job.result !== null);
+        if (!good) {
+            this.#failed(job.messages?.length ? job.messages : [`ended with status ${job.exit_status ?? "?"}`]);
+            return forget(job);
+        }
+        forget(this.job);
+        this.job = job;
+        this.forText = key;
+        this.content.hidden = false;
+        await this.render(job, this.content);
+        announce(`${this.action}: done in ${duration(job.seconds)}`);
+    }
+
+    #failed(messages) {
+        const said = messages.filter((m) => !/^\s*\d*\s*\|/.test(m)); // without the lines of the text below a message
+        this.errors.replaceChildren(h("ul", { class: "messages" }, said.map((m) => h("li", {}, m))));
+    }
+
+    #look(ms = 0) {
+        const busy = Boolean(this.working);
+        this.start.hidden = busy;
+        this.start.classList.toggle("primary", this.job === null || this.stale);
+        this.progress.hidden = this.cancel.hidden = !busy;
+        this.intro.hidden = this.job !== null || busy;
+        this.content.classList.toggle("stale", this.stale);
+        this.bar.classList.toggle("busy", busy);
+        if (busy) {
+            const j = this.working;
+            const seconds = Math.max(j.seconds ?? 0, ms / 1000);
+            this.message.textContent = `${j.stage ?? (j.state === "queued" ? "waiting" : "working")} · ${seconds.toFixed(1)} s`;
+        } else if (this.job) {
+            this.message.textContent = this.stale ? "the description has changed since" : `computed in ${duration(this.job.seconds)}`;
+        } else this.message.textContent = "";
+    }
+}

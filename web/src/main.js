@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Puts the page together: session, file, editor, form, views, verdict.
+import { about } from "./about.js";
+import { Accuracy } from "./accuracy.js";
+import { get, onConnection, openSession } from "./api.js";
+import { download } from "./archive.js";
+import { Assembly } from "./assembly.js";
+import { startPreviews, useEditor } from "./design.js";
+import { $, button, h, s } from "./dom.js";
+import { Editor } from "./editor.js";
+import { follow, openText, save, startFile } from "./file.js";
+import { Form } from "./form.js";
+import { heard } from "./jobs.js";
+import { Masks } from "./masks.js";
+import { Modes } from "./modes.js";
+import { Motion } from "./motion.js";
+import { connection, notice } from "./notices.js";
+import { Recipe } from "./recipe.js";
+import { emit, on, state } from "./store.js";
+import { makeTabs } from "./tabs.js";
+import { startTheme, themeButton } from "./theme.js";
+import { Verdict } from "./verdict.js";
+import { Workspace } from "./workspace.js";
+
+startTheme();
+const parts = {};
+
+// ---- the header ----
+
+function header() {
+    const mark = s("svg", { viewBox: "0 0 32 32", class: "mark", "aria-hidden": "true" },
+        s("path", { d: "M5 24h6M21 8h6", class: "mark-body" }), s("path", { d: "M11 24c7 0 9.5-3 9.5-7.5S17 9 13.5 11.5 12.5 19 17 18.5 20 8 22 8", class: "mark-hinge" }));
+    parts.device = h("span", { class: "device-name", id: "device-name" });
+    parts.file = h("span", { class: "file-state", id: "file-state" });
+    parts.undo = button("Undo", { icon: "undo", hidden: true, id: "undo" }, () => parts.editor.undo());
+    parts.redo = button("Redo", { icon: "redo", hidden: true, id: "redo" }, () => parts.editor.redo());
+    parts.open = button("Open", { icon: "open", id: "open" }, () => openText(parts.editor));
+    parts.open.hidden = true;
+    parts.save = button("Save", { icon: "save", id: "save" }, () => save(parts.editor));
+    $("top").append(
+        h("h1", { class: "brand" }, mark, h("span", {}, "Flexwright")), parts.device, parts.file, h("span", { class: "space" }),
+        parts.undo, parts.redo, parts.open, parts.save,
+        button("Plan and download", { icon: "download", id: "download", class: "primary" }, download),
+        button("Print", { icon: "print", hidden: true, class: "quiet" }, () => window.print()), themeButton(),
+        button("About", { icon: "info", hidden: true, class: "quiet", id: "about" }, about));
+}
+
+function headerState() {
+    const [undos, redos] = parts.editor.depths;
+    parts.undo.disabled = undos === 0;
+    parts.redo.disabled = redos === 0;
+    const changed = state.file === null || state.text !== state.file.text;
+    parts.save.disabled = state.file === null ? false : !changed || state.file.writable === false;
+    parts.file.textContent = state.file === null ? "not a file" : `${state.file.name}${changed ? ", changed" : ""}`;
+    parts.file.classList.toggle("changed", changed);
+    document.title = `${changed && state.file ? "• " : ""}${state.preview?.name ?? "Flexwright"} – Flexwright`;
+}
+
+// ---- the three areas ----
+
+function editArea() {
+    const form = h("div", { class: "form-holder" });
+    const xml = h("div", { class: "xml-holder" });
+    const editor = h("div", { class: "editor", id: "editor" });
+    const list = h("div", { class: "xml-problems" });
+    xml.append(editor, list);
+    parts.editTabs = makeTabs("Description", [{ id: "form", label: "Form", panel: form }, { id: "xml", label: "XML", panel: xml }],
+        { onselect: (id) => document.body.classList.toggle("text-shown", id === "xml") });
+    $("edit").append(parts.editTabs.bar, form, xml);
+    parts.editor = new Editor(editor, {
+        onchange: (text) => {
+            state.text = text;
+            emit("text", text);
+            headerState();
+        },
+    });
+    useEditor(parts.editor);
+    parts.form = new Form(form);
+    parts.editTabs.select("form");
+    on("answer", () => parts.editor.mark(state.diagnostics.filter((d) => d.in_text !== false)));
+}
+
+function views() {
+    const names = [["motion", "Motion", Motion], ["workspace", "Workspace", Workspace], ["modes", "Modes", Modes], ["assembly", "Assembly", Assembly],
+        ["masks", "Masks", Masks], ["recipe", "Recipe", Recipe], ["accuracy", "Accuracy", Accuracy]];
+    const panels = names.map(([id, label]) => ({ id, label, panel: h("div", { class: `view view-${id}` }) }));
+    const tabs = makeTabs("Views", panels, {
+        onselect: (id) => {
+            for (const [name] of names) parts[name]?.shown?.(name === id);
+        },
+    });
+    $("centre").append(tabs.bar, ...panels.map((p) => p.panel));
+    names.forEach(([id, , View], i) => (parts[id] = new View(panels[i].panel)));
+    tabs.select("motion");
+    parts.tabs = tabs;
+}
+
+// ---- keys ----
+
+document.addEventListener("keydown", (e) => {
+    if (!(e.ctrlKey || e.metaKey)) return;
+    const inEditor = e.composedPath().some((x) => x === $("editor"));
+    if (e.key === "s") {
+        e.preventDefault();
+        save(parts.editor);
+    } else if (!inEditor && e.key.toLowerCase() === "z") {
+        if (document.activeElement?.dataset.dirty) return; // a field that is being typed in undoes its own letters
+        e.preventDefault();
+        parts.editor[e.shiftKey ? "redo" : "undo"]();
+    } else if (!inEditor && e.key === "y") {
+        e.preventDefault();
+        parts.editor.redo();
+    }
+});
+
+window.addEventListener("beforeunload", (e) => {
+    if (state.file && state.text !== state.file.text) e.preventDefault();
+});
+
+document.addEventListener("jump", (e) => {
+    parts.editTabs.select("xml");
+    parts.editor.jump(e.detail.line, e.detail.column);
+});
+on("show-xml", ([from, to]) => {
+    parts.editTabs.select("xml");
+    parts.editor.select(from, to);
+});
+
+// ---- start ----
+
+const MOST_WAIT_MS = 30000;
+
+function listen(wait = 1500) {
+    const stream = new EventSource("/api/events");
+    stream.addEventListener("open", () => (wait = 1500));
+    stream.addEventListener("file", () => follow(parts.editor));
+    stream.addEventListener("job", (e) => heard(JSON.parse(e.data)));
+    stream.addEventListener("error", () => {
+        if (stream.readyState !== EventSource.CLOSED) return;
+        setTimeout(async () => {
+            try {
+                await openSession();
+                listen(Math.min(2 * wait, MOST_WAIT_MS)); // four pages may listen; this one may be the fifth
+            } catch (error) {
+                if (error.status === 0) setTimeout(listen, wait);
+            }
+        }, wait);
+    });
+}
+
+async function start() {
+    header();
+    editArea();
+    views();
+    parts.verdict = new Verdict($("right"));
+    on("preview", (p) => {
+        parts.device.textContent = p.name;
+        headerState();
+    });
+    on("file", headerState);
+    on("notice", notice);
+    onConnection(connection);
+    startPreviews();
+    state.session = await openSession();
+    state.table = await get("/api/table");
+    parts.form.start(state.table);
+    parts.motion.start(state.table);
+    parts.open.hidden = state.session.file !== null;
+    await startFile(parts.editor);
+    headerState();
+    listen();
+    document.body.dataset.ready = "yes";
+}
+
+start().catch((error) => {
+    if (error.lost) connection(error);
+    else {
+        notice({ kind: "bad", text: `The page could not start: ${error.message}` });
+        throw error;
+    }
+});
+
+// for the tests of the page, which look and do not touch
+globalThis.flexwright = { state, parts, on };

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The device as a picture that moves: real outlines of bodies, flexures bent between them, hinges
+// coloured and numbered by how much of their limit they use, loads as arrows.
+import { scale } from "./colours.js";
+import { h, s } from "./dom.js";
+import { percent } from "./format.js";
+import { Bend, displacement, moved } from "./outline.js";
+import { scaleBar, Viewport } from "./viewport.js";
+
+const REST = [0, 0, 0];
+let count = 0;
+
+const grown = ([x0, y0, x1, y1], share) => {
+    const [dx, dy] = [(x1 - x0) * share, (y1 - y0) * share];
+    return [x0 - dx, y0 - dy, x1 + dx, y1 + dy];
+};
+
+/** Row of a motion, x, y, phi of body after body, as poses in the order of the preview's bodies. */
+export const posesOf = (preview, row) => preview.bodies.map((b, i) => (b.fixed ? REST : row.slice(3 * i, 3 * i + 3)));
+export const restOf = (preview) => preview.bodies.map((b) => b.rest ?? REST);
+
+const lineOf = (text) => (text ? text.slice(1).split("L").map((p) => p.split(" ").map(Number)) : null);
+
+const place = (pose) =>
+    `translate(${(pose[0] * 1e6).toFixed(3)} ${(pose[1] * 1e6).toFixed(3)}) rotate(${((pose[2] * 180) / Math.PI).toFixed(5)})`;
+
+export class Mechanism {
+    /** holder: an element that gets the picture; label: its name for assistive programs; around: room for what
+     *  moves, as a share of the device */
+    constructor(holder, { label, onhinge, pan, around = 0 } = {}) {
+        this.id = `mechanism${++count}`;
+        this.onhinge = onhinge;
+        this.around = around;
+        this.svg = s("svg", { class: "mechanism" });
+        holder.append(this.svg);
+        this.view = new Viewport(this.svg, { label, pan, onview: () => this.#resize() });
+        this.svg.prepend(this.#defs());
+        this.ghost = s("g", { class: "ghost" });
+        this.under = s("g", { class: "under" });
+        this.parts = s("g", { class: "parts" });
+        this.above = s("g", { class: "above" });
+        this.view.world.append(this.under, this.ghost, this.parts, this.above);
+        this.labels = s("g", { class: "labels" });
+        this.arrows = s("g", { class: "arrows" });
+        this.bar = s("g", { class: "scale-bar", "aria-hidden": "true" });
+        this.view.overlay.append(this.arrows, this.labels, this.bar);
+        this.bodies = [];
+        this.flexures = [];
+        this.pins = [];
+        this.loads = [];
+        this.q = null;
+    }
+
+    #defs() {
+        return s("defs", {},
+            s("pattern", { id: `${this.id}-over`, width: 7, height: 7, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
+                s("rect", { width: 7, height: 7, class: "over-back" }),
+                s("rect", { width: 3, height: 7, class: "over-line" })),
+            s("marker", { id: `${this.id}-head`, viewBox: "0 0 10 10", refX: 8, refY: 5, markerWidth: 6, markerHeight: 6, orient: "auto-start-reverse" },
+                s("path", { d: "M0 0 10 5 0 10z", class: "arrow-head" })));
+    }
+
+    /** Takes a new device; keeps pan and zoom. */
+    show(preview) {
+        const shape = JSON.stringify([preview.bodies, preview.flexures, preview.pins.map((p) => p.id)]);
+        this.preview = preview;
+        if (shape === this.shape) return;
+        this.shape = shape;
+        this.rest = restOf(preview);
+        this.parts.replaceChildren();
+        this.bodies = preview.bodies.map((body) => {
+            const paths = (list, name) => (list ?? []).map((d) => s("path", { d, class: name, "fill-rule": "evenodd" }));
+            const g = s("g", { class: body.fixed ? "body fixed" : body.drawn === false ? "body bare" : "body", "data-id": body.id },
+                s("title", {}, body.fixed ? "fixed" : `body ${body.id}`), paths(body.frame, "chip"), paths(body.tethers, "tether"),
+                paths(body.islands, "island"), paths(body.outline));
+            this.parts.append(g);
+            return g;
+        });
+        const index = new Map(preview.bodies.map((b, i) => [b.id, i]));
+        const ground = preview.bodies.findIndex((b) => b.fixed);
+        this.flexures = preview.flexures.map((flexure) => {
+            const path = s("path", { class: "flexure", "fill-rule": "evenodd", "data-id": flexure.id });
+            const edge = s("path", { class: "flexure-edge" });
+            const title = s("title", {}, `hinge ${flexure.id}`);
+            path.append(title);
+            path.addEventListener("click", () => this.onhinge?.(flexure.id));
+            this.parts.append(edge, path);
+            const [a, b] = flexure.between.map((id) => index.get(id) ?? ground);
+            return { id: flexure.id, a, b, path, edge, title, bend: flexure.centre_line ? new Bend(flexure.path, lineOf(flexure.centre_line)) : null, rest: flexure.path };
+        });
+        this.#pins(preview, index, ground);
+        if (preview.box_um) this.view.setBox(grown(preview.box_um, this.around));
+        this.pose(this.rest);
+    }
+
+    #pins(preview, index, ground) {
+        this.labels.replaceChildren();
+        this.pins = preview.pins.map((pin) => {
+            const text = s("text", { class: "hinge-label", "text-anchor": "middle" });
+            const back = s("rect", { class: "hinge-plate", rx: 4, height: 18 });
+            const g = s("g", { class: "hinge-tag", "data-id": pin.id }, back, text);
+            g.addEventListener("click", () => this.onhinge?.(pin.id));
+            this.labels.append(g);
+            return { id: pin.id, body: index.get(pin.a) ?? index.get(pin.b) ?? ground, at: pin.at_um, g, text, back, share: null, key: null };
+        });
+    }
+
+    /** q: pose [x_m, y_m, phi_rad] of every body, in the order of the preview's bodies. */
+    pose(q) {
+        this.q = q;
+        const motion = q.map((pose, i) => displacement(this.rest[i], pose));
+        this.motion = motion;
+        q.forEach((pose, i) => this.bodies[i].setAttribute("transform", place(pose)));
+        for (const f of this.flexures) {
+            const d = f.bend ? f.bend.path(motion[f.a] ?? REST, motion[f.b] ?? REST) : f.rest;
+            f.path.setAttribute("d", d);
+            f.edge.setAttribute("d", d);
+        }
+        this.#place();
+    }
+
+    /** A second outline behind, of other poses: null takes it away. */
+    ghostAt(q) {
+        this.ghost.replaceChildren();
+        if (!q) return;
+        this.preview.bodies.forEach((body, i) => {
+            if (body.fixed) return;
+            this.ghost.append(s("g", { transform: place(q[i]) }, body.outline.map((d) => s("path", { d }))));
+        });
+    }
+
+    /** shares: Map of hinge id -> used share of the limit (null: no limit known). */
+    colour(shares, chosen) {
+        for (const f of this.flexures) {
+            const share = shares.get(f.id);
+            const colour = share === undefined || share === null ? "var(--piece)" : scale(share);
+            f.path.style.setProperty("fill", share > 1 ? `url(#${this.id}-over)` : colour);
+            f.path.style.setProperty("stroke", share > 1 ? `url(#${this.id}-over)` : colour);
+            f.edge.classList.toggle("chosen", f.id === chosen);
+            f.edge.classList.toggle("over", share > 1);
+            f.title.textContent = `hinge ${f.id}${share === undefined || share === null ? "" : `: ${percent(share)} of its limit`}`;
+        }
+        for (const pin of this.pins) {
+            const share = shares.get(pin.id);
+            const text = share === undefined || share === null ? pin.id : `${pin.id} ${Math.round(share * 100)} %`;
+            if (text !== pin.key) {
+                pin.key = text;
+                pin.text.textContent = text;
+                const width = 12 + text.length * 6.6;
+                pin.back.setAttribute("width", width);
+                pin.back.setAttribute("x", -width / 2);
+                pin.back.setAttribute("y", -13);
+            }
+            pin.g.classList.toggle("over", share > 1);
+            pin.g.classList.toggle("chosen", pin.id === chosen);
+        }
+    }
+
+    /** loads: [{body (index), at: [x_um, y_um] in its axes, fx_N, fy_N, factor}] or torque_Nm. */
+    setLoads(loads) {
+        this.loads = loads;
+        this.arrows.replaceChildren(...loads.map((load) => {
+            const turning = load.torque_Nm !== undefined;
+            load.path = s("path", turning ? { class: "load turning", "marker-end": `url(#${this.id}-head)` } : { class: "load", "marker-end": `url(#${this.id}-head)` });
+            load.path.append(s("title", {}, load.text ?? ""));
+            return load.path;
+        }));
+        this.#place();
+    }
+
+    #place() {
+        if (!this.motion || !this.preview) return;
+        const centre = this.view.toScreen((this.view.box[0] + this.view.box[2]) / 2, (this.view.box[1] + this.view.box[3]) / 2);
+        for (const pin of this.pins) {
+            if (!pin.at) continue;
+            const [x, y] = this.view.toScreen(...moved(this.motion[pin.body], pin.at));
+            const dx = x - centre[0];
+            const dy = y - centre[1];
+            const far = Math.hypot(dx, dy) || 1; // beside the hinge, towards the middle of the picture
+            const out = Math.min(38, 12 + 90 * this.view.k);
+            pin.g.setAttribute("transform", `translate(${(x - (dx / far) * out * 1.5).toFixed(1)} ${(y - (dy / far) * out + 4).toFixed(1)})`);
+        }
+        for (const load of this.loads) this.#load(load);
+    }
+
+    #load(load) {
+        const size = load.size ?? 1;
+        const at = moved(this.q[load.body].map((v, i) => (i < 2 ? v * 1e6 : v)), load.at);
+        const [x, y] = this.view.toScreen(...at);
+        load.path.classList.toggle("none", Math.abs(size) < 0.02);
+        if (load.torque_Nm !== undefined) {
+            const r = 17;
+            const sweep = size * load.torque_Nm > 0 ? 0 : 1; // the picture's y is down
+            const end = sweep ? -50 : 230;
+            const begin = sweep ? 200 : -20;
+            const p = (deg) => `${(x + r * Math.cos((deg * Math.PI) / 180)).toFixed(1)} ${(y - r * Math.sin((deg * Math.PI) / 180)).toFixed(1)}`;
+            load.path.setAttribute("d", `M${p(begin)}A${r} ${r} 0 1 ${sweep} ${p(end)}`);
+            return;
+        }
+        const f = Math.hypot(load.fx_N, load.fy_N) || 1;
+        const length = 22 + 34 * Math.abs(size) * (load.relative ?? 1);
+        const dx = (Math.sign(size) * load.fx_N * length) / f;
+        const dy = (-Math.sign(size) * load.fy_N * length) / f;
+        load.path.setAttribute("d", `M${x.toFixed(1)} ${y.toFixed(1)}L${(x + dx).toFixed(1)} ${(y + dy).toFixed(1)}`);
+    }
+
+    #resize() {
+        this.#place();
+        const [w, height] = this.view.size;
+        const { um, text } = scaleBar(this.view.k);
+        const length = um * this.view.k;
+        const y = height - 14;
+        this.bar.replaceChildren(
+            s("path", { d: `M${w - 16 - length} ${y - 4}v4h${length}v-4` }),
+            s("text", { x: w - 16 - length / 2, y: y - 7, "text-anchor": "middle" }, text));
+    }
+}
+
+/** The legend of the colours: used share of the limit. */
+export function colourLegend() {
+    const steps = 24;
+    const bar = h("span", { class: "ramp", "aria-hidden": "true" },
+        Array.from({ length: steps }, (_, i) => h("i", { style: { background: scale(i / (steps - 1)) } })));
+    return h("div", { class: "colour-legend" },
+        h("span", {}, "angle / limit"), h("span", {}, "0"), bar, h("span", {}, "100 %"),
+        h("span", { class: "over-key", "aria-hidden": "true" }), h("span", {}, "beyond"));
+}

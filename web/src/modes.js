@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Mode shapes, moving.
+import { button, h, select } from "./dom.js";
+import { number, percent, si } from "./format.js";
+import { JobView } from "./jobs.js";
+import { Mechanism } from "./mechanism.js";
+import { zoomButtons } from "./motion.js";
+import { on, state } from "./store.js";
+
+const PERIOD_S = 1.6;
+
+export class Modes {
+    constructor(holder) {
+        this.stage = h("div", { class: "stage" });
+        this.side = h("div", { class: "side-panel" });
+        holder.append(h("div", { class: "split" }, this.stage, this.side));
+        this.mechanism = new Mechanism(this.stage, { label: "A mode shape of the mechanism, moving.", around: 0.08 });
+        this.stage.append(zoomButtons(() => this.mechanism.view));
+        this.at = select("About", [["rest", "about rest"], ["equilibrium", "about the equilibrium"]], "rest", () => this.view.run());
+        this.amplitude = h("input", { type: "range", min: 1, max: 100, value: 30, "aria-label": "Amplitude of the picture" });
+        this.pause = button("Pause", { icon: "pause", class: "small" }, () => this.#toggle());
+        const card = h("section", { class: "card" }, h("h2", {}, "Modes"), h("div", { class: "row" }, this.at, this.pause),
+            h("label", { class: "option" }, h("span", {}, "amplitude"), this.amplitude));
+        this.side.append(card);
+        this.view = new JobView(card, {
+            kind: "modes", action: "Compute the modes", auto: true, options: () => ({ at: this.at.value, ...(state.options.scene ? { scene: state.options.scene } : {}) }),
+            intro: "Natural frequencies, damping and shapes of small motions.", render: (job, into) => this.#list(job, into),
+        });
+        this.chosen = 0;
+        this.moving = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+        this.visible = false;
+        on("preview", (p) => this.visible && this.mechanism.show(p));
+    }
+
+    shown(yes) {
+        this.visible = yes;
+        this.view.show(yes);
+        if (yes && state.preview) this.mechanism.show(state.preview);
+        if (yes) this.#animate();
+    }
+
+    #toggle() {
+        this.moving = !this.moving;
+        this.pause.replaceChildren(...button(this.moving ? "Pause" : "Play", { icon: this.moving ? "pause" : "play" }).childNodes);
+        if (this.moving) this.#animate();
+    }
+
+    #list(job, into) {
+        this.modes = job.result.modes;
+        this.q = job.result.q;
+        this.unit = job.result.unit_length_m;
+        this.chosen = Math.min(this.chosen, Math.max(this.modes.length - 1, 0));
+        const items = this.modes.map((m, i) => h("button", { type: "button", class: "mode", "aria-pressed": String(i === this.chosen), onclick: () => this.#choose(i) },
+            h("strong", {}, `${i + 1}`), h("span", { class: "mode-f" }, m.kind === "free" ? "free" : m.kind === "unstable" ? "unstable" : si(m.f_Hz, "Hz", 4)),
+            h("span", { class: "mode-d" }, m.damping_ratio !== null ? `damping ${percent(m.damping_ratio, 2)}` : m.kind), h("span", { class: "mode-b" }, m.bodies)));
+        into.replaceChildren(h("div", { class: "mode-list" }, items),
+            h("p", { class: "doc" }, `${job.result.scene}, about ${job.result.at}; a step to equilibrium would still move ${number(job.result.out_of_rest, 2)} (rad, or of ${si(this.unit, "m")}).`));
+        this.#animate();
+    }
+
+    #choose(i) {
+        this.chosen = i;
+        this.side.querySelectorAll(".mode").forEach((b, k) => b.setAttribute("aria-pressed", String(k === i)));
+        this.#frame(this.phase ?? 0);
+        if (this.moving) this.#animate();
+    }
+
+    #frame(phase) {
+        const p = state.preview;
+        const mode = this.modes?.[this.chosen];
+        if (!p || !mode) return;
+        const size = (Number(this.amplitude.value) / 100) * 0.45 * Math.sin(phase);
+        this.mechanism.pose(p.bodies.map((b) => {
+            const rest = this.q[b.id] ?? b.rest ?? [0, 0, 0];
+            const shape = mode.shape[b.id] ?? [0, 0, 0];
+            return rest.map((x, j) => x + size * shape[j]);
+        }));
+    }
+
+    #animate() {
+        if (this.running) return;
+        if (!this.moving) {
+            this.#frame(Math.PI / 2);
+            return;
+        }
+        this.running = true;
+        const begin = performance.now();
+        const frame = (now) => {
+            if (!this.visible || !this.moving) {
+                this.running = false;
+                return;
+            }
+            this.phase = ((now - begin) / 1e3 / PERIOD_S) * 2 * Math.PI;
+            this.#frame(this.phase);
+            requestAnimationFrame(frame);
+        };
+        requestAnimationFrame(frame);
+    }
+}

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The motion of one scene: the mechanism, its plots and the time that couples them; and how it is
+// computed, with what that costs.
+import { curve, dash } from "./colours.js";
+import { setOption } from "./design.js";
+import { button, h, s, select, setOptions } from "./dom.js";
+import { degrees, number, percent, prefixOf, si } from "./format.js";
+import { colourLegend, Mechanism, posesOf, restOf } from "./mechanism.js";
+import { Plot } from "./plots.js";
+import { lookAt, on, state } from "./store.js";
+
+const SECONDS = 4; // that a whole scene takes at speed 1
+const RTOL = ["1e-5", "1e-6", "1e-7", "1e-8", "1e-9", "1e-10", "1e-11"]; // what explicit integrators take
+
+/** Limit of a pin in the flow of the motion, rad, or null. */
+export function limitOf(preview, pin, flow) {
+    const i = preview.flows.findIndex((f) => f.name === flow);
+    return pin.shown_limit_rad ?? pin.limit_rad?.[Math.max(i, 0)] ?? null;
+}
+
+/** Options of a <select> from a list of the table: [value, text, sentence]. */
+const optionNames = (list) => (list ?? []).map((o) => (typeof o === "string" ? [o, o] : [o.name, o.name, o.sentence]));
+
+export class Motion {
+    constructor(holder) {
+        this.time = 0;
+        this.speed = 1;
+        this.playing = false;
+        this.tools = h("div", { class: "toolbar", role: "group", "aria-label": "How the motion is computed" });
+        this.stage = h("div", { class: "stage" });
+        this.player = h("div", { class: "player", role: "group", "aria-label": "Time" });
+        this.plots = h("div", { class: "plots" });
+        holder.append(this.tools, this.stage, this.player, this.plots);
+        this.mechanism = new Mechanism(this.stage, { label: "The mechanism in motion. Arrow keys pan, plus and minus zoom, 0 fits.", onhinge: lookAt });
+        this.stage.append(colourLegend(), this.#zoomButtons());
+        this.stats = h("div", { class: "run-stats" });
+        this.#player();
+        const seek = (t) => this.seek(t / 1e3, true);
+        this.angles = new Plot(this.plots, { title: "Hinge angle / limit", unit: "%, over ms", onseek: seek });
+        this.energy = new Plot(this.plots, { title: "Energy", unit: "nJ, over ms", onseek: seek });
+        this.norm = new Plot(this.plots, { title: "Constraints", unit: "norm, over ms", log: true, onseek: seek });
+        this.inDegrees = button("degrees", { class: "small toggle", "aria-pressed": "false" }, () => {
+            this.inDegrees.setAttribute("aria-pressed", String(this.inDegrees.getAttribute("aria-pressed") !== "true"));
+            this.#plotAll();
+        });
+        this.angles.heading.append(this.inDegrees);
+        on("options", () => this.picks?.forEach((refresh) => refresh()));
+        for (const event of ["preview", "hinge", "theme"]) on(event, () => this.visible && this.show());
+    }
+
+    shown(yes) {
+        this.visible = yes;
+        if (yes) this.show();
+        else this.toggle(false);
+    }
+
+    start(table) {
+        const o = table.options ?? table;
+        this.picks = [];
+        const pick = (label, name, list, first) => {
+            const names = [["", first], ...optionNames(list).filter(([v]) => v !== "auto" || first !== "auto")];
+            const box = select(label, names, "", (v) => setOption(name, v));
+            this.picks.push(() => { // chosen elsewhere, and maybe none of the list
+                const now = state.options[name] ?? "";
+                setOptions(box, names.some(([v]) => v === now) ? names : [...names, [now, now]], now);
+            });
+            return h("label", { class: "option" }, h("span", {}, label), box);
+        };
+        this.scene = select("Scene", [], "", (v) => setOption("scene", v), { id: "scene" });
+        const defaults = table.defaults ?? {};
+        this.tools.replaceChildren(
+            h("label", { class: "option" }, h("span", {}, "scene"), this.scene),
+            pick("method", "method", o.methods, defaults.method ?? "chain"),
+            pick("integrator", "integrator", o.integrators, "auto"),
+            pick("stabilise", "stabilise", o.stabilisations, defaults.stabilise ?? "projection"),
+            pick("tolerance", "rtol", RTOL, "auto"),
+            pick("hinges", "hinge_model", o.hinge_models, "auto"),
+            pick("effects", "effects", ["all", "none"], "auto"),
+            pick("accuracy", "accuracy", ["1e-2", "1e-4", "1e-5"], "1e-3"),
+            this.stats);
+    }
+
+    #zoomButtons() {
+        return zoomButtons(() => this.mechanism.view);
+    }
+
+    #player() {
+        this.play = button("Play", { icon: "play", hidden: true, class: "play" }, () => this.toggle());
+        this.slider = h("input", { type: "range", min: 0, max: 1000, step: 1, value: 0, class: "time", "aria-label": "Time of the scene" });
+        this.slider.addEventListener("input", () => this.seek((this.slider.value / 1000) * this.#end(), true));
+        this.clock = h("output", { class: "clock" });
+        const speeds = [["0.1", "0.1×"], ["0.25", "¼×"], ["0.5", "½×"], ["1", "1×"], ["2", "2×"]];
+        this.player.append(this.play, this.slider, this.clock, select("Speed", speeds, "1", (v) => (this.speed = Number(v))));
+    }
+
+    #end() {
+        return this.t?.at(-1) || 1;
+    }
+
+    show() {
+        const p = state.preview;
+        if (!p) return;
+        setOptions(this.scene, p.scenes.map((x) => [x.name, x.name]), p.motion?.scene ?? state.options.scene ?? "");
+        this.player.hidden = this.plots.hidden = !p.motion;
+        if (!p.motion) return this.#still(p);
+        const first = this.t === undefined;
+        const share = this.t ? this.time / this.#end() : 0;
+        this.t = p.motion.t_s;
+        this.time = first ? peakTime(p) : share * this.#end();
+        this.flow = p.motion.flow ?? p.scenes.find((x) => x.name === p.motion.scene)?.flow ?? p.flows[0]?.name;
+        this.limits = p.pins.map((pin) => limitOf(p, pin, this.flow));
+        this.mechanism.show(p);
+        this.mechanism.setLoads(loadsOf(p));
+        this.#plotAll();
+        this.#stats();
+        this.paint();
+    }
+
+    /** Nothing was moved: the device at rest. */
+    #still(p) {
+        this.t = null;
+        this.toggle(false);
+        this.mechanism.show(p);
+        this.mechanism.setLoads([]);
+        this.mechanism.pose(restOf(p));
+        this.mechanism.colour(new Map(), state.hinge);
+        this.stats.textContent = p.scenes.length ? "this scene was not moved; the notes say why" : "the description has no scene";
+    }
+
+    #stats() {
+        const m = state.preview.motion;
+        const stats = m.stats ?? {};
+        const facts = [m.method, m.integrator, state.preview.hinge_model ? `hinges: ${state.preview.hinge_model}` : null, m.rtol ? `rtol ${number(m.rtol, 2)}` : null, `${number(stats.steps, 6)} steps`, `${number(stats.rhs, 6)} evaluations`,
+            stats.cpu_s !== undefined ? `${si(stats.cpu_s, "s", 2)} CPU` : null];
+        this.stats.textContent = facts.filter(Boolean).join(" · ");
+        this.stats.title = [m.reason, state.preview.hinge_model_why].filter(Boolean).join("; ");
+    }
+
+    #plotAll() {
+        const p = state.preview;
+        if (!p?.motion) return;
+        const m = p.motion;
+        const ms = m.t_s.map((t) => t * 1e3);
+        const inDegrees = this.inDegrees.getAttribute("aria-pressed") === "true" || this.limits.every((x) => !x);
+        const chosen = state.hinge !== null && p.pins.some((x) => x.id === state.hinge) ? state.hinge : null;
+        const series = p.pins.map((pin, i) => {
+            const factor = inDegrees ? 180 / Math.PI : this.limits[i] ? 100 / this.limits[i] : NaN;
+            return { name: pin.id, key: i, values: m.angle_rad.map((row) => (Number.isFinite(factor) && row[i] !== null ? row[i] * factor : null)) };
+        });
+        let marks = [{ y: 100, text: "limit" }, { y: -100 }];
+        if (inDegrees) marks = p.pins.flatMap((pin, i) => (this.limits[i] && (chosen === null || chosen === pin.id) ? [1, -1].map((f) => ({ y: (f * this.limits[i] * 180) / Math.PI, curve: i })) : []));
+        const most = Math.max(...m.angle_rad.map((row) => Math.max(...row.map((a, i) => (this.limits[i] ? Math.abs(a) / this.limits[i] : 0)))));
+        this.angles.heading.firstChild.textContent = inDegrees ? "Hinge angle" : "Hinge angle / limit";
+        this.angles.heading.children[1].textContent = inDegrees ? "degrees, over ms" : "%, over ms";
+        this.angles.show(ms, series, { marks, chosen, range: inDegrees ? undefined : most > 0.4 ? [-112, 112] : undefined });
+        const energies = [["kinetic", "kinetic_J"], ["potential", "potential_J"], ["dissipated", "dissipated_J"], ["work", "work_J"]].filter(([, k]) => m.energy?.[k]);
+        const largest = Math.max(0, ...energies.flatMap(([, k]) => m.energy[k].map((x) => Math.abs(x ?? 0))));
+        const [prefix, size] = prefixOf(largest);
+        this.energy.heading.children[1].textContent = `${prefix}J, over ms`;
+        this.energy.show(ms, energies.map(([name, k], i) => ({ name, key: i, values: m.energy[k].map((x) => (x === null ? null : x / size)) })));
+        if (m.constraint_norm) this.norm.show(ms, [{ name: "norm", key: 6, solid: true, values: m.constraint_norm.map((x) => Math.max(x ?? 0, 1e-18)) }]);
+        this.norm.root.hidden = !m.constraint_norm;
+        this.energy.root.hidden = energies.length === 0; // a row of equilibria has none
+        this.#legend(p, energies);
+    }
+
+    #legend(p, energies) {
+        legend(this.angles, p.pins.map((pin, i) => [pin.id, i]), lookAt);
+        legend(this.energy, energies.map(([name], i) => [name, i]));
+    }
+
+    toggle(play = !this.playing) {
+        this.playing = play;
+        this.play.replaceChildren(button("x", { icon: play ? "pause" : "play", hidden: true }).firstChild);
+        this.play.title = play ? "Pause" : "Play";
+        this.play.setAttribute("aria-label", this.play.title);
+        if (!play) return;
+        if (this.time >= this.#end() * 0.999) this.time = 0;
+        let last = performance.now();
+        const frame = (now) => {
+            if (!this.playing) return;
+            this.time += (((now - last) / 1e3) * this.speed * this.#end()) / SECONDS;
+            last = now;
+            if (this.time > this.#end()) this.time = 0;
+            this.paint();
+            requestAnimationFrame(frame);
+        };
+        requestAnimationFrame(frame);
+    }
+
+    seek(t, stop = false) {
+        if (stop) this.toggle(false);
+        this.time = Math.min(Math.max(t, 0), this.#end());
+        this.paint();
+    }
+
+    /** Everything that goes with time. */
+    paint() {
+        const p = state.preview;
+        if (!p?.motion || !this.t) return;
+        const [i, f] = this.#sample(this.time);
+        const m = p.motion;
+        const a = m.q[i];
+        const b = m.q[Math.min(i + 1, m.q.length - 1)];
+        this.mechanism.pose(posesOf(p, a.map((x, k) => x + f * (b[k] - x))));
+        const angles = m.angle_rad[i].map((x, k) => x + f * ((m.angle_rad[Math.min(i + 1, m.angle_rad.length - 1)][k] ?? x) - x));
+        const shares = new Map(p.pins.map((pin, k) => [pin.id, this.limits[k] ? Math.abs(angles[k]) / this.limits[k] : null]));
+        this.mechanism.colour(shares, state.hinge);
+        this.slider.value = Math.round((1000 * this.time) / this.#end());
+        const text = si(this.time, "s", 3);
+        this.slider.setAttribute("aria-valuetext", text);
+        this.clock.textContent = `${text} / ${si(this.#end(), "s", 3)}`;
+        const k = state.hinge === null ? -1 : p.pins.findIndex((x) => x.id === state.hinge);
+        const worst = [...shares].reduce((best, x) => (x[1] !== null && x[1] > (best?.[1] ?? -1) ? x : best), null);
+        const ms = this.time * 1e3;
+        this.angles.at(ms, k >= 0 ? `${p.pins[k].id}: ${degrees(angles[k])}` : worst ? `${worst[0]}: ${percent(worst[1])}` : "");
+        const energy = (key) => (m.energy?.[key] ? m.energy[key][i] : 0);
+        this.energy.at(ms, si(energy("kinetic_J") + energy("potential_J"), "J"));
+        this.norm.at(ms, m.constraint_norm ? number(m.constraint_norm[i], 2) : "");
+    }
+
+    #sample(time) {
+        const t = this.t;
+        let low = 0;
+        let high = t.length - 1;
+        while (high - low > 1) {
+            const mid = (low + high) >> 1;
+            if (t[mid] <= time) low = mid;
+            else high = mid;
+        }
+        return [low, t[high] > t[low] ? Math.min((time - t[low]) / (t[high] - t[low]), 1) : 0];
+    }
+}
+
+/** When the first of the largest angles is there: what a first look should show. */
+function peakTime(p) {
+    const peaks = p.motion.peaks.map((x, i) => ({ ...x, share: Math.abs(x.angle_rad) / (limitOf(p, p.pins[i], p.motion.flow) ?? Infinity) }));
+    return peaks.reduce((a, b) => (b.share > (a?.share ?? 0) ? b : a), null)?.t_s ?? 0;
+}
+
+export function zoomButtons(view) {
+    return h("div", { class: "zoom-buttons", role: "group", "aria-label": "Zoom" },
+        button("Zoom in", { icon: "plus", hidden: true }, () => view().zoom(1.4)),
+        button("Zoom out", { icon: "minus", hidden: true }, () => view().zoom(1 / 1.4)),
+        button("Fit", { icon: "fit", hidden: true }, () => view().fit()));
+}
+
+function legend(plot, names, onclick) {
+    const items = names.map(([name, i]) => {
+        const key = s("svg", { class: "key", viewBox: "0 0 22 6", "aria-hidden": "true" }, s("path", { d: "M0 3h22", stroke: curve(i), "stroke-width": 2, "stroke-dasharray": dash(i).join(" ") || null }));
+        return onclick
+            ? h("button", { type: "button", class: "legend-item", "aria-pressed": String(state.hinge === name), onclick: () => onclick(name) }, key, name)
+            : h("span", { class: "legend-item" }, key, name);
+    });
+    let box = plot.root.querySelector(".legend");
+    if (!box) plot.root.append((box = h("div", { class: "legend" })));
+    box.replaceChildren(...items);
+}
+
+/** Arrows for the loads of the scene. */
+function loadsOf(p) {
+    const list = (p.loads ?? []).filter((x) => x.body >= 0);
+    const size = (x) => Math.hypot(...(x.force_N ?? [0, 0]));
+    const most = Math.max(...list.map(size), 1e-30);
+    return list.filter((x) => x.torque_Nm || size(x) > 0).map((x) => {
+        const name = p.bodies[x.body].id;
+        const law = x.law && x.law !== "step" ? `, ${x.law}` : "";
+        return x.kind === "torque" ? { body: x.body, at: [0, 0], torque_Nm: x.torque_Nm, text: `torque ${si(x.torque_Nm, "N m")} on ${name}${law}` }
+            : { body: x.body, at: x.at_um, fx_N: x.force_N[0], fy_N: x.force_N[1], relative: size(x) / most, text: `force ${si(size(x), "N")} on ${name}${law}` };
+    });
+}

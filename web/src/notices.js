@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the user has to know now: a strip below the header.
+import { openSession } from "./api.js";
+import { $, button, h } from "./dom.js";
+import { emit, state } from "./store.js";
+
+const RETRY_MS = 2000;
+const SHOWN_MS = 6000;
+let lost = null;
+
+function strip(kind, content, actions = []) {
+    const box = h("div", { class: `notice ${kind}` }, h("div", {}, content), h("div", { class: "notice-actions" }, actions));
+    $("notices").append(box);
+    return box;
+}
+
+/** {kind: "info" | "warn" | "bad", text, actions: [[label, function]], stay} */
+export function notice({ kind = "info", text, actions = [], stay = false }) {
+    const box = strip(kind, text, [
+        ...actions.map(([label, act]) => button(label, { class: "small" }, () => {
+            box.remove();
+            act();
+        })),
+        button("Dismiss", { icon: "close", hidden: true, class: "quiet" }, () => box.remove()),
+    ]);
+    if (!stay && !actions.length) setTimeout(() => box.remove(), SHOWN_MS);
+    return box;
+}
+
+function keep() {
+    const link = h("a", { download: state.file?.name ?? "device.xml", href: URL.createObjectURL(new Blob([state.text ?? ""], { type: "application/xml" })) });
+    document.body.append(link);
+    link.click();
+    link.remove();
+}
+
+/** The server or the session is gone (error), or back (null). */
+export function connection(error) {
+    if (!error) {
+        if (!lost) return;
+        lost.remove();
+        lost = null;
+        notice({ kind: "info", text: "The server answers again." });
+        emit("change");
+        return;
+    }
+    if (lost && (lost.status === error.status || error.status === 0)) return;
+    lost?.remove();
+    const text = error.status === 0
+        ? "The server does not answer. Your text is kept in this page; it goes on when the server does. If you have started it anew, open the address that it printed."
+        : "This session is over. Open the address that flexwright serve printed last.";
+    lost = strip("bad", [text], [
+        button("Try again", { class: "small" }, retry),
+        state.text ? button("Save the text as a file", { class: "small" }, keep) : null,
+    ]);
+    lost.status = error.status;
+    if (error.status === 0) setTimeout(retry, RETRY_MS);
+}
+
+async function retry() {
+    if (!lost) return;
+    try {
+        await openSession();
+    } catch (error) {
+        if (lost && error.status === 0) setTimeout(retry, RETRY_MS); // a session that is over stays over
+    }
+}

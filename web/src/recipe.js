@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Recipes: steps with cross-sections, computed times and what is missing; the schedule; the run sheet.
+import { get, request as fetchText } from "./api.js";
+import { h, icon, select, setOptions } from "./dom.js";
+import { duration, number } from "./format.js";
+import { fileOf, forceTick, hasFile, JobView } from "./jobs.js";
+
+export class Recipe {
+    constructor(holder) {
+        this.flow = select("Flow", [], "", () => this.#draw());
+        this.body = h("div", { class: "recipe-body" });
+        const head = h("div", { class: "recipe-head" }, h("label", { class: "option" }, h("span", {}, "flow"), this.flow));
+        this.scroll = h("div", { class: "recipe" }, head, this.body);
+        holder.append(this.scroll);
+        const force = forceTick(() => this.job);
+        this.job = new JobView(head, {
+            kind: "recipe", action: "Compute the recipes", auto: true, options: force.options, intro: "Every step of every flow with computed times, the schedule and the run sheet.",
+            accept: (job) => Boolean(job.result?.recipes ?? job.result?.steps), render: (job) => this.#take(job),
+        });
+        head.append(force.label);
+    }
+
+    shown(yes) {
+        this.job.show(yes);
+    }
+
+    async #take(job) {
+        this.done = job;
+        this.recipes = job.result.recipes ?? [job.result];
+        setOptions(this.flow, this.recipes.map((r) => [r.flow, r.flow]), this.flow.value || this.recipes[0]?.flow);
+        await this.#draw();
+    }
+
+    async #draw() {
+        const job = this.done;
+        const r = this.recipes?.find((x) => x.flow === this.flow.value);
+        if (!r) return;
+        const base = `recipes/${r.flow}`;
+        const [sheet, schedule] = await Promise.all([
+            hasFile(job, `${base}.html`) ? fetchText("GET", fileOf(job, `${base}.html`), undefined, { as: "text" }).catch(() => "") : "",
+            hasFile(job, `${base}.schedule.json`) ? get(fileOf(job, `${base}.schedule.json`)).catch(() => null) : null,
+        ]);
+        if (job !== this.done) return;
+        const link = (path, text) => (hasFile(job, path) ? h("a", { class: "button", href: fileOf(job, path), target: "_blank", rel: "noopener" }, icon("open"), text) : null);
+        const save = (path, text) => (hasFile(job, path) ? h("a", { class: "button", href: fileOf(job, path), download: path.split("/").at(-1) }, icon("download"), text) : null);
+        const missing = r.steps.filter((x) => x.not_computable?.length);
+        const made = r.manufacturable === true ? ["can be made", "good"] : r.manufacturable === false ? ["cannot be made", "bad"] : ["not guaranteed", "open"];
+        this.body.replaceChildren(
+            h("div", { class: "recipe-facts" },
+                fact("computed time", duration(r.total_s)), fact("steps", String(r.steps.length)),
+                fact("not computable", String(missing.length), missing.length ? "open" : "good"),
+                fact("wafer to wafer", schedule?.feasible ? duration(schedule.makespan_s) : "no schedule"),
+                fact("this device", made[0], made[1]),
+                h("div", { class: "recipe-links" }, link(`${base}.html`, "Run sheet"), save(`${base}.csv`, "CSV"), save(`${base}.ics`, "Calendar"))),
+            r.reasons?.length ? h("details", { class: "reasons" }, h("summary", {}, `${r.reasons.length} remarks on making it`), h("ul", {}, r.reasons.map((x) => h("li", {}, x)))) : "",
+            picture(job, `${base}.schedule.svg`, "Schedule", `Schedule of ${r.flow}: machines over days`),
+            folded("The wafer after every step, in space", picture(job, `${base}.stack.svg`, "The wafer after every step", `The wafer after every step of ${r.flow}, in space`)),
+            h("ol", { class: "steps" }, r.steps.map((x) => step(x, sectionOf(sheet, x.id)))));
+    }
+}
+
+/** A picture of the job, wide: it scrolls by itself. */
+function picture(job, path, caption, alt) {
+    if (!hasFile(job, path)) return "";
+    return h("figure", { class: "schedule", tabIndex: 0, role: "region", "aria-label": caption }, h("figcaption", {}, caption), h("img", { src: fileOf(job, path), alt }));
+}
+
+/** What is tall and not always wanted. */
+const folded = (words, figure) => (figure === "" ? "" : h("details", { class: "reasons" }, h("summary", {}, words), figure));
+
+const fact = (name, value, kind) => h("div", { class: `fact ${kind ?? ""}` }, h("span", {}, name), h("strong", {}, value));
+
+function step(x, section) {
+    const t = x.time_s;
+    return h("li", { class: x.not_computable?.length ? "step missing" : "step", id: `step-${x.id}` },
+        h("div", { class: "step-head" }, h("span", { class: "step-id" }, x.id), h("strong", {}, x.title),
+            h("span", { class: "step-source" }, x.in_source ? "in the source" : "added"), h("span", { class: "step-time" }, t ? duration(t.nominal) : "–")),
+        h("div", { class: "step-body" },
+            section ? h("figure", { class: "section-picture" }, section) : null,
+            h("div", {},
+                x.not_computable?.length ? h("p", { class: "not-computable" }, h("strong", {}, "NOT COMPUTABLE"), `, missing: ${x.not_computable.join(", ")}`) : null,
+                t ? h("p", { class: "window" }, window_("planned", t.nominal), window_("first look", t.first_look), window_("clear by", t.clear_by), window_("stop", t.stop),
+                    h("span", { class: `tag ${t.status}` }, t.status)) : null,
+                x.quantities?.length ? h("details", {}, h("summary", {}, `${x.quantities.length} ${x.quantities.length === 1 ? "quantity" : "quantities"}`),
+                    h("table", { class: "plain" }, h("tbody", {}, x.quantities.map((q) => h("tr", {}, h("td", {}, q.name), h("td", { class: "n" }, q.value === null || q.value === undefined ? "____" : `${number(q.value, 4)}${q.uncertainty ? ` ± ${number(q.uncertainty, 2)}` : ""} ${q.unit ?? ""}`),
+                        h("td", {}, h("span", { class: `tag ${q.status}` }, q.status)), h("td", { class: "source" }, q.source ?? "")))))) : null)));
+}
+
+const window_ = (name, seconds) => (seconds === null || seconds === undefined ? null : h("span", {}, h("span", {}, name), h("b", {}, duration(seconds))));
+
+/** The cross-section of a step from the run sheet, alone: its <svg> and nothing else of that page. */
+function sectionOf(sheet, id) {
+    const at = sheet.indexOf(`<section class="step" id="${id}"`);
+    const end = at < 0 ? -1 : sheet.indexOf("</section>", at);
+    const from = at < 0 ? -1 : sheet.indexOf("<svg", at);
+    if (from < 0 || from > end) return null;
+    const to = sheet.indexOf("</svg>", from);
+    const picture = new DOMParser().parseFromString(sheet.slice(from, to + 6), "image/svg+xml").documentElement;
+    if (picture.localName !== "svg" || picture.querySelector("script, foreignObject, style, parsererror, [style]")) return null;
+    return document.adoptNode(picture);
+}

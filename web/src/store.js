@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the parts of the page share. The text of the editor is the only state of the design: everything
+// else here is either how it is looked at (options, theme, time) or an answer to that text.
+
+export const state = {
+    text: "",
+    session: null, // flexwright.session/1
+    table: null, // flexwright.table/1
+    file: null, // {name, version, text (as on disk), writable}
+    set: {}, // values of sliders that are held: not in the text yet
+    options: {}, // scene, method, integrator, stabilise, rtol, accuracy, effects, hinge_model
+    preview: null, // last good flexwright.preview/1
+    stale: false, // the text has moved on and has no good answer
+    diagnostics: [],
+    hinge: null, // id of the hinge that is looked at
+    flow: "", // whose utilisation is shown; "": the worst of all
+    latency: [], // ms from a change to its picture, of the last ones
+};
+
+const bus = new EventTarget();
+export const on = (name, f) => bus.addEventListener(name, (e) => f(e.detail));
+export const emit = (name, detail) => bus.dispatchEvent(new CustomEvent(name, { detail }));
+
+/** Names of events: "text" (editor's text changed), "change" (ask for a preview), "preview" (a good answer),
+ *  "answer" (any answer), "hinge" (looked at), "jobs" (any job), "theme". */
+export function lookAt(hinge) {
+    state.hinge = state.hinge === hinge ? null : hinge;
+    emit("hinge", state.hinge);
+}

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The right column: decision, governing hinge, utilisation against the limit, what each flow can make,
+// which effects were computed and why, what it cost.
+import { edit } from "./design.js";
+import { announce, button, h, icon, select, setOptions } from "./dom.js";
+import { degrees, number, percent, si } from "./format.js";
+import { JobView } from "./jobs.js";
+import { lookAt, on, state } from "./store.js";
+
+const SLOW_S = 3;
+const MOST = 100; // diagnostics in a list
+const ORDER = ["accept", "inconclusive", "reject"]; // the worse one counts
+const WORDS = {
+    accept: ["Accepted", "check"], reject: ["Rejected", "cross"], inconclusive: ["Inconclusive", "question"],
+};
+
+export class Verdict {
+    constructor(holder) {
+        this.banner = h("div", { class: "banner", id: "banner" });
+        this.problems = h("section", { class: "card problems", "aria-label": "Diagnostics", hidden: true });
+        this.notes = h("section", { class: "card notes", "aria-label": "Notes", hidden: true });
+        this.bars = h("div", { class: "bars" });
+        this.whose = select("Utilisation in", [["", "worst of all flows"]], "", (v) => {
+            state.flow = v;
+            this.show();
+        });
+        this.flows = h("div", { class: "flows" });
+        this.ledger = h("div", { class: "ledger" });
+        this.cost = h("dl", { class: "facts-list" });
+        const full = h("div", { class: "full-check" });
+        holder.append(
+            this.banner, this.problems,
+            h("section", { class: "card", "aria-labelledby": "h-use" }, h("h2", { id: "h-use" }, "Utilisation of the elastic limit"), this.whose, this.bars),
+            h("section", { class: "card", "aria-labelledby": "h-flows" }, h("h2", { id: "h-flows" }, "Flows"), this.flows),
+            h("section", { class: "card", "aria-labelledby": "h-full" }, h("h2", { id: "h-full" }, "As fabricated"), full),
+            h("section", { class: "card", "aria-labelledby": "h-ledger" }, h("h2", { id: "h-ledger" }, "Effects"), this.ledger),
+            h("section", { class: "card", "aria-labelledby": "h-cost" }, h("h2", { id: "h-cost" }, "Cost of this answer"), this.cost), this.notes);
+        this.full = new JobView(full, {
+            kind: "check", action: "Judge as fabricated", options: judging,
+            intro: "The live verdict is of the drawing. This judges what each flow may make of it, at the corners of its ranges, and looks for changes that help.",
+            auto: () => (this.full?.job?.seconds ?? 0) < SLOW_S && Boolean(state.preview?.verdict), quiet: 900, humble: true, // a long one is only made when it is asked for
+            accept: (job) => job.result?.verdict !== undefined, render: (job, into) => this.#fabricated(job.result, into),
+        });
+        this.full.show(true);
+        on("preview", () => this.show());
+        on("answer", () => this.#answer());
+        on("text", () => this.#staleness());
+        on("preview", () => this.full.show(true));
+        on("hinge", () => this.#chosen());
+        this.#wait();
+    }
+
+    #wait() {
+        this.banner.className = "banner";
+        delete this.banner.dataset.verdict;
+        for (const box of [this.bars, this.flows]) box.replaceChildren(h("p", { class: "empty" }, "–"));
+        this.banner.replaceChildren(h("p", { class: "empty" }, state.preview ? "Nothing is judged: no hinge here has a limit. Motion, modes and assembly work all the same." : "No verdict yet."));
+    }
+
+    /** Mistakes stand on top; what is only to be known stands last. */
+    #answer() {
+        this.#staleness();
+        const errors = state.diagnostics.filter((d) => d.severity === "error");
+        const rest = state.diagnostics.filter((d) => d.severity !== "error");
+        const words = `${errors.length} ${errors.length === 1 ? "mistake" : "mistakes"}`;
+        this.problems.hidden = errors.length === 0;
+        this.problems.replaceChildren(h("h2", {}, `${words} in the description`), h("ul", { class: "diagnostics" }, errors.slice(0, MOST).map((d) => diagnosticItem(d))));
+        this.notes.hidden = rest.length === 0;
+        this.notes.replaceChildren(h("h2", {}, "Warnings and notes"), h("ul", { class: "diagnostics" }, rest.slice(0, MOST).map((d) => diagnosticItem(d))));
+        const said = errors.length ? `${words}: ${errors[0].message}` : "";
+        if (said && said !== this.said) announce(said);
+        this.said = said;
+    }
+
+    #staleness() {
+        document.body.classList.toggle("stale", state.stale);
+        this.banner.classList.toggle("stale", state.stale);
+        const note = this.banner.querySelector(".stale-note");
+        if (note) note.hidden = !state.stale;
+    }
+
+    show() {
+        const v = state.preview.verdict;
+        if (!v) {
+            this.#wait();
+            this.#effects();
+            return this.#cost();
+        }
+        const made = this.#made();
+        const decision = ORDER[Math.max(ORDER.indexOf(v.verdict), made ? ORDER.indexOf(made.verdict) : 0)];
+        const [word, sign] = WORDS[decision] ?? WORDS.inconclusive;
+        const g = v.governing;
+        const changed = this.last !== decision;
+        this.last = decision;
+        this.banner.className = `banner ${decision}`;
+        this.banner.dataset.verdict = decision;
+        this.banner.replaceChildren(
+            h("div", { class: "decision" }, icon(sign), h("strong", {}, word), h("span", { class: "as-drawn", title: (state.preview.left_out ?? []).map((x) => x.sentence).join(" ") }, made ? "as fabricated too" : "as drawn")),
+            g || !v.reasons?.length ? h("p", {}, sentence(g)) : "",
+            made ? h("p", {}, `As fabricated: ${WORDS[made.verdict][0].toLowerCase()}, worst ${percent(made.worst)} of a limit.`) : "",
+            ...(v.reasons ?? []).slice(0, 3).map((r) => h("p", { class: "reason" }, r.text, r.code ? h("span", { class: "code" }, ` ${r.code}`) : null)),
+            h("p", { class: "stale-note", hidden: !state.stale }, "Last good answer: the present text has none."));
+        if (changed) announce(`${word}. ${sentence(g)}`);
+        this.#bars(v);
+        this.#flows(v);
+        this.#effects();
+        this.#cost();
+    }
+
+    /** The full judgement, while it is of the present text. */
+    #made() {
+        const full = this.full.job && !this.full.stale ? this.full.job.result : null;
+        if (!full) return null;
+        const of = (x) => x.as_fabricated?.utilisation ?? x.utilisation ?? 0;
+        return { verdict: full.verdict, hinges: (flow) => new Map((full.flows.find((f) => f.id === flow) ?? full).hinges.map((x) => [x.id, x.as_fabricated?.utilisation])), worst: Math.max(0, ...full.flows.flatMap((f) => f.hinges.map(of))) };
+    }
+
+    #bars(v) {
+        setOptions(this.whose, [["", "worst of all flows"], ...v.flows.map((f) => [f.id, f.id])], state.flow);
+        this.whose.hidden = v.flows.length < 2;
+        state.flow = this.whose.value;
+        const own = v.flows.find((f) => f.id === state.flow);
+        const list = own?.hinges ?? v.hinges;
+        const governing = own ? own.governing : v.governing;
+        if (!list.length) {
+            this.bars.replaceChildren(h("p", { class: "empty" }, "No motion, no utilisation."));
+            return;
+        }
+        const most = Math.max(1.25, ...list.map((x) => Math.min(x.utilisation ?? 0, 4)));
+        const made = this.#made()?.hinges(state.flow);
+        const rows = list.map((hinge) => bar(hinge, most, governing, made?.get(hinge.id)));
+        this.bars.replaceChildren(
+            h("div", { class: "bar-axis", "aria-hidden": "true", style: { "--at": `${100 / most}%` } }, h("span", {}, "limit")),
+            h("div", { class: "bar-list", style: { "--at": `${100 / most}%` } }, rows));
+        this.#chosen();
+    }
+
+    #chosen() {
+        for (const row of this.bars.querySelectorAll(".bar")) row.setAttribute("aria-pressed", String(row.dataset.hinge === state.hinge));
+        const v = state.preview?.verdict;
+        const hinge = (v?.flows.find((f) => f.id === state.flow) ?? v)?.hinges.find((x) => x.id === state.hinge);
+        this.bars.querySelector(".bar-detail")?.remove();
+        if (!hinge) return;
+        const facts = [
+            ["peak", `${degrees(hinge.peak_angle_rad)} ± ${degrees(hinge.angle_error_rad, 1)}`],
+            ["limit", degrees(hinge.limit_angle_rad)],
+            ["peak strain", percent(hinge.peak_strain)],
+            ["strain limit", percent(hinge.strain_limit)],
+            ["where", hinge.t_s === null ? "a required pose" : `${hinge.scene}, ${si(hinge.t_s, "s")}`],
+            ["flow", hinge.flow],
+            ["rules", hinge.criterion ?? "–"],
+        ];
+        this.bars.append(h("dl", { class: "facts-list bar-detail" }, facts.map(([k, x]) => [h("dt", {}, k), h("dd", {}, x)])));
+    }
+
+    #flows(v) {
+        const list = state.preview.flows ?? v.flows ?? [];
+        this.flows.replaceChildren(...list.map((flow) => {
+            const name = flow.name ?? flow.id;
+            const own = v.flows?.find((f) => f.id === name);
+            const made = flow.manufacturable;
+            const word = made === true ? "can be made" : made === false ? "cannot be made" : "not guaranteed";
+            const reasons = flow.reasons ?? [];
+            return h("details", { class: `flow ${own?.verdict ?? ""}` },
+                h("summary", {}, h("span", { class: "flow-name" }, name), h("span", { class: `chip ${made === true ? "good" : made === false ? "bad" : "open"}` }, word)),
+                own?.governing ? h("p", {}, sentence(own.governing)) : null,
+                reasons.length ? h("ul", {}, reasons.map((r) => h("li", {}, r))) : h("p", {}, "Nothing speaks against it."));
+        }));
+    }
+
+    #effects() {
+        const list = state.preview.ledger ?? [];
+        const called = list.filter((e) => e.called_for !== false);
+        const rest = list.length - called.length;
+        const last = called.length === 0 ? h("p", { class: "empty" }, state.preview.motion ? "This scene calls for no effect." : "Nothing was moved.")
+            : rest > 0 ? h("p", { class: "doc" }, `${rest} other effects are not called for by this scene and cost nothing.`) : "";
+        this.ledger.replaceChildren(
+            ...called.map((e) => h("details", { class: e.active ? "effect active" : "effect" },
+                h("summary", {}, h("span", { class: "effect-mark", "aria-hidden": "true" }, e.active ? "●" : "○"), h("span", {}, e.id ?? e.name),
+                    h("span", { class: "bound", title: "most that leaving it out changes the peak" }, e.bound === null ? "∞" : percent(e.bound, 2)),
+                    h("span", { class: "state" }, e.active ? "computed" : "left out")),
+                h("p", {}, e.reason ?? ""))), last);
+    }
+
+    #cost() {
+        const p = state.preview;
+        const stats = p.motion?.stats ?? p.stats ?? {};
+        const rows = [
+            ["read and lay out", si(p.cost?.read_s ?? NaN, "s", 2)],
+            ["judge and move", si((p.cost?.judge_s ?? NaN) + (p.cost?.simulate_s ?? 0), "s", 2)],
+            ["steps", `${number(stats.steps, 6)}${stats.rejected ? `, ${stats.rejected} rejected` : ""}`],
+            ["evaluations", number(stats.rhs, 7)],
+            ["energy balance", number(stats.energy_error, 2)],
+            ["constraints", number(stats.max_constraint_norm, 2)],
+        ];
+        this.cost.replaceChildren(...rows.flatMap(([k, x]) => [h("dt", {}, k), h("dd", {}, x)]));
+    }
+
+    #fabricated(v, into) {
+        const rows = v.flows.map((flow) => {
+            const made = flow.as_fabricated;
+            const word = made ? made.verdict : flow.verdict;
+            const worst = Math.max(...flow.hinges.map((x) => x.as_fabricated?.utilisation ?? x.utilisation ?? 0));
+            return h("div", { class: `fab ${word}` },
+                h("div", { class: "fab-head" }, icon(WORDS[word]?.[1] ?? "question"), h("strong", {}, WORDS[word]?.[0] ?? word), h("span", {}, flow.id)),
+                h("p", {}, `Worst ${percent(worst)} of a limit${made?.corners ? `, ${made.corners.length} devices at the corners of ${made.inputs.length} ranges` : ""}.`),
+                made?.reason ? h("p", {}, made.reason) : null, made?.control ? h("p", {}, made.control) : null);
+        });
+        const advice = (v.advice ?? []).map((a) => h("li", {}, a.text, " ", button("Apply", { class: "small" }, () => edit([{ path: a.set, value: a.value }], `${a.set} is ${a.value}`))));
+        const single = (v.advice_parameters ?? []).filter((a) => a.found === "accepts").map((a) =>
+            h("li", {}, a.text, " ", button("Apply", { class: "small" }, () => edit([{ path: a.set, value: a.value }], `${a.set} is ${a.value}`))));
+        into.replaceChildren(...rows,
+            advice.length ? h("div", { class: "advice" }, h("h3", {}, "What would be accepted"), h("ul", {}, advice)) : "",
+            single.length ? h("div", { class: "advice" }, h("h3", {}, "One parameter alone"), h("ul", {}, single)) : "",
+            v.advice_note ? h("p", { class: "doc" }, v.advice_note) : "");
+        this.show();
+    }
+}
+
+/** Of how it is computed, what a verdict depends on. */
+function judging() {
+    const { accuracy, effects, hinge_model } = state.options;
+    return Object.fromEntries(Object.entries({ accuracy, effects, hinge_model }).filter(([, v]) => v !== undefined));
+}
+
+export function sentence(g) {
+    if (!g) return "No hinge carries a limit.";
+    const where = g.t_s === null || g.t_s === undefined ? "at a required pose" : `in ${g.scene} at ${si(g.t_s, "s")}`;
+    const band = g.utilisation_band ? ` (${number(g.utilisation_band[0] * 100, 2)} to ${number(g.utilisation_band[1] * 100, 2)} %)` : "";
+    return `Hinge ${g.id} governs: ${percent(g.utilisation)}${band} of its ${g.criterion ?? "elastic"} limit, ${where}, ${g.flow}.`;
+}
+
+function bar(hinge, most, governing, made) {
+    const use = hinge.utilisation ?? 0;
+    const [low, high] = hinge.utilisation_band ?? [use, use];
+    const x = (v) => `${(100 * Math.min(Math.max(v, 0), most)) / most}%`;
+    return h("button", {
+        type: "button", class: `bar${use > 1 ? " over" : ""}${governing?.id === hinge.id ? " governs" : ""}`, "data-hinge": hinge.id, "aria-pressed": "false",
+        "aria-label": `Hinge ${hinge.id}: ${percent(use)} of its limit${governing?.id === hinge.id ? ", governs" : ""}`, onclick: () => lookAt(hinge.id),
+    },
+    h("span", { class: "bar-id" }, hinge.id),
+    h("span", { class: "bar-track" },
+        h("span", { class: "bar-fill", style: { width: x(use) } }),
+        h("span", { class: "bar-band", style: { left: x(low), width: `calc(${x(high)} - ${x(low)})` } }),
+        made ? h("span", { class: "bar-made", title: `as fabricated: ${percent(made)}`, style: { left: x(made) } }) : null),
+    h("span", { class: "bar-value" }, percent(use, use < 0.1 ? 2 : 3)));
+}
+
+export function diagnosticItem(d, jump = true) {
+    const here = d.in_text !== false;
+    const place = !d.line ? "" : here ? `${d.line}:${d.column}` : (d.file ?? "").split("/").at(-1);
+    const text = [place ? h("span", { class: "place" }, place) : null, h("span", { class: "what" }, d.message), d.code ? h("span", { class: "code" }, d.code) : null];
+    return h("li", { class: d.severity },
+        jump && d.line && here ? h("button", { type: "button", class: "jump", onclick: () => document.dispatchEvent(new CustomEvent("jump", { detail: d })) }, text) : h("div", { class: "jump" }, text),
+        d.explain ? h("details", { class: "explain" }, h("summary", {}, d.title ?? "more"), h("p", {}, d.explain)) : null);
+}
