@@ -6,7 +6,7 @@
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 program=$(realpath "$1")
-place=$2/web-tests
+place=$(realpath "$2")/web-tests
 chromium=${FW_CHROMIUM:-$(command -v chromium || command -v chromium-browser || true)}
 [ -n "$chromium" ] || { echo "no chromium"; exit 77; }
 command -v npm >/dev/null || { echo "no npm"; exit 77; }
