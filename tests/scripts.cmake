@@ -50,6 +50,10 @@ fw_script_test(effects.costs COMMAND ${Python3_EXECUTABLE} tests/build/effects.p
 fw_script_test(effects.absent COMMAND ${Python3_EXECUTABLE} tests/build/effects.py absent
                ${PROJECT_BINARY_DIR} TIMEOUT 600)
 set_tests_properties(effects.costs effects.absent PROPERTIES SKIP_RETURN_CODE 77)
+# instruction counts against tests/bench/baseline.json
+fw_script_test(gate.counts COMMAND ${Python3_EXECUTABLE} tests/bench/gate ${PROJECT_BINARY_DIR})
+set_tests_properties(gate.counts PROPERTIES SKIP_RETURN_CODE 77)
+fw_script_test(gate.judge LABEL quick COMMAND ${Python3_EXECUTABLE} tests/build/gate_judge.py)
 fw_script_test(fuzz.device COMMAND tests/build/fuzz.sh TIMEOUT 600)
 fw_script_test(hard.valgrind LABEL hard COMMAND tests/build/valgrind.sh ${PROJECT_BINARY_DIR}/tests TIMEOUT 600)
 set_tests_properties(hard.valgrind PROPERTIES SKIP_RETURN_CODE 77)
