@@ -11,8 +11,9 @@
    end; windows: m and rad of the first crank's end. References: reference.c. The time is CPU time
    of one call, unsettled: for choosing what to count, not for showing.
 
-   accuracy_motions PROBLEM by-integrator|by-method|by-accuracy REFERENCE TABLE [SETTING FROM TO]
-   Tolerances 10^-E. by-accuracy: what --accuracy 10^-E chooses by itself. */
+   accuracy_motions PROBLEM by-integrator|by-method|by-accuracy REFERENCE TABLE [SETTING FROM TO
+   STEP] accuracy_motions list by-integrator|by-method    names of settings Tolerances 10^-E, E =
+   FROM, FROM + STEP .. TO. by-accuracy: what --accuracy 10^-E chooses by itself. */
 #include "dynamics/models.h"
 #include "measure.h"
 
@@ -147,21 +148,26 @@ static row move(job *j) {
 /* A curve ends where a run took more evaluations than this: what lies beyond is dear everywhere. A
    number, not a time, so that every machine counts the same runs. */
 static long most_rhs(const job *j) {
-    bool dense = j->options.method && strcmp(j->options.method, "chain") != 0;
-    return (dense ? 12000 : 100000) / (j->windows > 10 ? j->windows / 10 : 1);
+    const fw_motion_options *o = &j->options;
+    bool dense = o->method && strcmp(o->method, "chain") != 0;
+    bool dearest = o->integrator && strcmp(o->integrator, "gsl-bsimp") == 0;
+    return dense || dearest ? 12000 : 60000;
 }
 
-static bool wanted_setting(int argc, char **argv, const char *setting) {
-    return argc < 8 || strcmp(argv[5], setting) == 0;
+typedef struct wish {
+    const char *kind, *setting; /* setting NULL: all */
+    int from, to, step;
+} wish;
+
+static bool is(const char *a, const char *b) {
+    return strcmp(a, b) == 0;
 }
 
-static void curve(job *j, const char *setting, int argc, char **argv) {
-    bool by_accuracy = strcmp(argv[2], "by-accuracy") == 0;
-    int from = argc < 8 ? by_accuracy ? 1 : 5 : atoi(argv[6]), to = argc < 8 ? 13 : atoi(argv[7]);
-    if (!wanted_setting(argc, argv, setting)) return;
-    for (int e = from, failures = 0; e <= to && failures < 2; e++) {
+static void curve(job *j, const wish *w, const char *setting) {
+    if (w->setting && !is(w->setting, setting)) return;
+    for (int e = w->from, failures = 0; e <= w->to && failures < 2; e += w->step) {
         double tolerance = pow(10, -e);
-        if (by_accuracy)
+        if (is(w->kind, "by-accuracy"))
             j->options.accuracy = tolerance;
         else
             j->options.rtol = tolerance, j->options.accuracy = fmax(tolerance, 1e-12);
@@ -175,19 +181,22 @@ static void curve(job *j, const char *setting, int argc, char **argv) {
     }
 }
 
-static void curves(job *j, int argc, char **argv) {
-    bool by_method = strcmp(argv[2], "by-method") == 0;
-    if (strcmp(argv[2], "by-accuracy") == 0) {
-        curve(j, "--accuracy", argc, argv);
+/* NULL behind the last; the first integrator of the table is `auto` */
+static const char *setting_at(const char *kind, size_t i) {
+    return is(kind, "by-method") ? fw_method_at(i).name : fw_integrator_at(i + 1).name;
+}
+
+static void curves(job *j, const wish *w) {
+    if (is(w->kind, "by-accuracy")) {
+        curve(j, w, "--accuracy");
         return;
     }
-    for (size_t i = 0;; i++) {
-        const char *name = by_method ? fw_method_at(i).name : fw_integrator_at(i).name;
-        if (!name) return;
-        if (strcmp(name, "auto") == 0) continue;
+    bool by_method = is(w->kind, "by-method");
+    const char *name;
+    for (size_t i = 0; (name = setting_at(w->kind, i)); i++) {
         j->options.method = by_method ? name : "chain";
         j->options.integrator = by_method ? "dop853" : name;
-        curve(j, name, argc, argv);
+        curve(j, w, name);
     }
 }
 
@@ -196,10 +205,10 @@ static bool set_up(job *j, const char *problem) {
     j->problem = problem;
     j->error = true;
     j->options = (fw_motion_options){.samples = 2, .effects = {.mode = FW_EFFECTS_ALL}};
-    if (strcmp(problem, "six-bar") == 0) {
+    if (is(problem, "six-bar")) {
         j->r = rig_six_bar(j->arena, false);
         j->options.samples = 11;
-    } else if (strcmp(problem, "squeezer") == 0) {
+    } else if (is(problem, "squeezer")) {
         j->r = rig_squeezer(j->arena);
     } else if (sscanf(problem, "windows-%d", &n) == 1 || sscanf(problem, "scale-%d", &n) == 1) {
         j->windows = n;
@@ -212,16 +221,28 @@ static bool set_up(job *j, const char *problem) {
     return true;
 }
 
+static void list(const char *kind) {
+    const char *name;
+    for (size_t i = 0; (name = setting_at(kind, i)); i++)
+        printf("%s\n", name);
+}
+
 int main(int argc, char **argv) {
+    if (argc == 3 && is(argv[1], "list")) {
+        list(argv[2]);
+        return 0;
+    }
     job j = {.arena = fw_arena_new((size_t)4 << 30)};
     if (argc < 5 || !j.arena || !set_up(&j, argv[1])) return 2;
+    wish w = {argv[2], NULL, is(argv[2], "by-accuracy") ? 1 : 5, 13, 1};
+    if (argc == 9) w = (wish){argv[2], argv[5], atoi(argv[6]), atoi(argv[7]), atoi(argv[8])};
     if (j.error) read_truth(argv[3], j.problem, &j.truth);
     six_reference table;
-    if (strcmp(j.problem, "six-bar") == 0) {
+    if (is(j.problem, "six-bar")) {
         six_read(argv[4], &table);
         j.table = &table;
     }
-    curves(&j, argc, argv);
+    curves(&j, &w);
     fw_arena_free(j.arena);
     return 0;
 }

@@ -402,7 +402,7 @@ int main(int argc, char **argv) {
     }
     const linkage six = six_bar(), seven = squeezer();
     print(&six), print(&seven);
-    static const int sizes[] = {10, 40};
+    static const int sizes[] = {4, 40};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         windows_end e = windows(sizes[i], 2);
         printf("windows-%d,angle,0,%.20Le\nwindows-%d,rate,0,%.20Le\n", sizes[i], e.angle, sizes[i],

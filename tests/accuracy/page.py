@@ -1,0 +1,198 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""docs/accuracy.md from docs/data/accuracy-*.csv: nothing is measured here, so that the same data give the same page."""
+import math
+
+import pictures
+from report import plain, table
+from tables import Tables, interval_text
+
+
+def small(value):
+    return f"{value:.1e}".replace("e-0", "e-")
+
+
+def millions(count):
+    return plain(count / 1e6, 3)
+
+
+def share(value, digits=1):
+    return f"{100 * float(value):.{digits}f} %"
+
+
+def image(name, text):
+    return [f"![{text}](pictures/accuracy-{name}.svg)", ""]
+
+
+def sentences(t):
+    """what the page begins with: what the default buys, what one more digit costs, how sure the verdict is"""
+    own, row, tight = t.asked(3), t.verdict("1e-3"), t.verdict("1e-8")
+    ms = t.time_of("ms", "1e-3")
+    took = f", about {plain(float(ms['ratio']), 2)} ms here" if t.ms_per_instruction else ""
+    flips = int(row["flipped"])
+    return [
+        f"**The default (1e-3)** gives the peak hinge deflection of the reference six-bar with a true error of "
+        f"{small(own['peak_error'])}, for {millions(own['instructions'])} million instructions{took}.",
+        f"**One more digit costs {100 * (t.digit() - 1):.0f} %**: the mean of 1e-3 to 1e-8. But hinges in closed form are "
+        f"{100 * t.floor:.2g} % off the solids that CalculiX solves, so that digits beyond 1e-3 polish the numbers, not the device.",
+        f"**The verdict** of {row['devices']} random devices near their limit: {flips or 'none'} accepted at the default and rejected at "
+        f"1e-8, or the reverse (at most {share(row['flipped_high'], 2)}, 95 %); {share(row['inconclusive_share'])} stay undecided, "
+        f"{share(tight['inconclusive_share'])} at 1e-8 too: that is the model's error band, which no tolerance takes away."]
+
+
+def digits(t):
+    base, body = t.asked(3)["instructions"], []
+    for e in range(1, 9):
+        r = t.asked(e)
+        ratio = t.time_of("ratio", f"1e-{e}")
+        name = f"**1e-{e}**, the default" if e == 3 else f"1e-{e}"
+        body.append((name, small(r["peak_error"]), small(r["estimate"]), millions(r["instructions"]), f"{r['instructions'] / base:.2f}",
+                     interval_text(ratio) if ratio else "–"))
+    return table(["asked for", "true error of the peak", "its own estimate", "million instructions", "times the default",
+                  "CPU time, times the default [90 %]"], body)
+
+
+def choose(t):
+    uses = ((1, "draft", "sliders, sweeps over thousands of designs, a first look"),
+            (3, "normal", "verdicts, masks, recipes: the default"),
+            (5, "final", "the last check of a device near its limit; comparing two models with each other"))
+    base = t.asked(3)["instructions"]
+    body = [(name, f"`--accuracy 1e-{e}`", f"{t.asked(e)['instructions'] / base:.2f}", small(t.asked(e)["peak_error"]),
+             share(t.verdict(f"1e-{e}")["inconclusive_share"]), what) for e, name, what in uses]
+    return table(["", "option", "times the default", "true error", "verdicts undecided", "good for"], body)
+
+
+def curves_table(t, problem):
+    """instructions at which each setting reaches an error, log-log between neighbours"""
+    def at(rows, target):
+        good = [r for r in rows if r["peak_error"] > 0]
+        for a, b in zip(good, good[1:]):
+            if a["peak_error"] >= target >= b["peak_error"] and a["peak_error"] > b["peak_error"]:
+                w = math.log(a["peak_error"] / target) / math.log(a["peak_error"] / b["peak_error"])
+                return math.exp((1 - w) * math.log(a["instructions"]) + w * math.log(b["instructions"]))
+        return math.nan
+
+    body = []
+    for kind in ("by-integrator", "by-method"):
+        for name, rows in t.settings(problem, kind):
+            if kind == "by-method" and name == "chain":
+                continue
+            label = f"chain + {name}" if kind == "by-integrator" else f"{name} + dop853"
+            best = min(rows, key=lambda r: r["peak_error"] if r["peak_error"] > 0 else math.inf)
+            body.append((label, *(millions(at(rows, 10.0**-e)) for e in (5, 7, 9, 11)), small(best["peak_error"]), small(best["state_error"]),
+                         best["rhs"], best["steps"]))
+    return table(["setting", "million instructions at 1e-5", "1e-7", "1e-9", "1e-11", "smallest error of the peak", "of the state there",
+                  "rhs there", "steps"], body)
+
+
+def motion_section(t):
+    lines = ["## Integrators and methods", "",
+             "Every dot is one whole call at one tolerance (1e-5 to 1e-13), second run for the error estimate included; the bold line is what",
+             "`--accuracy` chooses by itself, its dots what was asked for. Below the shaded edge the hinges' model is wrong by more than the",
+             "numbers. References are independent of the code measured: [reference.c](../tests/accuracy/reference.c), long double and",
+             "extrapolation, which agrees to 1e-14 with tables in quad precision and with elliptic functions.", ""]
+    notes = {"six-bar": "The state's error is that of the table in quad precision (mm, rad).",
+             "squeezer": "Its driven crank has turned 15.8 rad after 30 ms: a relative error of the peak is one of the phase.",
+             "windows-4": "It passes through singular positions, where all bars are in line: there round-off is amplified, and no setting "
+                          "gets reliably beyond 1e-10."}
+    titles = {"six-bar": "Reference six-bar", "squeezer": "Andrews' squeezer", "windows-4": "N four-bar windows, N = 4"}
+    for problem, title in titles.items():
+        name = problem.split("-4")[0]
+        lines += [f"### {title}", "", notes[problem], "", *image(name, f"{title}, integrators"), *image(f"{name}-methods", f"{title}, methods"),
+                  *curves_table(t, problem)]
+    return lines
+
+
+def size_section(t):
+    body = [(r["n"], r["bodies"], 3 * r["n"] + 1, r["rhs"], millions(r["instructions"]), plain(r["instructions"] / r["rhs"] / r["bodies"]))
+            for r in t.scaling()]
+    return ["## Cost against size", "", f"N four-bar windows, 1 s at rtol 1e-8: instructions grow as bodies^{t.slope():.2f} (N = 10 to 10 000), "
+            "model building and error estimate included.", "", *image("size", "cost against size"),
+            *table(["N", "bodies", "joints", "rhs", "million instructions", "instructions per rhs and body"], body)]
+
+
+def peers_section(t):
+    return ["## Other codes on the same axes", "", f"Rows: {t.fact('peers')}. Curves of other codes are their CPU times, put where our whole call "
+            "takes as long; the error is that of the state. Ratios at equal error, in interleaved rounds with intervals, are in "
+            "[benchmarks](benchmarks.md).", "", *image("peers", "other codes on the same axes")]
+
+
+def verdict_section(t):
+    body = []
+    for r in t["verdicts"]:
+        body.append((r["accuracy"], r["accepted"], r["rejected"], r["inconclusive"],
+                     *(f"{share(r[f'{n}_share'])} [{share(r[f'{n}_low'])}, {share(r[f'{n}_high'])}]" for n in ("inconclusive", "changed", "flipped"))))
+    return ["## How sure the verdict is", "", "Random chains and six-bars whose loads are scaled until their governing hinge is within some 20 % of "
+            "its limit, judged at every accuracy and compared with 1e-8. Shares with intervals of 95 % (Wilson).", "",
+            *image("verdicts", "verdict stability"),
+            *table(["accuracy", "accepted", "rejected", "undecided", "undecided [95 %]", "decided otherwise than at 1e-8 [95 %]",
+                    "accepted here and rejected there, or the reverse [95 %]"], body)]
+
+
+def hinge_section(t):
+    body = [(name, next(interval_text(r, 1) for r in t["hinge-costs"] if r["level"] == name),
+             *(f"{share(min(t.off(name, what)), 2)} to {share(max(t.off(name, what)), 2)}" for what in ("stiffness", "strain")))
+            for name in ("closed-form", "compliance", "elastica")]
+    lines = ["## The model's own error", "", f"What no tolerance takes away. One hinge, {t.solids} hinges of the gallery beside 3-D finite elements "
+             f"({t.fact('solids')}), which themselves scatter by 1 to 2 % in strain: [hinges](hinge-ladder.md).", "",
+             *image("hinges", "one hinge beside solids"),
+             *table(["level", "times the closed form's CPU time [90 %]", "stiffness off", "strain off"], body),
+             f"A solid takes some {pictures.power(round(math.log10(t.cost('continuum'))))} times as long as a closed form (one run of each).", "",
+             "A whole device: error of the largest peak by each model of its hinges, against exact beams in the same scene.", ""]
+    devices = dict.fromkeys(r["device"] for r in t["models"])
+    at = {(r["device"], r["model"]): float(r["peak_error"]) for r in t["models"]}
+    return lines + table(["device", "pins at the elastic centres", "flexures that give, closed form"],
+                         [(d, share(at[d, "revolute"], 2), share(at[d, "compliance"], 4)) for d in devices])
+
+
+def mask_section(t):
+    return ["## Masks", "", "Mask of the reference six-bar by `--mask-tolerance`. The edge error is the certificate's, proved for every chord; "
+            "[independent programs](theory/masks.md) check certificates.", "", *image("masks", "masks"),
+            *table(["tolerance nm", "largest edge error nm", "vertices", "bytes of GDSII"],
+                   [(plain(float(r["tolerance_nm"])), f"{float(r['edge_error_nm']):.2f}", r["vertices"], r["bytes"]) for r in t["masks"]])]
+
+
+def survey_section(t):
+    rows = [r for r in t["survey"] if r["group"] == "all"]
+    if not rows:
+        return []
+
+    def number(text, form):
+        return format(float(text), form) if text else "–"
+
+    body = [(f"{float(r['accuracy']):.0e}".replace("e-0", "e-"), r["devices"],
+             f"{share(r['share_below'])} [{share(r['share_low'])}, {share(r['share_high'])}]",
+             f"{number(r['cost_median'], '.2f')}, {number(r['cost_90'], '.2f')}", share(r["cost_within"]) if r["cost_within"] else "–",
+             f"{number(r['total_median'], '.2f')}, {number(r['total_90'], '.2f')}", r["dishonest"],
+             " / ".join(number(r[f"ratio_{q}"], ".2g") for q in ("least", "01", "10", "50", "90", "99"))) for r in rows]
+    return ["## Does --accuracy keep its word", "", "A thousand random devices, each moved with `--accuracy` as asked, against a far tighter run. Cost is "
+            "that of the run that answers, over the cheapest setting of a grid that would have done; `all runs` adds those for the estimate "
+            "and those that were not good enough.", "", *image("steering", "cost of what was chosen"), *image("honesty", "estimated over true error"),
+            *table(["asked for", "devices", "true error below it [95 %]", "cost over the cheapest: median, 90 %", "at most 1.5 times", "all runs: median, 90 %",
+                    "estimate below the true error", "estimated over true: least / 1 / 10 / 50 / 90 / 99 %"], body)]
+
+
+def provenance_section(t):
+    return ["## Provenance", "", *table(["", ""], [(r["what"], f"`{r['value']}`" if r["what"] == "command" else r["value"]) for r in t["provenance"]]),
+            "Instructions are those of the whole call, counted by callgrind with libm's variants pinned, so that every x86-64 processor counts",
+            "the same. Times are CPU times, medians of interleaved rounds of fresh processes with their interval of 90 %; one that is wider than",
+            "10 % is not shown. Data: " + ", ".join(f"[{n}](data/accuracy-{n}.csv)" for n in sorted(n for n in [*t.table, "verdict-devices"]
+                                                                                                 if n == "verdict-devices" or t[n])) + ".", ""]
+
+
+def read(docs):
+    return Tables(docs)
+
+
+def compose(t):
+    lines = ["# What accuracy costs", "", "Written by `cmake --build build --target accuracy`; do not edit.", "",
+             *[line for sentence in sentences(t) for line in (f"- {sentence}",)], "",
+             "## What one more digit costs", "", "Reference six-bar, 10 ms, as `--accuracy` chooses; errors are relative, of the peak hinge deflection.", "",
+             *digits(t), *image("six-bar", "error against instructions"), "## Choose for me", "", *choose(t), *survey_section(t),
+             *motion_section(t), *size_section(t), *peers_section(t), *verdict_section(t), *hinge_section(t), *mask_section(t),
+             *provenance_section(t)]
+    return "\n".join(lines).rstrip("\n") + "\n"
+
+
+def write(docs, t):
+    pictures.draw(docs / "pictures", t)
+    (docs / "accuracy.md").write_text(compose(t), encoding="utf-8")
