@@ -2,6 +2,7 @@
 /* Which method: asked for by name, or by the masses. Which integrator: asked for by name, or by the
    spectrum of the scene at its start. */
 #include "dynamics/run.h"
+#include "dynamics/steer.h"
 #include <math.h>
 #include <string.h>
 
@@ -86,8 +87,10 @@ static void product(fw_run *r, double t, const double *y, const double *z, doubl
 /* largest |eigenvalue| of the right-hand side's Jacobian J at (t, y), scaled: power iteration
    with J^2, whose dominant eigenvalues are real for oscillations too. A lower bound that is within
    a few per cent when the spectrum has a gap; a choice needs no more. Cost 48 evaluations. Source:
-   Golub and Van Loan, ch. 7. Test: test_choose.c. */
-static fw_status fastest(fw_run *r, double t, const double *y, double reach, double *rate) {
+   Golub and Van Loan, ch. 7. Test: test_choose.c. shape (nq): its velocities; NULL: not asked for
+ */
+static fw_status fastest(fw_run *r, double t, const double *y, double reach, double *rate,
+                         double *shape) {
     fw_model *m = r->model;
     size_t n = (size_t)m->ny;
     double *work[5];
@@ -109,8 +112,9 @@ static fw_status fastest(fw_run *r, double t, const double *y, double reach, dou
         z = work[4], work[4] = swap;
         if (k > 1) *rate = fmax(*rate, sqrt(norm(z, 2 * m->nq)));
     }
-    fw_arena_rewind(r->arena, mark);
     if (!isfinite(*rate)) *rate = 0;
+    if (shape) memcpy(shape, z + m->nq, (size_t)m->nq * sizeof *shape);
+    fw_arena_rewind(r->arena, mark);
     return FW_OK;
 }
 
@@ -141,8 +145,8 @@ static fw_status fastest_in_touch(fw_run *r, double before, double *rate) {
         }
     if (!idle) return FW_OK;
     stated = sqrt(before * before + stated);
-    FW_TRY(fastest(r, 0, r->start, 1e-6, rate));
-    FW_TRY(fastest(r, 0, r->start, 1e-5, &farther));
+    FW_TRY(fastest(r, 0, r->start, 1e-6, rate, NULL));
+    FW_TRY(fastest(r, 0, r->start, 1e-5, &farther, NULL));
     bool sound = fabs(farther - *rate) <= 0.2 * *rate;
     if (!sound || !(*rate > 1.01 * before)) *rate = stated;
     fw_model_set_switches(m, 0, r->start);
@@ -164,8 +168,8 @@ static fw_status rayleigh(fw_run *r, const fw_terms *terms, const double *force,
     return FW_OK;
 }
 
-/* 1 per scaled time at which motion along the last response u (SI) dies away, by damping: half of
-   the quotient of power and kinetic energy */
+/* 1 per scaled time at which motion along u (nq, scaled by any factor) dies away, by damping: half
+   of the quotient of power and kinetic energy */
 static fw_status dying(fw_run *r, const double *u, double *rate) {
     const fw_model *m = r->model;
     double *work[4], power = 0, mass = 0;
@@ -174,7 +178,7 @@ static fw_status dying(fw_run *r, const double *u, double *rate) {
     for (int i = 0; i < 4; i++)
         FW_NEED(work[i] = fw_arena_array(r->arena, double, (size_t)m->ny));
     for (size_t i = 0; i < n; i++)
-        work[0][n + i] = i % 3 == 2 ? u[i] : u[i] / m->scale.length_m;
+        work[0][n + i] = u[i];
     product(r, 0, r->start, work[0], 1e-6, work[1], work[2], work[3]);
     for (size_t i = 0; i < n; i++) {
         double v = work[0][n + i], b = i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3];
@@ -207,6 +211,8 @@ static fw_status excited(fw_run *r, const fw_terms *terms, double *rate, double 
             s.time_s;
     if (*rate == 0) FW_TRY(rayleigh(r, terms, force, u, rotation, rate));
     *dies = 0;
+    for (size_t i = 0; i < n; i++)
+        u[i] /= i % 3 == 2 ? 1 : s.length_m;
     if (*rate > 0) FW_TRY(dying(r, u, dies));
     fw_arena_rewind(r->arena, mark);
     return FW_OK;
@@ -237,17 +243,65 @@ static price prices(const fw_run *r) {
 typedef struct spectrum {  /* rad per scaled time */
     double fast, touching; /* the fastest motion; once all contacts touch, 0: none is open */
     double slow, dying;    /* what is excited, and how it dies away */
+    double ringing; /* scaled time for which the fastest motion is more than what is wanted */
+    double share;   /* its amplitude then, over that of the motion */
 } spectrum;
+
+/* Amplitude of the fastest mode z of rate w after the largest loads F came at once, and with the
+   starting velocities v, as far as it is wanted to be right:
+     A = |z.F|/(z.M z w^2) + |z.M v|/(z.M z w),  |A e^(-d t)| > wanted/4
+   Loads that come slowly excite less: then implicit steps are taken for dearer than they are.
+   Source: modal superposition. Test: test_choose.c (what_dies_away). */
+static fw_status ringing(fw_run *r, const fw_terms *terms, const double *z, double time,
+                         spectrum *s) {
+    const fw_model *m = r->model;
+    double *force, load = 0, momentum = 0, mass = 0, most = 0, dies;
+    const fw_scale unit = m->scale;
+    fw_mark mark = fw_arena_mark(r->arena);
+    FW_NEED(force = fw_arena_array(r->arena, double, (size_t)m->nq));
+    fw_terms_largest_force(r->mechanism, terms, r->scene->duration_s, force);
+    double newton = unit.mass_kg * unit.length_m / (unit.time_s * unit.time_s);
+    for (int i = 0; i < m->nq; i++) {
+        bool turn = i % 3 == 2;
+        double b = turn ? m->inertia[i / 3] : m->mass[i / 3];
+        load += z[i] * force[i] / (turn ? newton * unit.length_m : newton);
+        momentum += b * z[i] * r->start[m->nq + i];
+        mass += b * z[i] * z[i];
+        most = fmax(most, fabs(z[i]));
+    }
+    fw_arena_rewind(r->arena, mark);
+    s->ringing = s->share = 0;
+    if (!(mass > 0) || !(s->fast > 0)) return FW_OK;
+    double amplitude = (fabs(load) / s->fast + fabs(momentum)) / (mass * s->fast) * most;
+    double wanted = r->options->rtol > 0 ? 1e3 * r->options->rtol : fw_pace_wanted(r);
+    FW_TRY(dying(r, z, &dies));
+    s->share = fmin(1, amplitude / r->amplitude);
+    if (s->share > wanted / 4) s->ringing = fmin(time, log(4 * s->share / wanted) / dies);
+    return FW_OK;
+}
+
+/* the tolerance of the answer */
+static double tolerance(const fw_run *r, const char *name) {
+    if (r->options->rtol > 0) return r->options->rtol;
+    return fw_pace_start(r, fw_stepper_find(name), fw_pace_wanted(r)).rtol;
+}
 
 /* Steps of radau5: 8 per rad at a tolerance of 1e-7, as measured on one undamped mode, twice as
    many where faster modes are excited besides: 12 are taken. The error of a motion that dies away
    grows with its fourth power, so that it counts for four of its times. Contacts excite what they
-   are as stiff as, for as long as an impact takes: in between, the geometric mean. */
+   are as stiff as, for as long as an impact takes: in between, the geometric mean. The fastest
+   motion is passed over only where it is less than what is wanted; steps go with the fifth root of
+   an amplitude. */
 static double implicit_steps(const fw_run *r, const spectrum *s, double time) {
     double count = fmin(time, s->dying > 0 ? 4 / s->dying : time) * s->slow;
     if (s->touching > 0) count = fmax(count, time * sqrt(s->slow * s->touching));
-    double tolerance = r->options->rtol > 0 ? r->options->rtol : 1e-7;
-    return fmax(200, 12 * count * pow(tolerance / 1e-7, -0.2));
+    count += s->fast * s->ringing * pow(s->share, 0.2);
+    return fmax(200, 12 * count) * pow(tolerance(r, "radau5") / 1e-7, -0.2);
+}
+
+/* Steps of dop853 that the tolerance needs: one per rad at 1e-7 and at least a hundred */
+static double explicit_steps(const fw_run *r, const spectrum *s, double time) {
+    return fmax(100, time * s->slow) * pow(tolerance(r, "dop853") / 1e-7, -0.1);
 }
 
 static fw_status say_choice(fw_run *r, const spectrum *s, bool stiff, double stable, double most) {
@@ -281,13 +335,16 @@ static fw_status choose(fw_run *r, const fw_terms *terms) {
     const fw_model *m = r->model;
     double time = r->scene->duration_s / m->scale.time_s;
     spectrum s;
-    FW_TRY(fastest(r, 0, r->start, 1e-6, &s.fast));
+    double *shape;
+    FW_NEED(shape = fw_arena_array(r->arena, double, (size_t)m->nq));
+    FW_TRY(fastest(r, 0, r->start, 1e-6, &s.fast, shape));
     FW_TRY(fastest_in_touch(r, s.fast, &s.touching));
     FW_TRY(excited(r, terms, &s.slow, &s.dying));
+    FW_TRY(ringing(r, terms, shape, time, &s));
     double most = fmax(s.fast, s.touching);
     if (!(s.slow > 0) || s.slow > most) s.slow = most; /* a nearly rigid response says nothing */
     const price p = prices(r);
-    double stable = time * most / 6, explicit_ = fmax(100, time * s.slow);
+    double stable = time * most / 6, explicit_ = explicit_steps(r, &s, time);
     /* contacts that are open at the start touch for a part of the time: half */
     explicit_ = fmax(explicit_, s.touching > s.fast ? fmax(time * s.fast / 6, stable / 2) : stable);
     double implicit = implicit_steps(r, &s, time);
@@ -305,7 +362,7 @@ static fw_status choose(fw_run *r, const fw_terms *terms) {
    Wanner II, IV.2 (detection of stiffness). Test: test_choose.c. */
 fw_status fw_integrator_stuck(fw_run *r, const fw_stepper *s, bool *stuck) {
     double rate;
-    FW_TRY(fastest(r, s->t, s->y, 1e-6, &rate));
+    FW_TRY(fastest(r, s->t, s->y, 1e-6, &rate, NULL));
     *stuck = s->h * rate > 2;
     return FW_OK;
 }

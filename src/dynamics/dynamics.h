@@ -30,9 +30,12 @@ typedef struct fw_motion_options {
     double accuracy;        /* relative error wanted on the peak hinge deflection; default 1e-3 */
     int samples; /* rows of `sample`, evenly over the scene, first at 0, last at the end */
     fw_effect_choice effects;
-    bool reactions;        /* peaks of the joint forces and of travels too */
-    double moved_m;        /* how far assembly had moved bodies already; for the statistics */
-    long most_steps;       /* over all tries; FW-D108 beyond; 0: 10 million */
+    bool reactions;  /* peaks of the joint forces and of travels too */
+    double moved_m;  /* how far assembly had moved bodies already; for the statistics */
+    double looser;   /* tolerance of the second run, from which errors are estimated, over that of
+                        the answer; 0: as the integrator bears; 1: there is no such run, and
+                        errors are infinite */
+    long most_steps; /* over all tries; FW-D108 beyond; 0: 10 million */
     double most_angle_rad; /* ends the run when a joint has turned further: the verdict needs no
                               more; 0: never */
     double hinge_accuracy; /* by which auto chooses the model of hinges; 0: accuracy */
@@ -81,7 +84,10 @@ typedef struct fw_motion_stats {
     double assembly_moved_m; /* largest correction of the initial position */
     double velocity_moved;   /* largest change of an initial velocity, relative */
     double estimate_margin;  /* times what two runs differ by: their error. 0: there was one run */
-    double estimate_cpu_s;   /* of the second run that the peaks' error estimates come from */
+    double estimate_cpu_s; /* of all other runs: for the estimate, and those that were not enough */
+    double looser_rtol;    /* of the run that was compared with; 0: none */
+    int runs;              /* that were made in all; 1 for a row of equilibria */
+    long all_steps, all_rhs; /* of them */
 } fw_motion_stats;
 
 typedef struct fw_motion {
@@ -105,6 +111,8 @@ typedef struct fw_motion {
     double end_s;                    /* the scene's duration, or where it was ended */
     const char *integrator, *method; /* used, and why: `reason` */
     const char *reason;
+    double accuracy;                       /* wanted: relative error of the largest deflection */
+    const char *tolerance;                 /* how the tolerance was found: a sentence */
     const char *stabilise, *method_report; /* what the method has to say, or NULL */
     void *observed, *compared; /* contexts that saw this motion, and the looser run (NULL: none did;
                                   a row of equilibria has no such run) */
@@ -125,6 +133,9 @@ fw_status fw_simulate_compiled(fw_arena *arena, const fw_mechanism *mechanism,
                                fw_diags *diags, const fw_motion **motion);
 /* rad: the part of each peak's error_rad that effects which auto left out account for */
 double fw_motion_left_out(const fw_motion *motion);
+/* estimated relative error of the largest deflection, what was left out included; 0: nothing moves
+ */
+double fw_motion_estimated(const fw_motion *motion);
 /* puts it there; ends either kind of motion, once */
 void fw_motion_widen(fw_motion *motion);
 /* what both check first: numbers, names of methods, mechanism and scene */

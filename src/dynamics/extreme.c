@@ -222,7 +222,7 @@ static void widen(const fw_force_peak *p, int count, double most[3], double off[
 }
 
 /* torques that are small beside force times the scene's length count with those, and the reverse */
-bool fw_run_extremes_good(const fw_run *r, double accuracy) {
+double fw_run_extremes_off(const fw_run *r) {
     const fw_motion *m = r->motion;
     double most[3] = {0}, off[3] = {0}, length = r->model->scale.length_m;
     widen(m->force_peak, m->npin, most, off);
@@ -233,6 +233,9 @@ bool fw_run_extremes_good(const fw_run *r, double accuracy) {
         off[TRAVEL] = fmax(off[TRAVEL], m->travel_peak[i].error_m);
     }
     double force = fmax(most[FORCE], most[TORQUE] / length);
-    return off[FORCE] <= accuracy * force && off[TORQUE] <= accuracy * force * length &&
-           off[TRAVEL] <= accuracy * most[TRAVEL];
+    double worst = 0;
+    if (off[FORCE] > 0) worst = off[FORCE] / force;
+    if (off[TORQUE] > 0) worst = fmax(worst, off[TORQUE] / (force * length));
+    if (off[TRAVEL] > 0) worst = fmax(worst, off[TRAVEL] / most[TRAVEL]);
+    return worst;
 }

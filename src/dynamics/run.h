@@ -53,6 +53,7 @@ typedef struct fw_run {
     fw_motion *motion;
     fw_model *model;
     const fw_stepper_row *integrator;
+    double trust;    /* what differences of two runs count times; 1: as they are */
     double uneven;   /* heaviest body over the lightest one between two joints */
     const char *why; /* this method though none was asked for; NULL: the default, or asked for */
     double *q0;      /* (3 nbody) assembled, SI */
@@ -134,8 +135,8 @@ void fw_run_extremes(fw_run *r, fw_stepper *s, double theta_end);
 /* peaks of the motion with errors from the looser pass */
 void fw_run_take_extremes(fw_run *r, const fw_extreme *fine, const fw_extreme *coarse, double doubt,
                           long steps);
-/* all of them within the accuracy of the largest of their kind? */
-bool fw_run_extremes_good(const fw_run *r, double accuracy);
+/* the largest error over the largest value of its kind */
+double fw_run_extremes_off(const fw_run *r);
 
 /* run.c: FW-D244 when friction is what ended the run at scaled time t */
 fw_status fw_run_jammed(const fw_run *r, double t);

@@ -24,6 +24,24 @@ static json_t *stats(const fw_motion *m, bool *failed) {
     return o;
 }
 
+/* what was wanted of it, what it is taken to be, and what that took, all runs counted */
+static json_t *accuracy(const fw_motion *m, bool *failed) {
+    const fw_motion_stats *s = &m->stats;
+    double estimated = fw_motion_estimated(m);
+    json_t *o = json_object();
+    fw_json_put(o, "wanted", fw_json_real(m->accuracy), failed);
+    fw_json_put(o, "estimated", fw_json_real(estimated), failed);
+    fw_json_put(o, "reached", json_boolean(estimated <= m->accuracy), failed);
+    fw_json_put(o, "reason", fw_json_text(m->tolerance), failed);
+    fw_json_put(o, "rtol", fw_json_real(s->rtol), failed);
+    fw_json_put(o, "looser_rtol", fw_json_real(s->looser_rtol), failed);
+    fw_json_put(o, "runs", json_integer(s->runs), failed);
+    fw_json_put(o, "steps", json_integer(s->all_steps), failed);
+    fw_json_put(o, "rhs", json_integer(s->all_rhs), failed);
+    fw_json_put(o, "cpu_s", fw_json_real(s->cpu_s + s->estimate_cpu_s), failed);
+    return o;
+}
+
 static json_t *peaks(const fw_mechanism *mechanism, const fw_motion *m, bool *failed) {
     json_t *list = json_array();
     for (int k = 0; k < m->npin; k++) {
@@ -114,6 +132,7 @@ fw_status fw_report_simulate_json(const fw_mechanism *mechanism, const fw_motion
     fw_json_put(root, "stabilise", fw_json_text(motion->stabilise), &failed);
     if (motion->method_report)
         fw_json_put(root, "method_report", fw_json_text(motion->method_report), &failed);
+    fw_json_put(root, "accuracy", accuracy(motion, &failed), &failed);
     fw_json_put(root, "stats", stats(motion, &failed), &failed);
     fw_json_put(root, "hinge_model",
                 fw_json_hinge_model(mechanism, &motion->ledger.hinge, motion->level, &failed),

@@ -158,7 +158,8 @@ static void reason_of(fw_text *out, const char *flow, const char *scene, double 
                       const fw_motion *motion) {
     (void)wanted;
     if (motion->reason && motion->reason[0])
-        fw_report_markup(out, "<li>{s}, {s}: {s}</li>\n", scene, flow, motion->reason);
+        fw_report_markup(out, "<li>{s}, {s}: {s}; {s}</li>\n", scene, flow, motion->reason,
+                         motion->tolerance);
 }
 
 fw_status fw_report_section_accuracy(fw_page *page) {

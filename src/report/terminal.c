@@ -312,6 +312,7 @@ fw_status fw_report_simulate_text(const fw_scene *scene, const fw_mechanism *m,
     if (strcmp(motion->stabilise, "projection") != 0)
         fw_text_printf(out, "stabilisation: %s\n", motion->stabilise);
     if (motion->method_report) fw_text_printf(out, "%s\n", motion->method_report);
+    fw_text_printf(out, "%s\n", motion->tolerance);
     statistics(out, &motion->stats);
     peaks(m, motion, time, out);
     fw_report_hinge_model(m, &motion->ledger.hinge, motion->level, out);

@@ -282,6 +282,9 @@ void fw_row_finish(fw_row *r) {
     m->stats = (fw_motion_stats){.steps = r->solved,
                                  .rejected = r->rejected,
                                  .rhs = r->evaluated,
+                                 .runs = 1,
+                                 .all_steps = r->solved,
+                                 .all_rhs = r->evaluated,
                                  .projections = r->evaluated,
                                  .max_constraint_norm = model->worst_position,
                                  .energy_error = r->kinetic / fmax(r->elastic, DBL_MIN),
@@ -290,4 +293,7 @@ void fw_row_finish(fw_row *r) {
                                  .assembly_moved_m = r->options->moved_m};
     m->method = m->integrator = m->stabilise = "quasi-static";
     m->reason = "inertia is left out: the motion is a row of equilibria";
+    m->accuracy = r->options->accuracy > 0 ? r->options->accuracy : 1e-3;
+    m->tolerance =
+        "as many equilibria as keep what is read off between them to a fiftieth of the accuracy";
 }

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The tolerances that an accuracy needs. Private to dynamics/. */
+#ifndef FW_DYNAMICS_STEER_H
+#define FW_DYNAMICS_STEER_H
+#include "dynamics/run.h"
+
+typedef struct fw_pace { /* of two runs */
+    double looser, rtol; /* relative tolerances: of the one that is compared with, of the answer */
+    double margin;       /* times the difference of both: error of the answer */
+} fw_pace;
+
+/* relative error of the numbers that is wanted: what the effects left out do not take */
+double fw_pace_wanted(const fw_run *r);
+/* is there a table for this integrator, and is the tolerance ours to choose? */
+bool fw_pace_known(const fw_run *r, const fw_stepper_row *row);
+/* the tolerances to begin with for a relative error of `wanted` */
+fw_pace fw_pace_start(const fw_run *r, const fw_stepper_row *row, double wanted);
+/* the next ones where the estimate came out `off` (> 1) times too large in try number `tries` (from
+   1); *reuse: the answer so far may be what is compared with */
+fw_pace fw_pace_next(const fw_run *r, fw_pace pace, double off, int tries, bool *reuse);
+/* the tightest tolerance that round-off leaves room for */
+double fw_pace_tightest(const fw_run *r);
+
+/* say.c: estimate over what is wanted, the largest of all that counts */
+double fw_run_off(const fw_run *r);
+/* warns of what was not reached and of energies that do not add up; motion->tolerance */
+fw_status fw_run_say(fw_run *r, bool enough);
+
+#endif

@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tolerances by the accuracy that is wanted. The statistics over random devices are in
+   tests/accuracy. */
+#include "models.h"
+
+static const fw_motion *run(fw_arena *arena, const rig *r, const fw_motion_options *options) {
+    fw_diags diags = fw_diags_new(arena);
+    const fw_motion *motion = NULL;
+    fw_status status = fw_simulate(arena, &r->m, &r->scene, options, &diags, &motion);
+    if (status != FW_OK) fail_msg("%s", diags.count ? diags.item[0].message : "no diagnostic");
+    return motion;
+}
+
+static double size_of(const fw_motion *m) {
+    double most = 0;
+    for (int i = 0; i < m->npin; i++)
+        most = fmax(most, fabs(m->peak[i].angle_rad));
+    return most;
+}
+
+/* against GSL's Runge-Kutta method of order 8 at 1e-13 */
+static void test_errors_are_below(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const double accuracy[] = {1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10};
+    for (uint64_t seed = 0; seed < 8; seed++) {
+        const rig r = seed == 0 ? rig_six_bar(arena, false) : rig_any(arena, seed);
+        const fw_motion *truth =
+            run(arena, &r, &(fw_motion_options){.integrator = "gsl-rk8pd", .rtol = 1e-13});
+        long before = 0;
+        for (int k = 0; k < 6; k++) {
+            const fw_motion *m = run(arena, &r, &(fw_motion_options){.accuracy = accuracy[k]});
+            double size = size_of(truth);
+            for (int i = 0; i < m->npin; i++) {
+                double off = fabs(fabs(m->peak[i].angle_rad) - fabs(truth->peak[i].angle_rad));
+                assert_true(off <= m->peak[i].error_rad + truth->peak[i].error_rad);
+                assert_true(off < accuracy[k] * size);
+                assert_true(m->peak[i].error_rad <= accuracy[k] * size_of(m));
+            }
+            assert_true(m->stats.rhs > before); /* a digit costs something */
+            before = m->stats.rhs;
+        }
+    }
+    fw_arena_free(arena);
+}
+
+/* the six-bar at the usual accuracy takes fewer evaluations, those for the estimate included, than
+   at the tolerances 1e-7 and 1e-5, and counts all of them */
+static void test_no_more_than_asked_for(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const rig r = rig_six_bar(arena, false);
+    const fw_motion *m = run(arena, &r, &(fw_motion_options){0});
+    const fw_motion *fixed = run(arena, &r, &(fw_motion_options){.rtol = 1e-7});
+    print_message("  rtol %.2g and %.2g, %ld of %ld evaluations; %ld of %ld at 1e-7\n",
+                  m->stats.rtol, m->stats.looser_rtol, m->stats.rhs, m->stats.all_rhs,
+                  fixed->stats.rhs, fixed->stats.all_rhs);
+    assert_int_equal(m->stats.runs, 2);
+    assert_true(m->stats.rtol > 1e-6 && m->stats.looser_rtol > m->stats.rtol);
+    assert_true(10 * m->stats.all_rhs < 9 * fixed->stats.all_rhs);
+    assert_true(m->stats.all_rhs > m->stats.rhs && m->stats.all_steps > m->stats.steps);
+    fw_arena_free(arena);
+}
+
+/* without an estimate: one run, the same answer, and nothing is said of its error */
+static void test_without_an_estimate(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const rig r = rig_six_bar(arena, false);
+    const fw_motion_options both = {.rtol = 1e-7, .reactions = true};
+    fw_motion_options one = both;
+    one.looser = 1;
+    const fw_motion *a = run(arena, &r, &both), *b = run(arena, &r, &one);
+    assert_int_equal(a->stats.runs, 2);
+    assert_int_equal(b->stats.runs, 1);
+    assert_int_equal(b->stats.rhs, b->stats.all_rhs);
+    assert_int_equal(a->stats.rhs, b->stats.rhs);
+    for (int i = 0; i < a->npin; i++) {
+        assert_true(a->peak[i].angle_rad == b->peak[i].angle_rad);
+        assert_true(a->force_peak[i].force_N == b->force_peak[i].force_N);
+        assert_true(isfinite(a->peak[i].error_rad) && isinf(b->peak[i].error_rad));
+    }
+    fw_arena_free(arena);
+}
+
+/* what cannot be had is said: the tightest tolerance is used and the estimate is above */
+static void test_what_cannot_be_reached(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    rig r = rig_six_bar(arena, false);
+    const fw_motion *m = NULL;
+    const fw_motion_options o = {.accuracy = 1e-16};
+    assert_int_equal(fw_simulate(arena, &r.m, &r.scene, &o, &diags, &m), FW_OK);
+    assert_true(m->stats.rtol <= 1e-13);
+    assert_true(m->peak[0].error_rad > 1e-16 * size_of(m));
+    fw_arena_free(arena);
+}
+
+/* effects that are left out take their share: what the numbers may be off by is the rest */
+static void test_effects_take_their_share(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    rig r = rig_six_bar(arena, false);
+    r.scene.gravity = true;
+    r.scene.gy_m_per_s2 = -1e-3;
+    r.scene.force[0].fx_N *= 0.01,
+        r.scene.force[0].fy_N *= 0.01; /* the bounds are of small motion */
+    r.scene.torque[0].value_Nm *= 0.01;
+    const fw_motion *all =
+        run(arena, &r, &(fw_motion_options){.accuracy = 1e-9, .effects = {.mode = FW_EFFECTS_ALL}});
+    bool left = false;
+    for (double accuracy = 1e-2; accuracy > 1e-7; accuracy /= 1.7) {
+        const fw_motion *m = run(arena, &r, &(fw_motion_options){.accuracy = accuracy});
+        left = left || m->ledger.left_out > 0.2 * accuracy;
+        double error = 0;
+        for (int i = 0; i < m->npin; i++) {
+            error = fmax(error, m->peak[i].error_rad);
+            assert_true(fabs(fabs(m->peak[i].angle_rad) - fabs(all->peak[i].angle_rad)) <=
+                        m->peak[i].error_rad + all->peak[i].error_rad);
+        }
+        double beyond = fmax(0, m->ledger.left_out - 0.95 * accuracy);
+        assert_true(error <= 1.03 * (accuracy + beyond) * size_of(m));
+    }
+    assert_true(left); /* else it was not tested */
+    fw_arena_free(arena);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_errors_are_below),
+        cmocka_unit_test(test_no_more_than_asked_for),
+        cmocka_unit_test(test_without_an_estimate),
+        cmocka_unit_test(test_what_cannot_be_reached),
+        cmocka_unit_test(test_effects_take_their_share),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
