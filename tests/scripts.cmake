@@ -41,6 +41,7 @@ fw_script_test(docs.readme COMMAND ${Python3_EXECUTABLE} tests/docs/readme.py ${
 fw_script_test(docs.json COMMAND ${Python3_EXECUTABLE} tests/docs/json_keys.py ${FW_PROGRAM})
 fw_script_test(docs.effects LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/effects.py)
 fw_script_test(docs.masks LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/mask_benchmarks.py)
+fw_script_test(docs.accuracy LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/accuracy.py)
 fw_script_test(docs.pages LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/pages.py)
 fw_script_test(build.clang COMMAND tests/build/clang.sh TIMEOUT 600)
 fw_script_test(build.sanitized COMMAND tests/build/sanitized.sh TIMEOUT 900)

@@ -29,7 +29,7 @@ SIX_BAR = ROOT / "docs/gallery/reference-six-bar/device.xml"
 # devices whose flexures are drawn, so that their hinges have models to choose from
 DRAWN = ("comb-stage", "copper-nodder", "four-tendons", "free-form-four-bar", "leaf-four-bar")
 MASK_TOLERANCES_NM = (1.42, 2, 5, 10, 20, 50, 100, 200, 500)
-TIME_ROUNDS, LADDER_ROUNDS = 21, 9
+TIME_ROUNDS = 21
 
 
 def run(*arguments):
@@ -91,6 +91,22 @@ def motion_jobs(build):
     return sorted(jobs, key=lambda job: next((i for i, name in enumerate(slow) if name in "".join(job[1][2:4])), len(slow)))
 
 
+# ---- what --accuracy promises ----
+
+def survey(build, count):
+    """[(table, rows)] of accuracy_survey (README.md)"""
+    program, names = build / "tests/accuracy_survey", ("survey", "honesty")
+
+    def work():
+        with tempfile.TemporaryDirectory() as folder:
+            paths = [pathlib.Path(folder) / name for name in names]
+            run(program, "--count", count, "--seed", 1, "--csv", paths[0], "--honesty", paths[1], "--jobs", 1)
+            return [path.read_text(encoding="utf-8") for path in paths]
+
+    texts = kept(program, [count, 1], work)
+    return [(name, list(csv.DictReader(io.StringIO(text)))) for name, text in zip(names, texts)]
+
+
 # ---- verdicts ----
 
 def verdict_devices(build, first, count):
@@ -138,16 +154,16 @@ def hinges(build, with_solids):
 
 
 def hinge_costs(build):
-    """per level: how many times the closed form's CPU time, of hinge A of the six-bar, in rounds of all levels"""
-    program, costs = build / "flexwright", collections.defaultdict(list)
-    for _ in range(LADDER_ROUNDS):
-        took = {}
-        for name in hinge_ladder.LEVELS[:3]:
-            first = hinge_ladder.ladder(program, "reference-six-bar", name)[0]
-            took[name] = next(level["cpu_s"] for level in first["levels"] if level["level"] == name)
-        for name, seconds in took.items():
-            costs[name].append(seconds / took["closed-form"])
-    return [{"level": name, **times(ratios)} for name, ratios in costs.items()]
+    """instructions of every cheap level of every hinge"""
+    program, found = build / "tests/accuracy/accuracy_levels", []
+    for device in hinge_ladder.DEVICES:
+        said, status, parts = callgrind.count(program, [ROOT / "docs/gallery" / device / "device.xml"], "fw_ladder_climb")
+        names = list(csv.reader(io.StringIO(said)))
+        if status or len(names) != len(parts):
+            sys.exit(f"{device}: {len(names)} levels, {len(parts)} counted, status {status}")
+        found += [{"device": device, "hinge": hinge, "level": level, "instructions": part.total}
+                  for (hinge, level), part in zip(names, parts)]
+    return found
 
 
 def times(ratios):
@@ -231,10 +247,10 @@ def source_hash():
 def provenance(build, date, facts):
     processor, system = programs.machine()
     built = json.loads((build / "tests/bench/gate.json").read_text(encoding="utf-8"))
-    flags = " ".join(re.findall(r"-\S+", (ROOT / "cmake/flags.cmake").read_text(encoding="utf-8").split("add_compile_options", 1)[1]
+    flags = " ".join(re.findall(r"-f\S+", (ROOT / "cmake/flags.cmake").read_text(encoding="utf-8").split("add_compile_options", 1)[1]
                                 .split(")")[0]))
     loaded = run("ldd", build / "flexwright")
-    blas = re.search(r"=> (\S*(?:openblas|libblas)\S*)", loaded)
+    blas = re.search(r"=> (\S*libopenblas\S*)", loaded) or re.search(r"=> (\S*libblas\S*)", loaded)
     cpu = pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8")
     said = [("command", "cmake --build build --target accuracy"), ("date", date), ("sources", f"sha256 {source_hash()} of src/"),
              ("compiler", built["compiler"]), ("flags", f"{built['flags']} {flags}"), ("system", system), ("processor", processor),

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """docs/accuracy.md from docs/data/accuracy-*.csv: nothing is measured here, so that the same data give the same page."""
 import math
+import textwrap
 
 import pictures
-from report import plain, table
 from tables import Tables, interval_text
+
+from report import plain, table
 
 
 def small(value):
@@ -17,6 +19,10 @@ def millions(count):
 
 def share(value, digits=1):
     return f"{100 * float(value):.{digits}f} %"
+
+
+def prose(text):
+    return [*textwrap.wrap(" ".join(text.split()), 118, break_long_words=False, break_on_hyphens=False), ""]
 
 
 def image(name, text):
@@ -85,98 +91,113 @@ def curves_table(t, problem):
 
 
 def motion_section(t):
-    lines = ["## Integrators and methods", "",
-             "Every dot is one whole call at one tolerance (1e-5 to 1e-13), second run for the error estimate included; the bold line is what",
-             "`--accuracy` chooses by itself, its dots what was asked for. Below the shaded edge the hinges' model is wrong by more than the",
-             "numbers. References are independent of the code measured: [reference.c](../tests/accuracy/reference.c), long double and",
-             "extrapolation, which agrees to 1e-14 with tables in quad precision and with elliptic functions.", ""]
-    notes = {"six-bar": "The state's error is that of the table in quad precision (mm, rad).",
-             "squeezer": "Its driven crank has turned 15.8 rad after 30 ms: a relative error of the peak is one of the phase.",
-             "windows-4": "It passes through singular positions, where all bars are in line: there round-off is amplified, and no setting "
-                          "gets reliably beyond 1e-10."}
-    titles = {"six-bar": "Reference six-bar", "squeezer": "Andrews' squeezer", "windows-4": "N four-bar windows, N = 4"}
-    for problem, title in titles.items():
+    lines = ["## Integrators and methods", "", *prose("""
+        Every dot is one whole call at one tolerance (1e-5 to 1e-13), second run for the error estimate included; the bold line is what
+        `--accuracy` chooses by itself. The reference is independent of the code measured: [reference.c](../tests/accuracy/reference.c),
+        long double and extrapolation, which agrees to 1e-14 with tables in quad precision and with elliptic functions.""")]
+    about = {"six-bar": ("Reference six-bar", "Integrators: the picture above. The error of the state is that of the table in quad "
+                         "precision (mm, rad)."),
+             "squeezer": ("Andrews' squeezer",
+                          "Its driven crank has turned 15.8 rad after 30 ms: the error of the peak is one of the phase."),
+             "windows-4": ("N four-bar windows, N = 4", "It passes through singular positions, where all bars are in line: there round-off "
+                           "is amplified, and no setting gets reliably beyond 1e-10.")}
+    for problem, (title, text) in about.items():
         name = problem.split("-4")[0]
-        lines += [f"### {title}", "", notes[problem], "", *image(name, f"{title}, integrators"), *image(f"{name}-methods", f"{title}, methods"),
-                  *curves_table(t, problem)]
+        lines += [f"### {title}", "", *prose(text), *(image(name, f"{title}, integrators") if name != "six-bar" else []),
+                  *image(f"{name}-methods", f"{title}, methods"), *curves_table(t, problem)]
     return lines
 
 
 def size_section(t):
-    body = [(r["n"], r["bodies"], 3 * r["n"] + 1, r["rhs"], millions(r["instructions"]), plain(r["instructions"] / r["rhs"] / r["bodies"]))
-            for r in t.scaling()]
-    return ["## Cost against size", "", f"N four-bar windows, 1 s at rtol 1e-8: instructions grow as bodies^{t.slope():.2f} (N = 10 to 10 000), "
-            "model building and error estimate included.", "", *image("size", "cost against size"),
+    body = [(r["n"], r["bodies"], 3 * r["n"] + 1, r["rhs"], millions(r["instructions"]),
+             plain(r["instructions"] / r["rhs"] / r["bodies"])) for r in t.scaling()]
+    each = [r["instructions"] / r["rhs"] / r["bodies"] for r in t.scaling()]
+    more = (f"At N = {t.scaling()[-1]['n']} what is prepared once, not the motion, takes a share of {share(1 - min(each) / each[-1], 0)}: "
+            "it grows faster.")
+    return ["## Cost against size", "", *prose(f"""
+        N four-bar windows, 1 s at rtol 1e-8: instructions grow as bodies^{t.slope():.2f} (N = 10 to 10 000), the building of the model and
+        the error estimate included. {more if each[-1] > 1.2 * min(each) else ''}"""), *image("size", "cost against size"),
             *table(["N", "bodies", "joints", "rhs", "million instructions", "instructions per rhs and body"], body)]
 
 
 def peers_section(t):
-    return ["## Other codes on the same axes", "", f"Rows: {t.fact('peers')}. Curves of other codes are their CPU times, put where our whole call "
-            "takes as long; the error is that of the state. Ratios at equal error, in interleaved rounds with intervals, are in "
-            "[benchmarks](benchmarks.md).", "", *image("peers", "other codes on the same axes")]
+    return ["## Other codes on the same axes", "", *prose(f"""
+        Rows: {t.fact('peers')}. Curves of other codes are their CPU times, put where our whole call takes as long; the error is that of the
+        state. Ratios at equal error, in interleaved rounds with intervals, are in [benchmarks](benchmarks.md)."""),
+            *image("peers", "other codes on the same axes")]
 
 
 def verdict_section(t):
-    body = []
-    for r in t["verdicts"]:
-        body.append((r["accuracy"], r["accepted"], r["rejected"], r["inconclusive"],
-                     *(f"{share(r[f'{n}_share'])} [{share(r[f'{n}_low'])}, {share(r[f'{n}_high'])}]" for n in ("inconclusive", "changed", "flipped"))))
-    return ["## How sure the verdict is", "", "Random chains and six-bars whose loads are scaled until their governing hinge is within some 20 % of "
-            "its limit, judged at every accuracy and compared with 1e-8. Shares with intervals of 95 % (Wilson).", "",
-            *image("verdicts", "verdict stability"),
+    def with_interval(r, name):
+        return f"{share(r[f'{name}_share'])} [{share(r[f'{name}_low'])}, {share(r[f'{name}_high'])}]"
+
+    body = [(r["accuracy"], r["accepted"], r["rejected"], r["inconclusive"],
+             *(with_interval(r, name) for name in ("inconclusive", "changed", "flipped"))) for r in t["verdicts"]]
+    return ["## How sure the verdict is", "", *prose("""
+        Random chains and six-bars whose loads are scaled until their governing hinge is within some 20 % of its limit, judged at every
+        accuracy and compared with 1e-8. Shares with intervals of 95 % (Wilson)."""), *image("verdicts", "verdict stability"),
             *table(["accuracy", "accepted", "rejected", "undecided", "undecided [95 %]", "decided otherwise than at 1e-8 [95 %]",
-                    "accepted here and rejected there, or the reverse [95 %]"], body)]
+                    "accepted turns rejected, or back [95 %]"], body)]
 
 
 def hinge_section(t):
-    body = [(name, next(interval_text(r, 1) for r in t["hinge-costs"] if r["level"] == name),
-             *(f"{share(min(t.off(name, what)), 2)} to {share(max(t.off(name, what)), 2)}" for what in ("stiffness", "strain")))
-            for name in ("closed-form", "compliance", "elastica")]
-    lines = ["## The model's own error", "", f"What no tolerance takes away. One hinge, {t.solids} hinges of the gallery beside 3-D finite elements "
-             f"({t.fact('solids')}), which themselves scatter by 1 to 2 % in strain: [hinges](hinge-ladder.md).", "",
-             *image("hinges", "one hinge beside solids"),
-             *table(["level", "times the closed form's CPU time [90 %]", "stiffness off", "strain off"], body),
-             f"A solid takes some {pictures.power(round(math.log10(t.cost('continuum'))))} times as long as a closed form (one run of each).", "",
-             "A whole device: error of the largest peak by each model of its hinges, against exact beams in the same scene.", ""]
+    def span(level, what):
+        return f"{share(min(t.off(level, what)), 2)} to {share(max(t.off(level, what)), 2)}"
+
+    body = [(t.level_name(name), plain(t.cost(name)), span(name, "stiffness"), span(name, "strain")) for name in ("closed-form", "compliance", "elastica")]
     devices = dict.fromkeys(r["device"] for r in t["models"])
     at = {(r["device"], r["model"]): float(r["peak_error"]) for r in t["models"]}
-    return lines + table(["device", "pins at the elastic centres", "flexures that give, closed form"],
-                         [(d, share(at[d, "revolute"], 2), share(at[d, "compliance"], 4)) for d in devices])
+    times = pictures.power(round(math.log10(t.cost("continuum") / t.cost("closed-form"))))
+    return ["## The model's own error", "", *prose(f"""
+        What no tolerance takes away. One hinge: {t.solids} hinges of the gallery beside 3-D finite elements ({t.fact('solids')}), which
+        themselves scatter by 1 to 2 % in strain ([hinges](hinge-ladder.md)). A solid takes some {times} times as long as a closed form
+        (by CPU time, one run of each)."""), *image("hinges", "one hinge beside solids"),
+            *table(["level", "instructions, median", "stiffness off", "strain off"], body),
+            *prose("A whole device: error of the peaks by each model of its hinges, against exact beams in the same scene."),
+            *table(["device", "pins at the elastic centres", "flexures that give, closed form"],
+                   [(d, share(at[d, "revolute"], 2), share(at[d, "compliance"], 4)) for d in devices])]
 
 
 def mask_section(t):
-    return ["## Masks", "", "Mask of the reference six-bar by `--mask-tolerance`. The edge error is the certificate's, proved for every chord; "
-            "[independent programs](theory/masks.md) check certificates.", "", *image("masks", "masks"),
-            *table(["tolerance nm", "largest edge error nm", "vertices", "bytes of GDSII"],
-                   [(plain(float(r["tolerance_nm"])), f"{float(r['edge_error_nm']):.2f}", r["vertices"], r["bytes"]) for r in t["masks"]])]
+    body = [(plain(float(r["tolerance_nm"])), f"{float(r['edge_error_nm']):.2f}", r["vertices"], r["bytes"]) for r in t["masks"]]
+    return ["## Masks", "", *prose("""
+        Mask of the reference six-bar by `--mask-tolerance`. The edge error is the certificate's, proved for every chord;
+        [independent programs](theory/masks.md) check certificates."""), *image("masks", "masks"),
+            *table(["tolerance nm", "largest edge error nm", "vertices", "bytes of GDSII"], body)]
+
+
+def survey_row(r):
+    def number(name, form=".2f"):
+        return format(float(r[name]), form) if r[name] else "–"
+
+    return (f"{float(r['accuracy']):.0e}".replace("e-0", "e-"), r["devices"],
+            f"{share(r['share_below'])} [{share(r['share_low'])}, {share(r['share_high'])}]",
+            f"{number('cost_median')}, {number('cost_90')}", share(r["cost_within"]) if r["cost_within"] else "–",
+            f"{number('total_median')}, {number('total_90')}", r["dishonest"],
+            " / ".join(number(f"ratio_{q}", ".2g") for q in ("least", "01", "10", "50", "90", "99")))
 
 
 def survey_section(t):
     rows = [r for r in t["survey"] if r["group"] == "all"]
     if not rows:
         return []
-
-    def number(text, form):
-        return format(float(text), form) if text else "–"
-
-    body = [(f"{float(r['accuracy']):.0e}".replace("e-0", "e-"), r["devices"],
-             f"{share(r['share_below'])} [{share(r['share_low'])}, {share(r['share_high'])}]",
-             f"{number(r['cost_median'], '.2f')}, {number(r['cost_90'], '.2f')}", share(r["cost_within"]) if r["cost_within"] else "–",
-             f"{number(r['total_median'], '.2f')}, {number(r['total_90'], '.2f')}", r["dishonest"],
-             " / ".join(number(r[f"ratio_{q}"], ".2g") for q in ("least", "01", "10", "50", "90", "99"))) for r in rows]
-    return ["## Does --accuracy keep its word", "", "A thousand random devices, each moved with `--accuracy` as asked, against a far tighter run. Cost is "
-            "that of the run that answers, over the cheapest setting of a grid that would have done; `all runs` adds those for the estimate "
-            "and those that were not good enough.", "", *image("steering", "cost of what was chosen"), *image("honesty", "estimated over true error"),
-            *table(["asked for", "devices", "true error below it [95 %]", "cost over the cheapest: median, 90 %", "at most 1.5 times", "all runs: median, 90 %",
-                    "estimate below the true error", "estimated over true: least / 1 / 10 / 50 / 90 / 99 %"], body)]
+    head = ["asked for", "devices", "true error below it [95 %]", "cost over the cheapest: median, 90 %", "at most 1.5 times",
+            "all runs: median, 90 %", "estimate below the true error", "estimated over true: least / 1 / 10 / 50 / 90 / 99 %"]
+    return ["## Does --accuracy keep its word", "", *prose("""
+        Random six-bars, four-bars, chains, sliders, rows and stiff rows under loads and effects of all kinds, each moved with `--accuracy` as
+        asked, against a far tighter run ([how](../tests/accuracy/README.md)). Cost is that of the run that answers, over the cheapest setting
+        of a grid that would have done; `all runs` adds those for the estimate and those that were not good enough."""),
+            *image("steering", "cost of what was chosen"), *image("honesty", "estimated over true error"),
+            *table(head, [survey_row(r) for r in rows])]
 
 
 def provenance_section(t):
-    return ["## Provenance", "", *table(["", ""], [(r["what"], f"`{r['value']}`" if r["what"] == "command" else r["value"]) for r in t["provenance"]]),
-            "Instructions are those of the whole call, counted by callgrind with libm's variants pinned, so that every x86-64 processor counts",
-            "the same. Times are CPU times, medians of interleaved rounds of fresh processes with their interval of 90 %; one that is wider than",
-            "10 % is not shown. Data: " + ", ".join(f"[{n}](data/accuracy-{n}.csv)" for n in sorted(n for n in [*t.table, "verdict-devices"]
-                                                                                                 if n == "verdict-devices" or t[n])) + ".", ""]
+    facts = [(r["what"], f"`{r['value']}`" if r["what"] == "command" else r["value"]) for r in t["provenance"]]
+    data = ", ".join(f"[{name}](data/accuracy-{name}.csv)" for name in sorted([*(n for n in t.table if t[n]), "verdict-devices"]))
+    return ["## Provenance", "", *table(["", ""], facts), *prose(f"""
+        Instructions are those of the whole call, counted by callgrind with libm's variants pinned, so that every x86-64 processor counts the
+        same. Times are CPU times, medians of interleaved rounds of fresh processes with their interval of 90 %; one that is wider than 10 %
+        is not shown. Data: {data}.""")]
 
 
 def read(docs):
@@ -185,8 +206,8 @@ def read(docs):
 
 def compose(t):
     lines = ["# What accuracy costs", "", "Written by `cmake --build build --target accuracy`; do not edit.", "",
-             *[line for sentence in sentences(t) for line in (f"- {sentence}",)], "",
-             "## What one more digit costs", "", "Reference six-bar, 10 ms, as `--accuracy` chooses; errors are relative, of the peak hinge deflection.", "",
+             *[f"- {sentence}" for sentence in sentences(t)], "", "## What one more digit costs", "",
+             *prose("Reference six-bar, 10 ms, as `--accuracy` chooses; errors are relative, of the peak hinge deflection."),
              *digits(t), *image("six-bar", "error against instructions"), "## Choose for me", "", *choose(t), *survey_section(t),
              *motion_section(t), *size_section(t), *peers_section(t), *verdict_section(t), *hinge_section(t), *mask_section(t),
              *provenance_section(t)]

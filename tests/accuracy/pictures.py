@@ -1,23 +1,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The figures of docs/accuracy.md from its tables. Colours, dashes and marks differ together, so that no figure needs colour."""
 import math
+import pathlib
 import statistics
+import sys
 
-import picture
-import report
-from picture import Axis, Line
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "bench"))
+import picture  # noqa: E402
+import report  # noqa: E402
+from picture import Axis, Line  # noqa: E402
 
 # dark enough for text on white, apart for every kind of colour vision (after Okabe and Ito, and Tol)
-INK = ["#c1121f", "#0072b2", "#117733", "#aa4499", "#a85400", "#332288", "#00808a", "#666666", "#882255"]
-DASH = ["", "", "6 3", "", "6 3", "2 3", "2 3", "6 3", "2 3"]
-MARK = ["circle", "square", "triangle", "diamond", "ring", "square", "triangle", "diamond", "ring"]
+INK = ["#c1121f", "#0072b2", "#117733", "#aa4499", "#a85400", "#332288", "#00808a", "#666666", "#882255", "#000000"]
+DASH = ["", "", "6 3", "", "6 3", "2 3", "2 3", "6 3", "2 3", ""]
+MARK = ["circle", "square", "triangle", "diamond", "ring", "square", "triangle", "diamond", "ring", "diamond"]
 PEAK = "error of the peak hinge deflection, relative: more accurate to the right"
 
 
 def power(n):
-    name, zeros = max(((name, zeros) for name, zeros in (("", 0), ("thousand", 3), ("million", 6), ("billion", 9)) if zeros <= n),
-                      key=lambda pair: pair[1])
-    return f"{10**(n - zeros)} {name}".strip()
+    if n < 6:
+        return f"{10**n:,}".replace(",", " ")
+    return f"{10**(n % 3)} {'million' if n < 9 else 'billion'}" if n < 12 else f"1e{n}"
 
 
 def duration(ms):
@@ -55,11 +58,12 @@ def work_precision(path, title, named, tables, floors=(), notes=(), error="peak_
 
 
 def motions(folder, t):
-    titles = {"six-bar": "Reference six-bar, 10 ms", "squeezer": "Andrews' squeezer, 30 ms", "windows-4": "Four four-bar windows, 2 s"}
+    titles = {"six-bar": "Reference six-bar, 10 ms", "squeezer": "Andrews' squeezer, 30 ms",
+              "windows-4": "Four four-bar windows, 2 s"}
     for problem, title in titles.items():
         own = ("as --accuracy chooses", t.curve(problem, "by-accuracy", "--accuracy"))
         notes = [(r["peak_error"], r["instructions"], r["tolerance"].replace("e-0", "e-")) for r in own[1]
-                 if r["peak_error"] > 0 and r["tolerance"] in ("1e-01", "1e-03", "1e-05", "1e-07")] if problem == "six-bar" else []
+                 if r["peak_error"] > 0 and r["tolerance"] in ("1e-03", "1e-05", "1e-07")] if problem == "six-bar" else []
         floors = t.floors() if problem == "six-bar" else ()
         name = problem.split("-4")[0]
         work_precision(folder / f"accuracy-{name}.svg", f"{title}: integrators (method chain)",
@@ -95,10 +99,13 @@ def size(folder, t):
 def verdicts(folder, t):
     names = (("inconclusive", "undecided"), ("changed", "decided otherwise than at 1e-8"),
              ("flipped", "accepted turns rejected, or back"))
-    lines = [series(k, label, [(float(r["accuracy"]), *(100 * float(r[f"{name}_{part}"]) for part in ("share", "low", "high")))
-                               for r in t["verdicts"]]) for k, (name, label) in enumerate(names)]
+    lines = []
+    for k, (name, label) in enumerate(names):
+        points = [(float(r["accuracy"]), *(100 * float(r[f"{name}_{part}"]) for part in ("share", "low", "high"))) for r in t["verdicts"]]
+        lines.append(series(k, label, points))
     top = 10 * math.ceil(max(p[3] for line in lines for p in line.points) / 10)
-    return picture.chart(folder / "accuracy-verdicts.svg", f"Verdicts of {t['verdicts'][0]['devices']} random devices near their limit", lines,
+    title = f"Verdicts of {t['verdicts'][0]['devices']} random devices near their limit"
+    return picture.chart(folder / "accuracy-verdicts.svg", title, lines,
                          Axis(-1, -8, "accuracy asked for; bars: intervals of 95 %"),
                          Axis(0, top, "share", lambda n: f"{n} %", log=False, ticks=range(0, top + 1, 10 if top > 20 else 5)), height=460)
 
@@ -114,22 +121,24 @@ def hinges(folder, t):
     notes = [(max(t.off(level, "strain")), t.cost(level), t.level_name(level)) for level in levels]
     return picture.chart(folder / "accuracy-hinges.svg", f"One hinge: {t.solids} hinges beside 3-D finite elements (CalculiX)", lines,
                          Axis(0, -4, "distance to the solid, relative; of the solid: what its two meshes differ by"),
-                         Axis(-1, 9, "times a closed form", lambda n: f"1e{n}" if n > 3 else f"{10.0**n:g}"), notes=notes, height=560)
+                         upright(lines, "instructions", power), notes=notes, height=560)
 
 
 def masks(folder, t):
     rows = t["masks"]
-    lines = [series(k, name, [(float(r["edge_error_nm"]), float(r[name])) for r in rows]) for k, name in enumerate(("bytes", "vertices"))]
+    lines = [series(k, name, [(float(r["edge_error_nm"]), float(r[name])) for r in rows])
+             for k, name in enumerate(("bytes", "vertices"))]
+    across = Axis(3, 0, "largest distance of an edge from its arc, nm (the 1 nm grid alone: 0.7)", lambda n: f"{10**n:,} nm".replace(",", " "))
     return picture.chart(folder / "accuracy-masks.svg", "Mask of the reference six-bar: what a finer arc costs", lines,
-                         Axis(3, 0, "largest distance of an edge from its arc, nm (the 1 nm grid alone: 0.7)", lambda n: f"{10**n:,} nm".replace(",", " ")),
-                         upright(lines, "in the GDSII file", lambda n: f"{10**n:,}".replace(",", " ")), height=460)
+                         across, upright(lines, "in the GDSII file", lambda n: f"{10**n:,}".replace(",", " ")), height=460)
 
 
 def steering(folder, t):
     rows = [r for r in t["survey"] if r["group"] == "all"]
-    names = (("cost_median", "median of the answering run"), ("cost_90", "nine of ten answering runs"), ("total_median", "median, all runs made"),
-             ("total_90", "nine of ten, all runs made"))
+    names = (("cost_median", "answering run, median"), ("cost_90", "answering run, nine of ten"), ("total_median", "all runs, median"),
+             ("total_90", "all runs, nine of ten"))
     lines = [series(k, label, [(float(r["accuracy"]), float(r[name])) for r in rows if r[name]]) for k, (name, label) in enumerate(names)]
+    lines.append(Line("1.5: what is promised", "#777777", [(1e-1, 1.5), (1e-9, 1.5)], 1.2, "5 4", "ring"))
     top = max(2, math.ceil(max(p[1] for line in lines for p in line.points)))
     return picture.chart(folder / "accuracy-steering.svg", "What --accuracy chose, over the cheapest setting that would have done", lines,
                          Axis(-1, -9, "accuracy asked for"), Axis(0, top, "cost, times", log=False, ticks=range(0, top + 1, max(1, top // 10))),
@@ -148,8 +157,9 @@ def honesty(folder, t):
                 points.append((10**float(r["log10_from"]), 100 * above / whole))
         lines.append(series(k, f"asked {float(accuracy):.0e}".replace("e-0", "e-"), points))
     return picture.chart(folder / "accuracy-honesty.svg", "Estimated over true error: share of devices that reach the ratio", lines,
-                         Axis(-2, 6, "estimated over true error; below 1 an estimate is too small", lambda n: f"{10.0**n:g}"),
-                         Axis(0, 100, "share", lambda n: f"{n} %", log=False, ticks=range(0, 101, 20)), [(1, 1, "honest to the right")], height=460)
+                         Axis(-2, 5, "estimated over true error; below 1 an estimate is too small", lambda n: f"{10.0**n:g}"),
+                         Axis(0, 100, "share", lambda n: f"{n} %", log=False, ticks=range(0, 101, 20)), [(1, 1, "the true error")],
+                         height=460)
 
 
 def draw(folder, tables):

@@ -47,9 +47,10 @@ class Tables:
         return [r for r in self["motions"] if (r["problem"], r["kind"], r["setting"]) == (problem, kind, setting)]
 
     def settings(self, problem, kind):
+        """(name, rows), the cheapest first"""
         names = dict.fromkeys(r["setting"] for r in self["motions"] if (r["problem"], r["kind"]) == (problem, kind))
-        order = {"chain": 0, "dop853": 0}
-        return [(name, self.curve(problem, kind, name)) for name in sorted(names, key=lambda n: order.get(n, 1))]
+        found = [(name, self.curve(problem, kind, name)) for name in names]
+        return sorted(found, key=lambda one: (one[0] not in ("chain", "dop853"), min(r["instructions"] for r in one[1])))
 
     def asked(self, exponent):
         """the six-bar as --accuracy 10^-exponent moves it"""
@@ -86,7 +87,7 @@ class Tables:
     @property
     def peers_per_ms(self):
         """instructions of our whole call over its CPU time where the peers were measured, at the same tolerances"""
-        own = {r["tolerance"]: r["instructions"] for r in self.curve("six-bar", "by-method", "chain")}
+        own = {r["tolerance"]: r["instructions"] for r in self.curve("six-bar", "by-integrator", "dop853")}
         rows = [r for r in self["peers"] if (r["peer"], r["setting"]) == WHOLE]
         found = [own[key] / float(r["cpu_ms"]) for r in rows if (key := f"{float(r['tolerance']):.0e}") in own]
         return statistics.median(found)
@@ -99,16 +100,16 @@ class Tables:
         return [max(abs(float(r[column])), 1e-6) for r in self["hinges"] if r["level"] == level]
 
     def cost(self, level):
-        """times the closed form's; of solids, which take seconds, from one run of each"""
+        """instructions, the median of all hinges; of solids by their time, from one run of each"""
         if level != "continuum":
-            return next(float(r["ratio"]) for r in self["hinge-costs"] if r["level"] == level)
+            return statistics.median(int(r["instructions"]) for r in self["hinge-costs"] if r["level"] == level)
         took = {name: statistics.median(float(r["cpu_s"]) for r in self["hinges"] if r["level"] == name)
-                for name in ("closed-form", "continuum")}
-        return took["continuum"] / took["closed-form"]
+                for name in ("elastica", "continuum")}
+        return self.cost("elastica") * took["continuum"] / took["elastica"]
 
     def level_name(self, level):
         return {"closed-form": "closed form", "compliance": "with drift", "elastica": "exact beam",
-                "continuum": "solid (one run)"}[level]
+                "continuum": "solid (by its time)"}[level]
 
     @property
     def solids(self):
