@@ -22,7 +22,8 @@ static double cpu_seconds(void) {
 static double chosen_rtol(const fw_motion_options *o, const fw_run *r) {
     double accuracy = o->accuracy > 0 ? o->accuracy : 1e-3;
     double rtol = o->rtol > 0 ? o->rtol : fmin(1e-6, 1e-4 * accuracy);
-    return fmin(fw_loosest, fmax(fw_pace_tightest(r), rtol));
+    double loosest = o->looser == 1 ? HUGE_VAL : fw_loosest; /* no estimate that has to hold */
+    return fmin(loosest, fmax(fw_pace_tightest(r), rtol));
 }
 
 /* ---- the two runs ---- */
@@ -262,7 +263,7 @@ static fw_status steer(fw_run *r) {
             continue;
         }
         FW_TRY(status);
-        if (r->model->events > 0) r->trust *= fw_trust_events;
+        if (r->model->events > 0 && !r->options->settled) r->trust *= fw_trust_events;
         estimate_errors(r, &two.fine, &two.coarse);
         double off = r->motion->ended ? 0 : fw_run_off(r);
         if (off <= 1 || pace.rtol <= fw_pace_tightest(r)) {

@@ -10,6 +10,7 @@
 #include "devices.h"
 #include "survey_cost.h"
 #include "survey_table.h"
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -144,53 +145,16 @@ static void survey(uint64_t seed, survey_row row[SURVEY_ACCURACIES]) {
 
 /* ---- work on some processors: process j takes every jobs-th device ---- */
 
-static bool work(int fd, uint64_t seed, int count, int from, int by) {
-    survey_row row[SURVEY_ACCURACIES];
-    for (int i = from; i < count; i += by) {
-        survey(seed + (uint64_t)i, row);
-        for (int k = 0; k < SURVEY_ACCURACIES; k++)
-            row[k].cheapest_at = survey_integrator_index(row[k].cheapest_integrator);
-        if (write(fd, &i, sizeof i) != (ssize_t)sizeof i ||
-            write(fd, row, sizeof row) != (ssize_t)sizeof row)
-            return false;
-    }
-    return true;
-}
-
-static bool read_all(int fd, void *to, size_t size) {
-    for (size_t have = 0; have < size;) {
-        ssize_t got = read(fd, (char *)to + have, size - have);
-        if (got <= 0) return false;
-        have += (size_t)got;
-    }
-    return true;
-}
-
-/* table (count x SURVEY_ACCURACIES) */
+/* table (count x SURVEY_ACCURACIES), in memory that all of them share */
 static bool survey_all(survey_row *table, uint64_t seed, int count, int jobs) {
     bool good = true;
-    int pipes[16][2];
     for (int j = 0; j < jobs; j++) {
-        if (pipe(pipes[j]) != 0) return false;
         pid_t child = fork();
         if (child < 0) return false;
-        if (child == 0) {
-            close(pipes[j][0]);
-            _exit(work(pipes[j][1], seed, count, j, jobs) ? 0 : 1);
-        }
-        close(pipes[j][1]);
-    }
-    for (int j = 0; j < jobs; j++) {
-        survey_row row[SURVEY_ACCURACIES];
-        int i;
-        while (read_all(pipes[j][0], &i, sizeof i)) {
-            if (!read_all(pipes[j][0], row, sizeof row)) return false;
-            for (int k = 0; k < SURVEY_ACCURACIES; k++)
-                row[k].cheapest_integrator =
-                    row[k].cheapest_at < 0 ? NULL : survey_integrators[row[k].cheapest_at];
-            memcpy(table + (size_t)i * SURVEY_ACCURACIES, row, sizeof row);
-        }
-        close(pipes[j][0]);
+        if (child > 0) continue;
+        for (int i = j; i < count; i += jobs)
+            survey(seed + (uint64_t)i, table + (size_t)i * SURVEY_ACCURACIES);
+        _exit(0);
     }
     for (int status; wait(&status) > 0;)
         good = good && status == 0;
@@ -248,14 +212,15 @@ int main(int argc, char **argv) {
                         "[--honesty FILE] [--raw FILE], or --one SEED INTEGRATOR RTOL\n");
         return 2;
     }
-    survey_row *table = calloc((size_t)r.count * SURVEY_ACCURACIES, sizeof *table);
-    if (!table || !survey_all(table, r.seed, r.count, r.jobs)) {
+    size_t size = (size_t)r.count * SURVEY_ACCURACIES * sizeof(survey_row);
+    survey_row *table = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (table == MAP_FAILED || !survey_all(table, r.seed, r.count, r.jobs)) {
         fprintf(stderr, "accuracy_survey: a part of the survey failed\n");
         return 1;
     }
     const survey_result result = {.row = table, .rows = r.count * SURVEY_ACCURACIES};
     good = survey_write(&result, survey_accuracy, r.csv, r.honesty, r.raw);
     good = survey_print(&result, survey_accuracy) && good;
-    free(table);
+    munmap(table, size);
     return good ? 0 : 1;
 }

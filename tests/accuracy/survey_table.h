@@ -15,7 +15,7 @@ typedef struct survey_row { /* a device at an accuracy */
     char integrator[24];
     double rtol, cost, cost_total, cost_cheapest, cheapest_rtol;
     const char *cheapest_integrator; /* NULL: none of the grid would have done */
-    int cheapest_at, runs;
+    int runs;
     long steps;
     int pins, pins_dishonest; /* peaks with an estimate below their true error */
 } survey_row;
