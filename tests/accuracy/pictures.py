@@ -138,7 +138,7 @@ def steering(folder, t):
     names = (("cost_median", "answering run, median"), ("cost_90", "answering run, nine of ten"), ("total_median", "all runs, median"),
              ("total_90", "all runs, nine of ten"))
     lines = [series(k, label, [(float(r["accuracy"]), float(r[name])) for r in rows if r[name]]) for k, (name, label) in enumerate(names)]
-    lines.append(Line("1.5: what is promised", "#777777", [(1e-1, 1.5), (1e-9, 1.5)], 1.2, "5 4", "ring"))
+    lines.append(Line("1.5, the aim", "#777777", [(1e-1, 1.5), (1e-9, 1.5)], 1.2, "5 4", "ring"))
     top = max(2, math.ceil(max(p[1] for line in lines for p in line.points)))
     return picture.chart(folder / "accuracy-steering.svg", "What --accuracy chose, over the cheapest setting that would have done", lines,
                          Axis(-1, -9, "accuracy asked for"), Axis(0, top, "cost, times", log=False, ticks=range(0, top + 1, max(1, top // 10))),
