@@ -43,6 +43,7 @@ fw_script_test(docs.readme COMMAND ${Python3_EXECUTABLE} tests/docs/readme.py ${
 fw_script_test(docs.json COMMAND ${Python3_EXECUTABLE} tests/docs/json_keys.py ${FW_PROGRAM} $<TARGET_FILE:live>)
 fw_script_test(docs.effects LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/effects.py)
 fw_script_test(docs.masks LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/mask_benchmarks.py)
+fw_script_test(docs.accuracy LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/accuracy.py)
 fw_script_test(docs.pages LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/pages.py)
 fw_script_test(build.clang COMMAND tests/build/clang.sh TIMEOUT 600)
 fw_script_test(build.sanitized COMMAND tests/build/sanitized.sh TIMEOUT 900)
@@ -52,6 +53,12 @@ fw_script_test(effects.costs COMMAND ${Python3_EXECUTABLE} tests/build/effects.p
 fw_script_test(effects.absent COMMAND ${Python3_EXECUTABLE} tests/build/effects.py absent
                ${PROJECT_BINARY_DIR} TIMEOUT 600)
 set_tests_properties(effects.costs effects.absent PROPERTIES SKIP_RETURN_CODE 77)
+# instruction counts against tests/bench/baseline.json
+fw_script_test(gate.counts COMMAND ${Python3_EXECUTABLE} tests/bench/gate ${PROJECT_BINARY_DIR})
+set_tests_properties(gate.counts PROPERTIES SKIP_RETURN_CODE 77)
+fw_script_test(gate.judge LABEL quick COMMAND ${Python3_EXECUTABLE} tests/build/gate_judge.py)
+fw_script_test(accuracy.reference COMMAND ${Python3_EXECUTABLE} tests/accuracy/reference_check.py
+               $<TARGET_FILE:accuracy_reference>)
 fw_script_test(fuzz.device COMMAND tests/build/fuzz.sh TIMEOUT 600)
 fw_script_test(hard.valgrind LABEL hard COMMAND tests/build/valgrind.sh ${PROJECT_BINARY_DIR}/tests TIMEOUT 600)
 set_tests_properties(hard.valgrind PROPERTIES SKIP_RETURN_CODE 77)

@@ -16,17 +16,18 @@ import concurrent.futures
 import csv
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
-import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "bench"))
+sys.dont_write_bytecode = True
+import callgrind  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 DATA = ROOT / "tests/data/effect-costs"
 CSV = ROOT / "docs/data/effect-costs.csv"
 PAGE = ROOT / "docs/theory/effects/costs.md"
 COUNT, LIMIT = 100, 0.25
-SKIPPED = 77
 
 # scenes that must not feel an effect that they do not call for: file, scene, options
 SCENES = [
@@ -122,13 +123,10 @@ def count(program, scenes):
     wanted = []
     for file, scene, options in scenes:
         wanted += ["--then", DATA / f"{file}.xml", scene, COUNT, *options]
-    with tempfile.TemporaryDirectory() as work:
-        out = pathlib.Path(work) / "out"
-        text = run("valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", "--toggle-collect=measured",
-                   "--dump-after=measured", program, *wanted[1:])
-        parts = [(out.parent / f"out.{i + 1}").read_text(encoding="utf-8") for i in range(len(scenes))]
-    totals = [int(re.search(r"^totals: (\d+)", part, re.M).group(1)) for part in parts]
-    return [Count(*pair) for pair in zip(totals, re.split(r"^scene ", text, flags=re.M)[1:], strict=True)]
+    text, status, parts = callgrind.count(program, wanted[1:])
+    if status:
+        sys.exit(f"{program}: status {status}\n{text[-2000:]}")
+    return [Count(part.total, about) for part, about in zip(parts, re.split(r"^scene ", text, flags=re.M)[1:], strict=True)]
 
 
 # ---- absent ----
@@ -258,9 +256,9 @@ def write(program):
 def main():
     if len(sys.argv) != 3 or sys.argv[1] not in ("absent", "costs", "write"):
         sys.exit(__doc__)
-    if not shutil.which("valgrind"):
+    if callgrind.missing():
         print("valgrind is not installed: skipped")
-        sys.exit(SKIPPED)
+        sys.exit(callgrind.SKIPPED)
     where = pathlib.Path(sys.argv[2]).resolve()
     sys.exit({"absent": absent, "costs": costs, "write": write}[sys.argv[1]](where))
 

@@ -1,0 +1,36 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""reference_check.py PROGRAM: the references of the accuracy page agree with what others have computed, and
+tests/data/accuracy-reference.csv is what the program prints."""
+import csv
+import io
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+TABLE = ROOT / "tests/data/sixbar_ref_0p1ms.txt"
+KEPT = ROOT / "tests/data/accuracy-reference.csv"
+# the tables have 18 to 20 digits, those of the elliptic functions are doubles
+ALLOWED = {("six-bar", "table"): 5e-15, ("squeezer", "table"): 5e-15, ("windows", "table"): 5e-14}
+
+
+def run(*arguments):
+    return list(csv.reader(io.StringIO(subprocess.run(arguments, capture_output=True, text=True, check=True).stdout)))
+
+
+program, wrong = sys.argv[1], []
+said = run(program, "check", TABLE)
+for problem, what, off in said:
+    if not float(off) <= ALLOWED.get((problem, what), 1e-15):
+        wrong.append(f"{problem}, {what}: off by {off}")
+if len(said) != 5:
+    wrong.append("a comparison is missing")
+fresh, kept = run(program), list(csv.reader(KEPT.open(encoding="utf-8")))
+if [row[:3] for row in fresh] != [row[:3] for row in kept]:
+    wrong.append(f"{KEPT.name} has other rows")
+for new, old in zip(fresh, kept):
+    if abs(float(new[3]) - float(old[3])) > 1e-15 * max(1, abs(float(old[3]))):
+        wrong.append(f"{','.join(old[:3])}: {new[3]}, kept is {old[3]}")
+print("\n".join(wrong) or f"{len(kept)} values; " + ", ".join(f"{a}, {b}: {off}" for a, b, off in said))
+sys.exit(1 if wrong else 0)
