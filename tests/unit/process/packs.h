@@ -51,6 +51,16 @@ static inline fw_step *step_of(fw_flow *flow, const char *id) {
     return NULL;
 }
 
+/* as a laboratory would state it */
+static inline void measured(fw_flow *flow, const char *id, double value, double uncertainty) {
+    fw_quantity *q = (fw_quantity *)fw_flow_quantity(flow, id);
+    assert_non_null(q);
+    q->unknown = false;
+    q->value = value;
+    q->uncertainty = uncertainty;
+    q->status = FW_MEASURED;
+}
+
 /* a 3 mm device on a 5.6 by 5 mm die, 30 times */
 static const fw_mask_facts plain_facts = {.structure_area_m2 = 5e-6,
                                           .die_area_m2 = 28e-6,

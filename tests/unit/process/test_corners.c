@@ -1,23 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Corners of the packs as inputs of the verdict. */
-#include "packs.h"
+#include "pack_fixture.h"
 #include "process/made.h"
 #include "process/undercut.h"
-
-static fw_arena *arena;
-static fw_diags diags;
-
-static int setup(void **state) {
-    (void)state;
-    arena = fw_arena_new(0);
-    diags = fw_diags_new(arena);
-    return arena ? 0 : -1;
-}
-static int teardown(void **state) {
-    (void)state;
-    fw_arena_free(arena);
-    return 0;
-}
 
 static fw_variant variant_of(double thickness_m, double youngs_u) {
     return (fw_variant){.material.youngs = {.value = 150e9, .uncertainty = youngs_u, .unit = "GPa"},

@@ -1,22 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Comb drives in flows: insulation and gaps, with the numbers of the packs. */
-#include "packs.h"
+#include "pack_fixture.h"
 #include <math.h>
-
-static fw_arena *arena;
-static fw_diags diags;
-
-static int setup(void **state) {
-    (void)state;
-    arena = fw_arena_new(0);
-    diags = fw_diags_new(arena);
-    return arena ? 0 : -1;
-}
-static int teardown(void **state) {
-    (void)state;
-    fw_arena_free(arena);
-    return 0;
-}
 
 static fw_flow *judged(const char *name, const char *from, const char *to, bool carrier,
                        const fw_drive_facts *drive, int n) {

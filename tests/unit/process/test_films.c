@@ -1,37 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The films of the wafer step by step. */
-#include "packs.h"
+#include "pack_fixture.h"
 #include "process/films.h"
 #include "process/lint.h"
 #include <math.h>
 #include <string.h>
 
 #define SOI "soi-deep-rie"
-static fw_arena *arena;
-static fw_diags diags;
 static const char *const packs[] = {COPPER, SILICON, SOI};
 static const fw_mask_gap gaps[] = {{FW_GAP_HINGE, "gap of hinge A", 8e-6}};
-
-static int setup(void **state) {
-    (void)state;
-    arena = fw_arena_new(0);
-    diags = fw_diags_new(arena);
-    return arena ? 0 : -1;
-}
-static int teardown(void **state) {
-    (void)state;
-    fw_arena_free(arena);
-    return 0;
-}
-
-static void set(fw_flow *f, const char *id, double value) {
-    fw_quantity *q = (fw_quantity *)fw_flow_quantity(f, id);
-    assert_non_null(q);
-    q->unknown = false;
-    q->value = value;
-    q->uncertainty = 0.0;
-    q->status = FW_MEASURED;
-}
 
 static fw_flow *computed(fw_flow *f) {
     fw_mask_facts facts = plain_facts;
@@ -152,7 +129,7 @@ static void copper(void **state) {
     assert_true(said);
     /* known: below the structure it stays beyond the reach and its overrun */
     f = pack(COPPER);
-    set(f, "release.reach", 30e-6);
+    measured(f, "release.reach", 30e-6, 0);
     films = films_after(computed(f), "C26");
     assert_near(film_of(&films, "porous-silicon", FW_STACK_STRUCTURE)->reach_m, 36e-6, 1e-18);
     assert_null(film_of(&films, "porous-silicon", FW_STACK_FIELD));
@@ -162,7 +139,7 @@ static void copper(void **state) {
 static void walls_that_lean(void **state) {
     (void)state;
     fw_flow *f = pack(COPPER);
-    set(f, "made.wall", 0.02);
+    measured(f, "made.wall", 0.02, 0);
     computed(f);
     const fw_fixed_point *p = &f->edges;
     assert_true(fabs(p->flare_m) > 1e-8);
@@ -178,8 +155,8 @@ static void silicon_walls(void **state) {
     static const double A[] = {0.95, 0.98, 0.995, 1.0};
     for (int i = 0; i < 4; i++) {
         fw_flow *f = pack(SILICON);
-        set(f, "rie.A", A[i]);
-        set(f, "rie.S", 0.02 * i);
+        measured(f, "rie.A", A[i], 0);
+        measured(f, "rie.S", 0.02 * i, 0);
         computed(f);
         const fw_fixed_point *p = &f->edges;
         assert_true(p->solved);

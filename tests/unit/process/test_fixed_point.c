@@ -1,24 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Bias, time and gap: reference values, plain iteration, the fold, what reads the result. */
-#include "packs.h"
+#include "pack_fixture.h"
 #include "process/law.h"
 #include "process/made.h"
 #include "process/undercut.h"
-
-static fw_arena *arena;
-static fw_diags diags;
-
-static int setup(void **state) {
-    (void)state;
-    arena = fw_arena_new(0);
-    diags = fw_diags_new(arena);
-    return arena ? 0 : -1;
-}
-static int teardown(void **state) {
-    (void)state;
-    fw_arena_free(arena);
-    return 0;
-}
 
 static fw_flow *flow_of(const char *name) {
     fw_flow *f = read_pack(arena, name, NULL, NULL, &diags);

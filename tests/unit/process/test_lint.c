@@ -1,22 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every check of process/lint*.c: a pack that is wrong in one place is told so at that place, and
    the packs as they are pass (test_pack.c, packs_are_clean). */
-#include "packs.h"
-
-static fw_arena *arena;
-static fw_diags diags;
-
-static int setup(void **state) {
-    (void)state;
-    arena = fw_arena_new(0);
-    diags = fw_diags_new(arena);
-    return arena ? 0 : -1;
-}
-static int teardown(void **state) {
-    (void)state;
-    fw_arena_free(arena);
-    return 0;
-}
+#include "pack_fixture.h"
 
 static const fw_diag *found(int number, const char *says) {
     for (size_t k = 0; k < diags.count; k++)

@@ -1,23 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "packs.h"
+#include "pack_fixture.h"
 #include <stdlib.h>
 #include <sys/wait.h>
 
-static fw_arena *arena;
-static fw_diags diags;
 static const char *const flows[] = {COPPER, SILICON};
-
-static int setup(void **state) {
-    (void)state;
-    arena = fw_arena_new(0);
-    diags = fw_diags_new(arena);
-    return arena ? 0 : -1;
-}
-static int teardown(void **state) {
-    (void)state;
-    fw_arena_free(arena);
-    return 0;
-}
 
 static void packs_are_clean(void **state) {
     (void)state;

@@ -1,39 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the removal of the seed takes of the copper: bias, films and verdict have the same number.
  */
-#include "packs.h"
+#include "pack_fixture.h"
 #include "process/films.h"
 #include "process/made.h"
 #include "process/wear.h"
 
-static fw_arena *arena;
-static fw_diags diags;
-
-static int setup(void **state) {
-    (void)state;
-    arena = fw_arena_new(0);
-    diags = fw_diags_new(arena);
-    return arena ? 0 : -1;
-}
-static int teardown(void **state) {
-    (void)state;
-    fw_arena_free(arena);
-    return 0;
-}
-
-static void set(fw_flow *f, const char *id, double value, double u) {
-    fw_quantity *q = (fw_quantity *)fw_flow_quantity(f, id);
-    assert_non_null(q);
-    q->unknown = false;
-    q->value = value;
-    q->uncertainty = u;
-    q->status = FW_MEASURED;
-}
-
 static fw_flow *copper(double seed_m, double rate) {
     fw_flow *f = read_pack(arena, COPPER, NULL, NULL, &diags);
-    if (seed_m > 0.0) set(f, "seed.d", seed_m, 0.1 * seed_m);
-    if (rate > 0.0) set(f, "seed.R", rate, 0.3 * rate);
+    if (seed_m > 0.0) measured(f, "seed.d", seed_m, 0.1 * seed_m);
+    if (rate > 0.0) measured(f, "seed.R", rate, 0.3 * rate);
     return f;
 }
 

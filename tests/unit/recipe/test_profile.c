@@ -20,15 +20,6 @@ typedef struct bench { /* a mask of bars that run along y: every cut at an angle
 static const double bar[][2] = {{-300, -200}, {0, 8}, {16, 46}, {54, 94}, {154, 300}};
 enum { BARS = sizeof bar / sizeof *bar };
 
-static void set(fw_flow *f, const char *id, double value) {
-    fw_quantity *q = (fw_quantity *)fw_flow_quantity(f, id);
-    assert_non_null(q);
-    q->unknown = false;
-    q->value = value;
-    q->uncertainty = 0.0;
-    q->status = FW_MEASURED;
-}
-
 /* `angle` of the cut against x; it begins at x = -20 um and ends at x = 174 um */
 static bench start(const char *pack, double anisotropy, double angle) {
     static const fw_mask_gap gap[] = {{FW_GAP_HINGE, "gap of hinge A", 8e-6}};
@@ -37,7 +28,7 @@ static bench start(const char *pack, double anisotropy, double angle) {
         scene_box(b.s, "bar", bar[i][0], -2000, bar[i][1], 2000);
     b.flow = read_pack(b.s->arena, pack, NULL, NULL, &b.s->diags);
     assert_non_null(b.flow);
-    if (anisotropy > 0.0) set(b.flow, "rie.A", anisotropy);
+    if (anisotropy > 0.0) measured(b.flow, "rie.A", anisotropy, 0);
     fw_mask_facts facts = plain_facts;
     facts.gap = gap;
     facts.ngap = 1;

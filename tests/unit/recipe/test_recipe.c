@@ -1,29 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "../process/packs.h"
+#include "../process/pack_fixture.h"
 #include "recipe/recipe.h"
 #include <jansson.h>
 #include <stdlib.h>
 
-static fw_arena *arena;
-static fw_diags diags;
 static const char *const flows[] = {COPPER, SILICON};
 static const char mask_hash[] = "00112233445566778899aabbccddeeff00112233445566778899aabbccddeeff";
 
 typedef fw_status (*writer)(const fw_flow *, const fw_recipe_header *, fw_text *);
 static const writer writers[] = {fw_recipe_write_html, fw_recipe_write_csv, fw_recipe_write_ics,
                                  fw_recipe_write_json};
-
-static int setup(void **state) {
-    (void)state;
-    arena = fw_arena_new(0);
-    diags = fw_diags_new(arena);
-    return arena ? 0 : -1;
-}
-static int teardown(void **state) {
-    (void)state;
-    fw_arena_free(arena);
-    return 0;
-}
 
 static fw_flow *computed(const char *name) {
     fw_flow *f = read_pack(arena, name, NULL, NULL, &diags);

@@ -1,25 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The schedule as documents, of the packs as they are: read back, they say what was computed. */
-#include "../process/packs.h"
+#include "../process/pack_fixture.h"
 #include "recipe/recipe.h"
 #include <jansson.h>
 #include <stdlib.h>
 
-static fw_arena *arena;
-static fw_diags diags;
 static const char *const flows[] = {COPPER, SILICON};
-
-static int setup(void **state) {
-    (void)state;
-    arena = fw_arena_new(0);
-    diags = fw_diags_new(arena);
-    return arena ? 0 : -1;
-}
-static int teardown(void **state) {
-    (void)state;
-    fw_arena_free(arena);
-    return 0;
-}
 
 static fw_flow *computed(const char *name, const char *from, const char *to) {
     fw_flow *f = read_pack(arena, name, from, to, &diags);
