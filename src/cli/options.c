@@ -27,12 +27,18 @@ static const char *take_set(fw_cli_options *o, const char *v) {
     if (!equals || equals == v)
         return "needs PATH=VALUE, for example arc=\"250 deg\" or \"flexure[A]/@length=312 um\"";
     if (o->nset == FW_MOST_SETS) return "is given more than 64 times";
-    char *path = malloc((size_t)(equals - v) + 1); /* lives as long as the program */
+    char *path = malloc((size_t)(equals - v) + 1); /* until fw_cli_options_free */
     if (!path) return "could not be stored: out of memory";
     memcpy(path, v, (size_t)(equals - v));
     path[equals - v] = '\0';
     o->set[o->nset++] = (fw_set){path, equals + 1};
     return NULL;
+}
+
+void fw_cli_options_free(fw_cli_options *o) {
+    for (int i = 0; i < o->nset; i++)
+        free((void *)o->set[i].path); /* ours; const for everyone downstream */
+    o->nset = 0;
 }
 
 static const char *take_accuracy(fw_cli_options *o, const char *v) {

@@ -54,7 +54,9 @@ enum { /* option groups */
 };
 
 /* fills options from argv[2..]; false: wrong usage, said on stderr */
+/* what it keeps of --set is freed by fw_cli_options_free, also where it failed */
 bool fw_cli_parse(const fw_command *command, int argc, char **argv, fw_cli_options *options);
+void fw_cli_options_free(fw_cli_options *options);
 void fw_cli_help(void); /* the program */
 void fw_cli_command_help(const fw_command *command);
 void fw_cli_reference(fw_text *out); /* docs/reference/command-line.md */

@@ -227,10 +227,13 @@ int fw_cli_run(int argc, char **argv) {
     if (!command) return unknown_command(name);
     fw_cli_options options = {.design = fw_design_options_default(), .colour = -1, .argv = argv};
     options.design.data_directory = getenv("FLEXWRIGHT_DATA");
-    if (!fw_cli_parse(command, argc, argv, &options)) return fw_status_exit(FW_USAGE);
-    if (options.help) {
-        fw_cli_command_help(command);
-        return last_words(0);
-    }
-    return last_words(command->run(&options));
+    int status;
+    if (!fw_cli_parse(command, argc, argv, &options))
+        status = fw_status_exit(FW_USAGE);
+    else if (options.help)
+        fw_cli_command_help(command), status = last_words(0);
+    else
+        status = last_words(command->run(&options));
+    fw_cli_options_free(&options);
+    return status;
 }

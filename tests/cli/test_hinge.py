@@ -253,7 +253,7 @@ class Hinge(unittest.TestCase):
         path = GALLERY.parent.parent / "free-form-four-bar/device.xml"
         peaks = []
         for model in ("compliance", "elastica"):
-            done = run("simulate", path, "--hinge-model", model, "--json")
+            done = run("simulate", path, "--hinge-model", model, "--accuracy", "1e-5", "--json")
             self.assertEqual(done.returncode, 0, done.stderr)
             result = json.loads(done.stdout)
             self.assertLess(result["stats"]["energy_error"], 1e-7)

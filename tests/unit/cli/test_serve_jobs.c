@@ -98,6 +98,7 @@ static void every_kind_with_all_options(void **state) {
         assert_true(parsed.json && parsed.verbose && parsed.nset == 2);
         assert_string_equal(parsed.set[0].value, "250 deg");
         assert_string_equal(parsed.set[1].value, "3");
+        fw_cli_options_free(&parsed);
     }
     fw_arena_free(arena);
 }

@@ -141,8 +141,8 @@ static void any_allocation_may_fail(void **state) {
     (void)state;
     static const char *const more[] = {
         "\"options\":{\"samples\":3}", "\"platform\":{\"x_m\":1e-5}",
-        "\"changes\":[{\"path\":\"device/"
-        "@name\",\"value\":\"x\"},{\"add\":\"\",\"element\":\"flow\"}]"};
+        ("\"changes\":[{\"path\":\"device/"
+         "@name\",\"value\":\"x\"},{\"add\":\"\",\"element\":\"flow\"}]")};
     static const live_function function[] = {fw_live_preview, fw_live_pose, fw_live_edit};
     for (int k = 0; k < 3; k++) {
         char *r = request_of(SMALL, more[k]);

@@ -75,6 +75,7 @@ static void test_oasis(void **state) {
     assert_int_equal(b[n - 5], 1);
     for (size_t k = 0; k < 4; k++)
         assert_int_equal(b[n - 4 + k], crc >> 8 * k & 0xff);
+    fw_arena_free(p->arena);
 }
 
 static void test_csv(void **state) {
