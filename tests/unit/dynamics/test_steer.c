@@ -28,6 +28,7 @@ static void test_errors_are_below(void **state) {
         const fw_motion *truth =
             run(arena, &r, &(fw_motion_options){.integrator = "gsl-rk8pd", .rtol = 1e-13});
         long before = 0;
+        double tolerance = (double)INFINITY;
         for (int k = 0; k < 6; k++) {
             const fw_motion *m = run(arena, &r, &(fw_motion_options){.accuracy = accuracy[k]});
             double size = size_of(truth);
@@ -37,8 +38,10 @@ static void test_errors_are_below(void **state) {
                 assert_true(off < accuracy[k] * size);
                 assert_true(m->peak[i].error_rad <= accuracy[k] * size_of(m));
             }
-            assert_true(m->stats.rhs > before); /* a digit costs something */
-            before = m->stats.rhs;
+            /* where a first try was not enough the next digit may have been paid for */
+            assert_true(m->stats.rtol <= tolerance);
+            if (m->stats.rtol < tolerance) assert_true(m->stats.rhs > before);
+            before = m->stats.rhs, tolerance = m->stats.rtol;
         }
     }
     fw_arena_free(arena);
