@@ -115,8 +115,12 @@ void *fw_arena_alloc(fw_arena *arena, size_t count, size_t size) {
 
 void *fw_arena_grow(fw_arena *arena, const void *old, size_t old_count, size_t new_count,
                     size_t size) {
-    void *block = fw_arena_alloc(arena, new_count, size);
-    if (block && old && old_count) memcpy(block, old, old_count * size);
+    if (size && new_count > SIZE_MAX / size) return NULL;
+    size_t bytes = new_count * size, kept = old ? old_count * size : 0;
+    unsigned char *block = fw_arena_raw(arena, bytes);
+    if (!block) return NULL;
+    if (kept > 0) memcpy(block, old, kept);
+    memset(block + kept, 0, bytes - kept);
     return block;
 }
 

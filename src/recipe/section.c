@@ -2,6 +2,7 @@
 /* Cross-section of the wafer, not to scale: a narrow and a wide part of the structure between
  * fields. */
 #include "process/stack.h"
+#include "recipe/legend.h"
 #include "recipe/profile.h"
 #include "recipe/words.h"
 #include <math.h>
@@ -87,43 +88,21 @@ static void draw_bands(fw_text *out, const fw_stack *s, double high, double scal
     }
 }
 
-typedef struct legend {
-    const char *material;
-    double thickness_m, top;
-    bool exposed;
-} legend;
-
-/* one line per material, top first; two coats of one material add up within a column */
-static int collect(const fw_stack *s, legend *list, int most) {
-    int n = 0;
+static void collect(const fw_stack *s, fw_legend *legend) {
     for (int column = 0; column < FW_STACK_COLUMNS; column++) {
-        double sum[16] = {0.0};
         for (int i = 0; i < s->n[column]; i++) {
             const fw_cell *c = &s->cell[column][i];
-            int at = 0;
-            while (at < n &&
-                   (strcmp(list[at].material, c->material) != 0 || list[at].exposed != c->exposed))
-                at++;
-            if (at == most) continue;
-            if (at == n) list[n++] = (legend){c->material, 0.0, c->bottom, c->exposed};
-            sum[at] += c->thickness_m;
-            list[at].top = fmax(list[at].top, c->bottom + c->height);
+            fw_legend_add(legend, &(fw_legend_entry){.material = c->material,
+                                                     .exposed = c->exposed,
+                                                     .thickness_m = c->thickness_m,
+                                                     .top_m = c->bottom + c->height});
         }
-        for (int i = 0; i < n; i++)
-            if (!isnan(list[i].thickness_m) &&
-                !(sum[i] <= list[i].thickness_m)) /* also when unknown */
-                list[i].thickness_m = sum[i];
+        fw_legend_end_column(legend);
     }
-    for (int i = 1; i < n; i++)
-        for (int k = i; k > 0 && list[k].top > list[k - 1].top; k--) {
-            legend swap = list[k];
-            list[k] = list[k - 1];
-            list[k - 1] = swap;
-        }
-    return n;
+    fw_legend_from_the_top(legend);
 }
 
-static void label(fw_text *out, const fw_flow *flow, const legend *l, int y) {
+static void label(fw_text *out, const fw_flow *flow, const fw_legend_entry *l, int y) {
     fw_text_printf(out,
                    "<rect x=\"%d\" y=\"%d\" width=\"9\" height=\"9\" fill=\"%s\" stroke=\"#222\" "
                    "stroke-width=\"0.5\"/>\n<text x=\"%d\" y=\"%d\">",
@@ -131,7 +110,7 @@ static void label(fw_text *out, const fw_flow *flow, const legend *l, int y) {
     char shown[32];
     fw_text_escaped(out, l->exposed ? l->material : fw_paint_name(flow, l->material, shown));
     fw_text_add(out, l->exposed ? ", exposed" : "");
-    if (isnan(l->thickness_m))
+    if (l->unknown)
         fw_text_add(out, " ?");
     else {
         fw_text_add(out, " ");
@@ -143,12 +122,12 @@ static void label(fw_text *out, const fw_flow *flow, const legend *l, int y) {
 
 fw_status fw_recipe_section_svg(const fw_flow *flow, int index, fw_text *out) {
     fw_stack stack;
-    legend list[8];
+    fw_legend legend = {.most = 8};
     double low, high;
     FW_TRY(extent(out->arena, flow, &low, &high));
     FW_TRY(fw_flow_stack(out->arena, flow, index, &stack, NULL));
     double scale = (HEIGHT - 4.0) / (high - low), top = -1e9, bottom = 1e9;
-    int n = collect(&stack, list, 8);
+    collect(&stack, &legend);
     for (int column = 0; column < FW_STACK_COLUMNS; column++)
         for (int i = 0; i < stack.n[column]; i++) {
             const fw_cell *c = &stack.cell[column][i];
@@ -156,7 +135,7 @@ fw_status fw_recipe_section_svg(const fw_flow *flow, int index, fw_text *out) {
             bottom = fmin(bottom, c->bottom);
         }
     /* only as high as the layers or their names need */
-    int height = (int)ceil(fmax(fmax(top - bottom, 0.0) * scale + 4.0, 15.0 * n + 2.0));
+    int height = (int)ceil(fmax(fmax(top - bottom, 0.0) * scale + 4.0, 15.0 * legend.n + 2.0));
     fw_text_printf(out,
                    "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" "
                    "height=\"%d\" role=\"img\" font-family=\"Helvetica, Arial, sans-serif\" "
@@ -167,8 +146,8 @@ fw_status fw_recipe_section_svg(const fw_flow *flow, int index, fw_text *out) {
     fw_text_add(out, "<path fill=\"none\" stroke=\"#222\" stroke-width=\"0.6\" d=\"");
     draw_bands(out, &stack, high, scale, true);
     fw_text_add(out, "\"/>\n");
-    for (int i = 0; i < n; i++)
-        label(out, flow, &list[i], 2 + 15 * i);
+    for (int i = 0; i < legend.n; i++)
+        label(out, flow, &legend.entry[i], 2 + 15 * i);
     fw_text_add(out, "</svg>\n");
     return fw_text_end(out);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The section along a cut, to scale along it; heights by one factor for all steps of a flow. */
+#include "recipe/legend.h"
 #include "recipe/profile.h"
 #include "recipe/words.h"
 #include <math.h>
@@ -159,48 +160,23 @@ void fw_section_draw(const fw_cross_section *p, const fw_section_scale *scale, d
 
 /* ---- legend ---- */
 
-typedef struct entry {
-    const char *material;
-    bool exposed, unknown;
-    double thickness_m, top_m, reach_m;
-} entry;
-
-/* one entry for each material; two coats of one material add up within a column */
-static int collect(const fw_films *films, entry *list, int most) {
-    int n = 0;
+static void collect(const fw_films *films, fw_legend *list) {
     for (int column = 0; column < FW_STACK_COLUMNS; column++) {
-        double sum[16] = {0.0};
         for (int i = 0; i < films->n; i++) {
             const fw_film *f = &films->film[i];
             if (!f->in[column] || (f->cut && !f->in[FW_STACK_STRUCTURE])) continue;
-            int at = 0;
-            while (at < n &&
-                   (strcmp(list[at].material, f->material) != 0 || list[at].exposed != f->exposed))
-                at++;
-            if (at == most) continue;
-            if (at == n)
-                list[n++] = (entry){.material = f->material,
-                                    .exposed = f->exposed,
-                                    .thickness_m = 0.0,
-                                    .top_m = f->top_m};
-            list[at].reach_m = fmax(list[at].reach_m, f->reach_m);
-            list[at].unknown = list[at].unknown || isnan(f->thickness_m);
-            sum[at] += f->thickness_m;
-            list[at].top_m = fmax(list[at].top_m, f->top_m);
+            fw_legend_add(list, &(fw_legend_entry){.material = f->material,
+                                                   .exposed = f->exposed,
+                                                   .thickness_m = f->thickness_m,
+                                                   .top_m = f->top_m,
+                                                   .reach_m = f->reach_m});
         }
-        for (int i = 0; i < n; i++)
-            if (sum[i] > list[i].thickness_m) list[i].thickness_m = sum[i];
+        fw_legend_end_column(list);
     }
-    for (int i = 1; i < n; i++)
-        for (int k = i; k > 0 && list[k].top_m > list[k - 1].top_m; k--) {
-            entry swap = list[k];
-            list[k] = list[k - 1];
-            list[k - 1] = swap;
-        }
-    return n;
+    fw_legend_from_the_top(list);
 }
 
-static void swatch(fw_text *out, const entry *e, double x, double y) {
+static void swatch(fw_text *out, const fw_legend_entry *e, double x, double y) {
     fw_text_add(out, "<rect x=\"");
     fw_text_fixed(out, x, 1);
     fw_text_add(out, "\" y=\"");
@@ -216,7 +192,8 @@ static void swatch(fw_text *out, const entry *e, double x, double y) {
     fw_text_add(out, "\"/>\n");
 }
 
-static void legend(const fw_flow *flow, const entry *e, double x, double y, fw_text *out) {
+static void legend(const fw_flow *flow, const fw_legend_entry *e, double x, double y,
+                   fw_text *out) {
     char shown[32];
     swatch(out, e, x, y);
     fw_text_add(out, "<text x=\"");
@@ -275,11 +252,12 @@ void fw_section_scale_bar(const fw_section_scale *scale, double width, double y,
 
 int fw_section_legend(const fw_flow *flow, const fw_films *films, double width, int columns,
                       double y, fw_text *out) {
-    enum { MOST = 16 };
-    entry list[MOST];
-    int n = collect(films, list, MOST), rows = (n + columns - 1) / columns;
-    for (int i = 0; i < n; i++)
-        legend(flow, &list[i], width / columns * (i / rows) + 1.0, y + 14.0 * (i % rows), out);
+    fw_legend list = {.most = FW_LEGEND_MOST};
+    collect(films, &list);
+    int rows = (list.n + columns - 1) / columns;
+    for (int i = 0; i < list.n; i++)
+        legend(flow, &list.entry[i], width / columns * (i / rows) + 1.0, y + 14.0 * (i % rows),
+               out);
     return rows;
 }
 

@@ -244,7 +244,7 @@ def jobs(program, directory):
         bad = server.job({"kind": "check", "text": "<device"})
         assert bad["state"] == "failed" and bad["exit_status"] == 3 and any("FW-D" in m for m in bad["messages"]), bad
         for wrong in ({"kind": "check"}, {"kind": "rm", "text": ""}, {"kind": ["check"], "text": ""}, [], 1, "x",
-                      {"kind": "check", "text": "", "options": {"output": "/tmp/x"}},
+                      {"kind": "check", "text": "", "options": {"output": "/elsewhere"}},
                       {"kind": "check", "text": "", "options": {"lab": "/etc/passwd"}},
                       {"kind": "check", "text": "", "options": {"accuracy": {"a": 1}}},
                       {"kind": "check", "text": "", "options": []}, {"kind": "check", "text": "", "set": {"": "1"}},

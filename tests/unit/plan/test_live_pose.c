@@ -90,16 +90,22 @@ static void six_bar_closes_in_every_pose(void **state) {
     fw_design_free(design);
 }
 
+static fw_mechanism not_known_as_six_bar(const fw_mechanism *m, fw_device *device) {
+    fw_mechanism other = *m;
+    *device = *m->device;
+    device->six_bar = false;
+    other.device = device;
+    return other;
+}
+
 /* the same mechanism, not known to be a six-bar: two ways to one answer */
 static void closing_agrees_with_the_closed_form(void **state) {
     (void)state;
     const fw_mechanism *m;
     fw_design *design = design_of(SIX_BAR, &m);
     fw_arena *arena = fw_arena_new(0);
-    fw_device device = *m->device;
-    fw_mechanism other = *m;
-    device.six_bar = false;
-    other.device = &device;
+    fw_device device;
+    const fw_mechanism other = not_known_as_six_bar(m, &device);
     for (int i = 0; i < 200; i++) {
         fw_mark mark = fw_arena_mark(arena);
         const double asked[3] = {random_in(-3e-4, 3e-4), random_in(-2e-4, 2e-4),
@@ -127,10 +133,8 @@ static void closing_keeps_its_branch(void **state) {
     const fw_mechanism *m;
     fw_design *design = design_of(SIX_BAR, &m);
     fw_arena *arena = fw_arena_new(0);
-    fw_device device = *m->device;
-    fw_mechanism other = *m;
-    device.six_bar = false;
-    other.device = &device;
+    fw_device device;
+    const fw_mechanism other = not_known_as_six_bar(m, &device);
     const double far[3] = {0, 5e-3, 0}, home[3] = {0, 0, 0};
     fw_posed a, b;
     assert_int_equal(fw_pose_solve(arena, &other, 2, far, NULL, &a), FW_OK);
