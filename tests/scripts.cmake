@@ -43,6 +43,8 @@ fw_script_test(docs.readme COMMAND ${Python3_EXECUTABLE} tests/docs/readme.py ${
 fw_script_test(docs.json COMMAND ${Python3_EXECUTABLE} tests/docs/json_keys.py ${FW_PROGRAM} $<TARGET_FILE:live>)
 fw_script_test(docs.effects LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/effects.py)
 fw_script_test(docs.masks LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/mask_benchmarks.py)
+fw_script_test(docs.solids LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/solids.py
+               ${PROJECT_BINARY_DIR}/tools/solids)
 fw_script_test(docs.accuracy LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/accuracy.py)
 fw_script_test(docs.pages LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/pages.py)
 fw_script_test(build.clang COMMAND tests/build/clang.sh TIMEOUT 600)
@@ -56,6 +58,8 @@ set_tests_properties(effects.costs effects.absent PROPERTIES SKIP_RETURN_CODE 77
 # instruction counts against tests/bench/baseline.json
 fw_script_test(gate.counts COMMAND ${Python3_EXECUTABLE} tests/bench/gate ${PROJECT_BINARY_DIR})
 set_tests_properties(gate.counts PROPERTIES SKIP_RETURN_CODE 77)
+fw_script_test(cost.size COMMAND ${Python3_EXECUTABLE} tests/build/size.py $<TARGET_FILE:accuracy_motions>)
+set_tests_properties(cost.size PROPERTIES SKIP_RETURN_CODE 77)
 fw_script_test(gate.judge LABEL quick COMMAND ${Python3_EXECUTABLE} tests/build/gate_judge.py)
 fw_script_test(accuracy.reference COMMAND ${Python3_EXECUTABLE} tests/accuracy/reference_check.py
                $<TARGET_FILE:accuracy_reference>)

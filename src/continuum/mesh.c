@@ -16,6 +16,7 @@ typedef struct station { /* of the lattice's first direction */
 } station;
 
 typedef struct plan { /* element counts and their spacing */
+    fw_continuum_finer more;
     int block, fillet, strip, across, corner, layers;
     double at_strip[MOST + 1], at_block[MOST + 1], at_across[MOST + 1], at_depth[MOST + 1];
 } plan;
@@ -81,7 +82,7 @@ static void plan_strip(plan *c, const fw_continuum_shape *s, double length, doub
 static void plan_across(plan *c, const fw_continuum_shape *s, double f) {
     double share = s->root == FW_ROOT_BLOCK ? s->fillet_m / s->width_m : 1.0;
     double base = share >= 0.35 ? 3.0 : share >= 0.15 ? 4.0 : 5.0;
-    int half = count_of(base * f, 2);
+    int half = count_of((base + c->more.across) * f, 2);
     double even = 0.5 / half, first = fmin(0.6 * even, 0.16 * share / f), side[MOST + 1];
     graded(side, half, ratio_for(half, 2.0 * first));
     c->across = 2 * half;
@@ -98,17 +99,18 @@ static void plan_across(plan *c, const fw_continuum_shape *s, double f) {
    came out 1.7 % too high (H3: 0.014554 with one, 0.014311 with two, 0.014282 with three) */
 static void plan_depth(plan *c, const fw_continuum_shape *s, double f, bool plane_stress) {
     double half = 0.5 * s->depth_m / s->width_m;
-    c->layers = plane_stress ? 1 : count_of((half < 2.0 ? 2.0 : 3.0) * f, 2);
+    c->layers = plane_stress ? 1 : count_of(((half < 2.0 ? 2.0 : 3.0) + c->more.layers) * f, 2);
     graded(c->at_depth, c->layers, c->layers > 1 ? pow(0.5, 1.0 / (c->layers - 1)) : 1.0);
 }
 
-static void make_plan(plan *c, const fw_profile *p, double f, bool plane_stress) {
+static void make_plan(plan *c, const fw_profile *p, double f, bool plane_stress,
+                      fw_continuum_finer more) {
     const fw_continuum_shape *s = p->shape;
-    *c = (plan){0};
+    *c = (plan){.more = more};
     if (s->root == FW_ROOT_BLOCK) {
         double radius = 0.5 * s->width_m + s->fillet_m;
         double reach = fmin(s->block_half_m, s->block_length_m) - radius;
-        c->fillet = count_of(8.0 * f, 2);
+        c->fillet = count_of((8.0 + c->more.fillet) * f, 2);
         double first = 1.3 * s->fillet_m / c->fillet * 1.5;
         c->block = count_of((3.0 + 1.2 * log(fmax(1.0, reach / (4.0 * first)))) * f, 3);
         graded(c->at_block, c->block, ratio_for(c->block, fmin(0.5, first / reach)));
@@ -189,12 +191,19 @@ static void number_nodes(fw_continuum_mesh *mesh) {
 fw_status fw_continuum_mesh_build(fw_arena *arena, const fw_continuum_shape *shape,
                                   double refinement, bool plane_stress, fw_continuum_mesh *mesh,
                                   const char **why) {
+    return fw_continuum_mesh_finer(arena, shape, refinement, plane_stress,
+                                   (fw_continuum_finer){.fillet = 0}, mesh, why);
+}
+
+fw_status fw_continuum_mesh_finer(fw_arena *arena, const fw_continuum_shape *shape,
+                                  double refinement, bool plane_stress, fw_continuum_finer more,
+                                  fw_continuum_mesh *mesh, const char **why) {
     fw_profile profile;
     plan *c;
     *mesh = (fw_continuum_mesh){0};
     FW_TRY(fw_profile_build(shape, &profile, why));
     FW_NEED(c = fw_arena_one(arena, plan));
-    make_plan(c, &profile, refinement, plane_stress);
+    make_plan(c, &profile, refinement, plane_stress, more);
     mesh->ni = c->strip + 2 * (c->fillet + c->block);
     mesh->nj = c->across, mesh->nk = c->layers,
     mesh->corner = c->block && shape->sides_free ? c->corner : 0;

@@ -23,6 +23,15 @@ typedef struct fw_continuum_mesh {
 fw_status fw_continuum_mesh_build(fw_arena *arena, const fw_continuum_shape *shape,
                                   double refinement, bool plane_stress, fw_continuum_mesh *mesh,
                                   const char **why);
+/* the same with more elements along a fillet (8), through half the width (3 to 5) and through half
+   the depth (2 or 3) than at refinement 1, where strains at the fillets are looked at; for
+   tools/solids */
+typedef struct fw_continuum_finer {
+    int fillet, across, layers;
+} fw_continuum_finer;
+fw_status fw_continuum_mesh_finer(fw_arena *arena, const fw_continuum_shape *shape,
+                                  double refinement, bool plane_stress, fw_continuum_finer more,
+                                  fw_continuum_mesh *mesh, const char **why);
 size_t fw_continuum_lattice(const fw_continuum_mesh *mesh, int i, int j, int k);
 /* is lattice point (i, j) on the rigid face of the first (end 0) or second root? */
 bool fw_continuum_rigid(const fw_continuum_mesh *mesh, int end, int i, int j);

@@ -366,6 +366,7 @@ typedef struct fw_device {
     fw_die die;
     double release_pitch_m, release_hole_m; /* <die>: holes in bodies; NaN or 0 pitch: none */
     fw_wafer_asked wafer;
+    bool rounded; /* the poses were typed with few digits, and closed as they were read: FW-D132 */
 } fw_device;
 
 typedef struct fw_set { /* --set PATH=VALUE */

@@ -22,12 +22,14 @@ static void check_material(fw_reader *r) {
 }
 
 static fw_status build(fw_reader *r) {
+    size_t errors = r->diags->errors;
     FW_TRY(fw_ids_check(r));
     FW_TRY(fw_build_parts(r));
     FW_TRY(fw_build_wafer(r));
     FW_TRY(fw_build_flexures(r));
     FW_TRY(fw_expand_six_bar(r));
     FW_TRY(fw_build_mechanism(r));
+    if (r->diags->errors == errors) FW_TRY(fw_close_rounded(r)); /* else places may be missing */
     FW_TRY(fw_build_scenes(r));
     check_material(r);
     return FW_OK;

@@ -68,6 +68,8 @@ fw_status fw_expand_six_bar(fw_reader *r); /* bodies 0..4 and joints 0..5 */
 fw_status fw_build_mechanism(fw_reader *r);
 fw_status fw_build_joints(fw_reader *r);
 fw_status fw_build_scenes(fw_reader *r);
+/* close.c: poses whose joints are open by what rounded numbers leave (FW-D132) */
+fw_status fw_close_rounded(fw_reader *r);
 
 /* values of a record; names must be in the table */
 const fw_cell *fw_cell_of(const fw_record *record, const char *name);

@@ -1,15 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The table of elements and attributes as JSON, for forms that are generated from it. */
+#include "base/members.h"
 #include "device/reader.h"
 #include <string.h>
-
-static void pair(fw_text *out, const char *key, const char *value) {
-    fw_text_printf(out, ",\"%s\":", key);
-    if (value)
-        fw_text_json(out, value);
-    else
-        fw_text_add(out, "null");
-}
 
 static const char *const kind_text[] = {
     [FW_KIND_TEXT] = "text",     [FW_KIND_ID] = "id",         [FW_KIND_NAME] = "name",
@@ -19,64 +12,67 @@ static const char *const kind_text[] = {
 /* in the unit of the row, to the digits that messages have */
 static void bound(fw_text *out, const char *key, const fw_attribute_row *a, double value) {
     fw_unit unit = {.factor = 1.0};
-    fw_text_printf(out, ",\"%s\":", key);
     if (a->unit && a->unit[0]) fw_unit_parse(a->unit, strlen(a->unit), &unit, NULL, NULL);
     if (a->ranged)
-        fw_text_number(out, fw_unit_from_si(&unit, value), 12);
+        fw_put_number(out, key, fw_unit_from_si(&unit, value), 12);
     else
-        fw_text_add(out, "null");
+        fw_put_null(out, key);
 }
 
 static void attribute(fw_text *out, const fw_attribute_row *a) {
-    fw_text_add(out, "{\"name\":");
-    fw_text_json(out, a->name);
-    pair(out, "type", kind_text[a->kind]);
-    pair(out, "unit", fw_kind_is_expression(a->kind) ? a->unit : NULL);
-    pair(out, "dimension",
-         a->kind == FW_KIND_NUMBER || a->kind == FW_KIND_TIMED
-             ? fw_dimension_text(out->arena, a->dimension)
-             : NULL);
-    pair(out, "default", a->fallback);
+    bool fixed = a->kind == FW_KIND_NUMBER || a->kind == FW_KIND_TIMED;
+    fw_text_add(out, "{");
+    fw_put_text(out, "name", a->name);
+    fw_put_text(out, "type", kind_text[a->kind]);
+    fw_put_text(out, "unit", fw_kind_is_expression(a->kind) ? a->unit : NULL);
+    fw_put_text(out, "dimension", fixed ? fw_dimension_text(out->arena, a->dimension) : NULL);
+    fw_put_text(out, "default", a->fallback);
     bound(out, "minimum", a, a->min);
     bound(out, "maximum", a, a->max);
-    fw_text_printf(out, ",\"above_minimum\":%s,\"whole\":%s,\"required\":%s",
-                   a->open ? "true" : "false", a->whole ? "true" : "false",
-                   a->required ? "true" : "false");
-    pair(out, "range_reason", a->ranged ? a->reason : NULL);
-    fw_text_add(out, ",\"choices\":");
-    fw_text_add(out, a->words ? "[" : "null");
-    for (int i = 0; a->words && a->words[i]; i++) {
-        fw_text_add(out, i ? "," : "");
-        fw_text_json(out, a->words[i]);
-    }
-    fw_text_add(out, a->words ? "]" : "");
-    pair(out, "refers_to", a->kind == FW_KIND_REF ? fw_space_text(a->space) : NULL);
-    fw_text_printf(out, ",\"ground\":%s", a->ground ? "true" : "false");
-    pair(out, "sentence", a->sentence);
+    fw_put_truth(out, "above_minimum", a->open);
+    fw_put_truth(out, "whole", a->whole);
+    fw_put_truth(out, "required", a->required);
+    fw_put_text(out, "range_reason", a->ranged ? a->reason : NULL);
+    if (a->words) {
+        fw_put_open(out, "choices", '[');
+        for (int i = 0; a->words[i]; i++)
+            fw_put_text(out, NULL, a->words[i]);
+        fw_text_add(out, "]");
+    } else
+        fw_put_null(out, "choices");
+    fw_put_text(out, "refers_to", a->kind == FW_KIND_REF ? fw_space_text(a->space) : NULL);
+    fw_put_truth(out, "ground", a->ground);
+    fw_put_text(out, "sentence", a->sentence);
     fw_text_add(out, "}");
+}
+
+static void element(fw_text *out, const fw_element_row *row) {
+    fw_put_open(out, NULL, '{');
+    fw_put_text(out, "name", row->name);
+    fw_put_text(out, "parent", row->parent[0] ? row->parent : NULL);
+    fw_put_text(out, "key", row->key);
+    fw_put_text(out, "id_space", row->space != FW_SPACE_NONE ? fw_space_text(row->space) : NULL);
+    fw_put_truth(out, "once", row->once);
+    if (row->most > 0)
+        fw_put_whole(out, "most", row->most);
+    else
+        fw_put_null(out, "most");
+    fw_put_text(out, "sentence", row->sentence);
+    fw_put_open(out, "attributes", '[');
+    for (int k = 0; k < row->nattribute; k++) {
+        fw_put_line(out);
+        fw_text_add(out, "  ");
+        attribute(out, &row->attribute[k]);
+    }
+    fw_text_add(out, "]}");
 }
 
 fw_status fw_device_table_json(fw_text *out) {
     const fw_element_row *row;
-    fw_text_add(out, "[");
+    fw_put_open(out, NULL, '[');
     for (int i = 0; (row = fw_element_row_at(i)) != NULL; i++) {
-        fw_text_add(out, i ? ",\n{\"name\":" : "\n{\"name\":");
-        fw_text_json(out, row->name);
-        pair(out, "parent", row->parent[0] ? row->parent : NULL);
-        pair(out, "key", row->key);
-        pair(out, "id_space", row->space != FW_SPACE_NONE ? fw_space_text(row->space) : NULL);
-        fw_text_printf(out, ",\"once\":%s,\"most\":", row->once ? "true" : "false");
-        if (row->most > 0)
-            fw_text_printf(out, "%d", row->most);
-        else
-            fw_text_add(out, "null");
-        pair(out, "sentence", row->sentence);
-        fw_text_add(out, ",\"attributes\":[");
-        for (int k = 0; k < row->nattribute; k++) {
-            fw_text_add(out, k ? ",\n  " : "\n  ");
-            attribute(out, &row->attribute[k]);
-        }
-        fw_text_add(out, "]}");
+        fw_put_line(out);
+        element(out, row);
     }
     fw_text_add(out, "]");
     return fw_text_end(out);

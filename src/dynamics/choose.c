@@ -251,7 +251,7 @@ typedef struct spectrum {  /* rad per scaled time */
    starting velocities v, as far as it is wanted to be right:
      A = |z.F|/(z.M z w^2) + |z.M v|/(z.M z w),  |A e^(-d t)| > wanted/4
    Loads that come slowly excite less: then implicit steps are taken for dearer than they are.
-   Source: modal superposition. Test: test_choose.c (what_dies_away). */
+   Source: modal superposition. Test: test_choose.c (what_is_not_excited). */
 static fw_status ringing(fw_run *r, const fw_terms *terms, const double *z, double time,
                          spectrum *s) {
     const fw_model *m = r->model;
@@ -296,12 +296,12 @@ static double implicit_steps(const fw_run *r, const spectrum *s, double time) {
     double count = fmin(time, s->dying > 0 ? 4 / s->dying : time) * s->slow;
     if (s->touching > 0) count = fmax(count, time * sqrt(s->slow * s->touching));
     count += s->fast * s->ringing * pow(s->share, 0.2);
-    return fmax(200, 12 * count) * pow(tolerance(r, "radau5") / 1e-7, -0.2);
+    return fmax(80, 12 * count) * pow(tolerance(r, "radau5") / 1e-7, -0.2);
 }
 
-/* Steps of dop853 that the tolerance needs: one per rad at 1e-7 and at least a hundred */
+/* Steps of dop853 that the tolerance needs: one per rad at 1e-7 and at least thirty */
 static double explicit_steps(const fw_run *r, const spectrum *s, double time) {
-    return fmax(100, time * s->slow) * pow(tolerance(r, "dop853") / 1e-7, -0.1);
+    return fmax(30, time * s->slow) * pow(tolerance(r, "dop853") / 1e-7, -0.1);
 }
 
 static fw_status say_choice(fw_run *r, const spectrum *s, bool stiff, double stable, double most) {
@@ -353,6 +353,8 @@ static fw_status choose(fw_run *r, const fw_terms *terms) {
     /* what is stiff only later, such as a film that closes, shows in the number of steps; beyond
        300 components a factorisation costs more than any of them */
     r->patience = !stiff && m->ny <= 300 ? 5000 + 30 * explicit_ : 0;
+    r->stable = stable, r->needed = explicit_steps(r, &s, time);
+    r->implicit_price = stiff || m->ny <= 300 ? p.implicit / p.explicit_ : 0;
     return say_choice(r, &s, stiff, stable, p.implicit / p.explicit_);
 }
 
@@ -373,7 +375,7 @@ fw_status fw_integrator_change(fw_run *r) {
     fw_number_text(at, sizeof at, r->given_up_s, 3);
     r->integrator = fw_stepper_find("radau5");
     r->motion->integrator = r->integrator->name;
-    r->patience = 0;
+    r->patience = r->implicit_price = 0;
     r->given_up_s = (double)NAN;
     FW_NEED(r->motion->reason = fw_arena_printf(
                 r->arena,

@@ -48,9 +48,10 @@ typedef struct fw_motion_options {
     void *context;
     void *other; /* of the observer, too, for the looser run that errors are estimated from; NULL:
                     it is not looked at. The motion says which of the two saw what */
-    /* what observers of the two runs saw is near enough, margin (fw_motion_stats.estimate_margin)
-       times what it differs by being its error; else the tolerance is tightened. NULL: always */
-    bool (*settled)(const void *observed, const void *compared, double margin, double accuracy);
+    /* margin (fw_motion_stats.estimate_margin) times what observers of the two runs saw
+       differently, over what would be near enough: above 1 the tolerance is tightened, by so much.
+       NULL: 0 */
+    double (*unsettled)(const void *observed, const void *compared, double margin, double accuracy);
 } fw_motion_options;
 
 typedef struct fw_peak { /* per pin: extreme of |phi_b - phi_a - free angle| over the scene */

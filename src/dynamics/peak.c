@@ -2,6 +2,7 @@
 #include "dynamics/run.h"
 #include "maths/brent.h"
 #include <math.h>
+#include <string.h>
 
 fw_status fw_peaks_new(fw_arena *arena, const fw_mechanism *mechanism, const double *q,
                        fw_peaks *peaks) {
@@ -12,6 +13,8 @@ fw_status fw_peaks_new(fw_arena *arena, const fw_mechanism *mechanism, const dou
     FW_NEED(peaks->b = fw_arena_array(arena, int, n));
     FW_NEED(peaks->mark_t = fw_arena_array(arena, double, FW_MARKS));
     FW_NEED(peaks->mark = fw_arena_array(arena, double, FW_MARKS *n));
+    FW_NEED(peaks->size = fw_arena_array(arena, double, FW_MARKS *n));
+    FW_NEED(peaks->held = fw_arena_array(arena, fw_peak, n));
     peaks->npin = mechanism->npin;
     peaks->nmark = 0;
     peaks->marked = NULL;
@@ -109,27 +112,35 @@ void fw_peaks_step(fw_peaks *peaks, const fw_model *m, fw_stepper *s, double the
 
 /* ---- marks ---- */
 
-static void note(fw_peaks *peaks, double t, const double *y) {
-    double *to = peaks->mark + (size_t)peaks->nmark * (size_t)peaks->npin;
+/* the peaks themselves stay: the whole step finds them at its own places */
+static void note(fw_peaks *peaks, const fw_model *m, fw_stepper *s, double t, const double *y) {
+    size_t n = (size_t)peaks->npin, row = (size_t)peaks->nmark * n;
     peaks->mark_t[peaks->nmark++] = t;
-    for (int i = 0; i < peaks->npin; i++)
-        to[i] = fw_peaks_angle(peaks, i, y);
+    for (size_t i = 0; i < n; i++)
+        peaks->mark[row + i] = fw_peaks_angle(peaks, (int)i, y);
+    if (!peaks->sized) return;
+    memcpy(peaks->held, peaks->peak, n * sizeof *peaks->held);
+    fw_peaks_step(peaks, m, s, t < s->t ? (t - s->t_old) / s->h : 1);
+    for (size_t i = 0; i < n; i++)
+        peaks->size[row + i] = fabs(peaks->peak[i].angle_rad);
+    memcpy(peaks->peak, peaks->held, n * sizeof *peaks->held);
 }
 
 /* The run that sets the marks takes ends of its steps, where angles cost nothing; the other one
    reads them off its dense output. */
-void fw_peaks_mark(fw_peaks *peaks, fw_stepper *s, double theta_end, double final, double *y) {
+void fw_peaks_mark(fw_peaks *peaks, const fw_model *m, fw_stepper *s, double theta_end,
+                   double final, double *y) {
     const fw_peaks *set = peaks->marked;
     double reached = theta_end < 1 ? s->t_old + theta_end * s->h : s->t;
     if (!set) {
         bool due = peaks->nmark < FW_MARKS && s->t >= final * (peaks->nmark + 1) / FW_MARKS;
-        if (due && theta_end == 1) note(peaks, s->t, s->y);
+        if (due && theta_end == 1) note(peaks, m, s, s->t, s->y);
         return;
     }
     while (peaks->nmark < set->nmark && set->mark_t[peaks->nmark] <= reached) {
         double t = set->mark_t[peaks->nmark];
         if (t < s->t) fw_stepper_dense(s, (t - s->t_old) / s->h, y);
-        note(peaks, t, t < s->t ? y : s->y);
+        note(peaks, m, s, t, t < s->t ? y : s->y);
     }
 }
 
@@ -140,11 +151,20 @@ int fw_peaks_first_mark(const fw_peaks *peaks, const fw_peaks *other, double t) 
     return k < shared ? k : FW_MARKS;
 }
 
-double fw_peaks_apart(const fw_peaks *peaks, const fw_peaks *other, int k) {
+static double apart(const fw_peaks *peaks, const fw_peaks *other, int k, const double *a,
+                    const double *b) {
     double worst = 0;
     if (k >= peaks->nmark || k >= other->nmark) return 0;
     size_t row = (size_t)k * (size_t)peaks->npin;
     for (size_t i = row; i < row + (size_t)peaks->npin; i++)
-        worst = fmax(worst, fabs(peaks->mark[i] - other->mark[i]));
+        worst = fmax(worst, fabs(a[i] - b[i]));
     return worst;
+}
+
+double fw_peaks_apart(const fw_peaks *peaks, const fw_peaks *other, int k) {
+    return apart(peaks, other, k, peaks->mark, other->mark);
+}
+
+double fw_peaks_sizes_apart(const fw_peaks *peaks, const fw_peaks *other, int k) {
+    return apart(peaks, other, k, peaks->size, other->size);
 }

@@ -257,8 +257,8 @@ static bool turned_too_far(const fw_run *r, const fw_peaks *peaks) {
 
 /* everything that looks at the step just made, up to theta_end */
 static bool look(fw_run *r, fw_stepper *s, fw_peaks *peaks, double theta_end) {
+    fw_peaks_mark(peaks, r->model, s, theta_end, r->end[r->npiece - 1], r->moved);
     fw_peaks_step(peaks, r->model, s, theta_end);
-    fw_peaks_mark(peaks, s, theta_end, r->end[r->npiece - 1], r->moved);
     fw_run_extremes(r, s, theta_end);
     if (!r->full) {
         fw_run_show(r, s, theta_end);
@@ -308,7 +308,9 @@ fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks) {
             int which;
             double theta = fw_run_event(r, s, &which);
             if (++r->steps > most_steps(r) || m->events > fw_most_events) return too_long(r, s);
-            if (r->patience > 0 && (double)(++taken - 50 * m->events) > patience) {
+            taken++;
+            if (r->trial > 0 && taken > r->trial) return FW_LIMIT; /* it lost */
+            if (r->patience > 0 && (double)(taken - 50 * m->events) > patience) {
                 bool stuck;
                 FW_TRY(fw_integrator_stuck(r, s, &stuck));
                 if (stuck) {

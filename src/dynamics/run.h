@@ -15,6 +15,9 @@ typedef struct fw_peaks {
     int npin;
     double *mark_t; /* (nmark) instants at which two runs are compared, ascending, scaled */
     double *mark;   /* (nmark x npin) angles there */
+    double *size;   /* (nmark x npin) largest sizes of the angles up to there */
+    bool sized;     /* those are wanted */
+    fw_peak *held;  /* (npin) work */
     int nmark;
     const struct fw_peaks *marked; /* the run that set the instants; NULL: this one sets them */
 } fw_peaks;
@@ -24,12 +27,16 @@ fw_status fw_peaks_new(fw_arena *arena, const fw_mechanism *mechanism, const dou
 double fw_peaks_angle(const fw_peaks *peaks, int pin, const double *y);
 /* the last step up to theta_end */
 void fw_peaks_step(fw_peaks *peaks, const fw_model *m, fw_stepper *s, double theta_end);
-/* notes all angles at the marks that the step reaches; final: scaled end of the scene */
-void fw_peaks_mark(fw_peaks *peaks, fw_stepper *s, double theta_end, double final, double *y);
+/* notes all angles at the marks that the step reaches, and the largest up to there; before
+   fw_peaks_step; final: scaled end of the scene; y (ny): work */
+void fw_peaks_mark(fw_peaks *peaks, const fw_model *m, fw_stepper *s, double theta_end,
+                   double final, double *y);
 /* the first mark of both runs at or behind scaled time t; FW_MARKS: none */
 int fw_peaks_first_mark(const fw_peaks *peaks, const fw_peaks *other, double t);
 /* largest difference of any angle of two runs at mark k; 0 when one of them has none */
 double fw_peaks_apart(const fw_peaks *peaks, const fw_peaks *other, int k);
+/* likewise of the largest sizes up to there */
+double fw_peaks_sizes_apart(const fw_peaks *peaks, const fw_peaks *other, int k);
 
 /* check.c */
 fw_status fw_check_options(const fw_motion_options *options, fw_diags *diags);
@@ -54,6 +61,8 @@ typedef struct fw_run {
     fw_model *model;
     const fw_stepper_row *integrator;
     double trust;    /* what differences of two runs count times; 1: as they are */
+    double part;     /* likewise of peak angles (steer.h); 0: as the rest */
+    double lower;    /* tolerance of the answer before over this one; 0: there was none */
     double uneven;   /* heaviest body over the lightest one between two joints */
     const char *why; /* this method though none was asked for; NULL: the default, or asked for */
     double *q0;      /* (3 nbody) assembled, SI */
@@ -61,6 +70,7 @@ typedef struct fw_run {
     double *state;   /* (ny) a sample */
     double *rate;    /* (ny) its derivative */
     double *moved;   /* (ny) a state at an event */
+    bool *stated;    /* (3 nbody) velocities that the scene states, while it starts */
     double *fit; /* (FW_PLACES + 1 x entries) along a step: switches, then joints with friction */
     bool *unfit; /* (entries) found in this step */
     double amplitude; /* scaled size of the motion: the absolute tolerance is rtol times this */
@@ -72,8 +82,11 @@ typedef struct fw_run {
     bool fresh; /* no step yet behind a break or an event */
     double
         patience; /* steps of one pass after which a choice of explicit ones is doubted; 0: any */
-    double given_up_s; /* and where that was; NaN: it was not */
-    double *end;       /* (npiece) scaled times at which a smooth piece ends */
+    double given_up_s;     /* and where that was; NaN: it was not */
+    double stable, needed; /* explicit steps that are stable, and that the tolerance needs */
+    double implicit_price; /* cost of an implicit step in explicit ones; 0: nothing is tried */
+    long trial;            /* steps after which a pass ends; 0: it does not */
+    double *end;           /* (npiece) scaled times at which a smooth piece ends */
     int npiece;
     fw_law_strides *stride; /* (nstride) of the laws that limit steps, s */
     int *stride_row;        /* (nstride) where each search stands */

@@ -27,9 +27,10 @@ double fw_run_off(const fw_run *r) {
     double wanted = fw_pace_wanted(r), off = 0;
     if (x.error_rad > 0) off = x.error_rad / (wanted * x.angle_rad);
     if (o->reactions) off = fmax(off, fw_run_extremes_off(r) / wanted);
-    bool settled = !o->settled || o->settled(r->motion->observed, r->motion->compared,
-                                             r->motion->stats.estimate_margin, wanted);
-    return settled ? off : fmax(off, 5);
+    double seen = !o->unsettled ? 0
+                                : o->unsettled(r->motion->observed, r->motion->compared,
+                                               r->motion->stats.estimate_margin, wanted);
+    return seen > 1 ? fmax(off, fmax(seen, 5)) : off;
 }
 
 /* an angle or a force that is round-off has no relative accuracy */

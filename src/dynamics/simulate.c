@@ -55,6 +55,7 @@ static fw_status run_once(fw_run *r, double rtol, const pass *other, bool full, 
         atol[i] = fmax(rtol * r->amplitude, 2e-15);
     FW_TRY(fw_peaks_new(r->arena, r->mechanism, r->q0, &p->peaks));
     p->peaks.marked = other ? &other->peaks : NULL;
+    p->peaks.sized = r->part > 0;
     r->extreme = NULL;
     if (r->options->reactions)
         FW_NEED(r->extreme = fw_arena_array(r->arena, fw_extreme, (size_t)fw_run_channels(r)));
@@ -94,23 +95,33 @@ static void take_statistics(fw_run *r, const fw_stepper *s, double rtol, double 
     stats->rtol = rtol;
 }
 
-/* how far the two runs differ, up to each mark and (last) up to the end: any angle at the marks,
-   where errors of phase show too, because one number may agree by chance, and the sizes of the
-   peaks that lie before. What becomes of the motion later does not count: a chaotic one ends
-   anywhere. */
-static void differences(const pass *fine, const pass *coarse, double worst[FW_MARKS + 1]) {
+/* how far the two runs differ, up to each mark and (last) up to the end. angles: any angle at the
+   marks, where errors of phase show too, because one number may agree by chance, and the sizes of
+   the peaks that lie before; sizes: the largest sizes up to the marks, and the peaks. What becomes
+   of the motion later does not count: a chaotic one ends anywhere. */
+typedef struct differences {
+    double angles[FW_MARKS + 1], sizes[FW_MARKS + 1];
+} differences;
+
+static void compare(const pass *fine, const pass *coarse, differences *d) {
     const fw_peaks *a = &fine->peaks, *b = &coarse->peaks;
-    for (int k = 0; k <= FW_MARKS; k++)
-        worst[k] = fw_peaks_apart(a, b, k);
+    for (int k = 0; k <= FW_MARKS; k++) {
+        d->angles[k] = fw_peaks_apart(a, b, k);
+        d->sizes[k] = fw_peaks_sizes_apart(a, b, k);
+    }
     for (int i = 0; i < a->npin; i++) {
         double end =
             fw_peaks_angle(a, i, fine->stepper->y) - fw_peaks_angle(b, i, coarse->stepper->y);
-        double *up_to = &worst[fw_peaks_first_mark(a, b, a->peak[i].t_s)];
-        worst[FW_MARKS] = fmax(worst[FW_MARKS], fabs(end));
-        *up_to = fmax(*up_to, fabs(fabs(a->peak[i].angle_rad) - fabs(b->peak[i].angle_rad)));
+        double peak = fabs(fabs(a->peak[i].angle_rad) - fabs(b->peak[i].angle_rad));
+        int up_to = fw_peaks_first_mark(a, b, a->peak[i].t_s);
+        d->angles[FW_MARKS] = fmax(d->angles[FW_MARKS], fabs(end));
+        d->angles[up_to] = fmax(d->angles[up_to], peak);
+        d->sizes[up_to] = fmax(d->sizes[up_to], peak);
     }
-    for (int k = 1; k <= FW_MARKS; k++)
-        worst[k] = fmax(worst[k], worst[k - 1]);
+    for (int k = 1; k <= FW_MARKS; k++) {
+        d->angles[k] = fmax(d->angles[k], d->angles[k - 1]);
+        d->sizes[k] = fmax(d->sizes[k], d->sizes[k - 1]);
+    }
 }
 
 /* After a rest the two runs may agree by chance on how they meet a load: of 12 000 short ones the
@@ -120,31 +131,43 @@ double fw_run_margin(const fw_run *r) {
     return r->trust * (!r->sudden ? 1 : r->integrator->fixed_step ? 32 : 8);
 }
 
-/* error of each peak from a second run at a hundred times the tolerance: its own change, and
-   whatever else changes until a quarter of its time and an eighth of the scene later (up to the
-   peak alone was too little twice in 60 000 cases); and round-off. Output rad. Never below the true
-   error in 60 000 random cases (at ten times the tolerance it was in 7 of 80 000), and about a
-   thousand times above it in the geometric mean. Source: tolerance proportionality, Hairer, Norsett
-   and Wanner I, II.4. Test: test_peak.c. */
+/* what the looser run and the energies say of the error of one peak, rad; late: the mark up to
+   which the runs are compared */
+static double difference_counts(const fw_run *r, const pass *fine, const pass *coarse,
+                                const differences *d, int pin, int late) {
+    const fw_peak *p = &fine->peaks.peak[pin], *other = &coarse->peaks.peak[pin];
+    double own = fabs(fabs(p->angle_rad) - fabs(other->angle_rad));
+    double books = r->motion->stats.energy_error * fabs(p->angle_rad);
+    if (!(r->part > 0)) /* never below the books */
+        return fw_run_margin(r) * fmax(own, d->angles[late]) + books;
+    return r->part * fw_pace_apart(own, d->sizes[late], d->angles[late]) +
+           fw_pace_books(fine->stepper->steps, coarse->stepper->steps) * books;
+}
+
+/* Error of each peak from a second run: its own change, and whatever else changes until a quarter
+   of its time and an eighth of the scene later (up to the peak alone was too little twice in 60 000
+   cases); and round-off. Output rad. At a hundred times the tolerance, where differences count
+   whole: never below the true error in 60 000 random cases (at ten times it was in 7 of 80 000),
+   and about a thousand times above it in the geometric mean. Nearer ones: steer.c. Source:
+   tolerance proportionality, Hairer, Norsett and Wanner I, II.4. Test: test_peak.c. */
 static void estimate_errors(fw_run *r, const pass *fine, const pass *coarse) {
     const fw_stepper *s = fine->stepper;
     r->motion->stats.estimate_margin = fw_run_margin(r);
-    double unit = r->model->scale.time_s, eighth = r->end[r->npiece - 1] / 8, worst[FW_MARKS + 1];
-    differences(fine, coarse, worst);
+    double unit = r->model->scale.time_s, eighth = r->end[r->npiece - 1] / 8;
+    differences d;
+    compare(fine, coarse, &d);
     for (int i = 0; i < fine->peaks.npin; i++) {
-        const fw_peak *other = &coarse->peaks.peak[i];
         fw_peak *p = &r->motion->peak[i];
+        /* who compares again until it comes out small meets luck: errors fall with the tolerance */
+        double least = r->part > 0 && r->lower > 0 ? p->error_rad / r->lower : 0;
         *p = fine->peaks.peak[i];
         double late = 1.25 * p->t_s + eighth;
         int kinks = (int)fmin(FW_MARKS, 1 + late * FW_MARKS / (8 * eighth));
-        double own = fabs(fabs(p->angle_rad) - fabs(other->angle_rad));
+        int mark = fw_peaks_first_mark(&fine->peaks, &coarse->peaks, late);
         p->t_s *= unit;
-        p->error_rad =
-            fw_run_margin(r) *
-                fmax(own, worst[fw_peaks_first_mark(&fine->peaks, &coarse->peaks, late)]) +
-            DBL_EPSILON * (double)(8 + s->steps) * (1 + fabs(p->angle_rad)) +
-            r->motion->stats.energy_error * fabs(p->angle_rad) + /* never below the books */
-            fine->doubt[kinks];
+        p->error_rad = fmax(least, difference_counts(r, fine, coarse, &d, i, mark)) +
+                       DBL_EPSILON * (double)(8 + s->steps) * (1 + fabs(p->angle_rad)) +
+                       fine->doubt[kinks];
     }
     if (fine->extreme)
         fw_run_take_extremes(r, fine->extreme, coarse->extreme, fine->doubt[FW_MARKS], s->steps);
@@ -164,8 +187,9 @@ static void no_estimate(fw_run *r, const pass *only) {
 
 typedef struct pair { /* of runs */
     pass fine, coarse;
-    bool again;     /* coarse: an answer that was not good enough */
-    double began_s; /* of CPU, before the first run */
+    bool again;      /* coarse: an answer that was not good enough */
+    double answered; /* tolerance of the answer before; 0: there was none */
+    double began_s;  /* of CPU, before the first run */
 } pair;
 
 static void note_run(fw_run *r, const pass *p) {
@@ -190,9 +214,10 @@ static fw_status run_fine(fw_run *r, pair *two, double rtol, const pass *marks, 
 }
 
 static fw_status run_coarse(fw_run *r, pair *two, double rtol, const pass *marks) {
-    FW_TRY(run_once(r, rtol, marks, false, &two->coarse));
-    note_run(r, &two->coarse);
-    return FW_OK;
+    two->coarse = (pass){0};
+    fw_status status = run_once(r, rtol, marks, false, &two->coarse);
+    if (two->coarse.stepper) note_run(r, &two->coarse);
+    return status;
 }
 
 static fw_status end_tries(fw_run *r, const pair *two, double looser, bool enough) {
@@ -230,13 +255,49 @@ static fw_status tighten(fw_run *r) {
     }
 }
 
+/* the looser run by another integrator, which takes over when it comes to the end cheaper; steps:
+   of the first one, 0: that was not made yet */
+static fw_status try_other(fw_run *r, pair *two, double looser, long steps, bool *won) {
+    const fw_stepper_row *before = r->integrator;
+    const pass kept = two->coarse;
+    const fw_contest trial = fw_contest_of(r, steps);
+    *won = false;
+    if (trial.steps <= 0) return FW_OK;
+    fw_diags *said = r->diags, own = fw_diags_new(r->arena);
+    r->diags = &own, r->integrator = trial.row, r->trial = trial.steps;
+    fw_status status = run_coarse(r, two, looser, NULL);
+    r->diags = said, r->trial = 0;
+    if (own.failed) return FW_NOMEM;
+    *won = status == FW_OK;
+    if (*won) return fw_contest_won(r, steps, two->coarse.stepper->steps);
+    r->integrator = before;
+    two->coarse = kept;
+    return status == FW_CANCELLED || status == FW_NOMEM ? status : FW_OK;
+}
+
+/* the run that is compared with, by whichever integrator is cheaper where that is in doubt */
+static fw_status first_run(fw_run *r, pair *two, double looser) {
+    bool won, again = fw_contest_of(r, 0).steps > 0;
+    FW_TRY(try_other(r, two, looser, 0, &won));
+    if (won) return FW_OK;
+    FW_TRY(run_coarse(r, two, looser, NULL));
+    return again ? FW_OK : try_other(r, two, looser, two->coarse.stepper->steps, &won);
+}
+
 /* one pair of runs; FW_SOLVER without a word where tighter ones may still go through */
-static fw_status try_pace(fw_run *r, pair *two, fw_pace pace, int rows, bool quiet) {
+static fw_status try_pace(fw_run *r, pair *two, fw_pace *pace, int rows, bool quiet) {
     fw_diags *said = r->diags, own = fw_diags_new(r->arena);
     if (quiet) r->diags = &own;
-    r->trust = pace.margin;
-    fw_status status = two->again ? FW_OK : run_coarse(r, two, pace.looser, NULL);
-    if (status == FW_OK) status = run_fine(r, two, pace.rtol, &two->coarse, rows);
+    fw_status status = FW_OK;
+    r->part = pace->part;
+    if (!two->again) {
+        status = first_run(r, two, pace->looser);
+        if (status == FW_OK) *pace = fw_pace_answer(r, *pace, two->coarse.stepper->steps);
+    }
+    r->trust = pace->margin, r->part = pace->part;
+    r->lower = two->answered > 0 ? two->answered / pace->rtol : 0;
+    two->answered = pace->rtol;
+    if (status == FW_OK) status = run_fine(r, two, pace->rtol, &two->coarse, rows);
     r->diags = said;
     if (own.failed) return FW_NOMEM;
     for (size_t i = 0; i < own.count && status != FW_OK && status != FW_SOLVER; i++)
@@ -246,7 +307,7 @@ static fw_status try_pace(fw_run *r, pair *two, fw_pace pace, int rows, bool qui
 
 /* what sticks, slips or touches at other times does not change in proportion to the tolerance: of
    60 such devices one had an error of 1.8 times the estimate without this */
-static const double fw_trust_events = 3;
+static const double fw_trust_events = 3, fw_part_events = 2;
 
 /* Loose runs stop where a tight one passes, next to singular positions: they are not the last word.
    Below a millionth of what was tried first they are. */
@@ -256,14 +317,15 @@ static fw_status steer(fw_run *r) {
     fw_pace pace = fw_pace_start(r, r->integrator, fw_pace_wanted(r));
     for (int tries = 1;; tries++) {
         bool last = pace.rtol <= fmax(1e-9, fw_pace_tightest(r));
-        fw_status status = try_pace(r, &two, pace, rows, !last);
+        fw_status status = try_pace(r, &two, &pace, rows, !last);
         if (status == FW_SOLVER && !last && isnan(r->given_up_s)) {
             two.again = false;
             pace = fw_pace_next(r, pace, 1e3, 1, &two.again);
             continue;
         }
         FW_TRY(status);
-        if (r->model->events > 0 && !r->options->settled) r->trust *= fw_trust_events;
+        if (r->model->events > 0 && !r->options->unsettled)
+            r->trust *= fw_trust_events, r->part *= fw_part_events;
         estimate_errors(r, &two.fine, &two.coarse);
         double off = r->motion->ended ? 0 : fw_run_off(r);
         if (off <= 1 || pace.rtol <= fw_pace_tightest(r)) {
@@ -277,7 +339,7 @@ static fw_status steer(fw_run *r) {
 static fw_status find_motion(fw_run *r) {
     r->motion->observed = r->options->context;
     r->motion->compared = r->options->other;
-    r->trust = 1;
+    r->trust = 1, r->part = 0;
     bool known = fw_pace_known(r, r->integrator) && !(r->options->looser > 0);
     return known ? steer(r) : tighten(r);
 }

@@ -126,11 +126,19 @@ static fw_status motion_size(fw_run *r, const fw_terms *terms) {
 
 /* does the scene state component c (x, y, turn) of a body's velocity? */
 static bool stated(const fw_run *r, int body, int c) {
-    for (int i = 0; i < r->scene->ninitial; i++) {
+    return r->stated[3 * body + c];
+}
+
+/* One look at every <initial>, not one per coordinate: large models state thousands. */
+static fw_status note_stated(fw_run *r) {
+    FW_NEED(r->stated = fw_arena_array(r->arena, bool, (size_t)r->model->nq));
+    for (int i = r->scene->ninitial - 1; i >= 0; i--) { /* the first of a body counts */
         const fw_initial *v = &r->scene->initial[i];
-        if (v->body == body) return !(c < 2 ? v->moves_free : v->turns_free);
+        if (v->body == FW_GROUND) continue;
+        for (int c = 0; c < 3; c++)
+            r->stated[3 * v->body + c] = !(c < 2 ? v->moves_free : v->turns_free);
     }
-    return false;
+    return FW_OK;
 }
 
 /* one correction v += M^-1 G^T lambda onto G v = -Psi_t with the masses as they are now */
@@ -229,6 +237,7 @@ static fw_status start_values(fw_run *r, const fw_terms *terms) {
     fw_model *m = r->model, *closed;
     const fw_scale s = m->scale;
     double *v = r->start + m->nq, *given = r->state;
+    FW_TRY(note_stated(r));
     for (int i = 0; i < m->nq; i++)
         v[i] = given[i] = terms->velocity[i] * s.time_s / (i % 3 == 2 ? 1 : s.length_m);
     FW_TRY(closed_model(r, terms, &closed));

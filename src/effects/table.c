@@ -94,13 +94,31 @@ static fw_status settle(const fw_effect_case *c, fw_effect_entry *entry) {
     return FW_OK;
 }
 
-static fw_status find_bounds(const fw_effect_case *c, fw_effect_entry *entry) {
+/* Keeping what could be left out is never wrong, so that a bound of a device much like this one
+   need not be exact: within this factor. */
+static const double fw_much_alike = 4;
+
+static const fw_effect_entry *acts_by_far(const fw_effect_choice *choice, int i, double accuracy) {
+    const fw_effect_ledger *like = choice->mode == FW_EFFECTS_AUTO ? choice->like : NULL;
+    if (!like || i >= like->count || strcmp(like->item[i].id, rows[i]->id) != 0) return NULL;
+    const fw_effect_entry *e = &like->item[i];
+    return e->active && isfinite(e->bound) && e->bound > fw_much_alike * accuracy ? e : NULL;
+}
+
+static fw_status find_bounds(const fw_effect_case *c, const fw_effect_choice *choice,
+                             double accuracy, fw_effect_entry *entry) {
     for (int i = 0; i < ROWS; i++) {
+        const fw_effect_entry *like = acts_by_far(choice, i, accuracy);
         const fw_effect_row *row = rows[i];
         entry[i] = (fw_effect_entry){.id = row->id, .reason = "not called for by the scene"};
         entry[i].called_for = row->called_for(c);
         if (!entry[i].called_for) continue;
-        FW_TRY(row->bound(c, &entry[i].bound, &entry[i].reason));
+        if (like && !row->kept) {
+            entry[i].bound = like->bound;
+            entry[i].reason = "as in a device much like this one";
+        } else {
+            FW_TRY(row->bound(c, &entry[i].bound, &entry[i].reason));
+        }
         entry[i].bound = or_infinite(entry[i].bound);
         entry[i].cost = row->cost * (row->count ? row->count(c) : 1);
     }
@@ -263,7 +281,7 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, con
     FW_TRY(fw_terms_new(arena, mechanism, scene, terms));
     FW_NEED(envelope.taken = fw_arena_array(arena, bool, ROWS));
     FW_TRY(look_around(&c, &envelope));
-    FW_TRY(find_bounds(&c, ledger->item));
+    FW_TRY(find_bounds(&c, choice, accuracy, ledger->item));
     if (choice->mode == FW_EFFECTS_AUTO)
         FW_TRY(decide_auto(&c, accuracy, choice, ledger->item));
     else

@@ -2,6 +2,7 @@
 #include "flexure/beam.h"
 #include "flexure/gauss.h"
 #include "flexure/kinds.h"
+#include "flexure/section_core.h"
 #include <math.h>
 
 static double sinc(double x) {
@@ -36,6 +37,15 @@ static double width_at(const fw_beam *b, int piece, double s_m) {
     return w[0] + z * rise - z * (1 - z) * bow;
 }
 
+/* of 1/E, by both ends; those of the first and the last piece alone are felt there */
+static double lost_at(const fw_beam *b, int piece, double s_m) {
+    double sum = 0;
+    if (b->lost_per_Pa == 0) return 0;
+    if (piece == 0) sum += exp(-s_m / b->lost_m);
+    if (piece == b->npiece - 1) sum += exp((s_m - b->piece[piece].length_m) / b->lost_m);
+    return b->lost_per_Pa * sum;
+}
+
 void fw_beam_at(const fw_beam *b, int piece, const fw_beam_pose *start, double s_m,
                 fw_beam_section *out) {
     out->pose = along(start, b->piece[piece].curvature_per_m, s_m);
@@ -44,7 +54,7 @@ void fw_beam_at(const fw_beam *b, int piece, const fw_beam_pose *start, double s
         b->cubic ? b->a0_per_Pa + b->a1_per_Pa * cos(4 * (out->pose.psi_rad + b->orientation_rad))
                  : 1 / b->youngs_Pa;
     double per_A = 1 / (b->depth_m * t), depth = b->depth_factor > 0 ? b->depth_factor : 1;
-    out->bend_per_Nm2 = 12 * per_E * per_A / (t * t * depth);
+    out->bend_per_Nm2 = 12 * (per_E - lost_at(b, piece, s_m)) * per_A / (t * t * depth);
     out->axial_per_N = b->inextensible ? 0 : per_E * per_A;
     out->shear_per_N = b->inextensible ? 0 : 1.2 * per_A / b->shear_Pa;
 }
@@ -172,8 +182,8 @@ void fw_beam_compliance(const fw_beam *b, fw_beam_linear *out) {
 }
 
 /* the crystal of the closed form in the frame of the flexure; psi of a tangent is a quarter turn
-   off the polar angle, which cos 4 psi does not feel. The two roots give as fw_root_m_per_Pa has it
- */
+   off the polar angle, which cos 4 psi does not feel. The two roots give as fw_root_m_per_Pa has
+   it, the ends take away what fw_end_loss_of says, spread as it is found there */
 static void crystal_of(const fw_flexure_input *in, const fw_flexure_result *closed_form,
                        fw_beam *out) {
     const fw_crystal *k = &in->crystal;
@@ -186,9 +196,15 @@ static void crystal_of(const fw_flexure_input *in, const fw_flexure_result *clos
     out->orientation_rad = 0.25 * atan2(k->sin4, k->cos4);
     out->depth_factor = closed_form->depth_factor * shape.golovin;
     out->shear_Pa = closed_form->youngs_Pa / (2 * (1 + closed_form->poisson));
+    double h = in->depth_m, L = in->length_m, t = in->width_m, E = closed_form->youngs_Pa, f = 1;
+    if (in->kind == FW_FLEXURE_CSFH) f = fw_depth_crystal(h / sqrt(in->radius_m * t), k, E).bow;
+    const fw_end_loss loss = fw_end_loss_of(k->reach, h, f, L, shape.root_block_m);
+    double far = exp(-L / loss.reach_m);
+    out->lost_m = loss.reach_m;
+    out->lost_per_Pa = k->bow_per_Pa * loss.length_m / (loss.reach_m * (1 - far));
     for (int end = 0; end < 2; end++) {
         double four = 4 * (out->orientation_rad + (end ? turn : -turn));
-        double per_E = out->a0_per_Pa + out->a1_per_Pa * cos(four);
+        double per_E = out->a0_per_Pa + out->a1_per_Pa * cos(four) - out->lost_per_Pa * (1 + far);
         out->root_m[end] = fw_root_m_per_Pa(&shape, k, k->aligned ? cos(four) : 0) / per_E;
     }
 }

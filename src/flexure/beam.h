@@ -25,8 +25,10 @@ typedef struct fw_beam {
     double root_m[2];    /* length dL added at each end: a point rotation dL/EI */
     bool cubic;          /* 1/E = a0 + a1 cos 4(psi + orientation), not 1/youngs_Pa */
     double a0_per_Pa, a1_per_Pa, orientation_rad; /* orientation: of the frame's x from [100] */
-    bool inextensible;                            /* no axial and no shear strain */
-    fw_beam_width *width;                         /* NULL: width_m of the pieces */
+    double lost_per_Pa, lost_m; /* what either end takes of 1/E in bending, s from it:
+                                   lost exp(-s/lost_m); 0: nothing */
+    bool inextensible;          /* no axial and no shear strain */
+    fw_beam_width *width;       /* NULL: width_m of the pieces */
     const void *context;
 } fw_beam;
 

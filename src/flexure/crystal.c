@@ -21,6 +21,8 @@ fw_crystal fw_crystal_cubic(double c11_Pa, double c12_Pa, double c44_Pa, double 
                         .g0_per_Pa = s44 + s0,
                         .g1_per_Pa = -s0,
                         .s12_per_Pa = s12,
+                        .bow_per_Pa = s12 * s12 / s11,
+                        .reach = sqrt(s11 / (3 * s44)),
                         .share = 0.25 * s0 / (s11 - 0.25 * s0) / silicon,
                         .cos4 = aligned ? cos(4 * axis_rad) : 0,
                         .sin4 = aligned ? sin(4 * axis_rad) : 0};

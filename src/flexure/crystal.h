@@ -5,12 +5,15 @@
 #include <stdbool.h>
 
 /* with psi the direction from [100] in the wafer plane:
-     1/E(psi) = a0 + a1 cos 4 psi,  1/G(psi) = g0 + g1 cos 4 psi,  nu to [001] = -s12 E(psi) */
+     1/E(psi) = a0 + a1 cos 4 psi,  1/G(psi) = g0 + g1 cos 4 psi,  nu to [001] = -s12 E(psi)
+     nu' = -s12/s11 from [001],  G of psi and [001] = 1/s44 whatever psi */
 typedef struct fw_crystal {
     bool known;   /* false: isotropic */
     bool aligned; /* false: the hinge's axis is not known; modulus and stress are then means and
                      worst cases over all directions */
     double a0_per_Pa, a1_per_Pa, g0_per_Pa, g1_per_Pa, s12_per_Pa;
+    double bow_per_Pa; /* nu nu'/E: what bowing across adds to 1/E, the same for all psi */
+    double reach;      /* of what keeps the strip from bowing, over its depth */
     double share;      /* a1/a0 over silicon's: for what was found with silicon */
     double cos4, sin4; /* of four times the angle of the hinge's symmetry axis from [100] */
 } fw_crystal;

@@ -22,7 +22,7 @@ FW_INLINE void comply_evenly(const fw_flexure_shape *f, double per_D, double per
      K = 1/C_th, kx = 1/C_xx, ky = 1/C_yy of the above
      eps/rad = t/(2 (L + 2 dL)) max(Kt (1 + t/3r) G, inside), G of fw_root_rise,
      inside = max((1 + t/3r) F_inner, (1 - t/3r) F_outer); beside it the fit Kt inside
-   error: K 0.15-0.51 %, W 0.2 um, strain 0 to 3.2 % above 3-D finite elements. Cost 47 ns with the
+   error: K 0.15-0.51 %, W 0.2 um, strain 0 to 4 % above 3-D finite elements. Cost 29 ns with the
    shape at hand and its errors (bench_hinge_closed.c). Crystals: csfh_crystal.c.
    source: docs/theory/flexure.md eq. 1-11a; test_ladder.c, test_quick.c, test_root_strain.c */
 FW_INLINE void even_arc(const fw_flexure_shape *f, const fw_flexure_input *in,
@@ -43,8 +43,8 @@ FW_INLINE void even_arc(const fw_flexure_shape *f, const fw_flexure_input *in,
 
 void fw_csfh_shape(const fw_flexure_input *in, fw_flexure_shape *f) {
     double s, c;
-    fw_quick_sincos(0.5 * in->angle_rad, &s, &c);
-    fw_arc_outline(in, s, c, f);
+    fw_quick_half_angle(in->angle_rad, &s, &c);
+    fw_arc_outline(in, false, s, c, f);
 }
 
 void fw_flexure_csfh(const fw_flexure_shape *f, const fw_flexure_input *in,
@@ -53,31 +53,43 @@ void fw_flexure_csfh(const fw_flexure_shape *f, const fw_flexure_input *in,
         fw_flexure_crystal_arc(f, in, out);
         return;
     }
-    const fw_depth depth = fw_depth_at(in->depth_m * f->per_root_rt, in->poisson);
+    const fw_depth_start start =
+        fw_depth_start_of(in->depth_m * in->depth_m * f->per_rt, in->poisson);
+    const fw_depth depth = fw_depth_law(&start);
     even_arc(f, in, &depth, out);
 }
 
 /* the outline stays in registers, and is worked out while the depth factor, which takes longest,
    is on its way */
-void fw_csfh_at_once(const fw_flexure_input *in, fw_flexure_result *out) {
-    if (in->crystal.known) {
-        fw_crystal_at_once(in, out);
-        return;
-    }
+FW_INLINE void at_once(const fw_flexure_input *in, bool usual, fw_flexure_result *out) {
     fw_flexure_shape f;
     double s, c;
-    const fw_depth_start start =
-        fw_depth_start_of(in->depth_m * sqrt(1 / (in->radius_m * in->width_m)), in->poisson);
-    fw_quick_sincos(0.5 * in->angle_rad, &s, &c);
-    fw_arc_outline(in, s, c, &f);
-    const fw_depth depth = fw_depth_law(&start);
-    fw_shape_marks(&f);
+    fw_arc_sine(in, usual, &s, &c);
+    const fw_depth_start start = fw_depth_start_of(
+        in->depth_m * in->depth_m * (1 / (in->radius_m * in->width_m)), in->poisson);
+    fw_arc_outline(in, usual, s, c, &f);
+    const fw_depth depth = usual ? fw_depth_near(&start) : fw_depth_law(&start);
+    double wide = fw_arc_widened(&f, in, usual);
     out->centre_m = f.centre_m;
     out->root_length_m = f.root_length_m;
     out->offset_m[0] = out->offset_m[1] = out->uneven_x = out->uneven_y = 0;
     even_arc(&f, in, &depth, out);
     fw_stiffness_and_limit(&f, in, out);
     double per_EI = out->compliance[0][0] * f.per_whole * f.golovin;
-    fw_isotropic_errors(&f, in, out, per_EI, fw_errors_widened(&f, in->depth_m), &out->error);
-    out->error.outside = fw_errors_widened(&f, in->depth_m) > 1;
+    fw_isotropic_errors(&f, in, out, per_EI, wide, &out->error);
+    out->error.outside = wide > 1;
+}
+
+static __attribute__((noinline)) void any_at_once(const fw_flexure_input *in,
+                                                  fw_flexure_result *out) {
+    at_once(in, false, out);
+}
+
+void fw_csfh_at_once(const fw_flexure_input *in, fw_flexure_result *out) {
+    if (in->crystal.known)
+        fw_crystal_at_once(in, out);
+    else if (fw_arc_usual(in))
+        at_once(in, true, out);
+    else
+        any_at_once(in, out);
 }

@@ -7,22 +7,35 @@
 #include "flexure/section_core.h"
 #include <math.h>
 
-/* s, c: sine and cosine of a = half the angle; what the outline of an arc gives: rn = r u/atanh u,
-   u = t/2r (Winkler), the exact bending stiffness over the thin one, 1 - 2/15 u^2 - u^4/21
-   (Golovin, plane stress, to u^4), roots, and W = 2 r (rn sin a + dL cos a)/(L + 2 dL) from O, L =
-   2 a r in m, rad; valid 0 < a <= pi, u < 1; error of W 0.2 um at r = 100 um against 3-D finite
-   elements. Members are set one by one: clearing all of them first would cost a tenth of the closed
-   form. source: docs/theory/flexure.md eq. 1, 2, 6, 7; test_ladder.c, test_quick.c */
-FW_INLINE void fw_arc_outline(const fw_flexure_input *in, double s, double c, fw_flexure_shape *f) {
+/* as most hinges are: inside of what was compared, so that nothing is clamped, widened or beyond
+   the range of a polynomial. What is compiled for these alone is one stretch without a branch,
+   which is worth a tenth. With h <= 10 t and t <= 0.15 r, h^2/(r t) <= 15 and x <= 5.1 of the depth
+   factors, whatever nu */
+FW_INLINE bool fw_arc_usual(const fw_flexure_input *in) {
+    double t = in->width_m, r = in->radius_m, h = in->depth_m, rho = in->fillet_m;
+    return (in->angle_rad >= 0) & (in->angle_rad <= 6.2832) & (h >= 0) & (h <= 10 * t) &
+           fw_shape_compared(rho, t, t, r, in->length_m);
+}
+
+/* usual: of such a one. s, c: sine and cosine of a = half the angle; what the outline of an arc
+   gives: rn = r u/atanh u, u = t/2r (Winkler), the exact bending stiffness over the thin one, 1 -
+   2/15 u^2 - u^4/21 (Golovin, plane stress, to u^4), roots, and W = 2 r (rn sin a + dL cos a)/(L +
+   2 dL) from O, L = 2 a r in m, rad; valid 0 < a <= pi, u < 1; error of W 0.2 um at r = 100 um
+   against 3-D finite elements. Members are set one by one: clearing all of them first would cost a
+   tenth of the closed form. source: docs/theory/flexure.md eq. 1, 2, 6, 7; test_ladder.c,
+   test_quick.c */
+FW_INLINE void fw_arc_outline(const fw_flexure_input *in, bool usual, double s, double c,
+                              fw_flexure_shape *f) {
     double r = in->radius_m, a = 0.5 * in->angle_rad, t = in->width_m, rho = in->fillet_m;
     double L = in->length_m, per_rt = 1 / (r * t), per_t = r * per_rt, half_t = 0.5 * t;
     double dL = 0, block = 0, Kt = 1, ratio = 0, u = half_t * (t * per_rt);
-    if (rho >= 0) {
-        double x = fw_fitted_ratio(rho * per_t);
+    double off = usual ? fw_neutral_thin(u) : fw_neutral_series(u);
+    if (usual || rho >= 0) {
+        double x = usual ? rho * per_t : fw_fitted_ratio(rho * per_t);
         dL = t * fw_root_law(x), block = fw_root_block_law * t, Kt = fw_concentration_law(x);
         ratio = fw_larger(x, 0.1);
     }
-    double whole = L + 2 * dL, per = 1 / (L * whole), e = half_t * u * fw_neutral_series(u);
+    double whole = L + 2 * dL, per = 1 / (L * whole), e = half_t * u * off;
     double rn = r - e;
     f->kind = FW_FLEXURE_CSFH;
     f->length_m = L, f->radius_m = r, f->width_m = t, f->fillet_m = rho;
@@ -31,11 +44,28 @@ FW_INLINE void fw_arc_outline(const fw_flexure_input *in, double s, double c, fw
     f->root_length_m = dL, f->root_block_m = block, f->whole_m = whole;
     f->fillet_concentration = Kt, f->fillet_ratio = ratio;
     f->curved = (2 / 3.0) * u;
-    f->per_root_rt = sqrt(per_rt);
+    f->per_rt = per_rt;
     f->per_eccentric = 1 / e;
     f->per_length = whole * per, f->per_whole = L * per;
     f->per_section = 12 * (per_t * per_t);
     f->centre_m = 2 * r * (rn * s + dL * c) * f->per_whole;
+}
+
+FW_INLINE void fw_arc_sine(const fw_flexure_input *in, bool usual, double *s, double *c) {
+    if (usual)
+        fw_quick_half_turn(in->angle_rad, s, c);
+    else
+        fw_quick_half_angle(in->angle_rad, s, c);
+}
+
+/* marks the outline; by how much its errors widen */
+FW_INLINE double fw_arc_widened(fw_flexure_shape *f, const fw_flexure_input *in, bool usual) {
+    if (!usual) {
+        fw_shape_marks(f);
+        return fw_errors_widened(f, in->depth_m);
+    }
+    f->sharp = f->beyond_fit = false, f->widening = 1;
+    return 1;
 }
 
 #endif

@@ -25,8 +25,8 @@ FW_INLINE fw_root_lever fw_root_lever_of(const fw_flexure_shape *f) {
      rest   0.1 % of a long thin beam; 0.002 r or 0.01 t of W across
      axial  a block gives along the strip as up to 1.6 t of it would, which the form leaves out
    With e = 2 length/L of the first two: K e, kx e y^2 L/(EI C_xx), ky e x^2 L/(EI C_yy), W e |x|,
-   (x, y) the root from W. Strain: it is 0 to 3.2 % above solids (fw_root_rise), a solid's own
-   scatters by 1 % with its mesh, of a deep leaf by 2 %.
+   (x, y) the root from W. Strain: it is 0 to 4 % above converged solids (fw_root_rise); of a
+   solid whose strains are extrapolated to nodes they scatter by 1 to 2 % with its mesh.
 
    in: shape, result with D, C, Kt (SI); out: relative errors, of W in m. Cost 15 ns.
    source: docs/theory/flexure.md "Errors"; test_error.c, test_ladder.c */
@@ -42,24 +42,21 @@ FW_INLINE void fw_isotropic_errors(const fw_flexure_shape *f, const fw_flexure_i
     double place = 0.6 * rho2, twice = lost, e = lost * f->per_length;
     double give = f->fillet_m < 0 ? 0 : (3.2 / 12) * t * t * t; /* 1/EA over 1/EI: t^2/12 */
     fw_root_lever at = fw_root_lever_of(f);
-    double x = fabs(at.along), y = fabs(at.across);
-    const fw_pair lever = {y, x}, along = {fabs(at.cosine), fabs(at.sine)};
-    const fw_pair turned = {at.sine * at.sine, at.cosine * at.cosine};
-    const fw_pair stiff = {r->kx_N_per_m, r->ky_N_per_m};
-    fw_pair forces = lever * (twice * lever + place * along) + give * turned;
-    forces = wide * (0.002 + (per_EI * stiff) * forces);
+    double x = fabs(at.along), y = fabs(at.across), c = at.cosine, n = at.sine;
+    double along = y * (twice * y + place * fabs(c)) + give * (n * n);
+    double across = x * (twice * x + place * fabs(n)) + give * (c * c);
     double centre = 0.01 * t;
     if (arc) centre = e * x + place * f->per_length + 2e-4 * f->radius_m;
     out->stiffness = wide * (0.001 + e);
-    out->kx = forces[0], out->ky = forces[1];
+    out->kx = wide * (0.002 + (per_EI * r->kx_N_per_m) * along);
+    out->ky = wide * (0.002 + (per_EI * r->ky_N_per_m) * across);
     out->strain = wide * ((arc ? 0.04 : 0.05) + (f->sharp ? 0.03 : 0));
     out->centre_m = wide * centre;
 }
 
 /* A crystal: K 1.4 %, kx 1 %, ky 1.6 % more (linear finite elements of two arcs, three directions
-   each, ideal ends), W twice, strain 3 % more, 9 % with fillets
-   below t/5, where none was fitted (theory);
-   where its direction is not known the spread over
+   each, ideal ends, beside a closed form that did not know what ends lose: three times what is left
+   since), W twice, strain 3 % more; where its direction is not known the spread over
    all of them. source: docs/theory/flexure.md; test_crystal.c */
 FW_INLINE void fw_crystal_errors(const fw_flexure_shape *f, const fw_crystal *k, double wide,
                                  fw_flexure_error *e) {
@@ -68,9 +65,16 @@ FW_INLINE void fw_crystal_errors(const fw_flexure_shape *f, const fw_crystal *k,
     e->stiffness += wide * (0.014 + (arc ? 0 : spread));
     e->kx += wide * (0.010 + (arc ? 0.1 * spread : spread));
     e->ky += wide * (0.016 + spread);
-    bool sharp = f->fillet_m >= 0 && f->fillet_m < 0.2 * f->width_m; /* none was fitted there */
-    e->strain += wide * (sharp ? 0.09 : 0.03);
+    e->strain += wide * 0.03;
     e->centre_m = 2 * e->centre_m + wide * (arc ? (0.001 + 0.2 * spread) * f->radius_m : 0);
+}
+
+/* inside of what was compared, as far as the outline goes; thick: the width of an arc */
+FW_INLINE bool fw_shape_compared(double fillet, double width, double thick, double radius,
+                                 double length) {
+    const double above = 1.0 + 1e-9;
+    return (fillet >= 0.1 * width) & (fillet <= 1.25 * above * width) &
+           (thick <= 0.15 * above * radius) & (length >= 16 * width);
 }
 
 /* the factors by which a shape outside of those compared widens its errors, times 2 for each of
@@ -82,9 +86,7 @@ FW_INLINE void fw_shape_marks(fw_flexure_shape *f) {
     double t = f->width_m, rho = f->fillet_m, ratio = arc ? t : 0, r = f->radius_m, wide = 1;
     f->sharp = f->beyond_fit = false, f->widening = 1;
     /* most are as those that were compared; a path has its own mark for what is beyond the fit */
-    if ((rho >= 0.1 * t) & (rho <= 1.25 * above * t) & (ratio <= 0.15 * above * r) &
-        (f->length_m >= 16 * t))
-        return;
+    if (fw_shape_compared(rho, t, ratio, r, f->length_m)) return;
     bool ideal = !(rho >= 0), thick = ratio > 0.3 * r;
     bool unlike = !ideal && (rho < 0.05 * t || rho > 1.25 * above * t);
     f->sharp = !ideal && rho < 0.1 * t * (1.0 - 1e-9);
@@ -107,9 +109,8 @@ FW_INLINE void fw_peak_strain(const fw_flexure_shape *f, double beam, double ins
 }
 
 /* limit angle = strength / safety factor / (E eps/rad); its relative standard uncertainty is that
-   of the strain: 0 to 3.2 % (crystal: 4.3 %) above solids that scatter by 1 %; 2 % more for fillets
-   below t/10, 5 % more where the fillet lies outside the fitted range or the arc is thick (t/r >
-   0.3) */
+   of the strain: 0 to 4 % above solids; twice as much for a crystal; 2 % more for fillets below
+   t/10, 5 % more where the fillet lies outside the fitted range or the arc is thick (t/r > 0.3) */
 FW_INLINE void fw_stiffness_and_limit(const fw_flexure_shape *f, const fw_flexure_input *in,
                                       fw_flexure_result *out) {
     const fw_pair stiff = 1 / (fw_pair){out->compliance[1][1], out->compliance[2][2]};

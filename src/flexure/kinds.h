@@ -17,6 +17,8 @@ void fw_leaf_shape(const fw_flexure_input *in, fw_flexure_shape *shape);
 void fw_flexure_leaf(const fw_flexure_shape *shape, const fw_flexure_input *in,
                      fw_flexure_result *out);
 
+void fw_leaf_at_once(const fw_flexure_input *in, fw_flexure_result *out);
+
 /* of all kinds and materials; error.c */
 void fw_flexure_errors(const fw_flexure_shape *shape, const fw_flexure_input *in,
                        const fw_flexure_result *result, fw_flexure_error *out);

@@ -12,7 +12,7 @@ typedef struct rule {
 } rule;
 
 /* sums over the strip about a point; see fw_flexure_path */
-enum { W1, WX, WY, F1, FX, FY, FXX, FXY, FYY, AXX, AXY, AYY, THIN, MODULUS, INERTIA, SUMS };
+enum { W1, WX, WY, F1, FX, FY, FXX, FXY, FYY, AXX, AXY, AYY, THIN, LOST, MODULUS, INERTIA, SUMS };
 
 static void add(const fw_path_section *at, double weight, const double about[2], double *sum) {
     double x = at->neutral_x_m - about[0], y = at->neutral_y_m - about[1];
@@ -28,7 +28,8 @@ static void add(const fw_path_section *at, double weight, const double about[2],
     sum[THIN] += weight * at->thin_per_Nm2;
 }
 
-/* a root bends only, about the end of the centre line */
+/* a root bends only, about the end of the centre line, and so does what an end loses, inside of it
+ */
 static void add_root(const fw_course *p, const fw_path_stuff *m, int end, const double about[2],
                      double *sum) {
     fw_path_section at;
@@ -39,6 +40,12 @@ static void add_root(const fw_course *p, const fw_path_stuff *m, int end, const 
     /* forces: E I D alone, without what curvature does to the strip */
     at.force_per_Nm2 = at.bend_per_Nm2 * at.golovin;
     add(&at, root, about, sum);
+    fw_path_end_loss(p, m, end, &at, &root);
+    if (root == 0) return;
+    at.stretch_per_N = at.shear_per_N = at.thin_per_Nm2 = 0;
+    at.force_per_Nm2 = at.bend_per_Nm2 * at.golovin;
+    add(&at, -root, about, sum);
+    sum[LOST] += root * at.bend_per_Nm2;
 }
 
 static void integrate(const fw_course *p, const fw_path_stuff *m, const rule *r, int panels,
@@ -312,15 +319,16 @@ static double peak(const fw_course *p, const fw_path_stuff *m, const fw_flexure_
     return best;
 }
 
-/* mean of both roots' dL/E, counted in the mean modulus */
+/* mean of both roots' (dL - d)/E, counted in the mean modulus */
 static double crystal_root(const fw_course *p, const fw_path_stuff *m) {
     double sum = 0;
     for (int end = 0; end < 2; end++) {
         fw_path_section at;
-        double root, t;
+        double root, lost, t;
         fw_path_root(p, m, end, &at, &root);
         t = at.width_m;
-        sum += 0.5 * root * at.thin_per_Nm2 * m->depth_m * t * t * t / 12;
+        fw_path_end_loss(p, m, end, &at, &lost);
+        sum += 0.5 * (root - lost) * at.thin_per_Nm2 * m->depth_m * t * t * t / 12;
     }
     return sum * m->youngs_Pa;
 }
@@ -357,11 +365,13 @@ void fw_flexure_path(const fw_flexure_shape *f, const fw_flexure_input *in,
     if (m.crystal) out->root_length_m = crystal_root(&p, &m);
     out->stiffness_Nm_per_rad = 1 / sum[W1];
     out->stiffness_thin = 1 / sum[THIN];
-    const fw_path_stuff flat = {m.crystal, m.youngs_Pa, m.poisson, 0};
+    fw_path_stuff flat = m;
+    flat.depth_m = 0;
     double without[SUMS], other[2];
     measure(&p, &flat, other, without);
     out->depth_factor = without[W1] / (in->depth_m * sum[W1]);
     double fit;
-    out->strain_per_rad = peak(&p, &m, in, &out->concentration, &fit) / sum[W1];
-    out->strain_fit_per_rad = fit / sum[W1];
+    double rooted = sum[W1] + sum[LOST]; /* stresses go by the roots alone (csfh_crystal.c) */
+    out->strain_per_rad = peak(&p, &m, in, &out->concentration, &fit) / rooted;
+    out->strain_fit_per_rad = fit / rooted;
 }

@@ -120,7 +120,7 @@ static wound wind(const fw_path_way *way, double th) {
 fw_status fw_path_way_new(fw_arena *arena, const fw_flexure_input *in, const fw_path_way **out) {
     fw_course p;
     fw_path_way *way;
-    double node[NODES], weight[NODES], root;
+    double node[NODES], weight[NODES], root, lost;
     fw_path_section at;
     fw_path_of(in, &p);
     const fw_path_stuff m = fw_path_stuff_of(&p, in);
@@ -133,7 +133,8 @@ fw_status fw_path_way_new(fw_arena *arena, const fw_flexure_input *in, const fw_
     way->total = lay_knots(way, &p, &m, node, weight);
     for (int end = 0; end < 2; end++) {
         fw_path_root(&p, &m, end, &at, &root);
-        way->root[end] = root * at.bend_per_Nm2;
+        fw_path_end_loss(&p, &m, end, &at, &lost);
+        way->root[end] = (root - lost) * at.bend_per_Nm2; /* both at the end: W 0.1 um off */
         way->total += way->root[end];
     }
     way->root[0] /= way->total, way->root[1] /= way->total;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flexure/path_sections.h"
 #include "flexure/gauss.h"
+#include "flexure/section_core.h"
 #include <math.h>
 
 static double per_youngs(const fw_path_stuff *m, double psi_rad) {
@@ -13,6 +14,11 @@ static double per_shear(const fw_path_stuff *m, double psi_rad) {
     const fw_crystal *k = m->crystal;
     if (!k) return 2 * (1 + m->poisson) / m->youngs_Pa;
     return k->g0_per_Pa + k->g1_per_Pa * (k->cos4 * cos(4 * psi_rad) - k->sin4 * sin(4 * psi_rad));
+}
+
+static fw_depth depth_at(const fw_path_stuff *m, double deep) {
+    if (m->crystal) return fw_depth_crystal(deep, m->crystal, m->youngs_Pa);
+    return fw_depth_at(deep, m->poisson);
 }
 
 /* In: place, m, Pa; out: what a section gives per moment and force, SI. Formulas:
@@ -33,7 +39,7 @@ void fw_path_section_at(const fw_course *p, const fw_path_stuff *m, int i, doubl
         force = per_E * per_A / (e * R);
         out->golovin = fw_golovin(u);
         out->curved = k * t / 3.0;
-        if (m->depth_m > 0) out->depth = fw_depth_at(h / sqrt(R * t), m->poisson);
+        if (m->depth_m > 0) out->depth = depth_at(m, h / sqrt(R * t));
     }
     double D = out->depth.stiffness, towards = copysign(e, k);
     out->thin_per_Nm2 = bend;
@@ -57,10 +63,34 @@ void fw_path_root(const fw_course *p, const fw_path_stuff *m, int end, fw_path_s
     *root_m = (block * mean + (p->root_m[end] - block) * along) / along;
 }
 
+/* mean of P over exp(-s/l) along the arc (line) that the strip ends with: P + l (T + q N)/(1 +
+   q^2), T inwards, N to the centre of curvature, q = l/R */
+void fw_path_end_loss(const fw_course *p, const fw_path_stuff *m, int end, fw_path_section *at,
+                      double *loss_m) {
+    double root, length = 0, f = 1;
+    fw_path_root(p, m, end, at, &root);
+    *loss_m = 0;
+    if (!m->crystal) return;
+    for (int i = 0; i < p->n; i++)
+        length += p->shape[i].piece.length_m;
+    double k = p->shape[end ? p->n - 1 : 0].piece.curvature_per_m, t = at->width_m;
+    double h = m->end_depth_m, inwards = end ? -1 : 1, psi = at->pose.angle_rad;
+    double block = p->concentration[end] == 1 ? 0 : fw_root_block_m(t, 0);
+    if (k != 0) f = depth_at(m, h * sqrt(fabs(k) / t)).bow;
+    const fw_end_loss loss = fw_end_loss_of(m->crystal->reach, h, f, length, block);
+    double q = loss.reach_m * k, far = loss.reach_m / (1 + q * q); /* N: to the left times k */
+    at->neutral_x_m = at->pose.x_m + far * (inwards * cos(psi) - q * sin(psi));
+    at->neutral_y_m = at->pose.y_m + far * (inwards * sin(psi) + q * cos(psi));
+    *loss_m = m->crystal->bow_per_Pa * loss.length_m / per_youngs(m, psi);
+}
+
 /* mean modulus of a crystal: what the whole strip bends like, int ds/I / int ds/(E I) */
 fw_path_stuff fw_path_stuff_of(const fw_course *p, const fw_flexure_input *in) {
     double node[FW_GAUSS_MOST], weight[FW_GAUSS_MOST], bend = 0, soft = 0;
-    fw_path_stuff m = {.youngs_Pa = in->youngs_Pa, .poisson = in->poisson, .depth_m = in->depth_m};
+    fw_path_stuff m = {.youngs_Pa = in->youngs_Pa,
+                       .poisson = in->poisson,
+                       .depth_m = in->depth_m,
+                       .end_depth_m = in->depth_m};
     if (!in->crystal.known) return m;
     m.crystal = &in->crystal;
     fw_gauss_rule(FW_GAUSS_MOST, node, weight);

@@ -10,6 +10,7 @@ typedef struct fw_path_stuff {
     const fw_crystal *crystal; /* NULL: isotropic */
     double youngs_Pa, poisson; /* poisson: out of the plane; of a crystal its mean */
     double depth_m;            /* 0: no depth factor, unit depth */
+    double end_depth_m;        /* of what the ends of a crystal lose, whatever depth_m is */
 } fw_path_stuff;
 
 typedef struct fw_path_section {
@@ -28,6 +29,9 @@ void fw_path_section_at(const fw_course *path, const fw_path_stuff *stuff, int p
 /* dL/(EI) of an end without and with depth: per N m */
 void fw_path_root(const fw_course *path, const fw_path_stuff *stuff, int end, fw_path_section *at,
                   double *root_m);
+/* of the second kind: d of fw_end_loss_of; neutral_*: where it counts */
+void fw_path_end_loss(const fw_course *path, const fw_path_stuff *stuff, int end,
+                      fw_path_section *at, double *loss_m);
 fw_path_stuff fw_path_stuff_of(const fw_course *path, const fw_flexure_input *in);
 /* strain of the fibre over that of the beam: max((1 + t/3R) F_inner, (1 - t/3R) F_outer) */
 double fw_path_fibre_factor(const fw_path_section *at);

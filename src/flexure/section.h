@@ -27,6 +27,11 @@ typedef struct fw_depth {
 fw_depth fw_depth_factors(double radius_m, double width_m, double depth_m, double poisson);
 
 fw_depth fw_depth_at(double depth_over_root_of_radius_and_width, double poisson);
+/* of a crystal's strip, E of its mean compliance */
+fw_depth fw_depth_crystal(double depth_over_root_of_radius_and_width, const fw_crystal *crystal,
+                          double youngs_Pa);
+struct fw_depth_start;
+fw_depth fw_depth_deep(struct fw_depth_start from); /* x > 16; section_core.h */
 
 /* peak strain (of a crystal: stress) at a root over that of the beam there, Kt and curvature
    included, on the safe side of solids. curved: t/3R, signed to the left; end: -1 the first, 1 the

@@ -6,7 +6,7 @@
 static const fw_flexure_model table[] = {
     {FW_FLEXURE_CSFH, "csfh", "circular arc with a pair of conjugate surfaces", fw_csfh_shape,
      fw_flexure_csfh, fw_csfh_at_once},
-    {FW_FLEXURE_LEAF, "leaf", "straight leaf", fw_leaf_shape, fw_flexure_leaf, NULL},
+    {FW_FLEXURE_LEAF, "leaf", "straight leaf", fw_leaf_shape, fw_flexure_leaf, fw_leaf_at_once},
     {FW_FLEXURE_PATH, "path", "lines and arcs of any width, one after the other", fw_path_shape,
      fw_flexure_path, NULL},
 };

@@ -2,8 +2,6 @@
 /* Exact boolean of outlines of lines and arcs: cut both at all common points, keep the parts that
    bound the result, stitch them. Nothing is flattened. */
 #include "geometry/boolean.h"
-#include <stdlib.h>
-#include <string.h>
 
 static int find_node(const fw_graph *g, fw_vec2 at) {
     for (int i = 0; i < g->nnode; i++)
@@ -13,10 +11,7 @@ static int find_node(const fw_graph *g, fw_vec2 at) {
     return -1;
 }
 
-/* the node at a place, made when there is none within the tolerance */
-static fw_status node_at(fw_graph *g, fw_vec2 at, int *node) {
-    *node = find_node(g, at);
-    if (*node >= 0) return FW_OK;
+static fw_status new_node(fw_graph *g, fw_vec2 at, int *node) {
     if (g->nnode == g->node_room) {
         int more = g->node_room ? 2 * g->node_room : 64;
         fw_vec2 *grown =
@@ -30,6 +25,17 @@ static fw_status node_at(fw_graph *g, fw_vec2 at, int *node) {
     }
     *node = g->same[g->nnode] = g->nnode;
     g->node[g->nnode++] = at;
+    return FW_OK;
+}
+
+/* the node at a place, made when there is none within the tolerance */
+static fw_status node_at(fw_graph *g, fw_vec2 at, int *node) {
+    /* one segment begins where the last one ended: what is found first does not change */
+    bool again = g->nnode > 0 && at.x == g->asked.x && at.y == g->asked.y;
+    *node = again ? g->answer : find_node(g, at);
+    if (*node < 0) FW_TRY(new_node(g, at, node));
+    g->asked = at;
+    g->answer = *node;
     return FW_OK;
 }
 
@@ -103,12 +109,22 @@ static fw_status cut_at(fw_graph *g, int segment, double t, int node) {
     return FW_OK;
 }
 
+static fw_box box_of(const fw_box *box, int from, int to) {
+    fw_box all = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (int i = from; i < to; i++)
+        all = fw_box_join(all, box[i]);
+    return all;
+}
+
 static fw_status intersect_all(fw_graph *g) {
     fw_box *box = fw_arena_array(g->arena, fw_box, (size_t)g->nsegment);
     FW_NEED(box);
     for (int i = 0; i < g->nsegment; i++)
         box[i] = fw_segment_box(g->segment[i]);
-    for (int i = 0; i < g->nfirst; i++)
+    g->box[0] = box_of(box, 0, g->nfirst);
+    g->box[1] = box_of(box, g->nfirst, g->nsegment);
+    for (int i = 0; i < g->nfirst; i++) {
+        if (fw_box_gap(box[i], g->box[1]) > FW_COINCIDENT_M) continue;
         for (int j = g->nfirst; j < g->nsegment; j++) {
             if (fw_box_gap(box[i], box[j]) > FW_COINCIDENT_M) continue;
             fw_hit hit[FW_MOST_HITS];
@@ -120,20 +136,41 @@ static fw_status intersect_all(fw_graph *g) {
                 FW_TRY(cut_at(g, j, hit[k].tq, node));
             }
         }
+    }
     return FW_OK;
 }
 
-static int by_place(const void *left, const void *right) {
-    const fw_cut *a = left, *b = right;
-    if (a->segment != b->segment) return a->segment < b->segment ? -1 : 1;
-    if (a->t != b->t) return a->t < b->t ? -1 : 1;
-    return (a->node > b->node) - (a->node < b->node);
+static bool before(const fw_cut *a, const fw_cut *b) {
+    return a->t != b->t ? a->t < b->t : a->node < b->node;
+}
+
+/* by segment, place and node: counted into the segments, put into order there, where there are few
+ */
+static fw_status sort_cuts(fw_graph *g) {
+    if (g->ncut == 2 * g->nsegment) return FW_OK; /* the two ends of each */
+    int *begin = fw_arena_array(g->arena, int, (size_t)g->nsegment + 1);
+    int *there = fw_arena_array(g->arena, int, (size_t)g->nsegment);
+    fw_cut *sorted = fw_arena_array(g->arena, fw_cut, (size_t)g->ncut);
+    if (!begin || !there || !sorted) return FW_NOMEM;
+    for (int i = 0; i < g->ncut; i++)
+        begin[g->cut[i].segment + 1]++;
+    for (int i = 0; i < g->nsegment; i++)
+        begin[i + 1] += begin[i];
+    for (int i = 0; i < g->ncut; i++) {
+        const fw_cut *c = &g->cut[i];
+        int first = begin[c->segment], at = first + there[c->segment]++;
+        for (; at > first && before(c, &sorted[at - 1]); at--)
+            sorted[at] = sorted[at - 1];
+        sorted[at] = *c;
+    }
+    g->cut = sorted;
+    return FW_OK;
 }
 
 static fw_status cut_edges(fw_graph *g) {
     for (int i = 0; i < g->ncut; i++)
         g->cut[i].node = root_of(g, g->cut[i].node);
-    qsort(g->cut, (size_t)g->ncut, sizeof *g->cut, by_place);
+    FW_TRY(sort_cuts(g));
     g->edge = fw_arena_array(g->arena, fw_edge, (size_t)g->ncut);
     FW_NEED(g->edge);
     for (int i = 1, rank = 0; i < g->ncut; i++) {
@@ -189,6 +226,12 @@ static int region_winding(const fw_region *region, fw_vec2 point) {
     return winding;
 }
 
+/* outside the box nothing winds around a point */
+static bool may_hold(fw_box b, fw_vec2 p) {
+    const double wider = 1e-9;
+    return p.x >= b.x0 - wider && p.x <= b.x1 + wider && p.y >= b.y0 - wider && p.y <= b.y1 + wider;
+}
+
 /* which edges bound the result, and in which direction */
 static void choose(fw_edge *e, bool within, fw_boolean op) {
     if (op == FW_UNION)
@@ -201,41 +244,30 @@ static void choose(fw_edge *e, bool within, fw_boolean op) {
     }
 }
 
-static int compare_ints(int a, int b) {
-    return (a > b) - (a < b);
-}
-
-typedef struct key {
-    int low, high, edge;
-} key;
-
-static int by_key(const void *left, const void *right) {
-    const key *a = left, *b = right;
-    if (a->low != b->low) return compare_ints(a->low, b->low);
-    if (a->high != b->high) return compare_ints(a->high, b->high);
-    return compare_ints(a->edge, b->edge);
-}
-
-/* twins stand next to each other once sorted by their two nodes. Shared edges bound a union or an
-   intersection once when both regions lie on one side, never when on either side; a difference the
-   other way round. The copy of p is kept, with its flags. */
+/* Twins are among the edges with the same lower node, listed in their order. Shared edges bound a
+   union or an intersection once when both regions lie on one side, never when on either side; a
+   difference the other way round. The copy of p is kept, with its flags. */
 static fw_status pair_twins(fw_graph *g, fw_boolean op) {
-    key *order = fw_arena_array(g->arena, key, (size_t)g->nedge);
-    FW_NEED(order);
-    for (int i = 0; i < g->nedge; i++) {
+    int *first = fw_arena_array(g->arena, int, (size_t)g->nnode);
+    int *after = fw_arena_array(g->arena, int, (size_t)g->nedge);
+    FW_NEED(first);
+    FW_NEED(after);
+    for (int i = 0; i < g->nnode; i++)
+        first[i] = -1;
+    for (int i = g->nedge - 1; i >= 0; i--) {
         const fw_edge *e = &g->edge[i];
-        order[i] = (key){e->from < e->to ? e->from : e->to, e->from < e->to ? e->to : e->from, i};
+        int low = e->from < e->to ? e->from : e->to;
+        after[i] = first[low];
+        first[low] = i;
     }
-    qsort(order, (size_t)g->nedge, sizeof *order, by_key);
     for (int i = 0; i < g->nedge; i++)
-        for (int j = i + 1;
-             j < g->nedge && order[j].low == order[i].low && order[j].high == order[i].high; j++) {
-            fw_edge *a = &g->edge[order[i].edge], *b = &g->edge[order[j].edge];
+        for (int j = after[i]; j >= 0; j = after[j]) {
+            fw_edge *a = &g->edge[i], *b = &g->edge[j];
             bool same;
             if (a->owner == b->owner || a->twin >= 0 || b->twin >= 0 || !is_twin(g, a, b, &same))
                 continue;
-            a->twin = order[j].edge;
-            b->twin = order[i].edge;
+            a->twin = j;
+            b->twin = i;
             a->keep = same == (op != FW_DIFFERENCE); /* a is of p: its edges come first */
         }
     return FW_OK;
@@ -258,7 +290,9 @@ fw_status fw_region_boolean(fw_arena *arena, const fw_region *p, const fw_region
     for (int i = 0; i < g.nedge; i++)
         if (g.edge[i].twin < 0) {
             fw_edge *e = &g.edge[i];
-            choose(e, region_winding(e->owner ? p : q, middle_of(&g, e)) != 0, op);
+            fw_vec2 middle = middle_of(&g, e);
+            bool near = may_hold(g.box[!e->owner], middle);
+            choose(e, near && region_winding(e->owner ? p : q, middle) != 0, op);
         }
     return fw_graph_stitch(&g, out);
 }

@@ -2,7 +2,7 @@
 /* Width and space of one outline: the shortest chord between two edges that face each other. */
 #include "geometry/segment.h"
 
-enum { FEW = 128 };
+enum { FEW = 128, RUN = 8 };
 
 typedef struct search {
     const fw_contour *contour;
@@ -156,14 +156,20 @@ static bool is_joint(const fw_segment *s) {
     return s->flags & FW_SEGMENT_JOINT;
 }
 
-/* segment p itself and with those behind it that are no neighbours; box: of the first `boxed` */
-static void look_beyond(const search *in, int p, const fw_box *box, int boxed, nearest *best) {
+/* segment p itself and with those behind it that are no neighbours; box: of the first `boxed`,
+   run: of every RUN of these */
+static void look_beyond(const search *in, int p, const fw_box *box, int boxed, const fw_box *run,
+                        nearest *best) {
     const fw_contour *c = in->contour;
     fw_box own = p < boxed ? box[p] : fw_segment_box(&c->segment[p]);
     double alone = own_clearance(&c->segment[p], in->inside);
     if (alone < best->least) *best = (nearest){alone, p, p};
     int end = p == 0 ? c->count - 1 : c->count;
     for (int q = p + 2; q < end; q++) {
+        if (q % RUN == 0 && q + RUN <= boxed && fw_box_gap(own, run[q / RUN]) >= best->least) {
+            q += RUN - 1;
+            continue;
+        }
         const fw_segment *other = &c->segment[q];
         fw_box there = q < boxed ? box[q] : fw_segment_box(other);
         if (there.x0 - own.x1 >= best->least || own.x0 - there.x1 >= best->least) continue;
@@ -181,11 +187,13 @@ double fw_contour_clearance_below(const fw_contour *contour, bool inside, double
     search in = {contour, inside};
     nearest best = {limit_m, -1, -1};
     int n = contour->count, boxed = n < FEW ? n : FEW;
-    fw_box box[FEW]; /* of the first segments, each asked for many times */
-    for (int k = 0; k < boxed; k++)
+    fw_box box[FEW], run[FEW / RUN]; /* of the first segments, each asked for many times */
+    for (int k = 0; k < boxed; k++) {
         box[k] = fw_segment_box(&contour->segment[k]);
+        run[k / RUN] = k % RUN ? fw_box_join(run[k / RUN], box[k]) : box[k];
+    }
     for (int p = 0; p < n; p++)
-        if (!is_joint(&contour->segment[p])) look_beyond(&in, p, box, boxed, &best);
+        if (!is_joint(&contour->segment[p])) look_beyond(&in, p, box, boxed, run, &best);
     for (int p = 0; p < n; p++) /* neighbours last: the limit may then spare them */
         for (int k = 0; k < 2; k++) {
             int q = k == 0 ? p + 1 : n - 1; /* the first one is the last one's neighbour, too */

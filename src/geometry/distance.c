@@ -119,12 +119,18 @@ double fw_segment_distance(const fw_segment *p, const fw_segment *q, fw_vec2 *at
     return nearest_chord(p, q, HUGE_VAL, at_p, at_q);
 }
 
-enum { FEW = 96 };
+enum { FEW = 96, RUN = 8 };
 
-/* the segments of q against one of p whose box is given */
+/* the segments of q against one of p whose box is given; box: of the first FEW, run: of every RUN
+   of these */
 static double nearest_of(const fw_segment *s, fw_box own, const fw_contour *q, const fw_box *box,
-                         double least, fw_vec2 *at_p, fw_vec2 *at_q) {
+                         const fw_box *run, double least, fw_vec2 *at_p, fw_vec2 *at_q) {
     for (int j = 0; j < q->count; j++) {
+        if (j % RUN == 0 && j + RUN <= q->count && j + RUN <= FEW &&
+            fw_box_gap(own, run[j / RUN]) >= least) {
+            j += RUN - 1;
+            continue;
+        }
         const fw_segment *t = &q->segment[j];
         fw_box there = j < FEW ? box[j] : fw_segment_box(t);
         double gap = fw_box_gap(own, there);
@@ -150,15 +156,17 @@ double fw_contour_distance_below(const fw_contour *p, const fw_contour *q, doubl
                                  fw_vec2 *at_p, fw_vec2 *at_q) {
     double least = limit_m;
     fw_vec2 best_p = {0, 0}, best_q = {0, 0};
-    fw_box whole = fw_contour_box(q), box[FEW];
+    fw_box whole = fw_contour_box(q), box[FEW], run[FEW / RUN];
     bool boxed = false;
     for (int i = 0; i < p->count && q->count > 0; i++) {
         fw_box own = fw_segment_box(&p->segment[i]);
         if (fw_box_gap(own, whole) >= least) continue;
-        for (int j = 0; !boxed && j < q->count && j < FEW; j++)
+        for (int j = 0; !boxed && j < q->count && j < FEW; j++) {
             box[j] = fw_segment_box(&q->segment[j]);
+            run[j / RUN] = j % RUN ? fw_box_join(run[j / RUN], box[j]) : box[j];
+        }
         boxed = true;
-        least = nearest_of(&p->segment[i], own, q, box, least, &best_p, &best_q);
+        least = nearest_of(&p->segment[i], own, q, box, run, least, &best_p, &best_q);
     }
     if (at_p) *at_p = best_p;
     if (at_q) *at_q = best_q;

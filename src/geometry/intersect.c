@@ -78,6 +78,20 @@ static double caught(const fw_segment *s, double t, fw_vec2 at) {
     return t;
 }
 
+/* More than 1e-9 m beside the line or the circle, by products alone: |d^2 - r^2| = |d - r| (d + r).
+   Then it is no point of the segment, whose ends are within 1e-10 m of the circle. False says
+   nothing. */
+static bool clearly_beside(const fw_segment *s, fw_vec2 at) {
+    if (s->kind == FW_LINE) {
+        fw_vec2 along = vec_sub(s->b, s->a);
+        double across = vec_cross(along, vec_sub(at, s->a));
+        return across * across > 1e-18 * vec_dot(along, along);
+    }
+    fw_vec2 ray = vec_sub(at, s->centre);
+    double r = s->radius;
+    return r > 1e-8 && fabs(vec_dot(ray, ray) - r * r) > 4e-9 * r;
+}
+
 /* Common points of two segments: every end of one that lies on the other (this alone gives the ends
    of an overlap), then the crossings and touches of the carriers that lie on both.
    In: two segments. Out: at most 6 hits, parameters and place. Error 1e-12 m. Test: test_segment.c
@@ -87,13 +101,13 @@ int fw_segment_intersect(const fw_segment *p, const fw_segment *q, fw_hit hit[FW
     for (int end = 0; end < 2; end++) {
         fw_vec2 at = end ? p->b : p->a, on;
         double t;
-        if (fw_segment_nearest(q, at, &t, &on) <= FW_COINCIDENT_M)
+        if (!clearly_beside(q, at) && fw_segment_nearest(q, at, &t, &on) <= FW_COINCIDENT_M)
             n = add_hit(hit, n, end, caught(q, t, at), at);
     }
     for (int end = 0; end < 2; end++) {
         fw_vec2 at = end ? q->b : q->a, on;
         double t;
-        if (fw_segment_nearest(p, at, &t, &on) <= FW_COINCIDENT_M)
+        if (!clearly_beside(p, at) && fw_segment_nearest(p, at, &t, &on) <= FW_COINCIDENT_M)
             n = add_hit(hit, n, caught(p, t, at), end, at);
     }
     fw_vec2 meet[2];

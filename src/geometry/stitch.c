@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "geometry/boolean.h"
-#include <stdlib.h>
 
 typedef struct chain { /* the outline being followed */
     int *edge;         /* (count) */
@@ -131,21 +130,24 @@ static fw_status outline_of(const fw_graph *g, const int *edge, int n, fw_contou
 }
 
 /* outlines thinner than the tolerance are what is left of coincident edges */
-static bool is_sliver(const fw_contour *contour) {
-    return fabs(fw_contour_area(contour)) <=
-           4 * FW_COINCIDENT_M * (fw_contour_perimeter(contour) + FW_COINCIDENT_M);
+static bool is_sliver(const fw_contour *contour, double area_m2) {
+    return fabs(area_m2) <= 4 * FW_COINCIDENT_M * (fw_contour_perimeter(contour) + FW_COINCIDENT_M);
 }
 
 typedef struct collector {
     fw_graph *graph;
     fw_contour *contour;
+    bool *hole; /* (count) */
     int count;
 } collector;
 
 static fw_status emit(collector *c, const int *edge, int n) {
     fw_contour made;
     FW_TRY(outline_of(c->graph, edge, n, &made));
-    if (!is_sliver(&made)) c->contour[c->count++] = made;
+    double area_m2 = fw_contour_area(&made);
+    if (is_sliver(&made, area_m2)) return FW_OK;
+    c->hole[c->count] = area_m2 < 0;
+    c->contour[c->count++] = made;
     return FW_OK;
 }
 
@@ -183,8 +185,7 @@ static fw_status order_outlines(fw_graph *g, const collector *c, fw_region *out)
     FW_NEED(out->contour);
     for (int holes = 0; holes < 2; holes++)
         for (int i = 0; i < c->count; i++)
-            if ((fw_contour_area(&c->contour[i]) < 0) == (holes == 1))
-                out->contour[out->count++] = c->contour[i];
+            if (c->hole[i] == (holes == 1)) out->contour[out->count++] = c->contour[i];
     return FW_OK;
 }
 
@@ -193,8 +194,9 @@ fw_status fw_graph_stitch(fw_graph *g, fw_region *out) {
     int *seen = fw_arena_array(g->arena, int, (size_t)g->nnode);
     int *after = fw_arena_array(g->arena, int, (size_t)g->nedge);
     chain path = {fw_arena_array(g->arena, int, (size_t)g->nedge), 0};
-    collector c = {g, fw_arena_array(g->arena, fw_contour, (size_t)g->nedge), 0};
-    if (!first || !seen || !after || !path.edge || !c.contour) return FW_NOMEM;
+    collector c = {g, fw_arena_array(g->arena, fw_contour, (size_t)g->nedge),
+                   fw_arena_array(g->arena, bool, (size_t)g->nedge), 0};
+    if (!first || !seen || !after || !path.edge || !c.contour || !c.hole) return FW_NOMEM;
     for (int i = 0; i < g->nnode; i++)
         first[i] = seen[i] = -1;
     for (int i = g->nedge - 1; i >= 0; i--)

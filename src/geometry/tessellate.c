@@ -175,7 +175,7 @@ fw_status fw_flatten(fw_arena *arena, const fw_contour *contour, double toleranc
         FW_NEED(chords = fw_arena_array(arena, fw_chords, (size_t)contour->count));
     plan_arcs(contour, tolerance_m, kind, chords, &most, &length_m, &proven);
     if (!(most < 1e9)) return FW_LIMIT;
-    builder b = {.vertex = fw_arena_array(arena, fw_point, (size_t)most)};
+    builder b = {.vertex = fw_arena_raw(arena, (size_t)most * sizeof(fw_point))}; /* < 8e9 bytes */
     FW_NEED(b.vertex);
     proven.wavy = run_along(&b, contour, chords, tolerance_m, &proven.next_m);
     if (proven.wavy >= 0) {

@@ -38,6 +38,11 @@ static bool on_arc(const fw_segment *s, fw_vec2 p) {
 typedef struct reach { /* distances from a centre between which a segment lies */
     const fw_segment *segment;
     double least, most;
+    /* of its crossings with any circle about the centre: a line begins at `from`, runs along
+       `along`, whose products these are; an arc's centre is at `from`, in the direction of `along`
+     */
+    fw_vec2 from, along;
+    double from2, dot, along2; /* of an arc: distance of its centre, squared; the distance; r^2 */
 } reach;
 typedef struct near_part {    /* of an outline, within a radius about a centre */
     reach item[MOST_REACHES]; /* by where they begin */
@@ -47,6 +52,24 @@ typedef struct active { /* those that circles of a growing radius may cross */
     const reach *item[MOST_REACHES];
     int count, next;
 } active;
+
+static reach reach_of(const fw_segment *s, fw_vec2 w, double least, double most) {
+    reach r = {.segment = s, .least = least, .most = most};
+    if (s->kind == FW_LINE) {
+        r.from = fw_sub(s->a, w);
+        r.along = fw_sub(s->b, s->a);
+        r.from2 = fw_dot(r.from, r.from);
+        r.dot = fw_dot(r.from, r.along);
+        r.along2 = fw_dot(r.along, r.along);
+    } else {
+        r.from = fw_sub(s->centre, w);
+        double far = r.dot = fw_norm(r.from);
+        r.along = fw_v(r.from.x / far, r.from.y / far);
+        r.from2 = far * far;
+        r.along2 = s->radius * s->radius;
+    }
+    return r;
+}
 
 /* from segment `first` on; returns where to go on, or the number of segments */
 static int find_near(const fw_contour *c, int first, fw_vec2 w, double radius_m, near_part *near) {
@@ -61,7 +84,7 @@ static int find_near(const fw_contour *c, int first, fw_vec2 w, double radius_m,
         int k = near->count++;
         for (; k > 0 && near->item[k - 1].least > least; k--)
             near->item[k] = near->item[k - 1];
-        near->item[k] = (reach){s, least, far + 1e-9};
+        near->item[k] = reach_of(s, w, least, far + 1e-9);
     }
     return c->count;
 }
@@ -80,25 +103,25 @@ static void advance(active *a, const near_part *near, double q) {
 static int crossings(const active *now, fw_vec2 w, double q, crossing *list) {
     int n = 0;
     for (int i = 0; i < now->count; i++) {
-        const fw_segment *s = now->item[i]->segment;
+        const reach *r = now->item[i];
+        const fw_segment *s = r->segment;
         if (s->kind == FW_LINE) {
-            fw_vec2 a = fw_sub(s->a, w), d = fw_sub(s->b, s->a);
-            double dd = fw_dot(d, d), b = fw_dot(a, d), in = b * b - dd * (fw_dot(a, a) - q * q);
+            double dd = r->along2, b = r->dot, in = b * b - dd * (r->from2 - q * q);
             if (in < 0.0 || dd <= 0.0) continue;
+            double root = sqrt(in);
             for (int sign = -1; sign <= 1; sign += 2) {
-                double t = (-b + sign * sqrt(in)) / dd;
-                if (t >= 0.0 && t <= 1.0) n = add_crossing(list, n, fw_add(a, t, d));
+                double t = (-b + sign * root) / dd;
+                if (t >= 0.0 && t <= 1.0) n = add_crossing(list, n, fw_add(r->from, t, r->along));
             }
         } else {
-            fw_vec2 to = fw_sub(s->centre, w);
-            double far = fw_norm(to);
+            double far = r->dot;
             if (far < 1e-12) continue; /* concentric: never crosses */
-            double x = (far * far + q * q - s->radius * s->radius) / (2.0 * far),
-                   y2 = q * q - x * x;
+            double x = (r->from2 + q * q - r->along2) / (2.0 * far), y2 = q * q - x * x;
             if (y2 < 0.0) continue;
-            fw_vec2 e = fw_v(to.x / far, to.y / far), f = fw_left(e);
+            fw_vec2 e = r->along, f = fw_left(e);
+            double root = sqrt(y2);
             for (int sign = -1; sign <= 1; sign += 2) {
-                fw_vec2 p = fw_add(fw_v(x * e.x, x * e.y), sign * sqrt(y2), f);
+                fw_vec2 p = fw_add(fw_v(x * e.x, x * e.y), sign * root, f);
                 if (on_arc(s, fw_add(w, 1.0, p))) n = add_crossing(list, n, p);
             }
         }

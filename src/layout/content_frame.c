@@ -17,6 +17,7 @@ typedef struct sheet {
     const fw_layout *device;
     fw_piece *piece;
     int npiece, capacity;
+    const fw_box *box; /* (npiece), while a place is looked for */
 } sheet;
 
 static bool in_frame(const fw_piece *p) {
@@ -35,7 +36,7 @@ static bool is_free(const sheet *s, const fw_contour *place) {
     bool inside = false;
     for (int i = 0; i < s->npiece; i++) {
         const fw_piece *p = &s->piece[i];
-        if (apart(b, fw_contour_box(&p->contour), in_frame(p) ? BESIDE_M : CLEAR_M)) continue;
+        if (apart(b, s->box[i], in_frame(p) ? BESIDE_M : CLEAR_M)) continue;
         if (in_frame(p)) return false;
         if (fw_contour_distance_below(place, &p->contour, CLEAR_M, NULL, NULL) < CLEAR_M)
             return false;
@@ -47,13 +48,16 @@ static bool is_free(const sheet *s, const fw_contour *place) {
 }
 
 /* lower left corner of a free place in an upright; from the top or from below */
-static fw_status find_place(const sheet *s, bool right, bool from_top, double width, double height,
+static fw_status find_place(sheet *s, bool right, bool from_top, double width, double height,
                             fw_vec2 *at, bool *found) {
     const fw_layout *d = s->device;
     double lane = HUGE_VAL; /* the frame begins where the lane ends */
-    for (int i = 0; i < s->npiece; i++)
-        if (s->piece[i].role == FW_ROLE_FRAME)
-            lane = fmin(lane, d->die.x1 - fw_contour_box(&s->piece[i].contour).x1);
+    fw_box *box = fw_arena_array(s->arena, fw_box, (size_t)s->npiece);
+    FW_NEED(s->box = box);
+    for (int i = 0; i < s->npiece; i++) {
+        box[i] = fw_contour_box(&s->piece[i].contour);
+        if (s->piece[i].role == FW_ROLE_FRAME) lane = fmin(lane, d->die.x1 - box[i].x1);
+    }
     double x0 = right ? d->window.x1 : d->die.x0 + lane;
     double x1 = right ? d->die.x1 - lane : d->window.x0;
     double x = fw_layout_to_grid(0.5 * (x0 + x1 - width));
@@ -99,7 +103,7 @@ fw_status fw_content_on_frame(fw_arena *arena, const fw_layout *device, const fw
         n += pattern[i].kind->on_frame + (device->fill && pattern[i].kind->in_window);
     if (n == 0 || !device->drawn) return FW_OK;
     fw_layout *l = fw_arena_one(arena, fw_layout);
-    sheet s = {arena, device, NULL, device->npiece, device->npiece + 8};
+    sheet s = {arena, device, NULL, device->npiece, device->npiece + 8, NULL};
     FW_NEED(l);
     FW_NEED(s.piece = fw_arena_grow(arena, device->piece, (size_t)device->npiece,
                                     (size_t)s.capacity, sizeof *s.piece));
@@ -128,7 +132,7 @@ fw_status fw_content_on_frame(fw_arena *arena, const fw_layout *device, const fw
 
 fw_status fw_content_die_id(fw_arena *arena, const fw_layout *device, const char *id,
                             fw_piece **piece, int *npiece, int *capacity) {
-    sheet s = {arena, device, device->piece, device->npiece, device->npiece};
+    sheet s = {arena, device, device->piece, device->npiece, device->npiece, NULL};
     double room = 0;
     for (int i = 0; i < device->npiece; i++)
         if (device->piece[i].role == FW_ROLE_FRAME)

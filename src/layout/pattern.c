@@ -96,13 +96,31 @@ static fw_status tidy(fw_pen *pen, const fw_contour *raw, fw_contour *out) {
     return fw_outline_close(&o, out);
 }
 
+/* such as teeth: they are one region as they stand */
+static bool clear_of(const fw_box *box, int n, fw_box b) {
+    const double apart = 1e-9;
+    for (int i = 0; i < n; i++)
+        if (box[i].x1 + apart > b.x0 && b.x1 + apart > box[i].x0 && box[i].y1 + apart > b.y0 &&
+            b.y1 + apart > box[i].y0)
+            return false;
+    return true;
+}
+
 fw_status fw_pen_shape(fw_pen *pen, fw_role role, const char *label) {
     if (pen->nbox == 0) return FW_GEOMETRY;
     fw_region all = {&pen->box[0], 1};
-    for (int i = 1; i < pen->nbox; i++) {
-        fw_region more = {&pen->box[i], 1}, sum;
+    fw_box *box = fw_arena_array(pen->arena, fw_box, (size_t)pen->nbox);
+    FW_NEED(box);
+    for (int i = 0; i < pen->nbox; i++)
+        box[i] = fw_contour_box(&pen->box[i]);
+    for (int i = 1; i < pen->nbox;) {
+        int n = 1;
+        while (i + n < pen->nbox && clear_of(&box[i], n, box[i + n]))
+            n++;
+        fw_region more = {&pen->box[i], n}, sum;
         FW_TRY(fw_region_boolean(pen->arena, &all, &more, FW_UNION, &sum));
         all = sum;
+        i += n;
     }
     pen->nbox = 0;
     if (all.count != 1) return FW_GEOMETRY;

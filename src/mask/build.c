@@ -99,7 +99,8 @@ static fw_status check_range(const fw_mask_shape *shape, fw_diags *diags) {
 
 /* parts that GDSII readers take; each is certified like the whole */
 static fw_status cut(fw_arena *arena, fw_mask_shape *shape, int most, fw_diags *diags) {
-    fw_status status = fw_polygon_cut(arena, &shape->polygon, most, &shape->part, &shape->npart);
+    fw_status status = fw_polygon_cut(arena, &shape->polygon, most, &shape->part, &shape->npart,
+                                      &shape->cut_clear_dbu);
     bool simple = status == FW_OK;
     for (int i = 0; simple && shape->npart > 1 && i < shape->npart; i++) {
         fw_polygon_report report;

@@ -56,6 +56,10 @@ static void shape(fw_text *out, const fw_mask *mask, const fw_mask_shape *s) {
     corners(out, s->report.sharpest_material_rad, s->report.sharpest_space_rad, s->edge_m,
             s->report.straight);
     box_nm(out, "box_nm", m.box);
+    if (s->npart > 1) {
+        fw_text_add(out, ", ");
+        fw_mask_json_number(out, "cut_clearance_nm", s->cut_clear_dbu, 12);
+    }
     fw_text_add(out, "}");
 }
 

@@ -78,6 +78,7 @@ typedef struct fw_mask_shape {
     fw_polygon polygon;       /* flattened */
     fw_polygon *part;         /* (npart) the same, cut to the vertex limit of GDSII */
     int npart;                /* 0: not cut, `polygon` itself */
+    double cut_clear_dbu;     /* no cut is nearer to another vertex; INFINITY: no cut */
     fw_polygon_report report; /* of the polygon, exact integers */
     double area_m2, bound_m2; /* of the contour; what flattening may change */
     double polygon_area_m2;   /* exact, of the polygon */

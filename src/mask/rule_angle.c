@@ -25,13 +25,19 @@ static void found(fw_rules *rules, const fw_mask_rule *rule, fw_vec2 at, double 
                                           .edge = {edge, -1}});
 }
 
+static fw_vec2 tangent(const fw_rule_edge *e, double t) {
+    return e->s.kind == FW_LINE ? e->along : fw_segment_tangent(&e->s, t);
+}
+
 static fw_status of_outline(fw_rules *rules, const fw_mask_rule *rule) {
     const fw_rule_search *in = &rules->search[rule->layer];
+    double blunt = -cos(rule->least - SAME_RAD) + 1e-12; /* most corners: no angle is computed */
     for (int i = 0; i < in->nedge; i++) {
         const fw_rule_edge *e = &in->edge[i];
         int next = e->corner_b ? fw_rule_start_at(in, e->s.b, -1) : -1;
         if (next < 0) continue;
-        fw_vec2 u = fw_segment_tangent(&e->s, 1), v = fw_segment_tangent(&in->edge[next].s, 0);
+        fw_vec2 u = tangent(e, 1), v = tangent(&in->edge[next], 0);
+        if (vec_dot(u, v) > blunt) continue;
         double angle = FW_PI - fabs(atan2(vec_cross(u, v), vec_dot(u, v)));
         if (angle < rule->least - SAME_RAD)
             found(rules, rule, e->s.b, angle, rules->shape[e->shape].piece->label, e->segment);

@@ -129,7 +129,8 @@ fw_status fw_rule_edges(fw_rule_search *in, int nshape, double tolerance_m) {
     size_t edges = 0, shapes = 0;
     for (int k = 0; k < nshape; k++)
         if (in->shape[k].layer == in->index) shapes++, edges += (size_t)in->shape[k].contour.count;
-    FW_NEED(in->edge = fw_arena_array(in->arena, fw_rule_edge, edges));
+    /* not zeroed: each is filled as a whole */
+    FW_NEED(in->edge = fw_arena_raw(in->arena, edges * sizeof *in->edge));
     FW_NEED(in->range = fw_arena_array(in->arena, fw_rule_range, shapes));
     for (int k = 0; k < nshape; k++)
         if (in->shape[k].layer == in->index) add_shape(in, k, tolerance_m);

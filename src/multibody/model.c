@@ -75,15 +75,22 @@ static void pin_blocks(const builder *b, fw_block *block, int *count) {
     }
 }
 
-static const fw_driver *driver_of(const fw_mechanism *m, int tie) {
-    for (int i = 0; i < m->ndriver; i++)
-        if (m->driver[i].tie == tie) return &m->driver[i];
-    return NULL;
+/* of (ntie): 1 + index of the driver of each tie, the first where there are more; 0: none */
+static fw_status drivers_of_ties(const builder *b, int **of) {
+    const fw_mechanism *m = b->mechanism;
+    FW_NEED(*of = fw_arena_array(b->arena, int, (size_t)m->ntie));
+    for (int i = m->ndriver - 1; i >= 0; i--) {
+        int tie = m->driver[i].tie;
+        if (tie >= 0 && tie < m->ntie) (*of)[tie] = i + 1;
+    }
+    return FW_OK;
 }
 
 /* a rod with a driver is one row whose length follows the law; a weld is a pin and a turn */
-static void tie_blocks(const builder *b, fw_block *block, int *count) {
+static fw_status tie_blocks(const builder *b, fw_block *block, int *count) {
     const fw_model *m = b->m;
+    int *driver_of;
+    FW_TRY(drivers_of_ties(b, &driver_of));
     for (int i = 0; i < b->mechanism->ntie; i++) {
         const fw_tie *t = &b->mechanism->tie[i];
         fw_block k = {.a = index_of(m, t->body_a),
@@ -93,12 +100,12 @@ static void tie_blocks(const builder *b, fw_block *block, int *count) {
                       .driver = FW_NONE};
         double turn = t->angle_rad - origin_turn(m, k.a, k.b);
         if (t->kind == FW_TIE_DISTANCE) {
-            const fw_driver *driver = driver_of(b->mechanism, i);
+            const fw_driver *driver = driver_of[i] ? &b->mechanism->driver[driver_of[i] - 1] : NULL;
             k.rows = FW_ROWS_ROD;
             k.value = driver ? 0 : t->length_m / m->scale.length_m;
             if (driver) {
                 k.law = &driver->law, k.unit = m->scale.length_m;
-                k.driver = (int)(driver - b->mechanism->driver);
+                k.driver = driver_of[i] - 1;
             }
         } else if (t->kind == FW_TIE_PRISMATIC) {
             k.rows = FW_ROWS_SLIDE;
@@ -112,6 +119,7 @@ static void tie_blocks(const builder *b, fw_block *block, int *count) {
         }
         block[(*count)++] = k;
     }
+    return FW_OK;
 }
 
 /* drivers of rods are in the rods' own blocks */
@@ -168,7 +176,7 @@ static fw_status set_blocks(builder *b) {
     FW_NEED(order = fw_arena_array(b->arena, int, most));
     FW_NEED(body = fw_arena_array(b->arena, int, 2 * most));
     pin_blocks(b, block, &count);
-    tie_blocks(b, block, &count);
+    FW_TRY(tie_blocks(b, block, &count));
     driver_blocks(b, block, &count);
     for (int i = 0; i < count; i++)
         body[2 * i] = block[i].a, body[2 * i + 1] = block[i].b;

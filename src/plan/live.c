@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What all live requests have in common: reading them, and answers that never leak. */
+#include "base/members.h"
 #include "plan/live_request.h"
 #include "report/preview.h"
 #include <math.h>
@@ -168,9 +169,10 @@ static fw_live_answer short_of_memory(void) {
 
 static fw_live_answer failure(fw_status status, const char *message, fw_text *out) {
     out->length = 0;
-    fw_text_add(out, "{\"error\":{\"message\":");
-    fw_report_preview_string(out, message ? message : fw_status_text(status));
-    fw_text_add(out, status == FW_USAGE ? ",\"code\":\"FW-D289\"}}\n" : ",\"code\":null}}\n");
+    fw_text_add(out, "{\"error\":{");
+    fw_put_text(out, "message", message ? message : fw_status_text(status));
+    fw_put_text(out, "code", status == FW_USAGE ? "FW-D289" : NULL);
+    fw_text_add(out, "}}\n");
     if (status == FW_NOMEM || fw_text_end(out) != FW_OK) return short_of_memory();
     return (fw_live_answer){status, out->data, out->length};
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Changes to the text of a description, asked for as JSON. */
+#include "base/members.h"
 #include "plan/live_request.h"
 #include "report/preview.h"
 #include <string.h>
@@ -78,8 +79,8 @@ static fw_status edit(fw_live *live, fw_live_request *r, fw_text *out) {
     fw_text_printf(out, "{\"schema\":\"flexwright.edit/1\",\"status\":\"%s\",\n",
                    status == FW_OK ? "ok" : "invalid");
     fw_report_preview_diagnostics(&diags, "device.xml", out);
-    fw_text_add(out, ",\n\"text\":");
-    fw_report_preview_string(out, status == FW_OK ? text.data : NULL);
+    fw_put_line(out);
+    fw_put_text(out, "text", status == FW_OK ? text.data : NULL);
     fw_text_add(out, "}\n");
     return fw_text_end(out);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Poses for dragging. The mechanism that was posed last stays until another text comes: laying it
    out takes longer than all the rest. */
+#include "base/members.h"
 #include "assembly/assembly.h"
 #include "base/hash.h"
 #include "plan/design_state.h"
@@ -144,12 +145,19 @@ static fw_status flow_of(fw_live_request *r, const fw_plan *plan, int *flow) {
 
 static void triple(fw_text *out, const char *key, const double at[3]) {
     static const char *const name[] = {"x_m", "y_m", "phi_rad"};
-    fw_text_printf(out, ",\n\"%s\":{", key);
-    for (int k = 0; k < 3; k++) {
-        fw_text_printf(out, "%s\"%s\":", k ? "," : "", name[k]);
-        fw_report_preview_number(out, at[k], 12);
-    }
+    fw_put_line(out);
+    fw_put_open(out, key, '{');
+    for (int k = 0; k < 3; k++)
+        fw_put_number(out, name[k], at[k], 12);
     fw_text_add(out, "}");
+}
+
+static void numbers(fw_text *out, const char *key, const double *value, int n) {
+    fw_put_line(out);
+    fw_put_open(out, key, '[');
+    for (int k = 0; k < n; k++)
+        fw_put_number(out, NULL, value[k], 15);
+    fw_text_add(out, "]");
 }
 
 static double limit_of(const fw_mechanism *m, int pin) {
@@ -162,61 +170,51 @@ static double limit_of(const fw_mechanism *m, int pin) {
 static void flow_json(fw_text *out, const fw_mechanism *m, const double *angle) {
     int governing = FW_NONE;
     double most = -1.0;
-    fw_text_add(out, "{\"name\":");
-    fw_report_preview_string(out, m->variant->flow);
-    fw_text_add(out, ",\"hinges\":[");
-    for (int i = 0, n = 0; i < m->npin; i++) {
+    fw_put_open(out, NULL, '{');
+    fw_put_text(out, "name", m->variant->flow);
+    fw_put_open(out, "hinges", '[');
+    for (int i = 0; i < m->npin; i++) {
         double limit = limit_of(m, i), used = fabs(angle[i]) / limit;
         if (isnan(limit)) continue;
         if (used > most) most = used, governing = i;
-        fw_text_add(out, n++ ? ",{\"id\":" : "{\"id\":");
-        fw_report_preview_string(out, m->pin[i].id);
-        fw_text_printf(out, ",\"pin\":%d,\"angle_rad\":", i);
-        fw_report_preview_number(out, angle[i], 12);
-        fw_text_add(out, ",\"limit_rad\":");
-        fw_report_preview_number(out, limit, 9);
-        fw_text_add(out, ",\"utilisation\":");
-        fw_report_preview_number(out, used, 9);
+        fw_put_open(out, NULL, '{');
+        fw_put_text(out, "id", m->pin[i].id);
+        fw_put_whole(out, "pin", i);
+        fw_put_number(out, "angle_rad", angle[i], 12);
+        fw_put_number(out, "limit_rad", limit, 9);
+        fw_put_number(out, "utilisation", used, 9);
         fw_text_add(out, "}");
     }
-    fw_text_add(out, "],\"governing\":");
-    fw_report_preview_string(out, governing == FW_NONE ? NULL : m->pin[governing].id);
-    fw_text_add(out, ",\"utilisation\":");
-    fw_report_preview_number(out, governing == FW_NONE ? (double)NAN : most, 9);
-    fw_text_printf(out, ",\"within_limits\":%s}",
-                   governing == FW_NONE ? "null"
-                   : most <= 1.0        ? "true"
-                                        : "false");
+    fw_text_add(out, "]");
+    fw_put_text(out, "governing", governing == FW_NONE ? NULL : m->pin[governing].id);
+    fw_put_number(out, "utilisation", governing == FW_NONE ? (double)NAN : most, 9);
+    if (governing == FW_NONE)
+        fw_put_null(out, "within_limits");
+    else
+        fw_put_truth(out, "within_limits", most <= 1.0);
+    fw_text_add(out, "}");
 }
 
 static void answer(fw_text *out, const fw_live_posed *posed, int flow, int body,
                    const double asked[3], const fw_posed *p) {
     const fw_plan *plan = fw_design_plan(posed->design);
     const fw_mechanism *m = posed->mechanism[flow];
-    fw_text_add(out, ",\n\"body\":");
-    fw_report_preview_string(out, m->body[body].id);
-    fw_text_printf(out, ",\"how\":\"%s\",\"reachable\":%s,\"reason\":",
-                   p->closed_form ? "closed form" : "assembly", p->reachable ? "true" : "false");
-    fw_report_preview_string(out, p->reason);
+    fw_put_line(out);
+    fw_put_text(out, "body", m->body[body].id);
+    fw_put_text(out, "how", p->closed_form ? "closed form" : "assembly");
+    fw_put_truth(out, "reachable", p->reachable);
+    fw_put_text(out, "reason", p->reason);
     triple(out, "asked", asked);
     triple(out, "at", p->at);
-    fw_text_add(out, ",\n\"share\":");
-    fw_report_preview_number(out, p->share, 12);
-    fw_text_add(out, ",\n\"q\":[");
-    for (int k = 0; k < 3 * m->nbody; k++) {
-        fw_text_add(out, k ? "," : "");
-        fw_report_preview_number(out, p->q[k], 15);
-    }
-    fw_text_add(out, "],\n\"angle_rad\":[");
-    for (int k = 0; k < m->npin; k++) {
-        fw_text_add(out, k ? "," : "");
-        fw_report_preview_number(out, p->angle_rad[k], 15);
-    }
-    fw_text_add(out, "],\n\"flow\":");
-    fw_report_preview_string(out, m->variant->flow);
-    fw_text_add(out, ",\"flows\":[");
+    fw_put_line(out);
+    fw_put_number(out, "share", p->share, 12);
+    numbers(out, "q", p->q, 3 * m->nbody);
+    numbers(out, "angle_rad", p->angle_rad, m->npin);
+    fw_put_line(out);
+    fw_put_text(out, "flow", m->variant->flow);
+    fw_put_open(out, "flows", '[');
     for (int i = 0; i < plan->nflow; i++) {
-        fw_text_add(out, i ? ",\n" : "\n");
+        fw_put_line(out);
         flow_json(out, posed->mechanism[i], p->angle_rad);
     }
     fw_text_add(out, "]");

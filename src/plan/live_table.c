@@ -1,19 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a form is generated from: everything comes from the tables that check the description, make
    --help and the reference pages. */
+#include "base/members.h"
 #include "dynamics/dynamics.h"
 #include "plan/live_request.h"
 #include "plan/stages.h"
 #include "report/preview.h"
 #include <math.h>
 
+static void begin(fw_text *out, const char *key) {
+    fw_put_line(out);
+    fw_put_open(out, key, '[');
+}
+
+static void item(fw_text *out, const char *name) {
+    fw_put_line(out);
+    fw_put_open(out, NULL, '{');
+    fw_put_text(out, "name", name);
+}
+
 static void names(fw_text *out, const char *key, fw_method_row (*at)(size_t)) {
-    fw_text_printf(out, ",\n\"%s\":[", key);
+    begin(out, key);
     for (size_t i = 0; at(i).name; i++) {
-        fw_text_add(out, i ? ",\n{\"name\":" : "\n{\"name\":");
-        fw_text_json(out, at(i).name);
-        fw_text_add(out, ",\"sentence\":");
-        fw_report_preview_string(out, at(i).summary);
+        item(out, at(i).name);
+        fw_put_text(out, "sentence", at(i).summary);
         fw_text_add(out, "}");
     }
     fw_text_add(out, "]");
@@ -22,15 +32,13 @@ static void names(fw_text *out, const char *key, fw_method_row (*at)(size_t)) {
 static void effects(fw_text *out) {
     size_t count;
     const fw_effect_row *const *row = fw_effect_rows(&count);
-    fw_text_add(out, ",\n\"effects\":[");
+    begin(out, "effects");
     for (size_t i = 0; i < count; i++) {
-        fw_text_add(out, i ? ",\n{\"name\":" : "\n{\"name\":");
-        fw_text_json(out, row[i]->id);
-        fw_text_add(out, ",\"sentence\":");
-        fw_report_preview_string(out, row[i]->summary);
-        fw_text_add(out, ",\"cost\":");
-        fw_report_preview_number(out, row[i]->cost, 6);
-        fw_text_printf(out, ",\"kept\":%s}", row[i]->kept ? "true" : "false");
+        item(out, row[i]->id);
+        fw_put_text(out, "sentence", row[i]->summary);
+        fw_put_number(out, "cost", row[i]->cost, 6);
+        fw_put_truth(out, "kept", row[i]->kept);
+        fw_text_add(out, "}");
     }
     fw_text_add(out, "]");
 }
@@ -43,14 +51,13 @@ static fw_method_row hinge_model(size_t i) {
 
 static void formats(fw_text *out) {
     const fw_mask_format *f;
-    fw_text_add(out, ",\n\"mask_formats\":[");
+    begin(out, "mask_formats");
     for (size_t i = 0; (f = fw_mask_format_at(i)) != NULL; i++) {
-        fw_text_add(out, i ? ",\n{\"name\":" : "\n{\"name\":");
-        fw_text_json(out, f->name);
-        fw_text_add(out, ",\"ending\":");
-        fw_text_json(out, f->ending);
-        fw_text_printf(out, ",\"always\":%s,\"usual\":%s}", f->always ? "true" : "false",
-                       f->usual ? "true" : "false");
+        item(out, f->name);
+        fw_put_text(out, "ending", f->ending);
+        fw_put_truth(out, "always", f->always);
+        fw_put_truth(out, "usual", f->usual);
+        fw_text_add(out, "}");
     }
     fw_text_add(out, "]");
 }
@@ -58,21 +65,17 @@ static void formats(fw_text *out) {
 static void units(fw_text *out) {
     size_t count;
     const char *const *name = fw_unit_names(&count);
-    fw_text_add(out, ",\n\"units\":[");
-    for (size_t i = 0; i < count; i++) {
-        fw_text_add(out, i ? "," : "");
-        fw_text_json(out, name[i]);
-    }
+    begin(out, "units");
+    for (size_t i = 0; i < count; i++)
+        fw_put_text(out, NULL, name[i]);
     fw_text_add(out, "]");
 }
 
 static void limit(fw_text *out, const char *name, double least, double most, double usual) {
-    fw_text_printf(out, "\"%s\":{\"minimum\":", name);
-    fw_report_preview_number(out, least, 6);
-    fw_text_add(out, ",\"maximum\":");
-    fw_report_preview_number(out, most, 6);
-    fw_text_add(out, ",\"default\":");
-    fw_report_preview_number(out, usual, 6);
+    fw_put_open(out, name, '{');
+    fw_put_number(out, "minimum", least, 6);
+    fw_put_number(out, "maximum", most, 6);
+    fw_put_number(out, "default", usual, 6);
     fw_text_add(out, "}");
 }
 
@@ -88,11 +91,10 @@ fw_status fw_plan_table_json(fw_text *out) {
     formats(out);
     units(out);
     const fw_motion_options usual = fw_plan_options_default().verdict.motion;
-    fw_text_add(out, ",\n\"limits\":{");
+    fw_put_line(out);
+    fw_put_open(out, "limits", '{');
     limit(out, "accuracy", FW_ACCURACY_LEAST, FW_ACCURACY_MOST, usual.accuracy);
-    fw_text_add(out, ",");
     limit(out, "rtol", FW_RTOL_LEAST, FW_RTOL_MOST, (double)NAN);
-    fw_text_add(out, ",");
     limit(out, "samples", 2, FW_LIVE_SAMPLES_MOST, FW_LIVE_SAMPLES);
     fw_text_add(out, "}}\n");
     return fw_text_end(out);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Planned against actual: durations against their windows, waiting times against their limits,
    measured values against what is accepted. */
+#include "base/members.h"
 #include "recipe/asrun.h"
 #include "recipe/words.h"
 #include <math.h>
@@ -167,15 +168,13 @@ fw_status fw_asrun_write_text(const fw_flow *flow, const fw_asrun *run, fw_text 
 }
 
 /* ---- JSON ---- */
-static void put_number(fw_text *out, const char *name, double value) {
-    fw_text_printf(out, ",\"%s\":", name);
-    fw_put_or_null(out, value);
+static void put_number(fw_text *out, const char *key, double value) {
+    fw_put_number(out, key, value, FW_PLAIN_DIGITS);
 }
 
-static void put_text(fw_text *out, const char *name, const char *value) {
-    if (!value) return;
-    fw_text_printf(out, ",\"%s\":", name);
-    fw_put_json(out, value);
+/* what nobody wrote down is left out */
+static void put_text(fw_text *out, const char *key, const char *value) {
+    if (value) fw_put_text(out, key, value);
 }
 
 static void entry_json(const fw_flow *flow, const fw_asrun *run, const fw_asrun_entry *e,
@@ -189,60 +188,67 @@ static void entry_json(const fw_flow *flow, const fw_asrun *run, const fw_asrun_
     put_text(out, "tool", e->tool);
     put_text(out, "bath", e->bath);
     put_text(out, "note", e->note);
-    fw_text_add(out, ",\"measured\":[");
+    fw_put_open(out, "measured", '[');
     for (int i = 0; i < e->nmeasured; i++) {
         const fw_measured *m = &e->measured[i];
-        fw_text_add(out, i ? ",{\"measure\":" : "{\"measure\":");
-        fw_put_json(out, m->measure);
+        fw_put_open(out, NULL, '{');
+        fw_put_words(out, "measure", m->measure);
         if (isnan(m->number))
             put_text(out, "value", m->value);
         else
             put_number(out, "value", m->number);
         const fw_accept *a = accept_of(e->step, m->measure);
         put_text(out, "unit", a->unit);
-        fw_text_printf(out, ",\"accepted\":%s}", accepted(a, m) ? "true" : "false");
+        fw_put_truth(out, "accepted", accepted(a, m));
+        fw_text_add(out, "}");
     }
-    fw_text_add(out, "],\"waited\":[");
+    fw_text_add(out, "]");
+    fw_put_open(out, "waited", '[');
     for (int i = 0; i < e->step->nlag; i++) {
         const fw_lag *l = &e->step->lag[i];
         double wait = waited(flow, run, l, e);
-        fw_text_add(out, i ? ",{\"from\":" : "{\"from\":");
-        fw_put_json(out, l->from);
+        fw_put_open(out, NULL, '{');
+        fw_put_words(out, "from", l->from);
         put_number(out, "waited_s", wait);
         put_number(out, "min_s", l->min_s);
         put_number(out, "max_s", l->max_s);
-        fw_text_printf(out, ",\"accepted\":%s}",
-                       isnan(wait)             ? "null"
-                       : wait_is_fine(l, wait) ? "true"
-                                               : "false");
+        if (isnan(wait))
+            fw_put_null(out, "accepted");
+        else
+            fw_put_truth(out, "accepted", wait_is_fine(l, wait));
+        fw_text_add(out, "}");
     }
     fw_text_add(out, "]");
 }
 
 fw_status fw_asrun_write_json(const fw_flow *flow, const fw_asrun *run, fw_text *out) {
-    fw_text_add(out, "{\"schema\":\"flexwright.as-run/1\"");
+    fw_put_open(out, NULL, '{');
+    put_text(out, "schema", "flexwright.as-run/1");
     put_text(out, "flow", flow->id);
     put_text(out, "lot", run->lot);
     put_text(out, "plan_sha256", run->plan);
     put_text(out, "chain", run->chain);
-    fw_text_add(out, ",\"steps\":[");
+    fw_put_open(out, "steps", '[');
     for (int i = 0; i < flow->nstep; i++) {
         const fw_step *s = &flow->step[i];
         const fw_time *p = &s->time;
         int times;
         const fw_asrun_entry *e = last_of(run, s, &times);
-        fw_text_add(out, i ? ",\n{\"id\":" : "\n{\"id\":");
-        fw_put_json(out, s->id);
+        fw_put_line(out);
+        fw_put_open(out, NULL, '{');
+        fw_put_words(out, "id", s->id);
         put_number(out, "planned_s", p->computable ? p->nominal_s : (double)NAN);
         put_number(out, "first_look_s", p->computable ? p->first_look_s : (double)NAN);
         put_number(out, "stop_s", p->computable ? p->stop_s : (double)NAN);
-        fw_text_printf(out, ",\"times\":%d", times);
+        fw_put_whole(out, "times", times);
         if (e) entry_json(flow, run, e, out);
         fw_text_add(out, "}");
     }
     total t = sum_up(flow, run);
-    fw_text_printf(out, "],\"logged\":%d,\"repeated\":%d,\"outside\":%d", t.logged, t.repeated,
-                   t.out);
+    fw_text_add(out, "]");
+    fw_put_whole(out, "logged", t.logged);
+    fw_put_whole(out, "repeated", t.repeated);
+    fw_put_whole(out, "outside", t.out);
     put_number(out, "planned_s", t.planned_s);
     put_number(out, "actual_s", t.actual_s);
     fw_text_add(out, "}\n");

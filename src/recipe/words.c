@@ -44,7 +44,7 @@ double fw_row_uncertainty(const fw_quantity *q) {
 }
 
 void fw_put_plain(fw_text *out, double value) {
-    fw_text_number(out, value, 12);
+    fw_text_number(out, value, FW_PLAIN_DIGITS);
 }
 
 void fw_put_uncertainty(fw_text *out, double value) {

@@ -236,7 +236,10 @@ fw_status fw_report_assemble_text(const fw_report_assembly *in, fw_text *out) {
     double size = extent(in);
     fw_text_printf(out, "%s: ", in->device->name);
     if (a->iterations == 0)
-        fw_text_add(out, "the description's own poses close all joints; nothing was moved\n");
+        fw_text_add(out, in->device->rounded
+                             ? "the description's poses close all joints, after what rounding left "
+                               "open was closed as it was read (FW-D132, shown with -v)\n"
+                             : "the description's own poses close all joints; nothing was moved\n");
     else {
         fw_text_printf(out, "assembled in %d iterations", a->iterations);
         if (a->restarts) fw_text_printf(out, " and %d restarts", a->restarts);

@@ -35,12 +35,8 @@ typedef struct fw_report_preview {
 /* schema flexwright.preview/1 */
 fw_status fw_report_preview_json(fw_arena *arena, const fw_report_preview *in, fw_text *out);
 
-/* parts of it that other documents have too, each with its key, without a comma in front */
+/* parts of it that other documents have too, each with its key */
 fw_status fw_report_preview_shapes(fw_arena *arena, const fw_report_preview *in, fw_text *out);
 /* "diagnostics": each once */
 void fw_report_preview_diagnostics(const fw_diags *diags, const char *file, fw_text *out);
-/* a JSON string of text that may not be UTF-8 (cut by a message's limit); NULL: null */
-void fw_report_preview_string(fw_text *out, const char *text);
-/* a JSON number of so many digits; null where it is not finite */
-void fw_report_preview_number(fw_text *out, double value, int digits);
 #endif

@@ -1,76 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/members.h"
 #include "report/json_effects.h"
-#include "report/preview.h"
+#include "report/preview_parts.h"
 #include <math.h>
 #include <string.h>
 
-/* ---- small parts ---- */
-
-void fw_report_preview_number(fw_text *out, double value, int digits) {
-    if (value == 0.0) value = 0.0; /* no minus zero */
-    if (isfinite(value))
-        fw_text_number(out, value, digits);
-    else
-        fw_text_add(out, "null");
-}
-
-/* length of the UTF-8 character at s, 0: it is none (RFC 3629) */
-static size_t character(const unsigned char *s) {
-    if (s[0] < 0x80) return 1;
-    size_t n = s[0] >= 0xf0 ? 4 : s[0] >= 0xe0 ? 3 : 2;
-    unsigned least = n == 2 ? 0x80 : n == 3 ? 0x800 : 0x10000;
-    unsigned code = s[0] & (0x7fU >> n);
-    if (s[0] < 0xc2 || s[0] > 0xf4) return 0;
-    for (size_t i = 1; i < n; i++) {
-        if ((s[i] & 0xc0) != 0x80) return 0;
-        code = code << 6 | (s[i] & 0x3fU);
-    }
-    return code >= least && code <= 0x10ffff && (code < 0xd800 || code > 0xdfff) ? n : 0;
-}
-
-void fw_report_preview_string(fw_text *out, const char *text) {
-    if (!text) {
-        fw_text_add(out, "null");
-        return;
-    }
-    size_t n = strlen(text), at = 0;
-    while (at < n && character((const unsigned char *)text + at))
-        at += character((const unsigned char *)text + at);
-    if (at == n) {
-        fw_text_json(out, text);
-        return;
-    }
-    char *whole = fw_arena_strdup(out->arena, text); /* what is cut in two becomes '?' */
-    if (!whole) {
-        out->failed = 1;
-        return;
-    }
-    for (at = 0; at < n;) {
-        size_t step = character((const unsigned char *)whole + at);
-        if (!step) whole[at] = '?';
-        at += step ? step : 1;
-    }
-    fw_text_json(out, whole);
-}
-
-static void key(fw_text *out, const char *name) {
-    fw_text_printf(out, ",\"%s\":", name);
-}
-
-static void text(fw_text *out, const char *name, const char *value) {
-    key(out, name);
-    fw_report_preview_string(out, value);
-}
-
-static void number(fw_text *out, const char *name, double value) {
-    key(out, name);
-    fw_report_preview_number(out, value, 6);
-}
-
-static void truth(fw_text *out, const char *name, bool value) {
-    key(out, name);
-    fw_text_add(out, value ? "true" : "false");
-}
+enum { DIGITS = 6 }; /* of what is looked at */
 
 /* ---- diagnostics ---- */
 
@@ -91,38 +26,35 @@ static bool said(const fw_diags *diags, size_t i) {
     return false;
 }
 
+static void position(fw_text *out, const char *key, int value, bool known) {
+    if (known && value > 0)
+        fw_put_whole(out, key, value);
+    else
+        fw_put_null(out, key);
+}
+
 void fw_report_preview_diagnostics(const fw_diags *diags, const char *file, fw_text *out) {
     static const char *const word[] = {
         [FW_NOTE] = "note", [FW_WARNING] = "warning", [FW_ERROR] = "error"};
-    int n = 0;
-    fw_text_add(out, "\"diagnostics\":[");
+    fw_put_open(out, "diagnostics", '[');
     for (size_t i = 0; diags && i < diags->count; i++) {
         const fw_diag *d = &diags->item[i];
         if (said(diags, i)) continue;
         const fw_diag_entry *entry = fw_diag_find(d->number);
-        bool here = same(d->place.file, file);
-        fw_text_printf(out, "%s\n{\"severity\":\"%s\",\"code\":\"FW-D%03d\"", n++ ? "," : "",
-                       word[d->severity], d->number);
-        text(out, "title", entry ? entry->title : NULL);
-        text(out, "message", d->message);
-        text(out, "file", d->place.file ? fw_place_file(d->place) : NULL);
-        truth(out, "in_text", here);
-        key(out, "line");
-        if (d->place.line > 0)
-            fw_text_printf(out, "%d", d->place.line);
-        else
-            fw_text_add(out, "null");
-        key(out, "column");
-        if (d->place.line > 0 && d->place.column > 0)
-            fw_text_printf(out, "%d", d->place.column);
-        else
-            fw_text_add(out, "null");
-        text(out, "explain", entry ? entry->text : NULL);
+        fw_put_line(out);
+        fw_text_printf(out, "{\"severity\":\"%s\",\"code\":\"FW-D%03d\"", word[d->severity],
+                       d->number);
+        fw_put_text(out, "title", entry ? entry->title : NULL);
+        fw_put_text(out, "message", d->message);
+        fw_put_text(out, "file", d->place.file ? fw_place_file(d->place) : NULL);
+        fw_put_truth(out, "in_text", same(d->place.file, file));
+        position(out, "line", d->place.line, true);
+        position(out, "column", d->place.column, d->place.line > 0);
+        fw_put_text(out, "explain", entry ? entry->text : NULL);
         fw_text_add(out, "}");
     }
     fw_text_add(out, "]");
-    key(out, "diagnostics_dropped");
-    fw_text_printf(out, "%zu", diags ? diags->dropped : 0);
+    fw_put_whole(out, "diagnostics_dropped", diags ? (long)diags->dropped : 0);
 }
 
 /* ---- parameters ---- */
@@ -143,7 +75,7 @@ static const char *written(fw_arena *arena, const fw_device *d, fw_place place) 
 
 /* value, least and most in the unit that the file writes it in */
 static fw_status parameters(fw_arena *arena, const fw_device *d, fw_text *out) {
-    fw_text_add(out, "\"parameters\":[");
+    fw_put_open(out, "parameters", '[');
     for (int i = 0; d && i < d->nparameter; i++) {
         const fw_parameter *p = &d->parameter[i];
         fw_unit unit = {.factor = 1.0};
@@ -151,25 +83,23 @@ static fw_status parameters(fw_arena *arena, const fw_device *d, fw_text *out) {
         const char *raw = written(arena, d, p->place), *const *names = NULL;
         size_t uses = 0;
         if (raw) FW_TRY(fw_expression_names(arena, raw, strlen(raw), &names, &uses));
-        fw_text_add(out, i ? ",\n{\"name\":" : "\n{\"name\":");
-        fw_report_preview_string(out, p->name);
-        key(out, "value");
-        fw_report_preview_number(out, fw_unit_from_si(&unit, p->value), 12);
-        text(out, "unit", p->unit);
-        key(out, "value_SI");
-        fw_report_preview_number(out, p->value, 17);
-        key(out, "minimum");
-        fw_report_preview_number(out, fw_unit_from_si(&unit, p->min), 12);
-        key(out, "maximum");
-        fw_report_preview_number(out, fw_unit_from_si(&unit, p->max), 12);
-        text(out, "doc", p->doc);
-        text(out, "written", raw);
-        truth(out, "derived", uses > 0);
-        truth(out, "overridden", p->overridden);
-        fw_text_printf(out, ",\"line\":%d,\"column\":%d", p->place.line, p->place.column);
+        fw_put_line(out);
+        fw_put_open(out, NULL, '{');
+        fw_put_text(out, "name", p->name);
+        fw_put_number(out, "value", fw_unit_from_si(&unit, p->value), 12);
+        fw_put_text(out, "unit", p->unit);
+        fw_put_number(out, "value_SI", p->value, 17);
+        fw_put_number(out, "minimum", fw_unit_from_si(&unit, p->min), 12);
+        fw_put_number(out, "maximum", fw_unit_from_si(&unit, p->max), 12);
+        fw_put_text(out, "doc", p->doc);
+        fw_put_text(out, "written", raw);
+        fw_put_truth(out, "derived", uses > 0);
+        fw_put_truth(out, "overridden", p->overridden);
+        fw_put_whole(out, "line", p->place.line);
+        fw_put_whole(out, "column", p->place.column);
         const char *path = fw_arena_printf(arena, "parameter[%s]/@value", p->name);
         FW_NEED(path);
-        text(out, "path", path);
+        fw_put_text(out, "path", path);
         fw_text_add(out, "}");
     }
     fw_text_add(out, "]");
@@ -177,31 +107,31 @@ static fw_status parameters(fw_arena *arena, const fw_device *d, fw_text *out) {
 }
 
 static void scenes_and_flows(const fw_report_preview *in, fw_text *out) {
-    fw_text_add(out, "\"scenes\":[");
+    fw_put_open(out, "scenes", '[');
     for (int i = 0; in->device && i < in->device->nscene; i++) {
         const fw_scene *s = &in->device->scene[i];
-        fw_text_add(out, i ? ",{\"name\":" : "{\"name\":");
-        fw_report_preview_string(out, s->name);
-        text(out, "flow", s->flow);
-        number(out, "duration_s", s->duration_s);
+        fw_put_open(out, NULL, '{');
+        fw_put_text(out, "name", s->name);
+        fw_put_text(out, "flow", s->flow);
+        fw_put_number(out, "duration_s", s->duration_s, DIGITS);
         fw_text_add(out, "}");
     }
-    fw_text_add(out, "],\n\"flows\":[");
+    fw_text_add(out, "]");
+    fw_put_line(out);
+    fw_put_open(out, "flows", '[');
     for (int i = 0; i < in->nflow; i++) {
         const fw_report_flow *f = &in->flow[i];
-        const char *id = f->variant && f->variant->variant ? f->variant->variant->flow : NULL;
-        fw_text_add(out, i ? ",{\"name\":" : "{\"name\":");
-        fw_report_preview_string(out, id);
-        text(out, "material",
-             f->variant && f->variant->variant ? f->variant->variant->material.name : NULL);
-        key(out, "manufacturable");
-        bool known = f->flow && f->flow->manufacturable >= 0;
-        fw_text_add(out, !known ? "null" : f->flow->manufacturable ? "true" : "false");
-        fw_text_add(out, ",\"reasons\":[");
-        for (int k = 0; f->flow && k < f->flow->nreason; k++) {
-            fw_text_add(out, k ? "," : "");
-            fw_report_preview_string(out, f->flow->reason[k]);
-        }
+        const fw_variant *v = f->variant ? f->variant->variant : NULL;
+        fw_put_open(out, NULL, '{');
+        fw_put_text(out, "name", v ? v->flow : NULL);
+        fw_put_text(out, "material", v ? v->material.name : NULL);
+        if (f->flow && f->flow->manufacturable >= 0)
+            fw_put_truth(out, "manufacturable", f->flow->manufacturable);
+        else
+            fw_put_null(out, "manufacturable");
+        fw_put_open(out, "reasons", '[');
+        for (int k = 0; f->flow && k < f->flow->nreason; k++)
+            fw_put_text(out, NULL, f->flow->reason[k]);
         fw_text_add(out, "]}");
     }
     fw_text_add(out, "]");
@@ -220,48 +150,37 @@ static int decimals(const fw_mechanism *m) {
     return (int)fmax(4.0, fmin(16.0, 8.0 - floor(log10(size))));
 }
 
-static void fixed(fw_text *out, double value, int places) {
-    if (isfinite(value))
-        fw_text_fixed(out, value, places);
-    else
-        fw_text_add(out, "null");
+static void column(fw_text *out, const char *name, const double *value, int stride, int count) {
+    fw_put_open(out, name, '[');
+    for (int i = 0; i < count; i++)
+        fw_put_number(out, NULL, value[(size_t)i * (size_t)stride], 7);
+    fw_text_add(out, "]");
 }
 
 /* rows of the states: [x, y, phi, x, y, phi ...] and [angle ...] */
 static void states(const fw_mechanism *m, const fw_motion *x, fw_text *out) {
     int places = decimals(m), n = 3 * x->nbody;
     fw_text_reserve(out, (size_t)x->nsample * (size_t)(16 * n + 14 * x->npin + 16));
-    fw_text_add(out, "\"t_s\":[");
+    column(out, "t_s", x->t_s, 1, x->nsample);
+    fw_put_line(out);
+    fw_put_open(out, "q", '[');
     for (int i = 0; i < x->nsample; i++) {
-        fw_text_add(out, i ? "," : "");
-        fw_report_preview_number(out, x->t_s[i], 7);
-    }
-    fw_text_add(out, "],\n\"q\":[");
-    for (int i = 0; i < x->nsample; i++) {
-        fw_text_add(out, i ? ",\n[" : "\n[");
-        for (int k = 0; k < n; k++) {
-            if (k) fw_text_add(out, ",");
-            fixed(out, x->q[(size_t)i * (size_t)n + (size_t)k], k % 3 == 2 ? 8 : places);
-        }
-        fw_text_add(out, "]");
-    }
-    fw_text_add(out, "],\n\"angle_rad\":[");
-    for (int i = 0; i < x->nsample; i++) {
-        fw_text_add(out, i ? ",\n[" : "\n[");
-        for (int k = 0; k < x->npin; k++) {
-            if (k) fw_text_add(out, ",");
-            fixed(out, x->angle_rad[(size_t)i * (size_t)x->npin + (size_t)k], 8);
-        }
+        fw_put_line(out);
+        fw_put_open(out, NULL, '[');
+        for (int k = 0; k < n; k++)
+            fw_put_fixed(out, NULL, x->q[(size_t)i * (size_t)n + (size_t)k],
+                         k % 3 == 2 ? 8 : places);
         fw_text_add(out, "]");
     }
     fw_text_add(out, "]");
-}
-
-static void column(fw_text *out, const char *name, const double *value, int stride, int count) {
-    fw_text_printf(out, "\"%s\":[", name);
-    for (int i = 0; i < count; i++) {
-        fw_text_add(out, i ? "," : "");
-        fw_report_preview_number(out, value[(size_t)i * (size_t)stride], 7);
+    fw_put_line(out);
+    fw_put_open(out, "angle_rad", '[');
+    for (int i = 0; i < x->nsample; i++) {
+        fw_put_line(out);
+        fw_put_open(out, NULL, '[');
+        for (int k = 0; k < x->npin; k++)
+            fw_put_fixed(out, NULL, x->angle_rad[(size_t)i * (size_t)x->npin + (size_t)k], 8);
+        fw_text_add(out, "]");
     }
     fw_text_add(out, "]");
 }
@@ -269,28 +188,28 @@ static void column(fw_text *out, const char *name, const double *value, int stri
 /* null of a row of equilibria, and where nobody asked */
 static void energies(const fw_motion *x, fw_text *out) {
     static const char *const name[] = {"kinetic_J", "potential_J", "dissipated_J", "work_J"};
-    fw_text_add(out, "\"energy\":");
-    fw_text_add(out, x->energy_J ? "{" : "null");
-    for (int k = 0; x->energy_J && k < 4; k++) {
-        fw_text_add(out, k ? "," : "");
-        column(out, name[k], x->energy_J + k, 4, x->nsample);
-    }
-    fw_text_add(out, x->energy_J ? "},\n" : ",");
+    if (x->energy_J) {
+        fw_put_open(out, "energy", '{');
+        for (int k = 0; k < 4; k++)
+            column(out, name[k], x->energy_J + k, 4, x->nsample);
+        fw_text_add(out, "}");
+        fw_put_line(out);
+    } else
+        fw_put_null(out, "energy");
     if (x->constraint_norm)
         column(out, "constraint_norm", x->constraint_norm, 1, x->nsample);
     else
-        fw_text_add(out, "\"constraint_norm\":null");
+        fw_put_null(out, "constraint_norm");
 }
 
 static void peaks(const fw_mechanism *m, const fw_motion *x, fw_text *out) {
-    fw_text_add(out, "\"peaks\":[");
+    fw_put_open(out, "peaks", '[');
     for (int i = 0; i < x->npin; i++) {
-        fw_text_add(out, i ? ",{\"pin\":" : "{\"pin\":");
-        fw_report_preview_string(out, m->pin[i].id);
-        key(out, "angle_rad");
-        fw_report_preview_number(out, x->peak[i].angle_rad, 17);
-        number(out, "t_s", x->peak[i].t_s);
-        number(out, "error_rad", x->peak[i].error_rad);
+        fw_put_open(out, NULL, '{');
+        fw_put_text(out, "pin", m->pin[i].id);
+        fw_put_number(out, "angle_rad", x->peak[i].angle_rad, 17);
+        fw_put_number(out, "t_s", x->peak[i].t_s, DIGITS);
+        fw_put_number(out, "error_rad", x->peak[i].error_rad, DIGITS);
         fw_text_add(out, "}");
     }
     fw_text_add(out, "]");
@@ -298,110 +217,121 @@ static void peaks(const fw_mechanism *m, const fw_motion *x, fw_text *out) {
 
 static void stats(const fw_motion *x, fw_text *out) {
     const fw_motion_stats *s = &x->stats;
+    fw_put_key(out, "stats");
     fw_text_printf(out,
-                   "\"stats\":{\"steps\":%ld,\"rejected\":%ld,\"rhs\":%ld,\"projections\":%ld,"
+                   "{\"steps\":%ld,\"rejected\":%ld,\"rhs\":%ld,\"projections\":%ld,"
                    "\"events\":%ld,\"jacobians\":%ld,\"factorisations\":%ld",
                    s->steps, s->rejected, s->rhs, s->projections, s->events, s->jacobians,
                    s->factorisations);
-    number(out, "cpu_s", s->cpu_s);
-    number(out, "estimate_cpu_s", s->estimate_cpu_s);
-    number(out, "energy_error", s->energy_error);
-    number(out, "largest_energy_J", s->largest_energy_J);
-    number(out, "max_constraint_norm", s->max_constraint_norm);
-    number(out, "max_velocity_norm", s->max_velocity_norm);
+    fw_put_number(out, "cpu_s", s->cpu_s, DIGITS);
+    fw_put_number(out, "estimate_cpu_s", s->estimate_cpu_s, DIGITS);
+    fw_put_number(out, "energy_error", s->energy_error, DIGITS);
+    fw_put_number(out, "largest_energy_J", s->largest_energy_J, DIGITS);
+    fw_put_number(out, "max_constraint_norm", s->max_constraint_norm, DIGITS);
+    fw_put_number(out, "max_velocity_norm", s->max_velocity_norm, DIGITS);
     fw_text_add(out, "}");
 }
 
 static void ledger(const fw_motion *x, fw_text *out) {
-    fw_text_add(out, "\"ledger\":[");
+    fw_put_open(out, "ledger", '[');
     for (int i = 0; i < x->ledger.count; i++) {
         const fw_effect_entry *e = &x->ledger.item[i];
-        fw_text_add(out, i ? ",\n{\"id\":" : "\n{\"id\":");
-        fw_report_preview_string(out, e->id);
-        truth(out, "called_for", e->called_for);
-        truth(out, "active", e->active);
-        number(out, "bound", e->bound);
-        number(out, "cost", e->cost);
-        text(out, "reason", e->reason);
+        fw_put_line(out);
+        fw_put_open(out, NULL, '{');
+        fw_put_text(out, "id", e->id);
+        fw_put_truth(out, "called_for", e->called_for);
+        fw_put_truth(out, "active", e->active);
+        fw_put_number(out, "bound", e->bound, DIGITS);
+        fw_put_number(out, "cost", e->cost, DIGITS);
+        fw_put_text(out, "reason", e->reason);
         fw_text_add(out, "}");
     }
     fw_text_add(out, "]");
-    number(out, "ledger_left_out", x->ledger.left_out);
-    text(out, "hinge_model", fw_hinge_model_text(x->ledger.hinge.used));
-    text(out, "hinge_model_why", x->ledger.hinge.why);
+    fw_put_number(out, "ledger_left_out", x->ledger.left_out, DIGITS);
+    fw_put_text(out, "hinge_model", fw_hinge_model_text(x->ledger.hinge.used));
+    fw_put_text(out, "hinge_model_why", x->ledger.hinge.why);
 }
 
-static void motion(const fw_report_preview *in, fw_text *out) {
+static fw_status motion(fw_arena *arena, const fw_report_preview *in, fw_text *out) {
     const fw_motion *x = in->motion;
-    fw_text_add(out, "\"motion\":");
+    fw_put_key(out, "motion");
     if (!x || !in->mechanism || x->nsample < 1) {
         fw_text_add(out, "null,\n\"ledger\":[],\"ledger_left_out\":null,\"hinge_model\":null,"
                          "\"hinge_model_why\":null");
-        return;
+        return FW_OK;
     }
-    fw_text_add(out, "{\"scene\":");
-    fw_report_preview_string(out, in->scene ? in->scene->name : NULL);
-    text(out, "flow", in->mechanism->variant ? in->mechanism->variant->flow : NULL);
-    text(out, "method", x->method);
-    text(out, "integrator", x->integrator);
-    text(out, "reason", x->reason);
-    text(out, "stabilise", x->stabilise);
-    text(out, "method_report", x->method_report);
-    number(out, "rtol", x->stats.rtol);
-    truth(out, "ended", x->ended);
-    number(out, "end_s", x->end_s);
-    fw_text_add(out, ",\n");
+    fw_put_open(out, NULL, '{');
+    fw_put_text(out, "scene", in->scene ? in->scene->name : NULL);
+    fw_put_text(out, "flow", in->mechanism->variant ? in->mechanism->variant->flow : NULL);
+    fw_put_text(out, "method", x->method);
+    fw_put_text(out, "integrator", x->integrator);
+    fw_put_text(out, "reason", x->reason);
+    fw_put_text(out, "stabilise", x->stabilise);
+    fw_put_text(out, "method_report", x->method_report);
+    fw_put_number(out, "rtol", x->stats.rtol, DIGITS);
+    fw_put_truth(out, "ended", x->ended);
+    fw_put_number(out, "end_s", x->end_s, DIGITS);
+    fw_put_line(out);
     stats(x, out);
-    fw_text_add(out, ",\n");
+    fw_put_line(out);
     peaks(in->mechanism, x, out);
-    fw_text_add(out, ",\n");
+    fw_put_line(out);
     energies(x, out);
-    fw_text_add(out, ",\n");
+    fw_put_line(out);
+    fw_preview_factors(in->scene, x, out);
+    fw_put_line(out);
+    FW_TRY(fw_preview_tensions(arena, in->mechanism, in->scene, x, out));
+    fw_put_line(out);
     states(in->mechanism, x, out);
-    fw_text_add(out, "},\n");
+    fw_text_add(out, "}");
+    fw_put_line(out);
     ledger(x, out);
+    return FW_OK;
 }
 
 /* ---- the document ---- */
 
 static void left_out(const fw_report_preview *in, fw_text *out) {
-    fw_text_add(out, "\"left_out\":[");
+    fw_put_open(out, "left_out", '[');
     for (int i = 0; i < in->nleft_out; i++) {
-        fw_text_add(out, i ? ",{\"what\":" : "{\"what\":");
-        fw_report_preview_string(out, in->left_out[i].what);
-        text(out, "sentence", in->left_out[i].sentence);
-        truth(out, "could_reject", in->left_out[i].could_reject);
+        fw_put_open(out, NULL, '{');
+        fw_put_text(out, "what", in->left_out[i].what);
+        fw_put_text(out, "sentence", in->left_out[i].sentence);
+        fw_put_truth(out, "could_reject", in->left_out[i].could_reject);
         fw_text_add(out, "}");
     }
     fw_text_add(out, "]");
 }
 
 fw_status fw_report_preview_json(fw_arena *arena, const fw_report_preview *in, fw_text *out) {
-    fw_text_add(out, "{\"schema\":\"flexwright.preview/1\"");
-    text(out, "status", in->status);
-    fw_text_printf(out, ",\"exit_status\":%d", in->exit_status);
-    text(out, "decision", in->verdict ? fw_decision_text(in->verdict->decision) : NULL);
-    truth(out, "provisional", in->provisional);
-    fw_text_add(out, ",\n");
+    fw_put_open(out, NULL, '{');
+    fw_put_text(out, "schema", "flexwright.preview/1");
+    fw_put_text(out, "status", in->status);
+    fw_put_whole(out, "exit_status", in->exit_status);
+    fw_put_text(out, "decision", in->verdict ? fw_decision_text(in->verdict->decision) : NULL);
+    fw_put_truth(out, "provisional", in->provisional);
+    fw_put_line(out);
     left_out(in, out);
-    fw_text_add(out, ",\n");
+    fw_put_line(out);
     fw_report_preview_diagnostics(in->diags, in->file, out);
-    text(out, "name", in->device ? in->device->name : NULL);
-    truth(out, "six_bar", in->device && in->device->six_bar);
-    fw_text_add(out, ",\n");
+    fw_put_text(out, "name", in->device ? in->device->name : NULL);
+    fw_put_truth(out, "six_bar", in->device && in->device->six_bar);
+    fw_put_line(out);
     FW_TRY(parameters(arena, in->device, out));
-    fw_text_add(out, ",\n");
+    fw_put_line(out);
     scenes_and_flows(in, out);
-    fw_text_add(out, ",\n");
+    fw_put_line(out);
     FW_TRY(fw_report_preview_shapes(arena, in, out));
-    fw_text_add(out, ",\n");
-    motion(in, out);
-    fw_text_add(out, ",\n\"verdict\":");
+    fw_put_line(out);
+    FW_TRY(motion(arena, in, out));
+    fw_put_line(out);
+    fw_put_key(out, "verdict");
     fw_text_add(out, in->verdict_json ? in->verdict_json : "null");
-    fw_text_add(out, ",\n\"cost\":{\"read_s\":");
-    fw_report_preview_number(out, in->read_s, 4);
-    number(out, "judge_s", in->judge_s);
-    number(out, "simulate_s", in->simulate_s);
+    fw_text_add(out, ",\n"); /* a document of its own ends in a line break */
+    fw_put_open(out, "cost", '{');
+    fw_put_number(out, "read_s", in->read_s, 4);
+    fw_put_number(out, "judge_s", in->judge_s, DIGITS);
+    fw_put_number(out, "simulate_s", in->simulate_s, DIGITS);
     fw_text_add(out, "}}\n");
     return fw_text_end(out);
 }

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Shapes of a mechanism in um with y up: bodies in their own axes (origin in the centre of mass,
    turned back by the drawn angle), what stands still and flexures in the axes of the file. */
+#include "base/members.h"
 #include "flexure/path.h"
 #include "report/figure.h"
-#include "report/preview.h"
+#include "report/preview_parts.h"
 #include <math.h>
 
 static const double UM = 1e6, PI = 3.14159265358979323846;
@@ -36,13 +37,21 @@ static void point(fw_text *out, const char *command, fw_vec2 p) {
     um(out, p.y);
 }
 
-/* "key":[x,y] */
-static void pair_um(fw_text *out, const char *key, fw_vec2 p) {
-    fw_text_printf(out, "\"%s\":[", key);
-    um(out, p.x);
-    fw_text_add(out, ",");
-    um(out, p.y);
+void fw_preview_um(fw_text *out, const char *key, double metres) {
+    fw_put_key(out, key);
+    um(out, metres);
+}
+
+void fw_preview_point(fw_text *out, const char *key, double x_m, double y_m) {
+    fw_put_open(out, key, '[');
+    fw_preview_um(out, NULL, x_m);
+    fw_preview_um(out, NULL, y_m);
     fw_text_add(out, "]");
+}
+
+void fw_preview_bodies(fw_text *out, const char *key, int a, int b) {
+    fw_put_key(out, key);
+    fw_text_printf(out, "[%d,%d]", a, b);
 }
 
 /* y points up: counter-clockwise is SVG's positive sweep in these axes */
@@ -94,26 +103,28 @@ static bool tether(const fw_piece *p, int body) {
     return p->role == FW_ROLE_TETHER;
 }
 
-static void outlines(fw_text *out, const fw_layout *layout, const frame *f, wanted want, int body) {
-    int n = 0;
-    fw_text_add(out, "[");
+static void outlines(fw_text *out, const char *key, const fw_layout *layout, const frame *f,
+                     wanted want, int body) {
+    bool first = true;
+    fw_put_open(out, key, '[');
     for (int i = 0; fw_report_drawn(layout) && i < layout->npiece; i++) {
         if (!want(&layout->piece[i], body)) continue;
-        fw_text_add(out, n++ ? ",\n\"" : "\"");
+        fw_text_add(out, first ? "\"" : ",\n\"");
         contour(out, f, &layout->piece[i].contour);
         fw_text_add(out, "\"");
+        first = false;
     }
     fw_text_add(out, "]");
 }
 
 /* what stands for a body that nobody has drawn: a line or hull through its joints */
 static void figure_outline(fw_text *out, const fw_figure *figure, int body) {
-    int n = 0;
-    fw_text_add(out, "[");
+    fw_put_open(out, "outline", '[');
     for (int i = 0; i < figure->count; i++) {
         const fw_figure_part *p = &figure->part[i];
         if (p->role != FW_FIGURE_BODY || p->of != body) continue;
-        fw_text_add(out, n++ ? ",\"" : "\"");
+        fw_put_key(out, NULL);
+        fw_text_add(out, "\"");
         for (int k = 0; k < p->noutline; k++)
             point(out, k ? "L" : "M", p->outline[k]);
         if (p->noutline == 0) {
@@ -125,44 +136,47 @@ static void figure_outline(fw_text *out, const fw_figure *figure, int body) {
     fw_text_add(out, "]");
 }
 
+static void body_json(const fw_report_preview *in, const fw_figure *figure, int b, fw_text *out) {
+    const fw_mass *m = &in->mechanism->body[b];
+    const frame f = frame_of(in->mechanism, b);
+    bool drawn = fw_report_outlined(in->layout, b);
+    fw_put_open(out, NULL, '{');
+    fw_put_text(out, "id", m->id);
+    fw_put_truth(out, "fixed", false);
+    fw_put_truth(out, "platform", in->device->body[b].platform);
+    fw_put_truth(out, "drawn", drawn);
+    if (drawn)
+        outlines(out, "outline", in->layout, &f, structure, b);
+    else
+        figure_outline(out, figure, b);
+    fw_put_open(out, "rest", '[');
+    fw_put_number(out, NULL, m->x_m, 9);
+    fw_put_number(out, NULL, m->y_m, 9);
+    fw_put_number(out, NULL, m->phi_rad, 9);
+    fw_text_add(out, "]");
+    fw_put_number(out, "mass_kg", m->mass_kg, 6);
+    fw_put_number(out, "inertia_kg_m2", m->inertia_kg_m2, 6);
+    fw_text_add(out, "}");
+}
+
 static void bodies(const fw_report_preview *in, const fw_figure *figure, fw_text *out) {
-    const fw_mechanism *m = in->mechanism;
-    fw_text_add(out, "\"bodies\":[");
-    for (int b = 0; b < m->nbody; b++) {
-        const frame f = frame_of(m, b);
-        bool drawn = fw_report_outlined(in->layout, b);
-        fw_text_add(out, b ? ",\n{\"id\":" : "\n{\"id\":");
-        fw_report_preview_string(out, m->body[b].id);
-        fw_text_printf(out, ",\"fixed\":false,\"platform\":%s,\"drawn\":%s,\"outline\":",
-                       in->device->body[b].platform ? "true" : "false", drawn ? "true" : "false");
-        if (drawn)
-            outlines(out, in->layout, &f, structure, b);
-        else
-            figure_outline(out, figure, b);
-        fw_text_add(out, ",\"rest\":[");
-        fw_report_preview_number(out, m->body[b].x_m, 9);
-        fw_text_add(out, ",");
-        fw_report_preview_number(out, m->body[b].y_m, 9);
-        fw_text_add(out, ",");
-        fw_report_preview_number(out, m->body[b].phi_rad, 9);
-        fw_text_add(out, "],\"mass_kg\":");
-        fw_report_preview_number(out, m->body[b].mass_kg, 6);
-        fw_text_add(out, ",\"inertia_kg_m2\":");
-        fw_report_preview_number(out, m->body[b].inertia_kg_m2, 6);
-        fw_text_add(out, "}");
+    const fw_layout *layout = in->layout;
+    fw_put_open(out, "bodies", '[');
+    for (int b = 0; b < in->mechanism->nbody; b++) {
+        fw_put_line(out);
+        body_json(in, figure, b, out);
     }
-    const frame world = frame_of(m, FW_GROUND);
-    fw_text_add(out, m->nbody ? ",\n" : "\n");
-    fw_text_add(out, "{\"id\":\"ground\",\"fixed\":true,\"platform\":false,\"drawn\":");
-    fw_text_add(out, fw_report_drawn(in->layout) ? "true" : "false");
-    fw_text_add(out, ",\"outline\":");
-    outlines(out, in->layout, &world, structure, FW_GROUND);
-    fw_text_add(out, ",\"islands\":");
-    outlines(out, in->layout, &world, structure, FW_ISLAND);
-    fw_text_add(out, ",\"frame\":");
-    outlines(out, in->layout, &world, chip, 0);
-    fw_text_add(out, ",\"tethers\":");
-    outlines(out, in->layout, &world, tether, 0);
+    const frame world = frame_of(in->mechanism, FW_GROUND);
+    fw_put_line(out);
+    fw_put_open(out, NULL, '{');
+    fw_put_text(out, "id", "ground");
+    fw_put_truth(out, "fixed", true);
+    fw_put_truth(out, "platform", false);
+    fw_put_truth(out, "drawn", fw_report_drawn(layout));
+    outlines(out, "outline", layout, &world, structure, FW_GROUND);
+    outlines(out, "islands", layout, &world, structure, FW_ISLAND);
+    outlines(out, "frame", layout, &world, chip, 0);
+    outlines(out, "tethers", layout, &world, tether, 0);
     fw_text_add(out, "}]");
 }
 
@@ -176,12 +190,10 @@ static const char *body_id(const fw_mechanism *m, int body) {
 static void end_frame(fw_text *out, const fw_mechanism *m, int body, fw_pose at) {
     const frame f = frame_of(m, body);
     fw_vec2 p = into(&f, (fw_vec2){at.x_m, at.y_m});
-    fw_text_add(out, "{\"body\":");
-    fw_report_preview_string(out, body_id(m, body));
-    fw_text_add(out, ",");
-    pair_um(out, "at_um", p);
-    fw_text_add(out, ",\"angle_rad\":");
-    fw_report_preview_number(out, at.angle_rad - (body >= 0 ? m->body[body].phi_rad : 0.0), 7);
+    fw_put_open(out, NULL, '{');
+    fw_put_text(out, "body", body_id(m, body));
+    fw_preview_point(out, "at_um", p.x, p.y);
+    fw_put_number(out, "angle_rad", at.angle_rad - (body >= 0 ? m->body[body].phi_rad : 0.0), 7);
     fw_text_add(out, "}");
 }
 
@@ -213,50 +225,54 @@ static void line_of(const fw_report_preview *in, const fw_report_bend *bend, fw_
     const fw_flexure *flexure = &in->device->flexure[in->device->joint[bend->joint].flexure];
     fw_pose pose[MOST];
     int n = centre_line(flexure, h->fillet_m, pose, flexure->kind == FW_FLEXURE_PATH ? MOST : 25);
-    fw_text_add(out, ",\"centre_line\":\"");
+    fw_put_key(out, "centre_line");
+    fw_text_add(out, "\"");
     for (int i = 0; i < n; i++) {
         pose[i] = to_world(h, pose[i]);
         point(out, i ? "L" : "M", (fw_vec2){pose[i].x_m, pose[i].y_m});
     }
-    fw_text_add(out, "\",\"ends\":[");
+    fw_text_add(out, "\"");
+    fw_put_open(out, "ends", '[');
     end_frame(out, in->mechanism, bend->lower, pose[0]);
-    fw_text_add(out, ",");
     end_frame(out, in->mechanism, bend->upper, pose[n - 1]);
-    fw_text_add(out, "],\"width_um\":");
-    um(out, flexure->width_m);
+    fw_text_add(out, "]");
+    fw_preview_um(out, "width_um", flexure->width_m);
+}
+
+static void flexure_json(const fw_report_preview *in, const fw_report_bend *bend, fw_text *out) {
+    const fw_mechanism *m = in->mechanism;
+    const fw_joint *joint = &in->device->joint[bend->joint];
+    const frame world = frame_of(m, FW_GROUND);
+    fw_put_open(out, NULL, '{');
+    fw_put_text(out, "id", joint->id);
+    fw_put_whole(out, "pin", bend->joint);
+    fw_put_text(out, "flexure", in->device->flexure[joint->flexure].id);
+    fw_put_open(out, "between", '[');
+    fw_put_text(out, NULL, body_id(m, bend->lower));
+    fw_put_text(out, NULL, body_id(m, bend->upper));
+    fw_text_add(out, "]");
+    fw_preview_bodies(out, "bodies", bend->lower, bend->upper);
+    fw_put_key(out, "path");
+    fw_text_add(out, "\"");
+    contour(out, &world, &bend->piece->contour);
+    fw_text_add(out, "\"");
+    fw_preview_point(out, "centre_um", bend->centre.x, bend->centre.y);
+    fw_put_open(out, "points", '[');
+    for (int k = 0; k < bend->npoint; k++) { /* x, y and the share of the upper body */
+        fw_preview_um(out, NULL, bend->point[k].x_m);
+        fw_preview_um(out, NULL, bend->point[k].y_m);
+        fw_put_fixed(out, NULL, bend->point[k].weight, 4);
+    }
+    fw_text_add(out, "]");
+    line_of(in, bend, out);
+    fw_text_add(out, "}");
 }
 
 static void flexures(const fw_report_preview *in, const fw_report_bends *bends, fw_text *out) {
-    const fw_mechanism *m = in->mechanism;
-    const frame world = frame_of(m, FW_GROUND);
-    fw_text_add(out, "\"flexures\":[");
+    fw_put_open(out, "flexures", '[');
     for (int i = 0; i < bends->count; i++) {
-        const fw_report_bend *bend = &bends->item[i];
-        fw_text_add(out, i ? ",\n{\"id\":" : "\n{\"id\":");
-        fw_report_preview_string(out, in->device->joint[bend->joint].id);
-        fw_text_printf(out, ",\"pin\":%d,\"flexure\":", bend->joint);
-        fw_report_preview_string(out,
-                                 in->device->flexure[in->device->joint[bend->joint].flexure].id);
-        fw_text_add(out, ",\"between\":[");
-        fw_report_preview_string(out, body_id(m, bend->lower));
-        fw_text_add(out, ",");
-        fw_report_preview_string(out, body_id(m, bend->upper));
-        fw_text_printf(out, "],\"bodies\":[%d,%d],\"path\":\"", bend->lower, bend->upper);
-        contour(out, &world, &bend->piece->contour);
-        fw_text_add(out, "\",");
-        pair_um(out, "centre_um", bend->centre);
-        fw_text_add(out, ",\"points\":[");
-        for (int k = 0; k < bend->npoint; k++) { /* x, y and the share of the upper body */
-            fw_text_add(out, k ? "," : "");
-            um(out, bend->point[k].x_m);
-            fw_text_add(out, ",");
-            um(out, bend->point[k].y_m);
-            fw_text_add(out, ",");
-            fw_text_fixed(out, bend->point[k].weight, 4);
-        }
-        fw_text_add(out, "]");
-        line_of(in, bend, out);
-        fw_text_add(out, "}");
+        fw_put_line(out);
+        flexure_json(in, &bends->item[i], out);
     }
     fw_text_add(out, "]");
 }
@@ -273,156 +289,47 @@ static double limit_in(const fw_report_preview *in, int flow, int joint) {
 
 static void pins(const fw_report_preview *in, fw_text *out) {
     const fw_mechanism *m = in->mechanism;
-    fw_text_add(out, "\"pins\":[");
+    fw_put_open(out, "pins", '[');
     for (int i = 0; i < m->npin; i++) {
         const fw_pin *p = &m->pin[i];
         fw_vec2 at = fw_pin_place(m, p, 0);
-        fw_text_add(out, i ? ",\n{\"id\":" : "\n{\"id\":");
-        fw_report_preview_string(out, p->id);
-        fw_text_add(out, ",\"a\":");
-        fw_report_preview_string(out, body_id(m, p->body_a));
-        fw_text_add(out, ",\"b\":");
-        fw_report_preview_string(out, body_id(m, p->body_b));
-        fw_text_printf(out, ",\"bodies\":[%d,%d],", p->body_a, p->body_b);
-        pair_um(out, "at_um", at);
-        fw_text_add(out, ",");
-        pair_um(out, "on_a_um", (fw_vec2){p->ax_m, p->ay_m});
-        fw_text_add(out, ",");
-        pair_um(out, "on_b_um", (fw_vec2){p->bx_m, p->by_m});
-        fw_text_add(out, ",\"free_angle_rad\":");
-        fw_report_preview_number(out, p->free_angle_rad, 9);
-        fw_text_printf(out,
-                       ",\"flexure\":%s,\"limit_rad\":", p->hinge != FW_NONE ? "true" : "false");
-        if (in->nflow > 0) {
-            fw_text_add(out, "[");
-            for (int k = 0; k < in->nflow; k++) {
-                fw_text_add(out, k ? "," : "");
-                fw_report_preview_number(out, limit_in(in, k, i), 7);
-            }
-            fw_text_add(out, "]");
-        } else
-            fw_text_add(out, "[]");
-        fw_text_add(out, ",\"shown_limit_rad\":"); /* in the flow of the motion */
-        fw_report_preview_number(out, fw_report_pin_limit(m, i), 7);
+        fw_put_line(out);
+        fw_put_open(out, NULL, '{');
+        fw_put_text(out, "id", p->id);
+        fw_put_text(out, "a", body_id(m, p->body_a));
+        fw_put_text(out, "b", body_id(m, p->body_b));
+        fw_preview_bodies(out, "bodies", p->body_a, p->body_b);
+        fw_preview_point(out, "at_um", at.x, at.y);
+        fw_preview_point(out, "on_a_um", p->ax_m, p->ay_m);
+        fw_preview_point(out, "on_b_um", p->bx_m, p->by_m);
+        fw_put_number(out, "free_angle_rad", p->free_angle_rad, 9);
+        fw_put_truth(out, "flexure", p->hinge != FW_NONE);
+        fw_put_open(out, "limit_rad", '[');
+        for (int k = 0; k < in->nflow; k++)
+            fw_put_number(out, NULL, limit_in(in, k, i), 7);
+        fw_text_add(out, "]");
+        /* in the flow of the motion */
+        fw_put_number(out, "shown_limit_rad", fw_report_pin_limit(m, i), 7);
         fw_text_add(out, "}");
     }
     fw_text_add(out, "]");
 }
 
-/* ---- what else joins bodies, and what drives them ---- */
-
-/* bodies a and b with their points in the bodies' axes (ground: the file's) */
-static void between(fw_text *out, int a, int b, fw_vec2 on_a, fw_vec2 on_b) {
-    fw_text_printf(out, ",\"bodies\":[%d,%d],", a, b);
-    pair_um(out, "on_a_um", on_a);
-    fw_text_add(out, ",");
-    pair_um(out, "on_b_um", on_b);
-}
-
-static void ties_and_springs(const fw_mechanism *m, fw_text *out) {
-    static const char *const kind[] = {
-        [FW_TIE_PRISMATIC] = "prismatic", [FW_TIE_DISTANCE] = "distance", [FW_TIE_WELD] = "weld"};
-    fw_text_add(out, "\"ties\":[");
-    for (int i = 0; i < m->ntie; i++) {
-        const fw_tie *t = &m->tie[i];
-        fw_text_add(out, i ? ",{\"id\":" : "{\"id\":");
-        fw_report_preview_string(out, t->id);
-        fw_text_printf(out, ",\"kind\":\"%s\"", kind[t->kind]);
-        between(out, t->body_a, t->body_b, (fw_vec2){t->ax_m, t->ay_m},
-                (fw_vec2){t->bx_m, t->by_m});
-        fw_text_add(out, ",\"axis_rad\":"); /* in the frame of a */
-        fw_report_preview_number(out, t->kind == FW_TIE_PRISMATIC ? t->axis_rad : (double)NAN, 9);
-        fw_text_add(out, "}");
+static void box_um(fw_text *out, const char *key, const fw_box *box) {
+    const double side[4] = {box->x0, box->y0, box->x1, box->y1};
+    if (!(box->x1 >= box->x0 && box->y1 >= box->y0)) {
+        fw_put_null(out, key);
+        return;
     }
-    fw_text_add(out, "],\n\"springs\":[");
-    for (int i = 0; i < m->nspring; i++) {
-        const fw_spring *s = &m->spring[i];
-        fw_text_add(out, i ? ",{\"id\":" : "{\"id\":");
-        fw_report_preview_string(out, s->id);
-        between(out, s->body_a, s->body_b, (fw_vec2){s->ax_m, s->ay_m},
-                (fw_vec2){s->bx_m, s->by_m});
-        fw_text_printf(out, ",\"cable\":%s}", s->cable ? "true" : "false");
-    }
-    fw_text_add(out, "]");
-}
-
-static void law(fw_text *out, const fw_law *of) {
-    fw_text_add(out, ",\"law\":");
-    fw_report_preview_string(out, of ? fw_law_kind_text(of->kind) : NULL);
-    fw_text_add(out, "}");
-}
-
-static void tendon(const fw_tendon *t, fw_text *out) {
-    fw_text_add(out, "{\"kind\":\"tendon\",\"id\":");
-    fw_report_preview_string(out, t->id);
-    fw_text_add(out, ",\"eyelets\":[");
-    for (int k = 0; k < t->neyelet; k++) {
-        fw_text_printf(out, "%s{\"body\":%d,", k ? "," : "", t->eyelet[k].body);
-        pair_um(out, "at_um", (fw_vec2){t->eyelet[k].x_m, t->eyelet[k].y_m});
-        fw_text_add(out, "}");
-    }
-    fw_text_add(out, "],\"pull_N\":");
-    fw_report_preview_number(out, t->pull_N, 6);
-    fw_text_add(out, ",\"draw_m\":");
-    fw_report_preview_number(out, t->draw_m, 6);
-    law(out, t->law);
-}
-
-static void comb(const fw_comb *c, fw_text *out) {
-    fw_text_add(out, "{\"kind\":\"comb-drive\",\"id\":");
-    fw_report_preview_string(out, c->id);
-    fw_text_printf(out, ",\"bodies\":[%d,%d],", c->body_a, c->body_b);
-    pair_um(out, "at_um", (fw_vec2){c->bx_m, c->by_m}); /* of the rotor, bodies[1] */
-    fw_text_add(out, ",\"direction_rad\":");
-    fw_report_preview_number(out, c->direction_rad, 9);
-    fw_text_add(out, ",\"voltage_V\":");
-    fw_report_preview_number(out, c->voltage_V, 6);
-    law(out, c->law);
-}
-
-static void force(const fw_force *f, fw_text *out) {
-    fw_text_printf(out, "{\"kind\":\"force\",\"body\":%d,", f->body);
-    pair_um(out, "at_um", (fw_vec2){f->x_m, f->y_m});
-    fw_text_add(out, ",\"force_N\":[");
-    fw_report_preview_number(out, f->fx_N, 6);
-    fw_text_add(out, ",");
-    fw_report_preview_number(out, f->fy_N, 6);
-    fw_text_add(out, "]");
-    law(out, f->law);
-}
-
-static void torque(const fw_torque *t, fw_text *out) {
-    fw_text_printf(out, "{\"kind\":\"torque\",\"body\":%d,\"torque_Nm\":", t->body);
-    fw_report_preview_number(out, t->value_Nm, 6);
-    law(out, t->law);
-}
-
-static void loads(const fw_report_preview *in, fw_text *out) {
-    const fw_scene *s = in->scene;
-    int n = 0;
-    fw_text_add(out, "\"loads\":[");
-    for (int i = 0; s && i < s->nforce; i++, n++) {
-        fw_text_add(out, n ? "," : "");
-        force(&s->force[i], out);
-    }
-    for (int i = 0; s && i < s->ntorque; i++, n++) {
-        fw_text_add(out, n ? "," : "");
-        torque(&s->torque[i], out);
-    }
-    for (int i = 0; s && i < s->ntendon; i++, n++) {
-        fw_text_add(out, n ? ",\n" : "");
-        tendon(&s->tendon[i], out);
-    }
-    for (int i = 0; s && i < s->ncomb; i++, n++) {
-        fw_text_add(out, n ? "," : "");
-        comb(&s->comb[i], out);
-    }
+    fw_put_open(out, key, '[');
+    for (int i = 0; i < 4; i++)
+        fw_preview_um(out, NULL, side[i]);
     fw_text_add(out, "]");
 }
 
 /* what a picture has to hold: everything drawn of bodies and ground but the frame; centres and
-   pins where nothing is drawn */
-static void box_of(const fw_report_preview *in, fw_text *out) {
+   pins where nothing is drawn; springs. And a picture of the scene: its cables and electrodes */
+static void boxes(const fw_report_preview *in, fw_text *out) {
     const fw_mechanism *m = in->mechanism;
     fw_box box = fw_report_box_empty();
     for (int i = 0; fw_report_drawn(in->layout) && i < in->layout->npiece; i++) {
@@ -438,21 +345,17 @@ static void box_of(const fw_report_preview *in, fw_text *out) {
         fw_vec2 p = fw_pin_place(m, &m->pin[i], 0);
         fw_report_box_add(&box, p.x, p.y);
     }
-    bool any = box.x1 >= box.x0 && box.y1 >= box.y0;
-    const double side[4] = {box.x0, box.y0, box.x1, box.y1};
-    fw_text_add(out, "\"box_um\":");
-    for (int i = 0; any && i < 4; i++) {
-        fw_text_add(out, i ? "," : "[");
-        um(out, side[i]);
-    }
-    fw_text_add(out, any ? "]" : "null");
+    fw_preview_attached_box(m, &box);
+    box_um(out, "box_um", &box);
+    fw_preview_scene_box(m, in->scene, &box);
+    box_um(out, "scene_box_um", &box);
 }
 
 fw_status fw_report_preview_shapes(fw_arena *arena, const fw_report_preview *in, fw_text *out) {
     const fw_mechanism *m = in->mechanism;
     if (!m) {
-        fw_text_add(out, "\"box_um\":null,\"bodies\":[],\"flexures\":[],\"pins\":[],\"ties\":[],"
-                         "\"springs\":[],\"loads\":[]");
+        fw_text_add(out, "\"box_um\":null,\"scene_box_um\":null,\"bodies\":[],\"flexures\":[],"
+                         "\"pins\":[],\"ties\":[],\"springs\":[],\"loads\":[]");
         return fw_text_end(out);
     }
     fw_figure figure = {0};
@@ -466,16 +369,14 @@ fw_status fw_report_preview_shapes(fw_arena *arena, const fw_report_preview *in,
     }
     FW_TRY(fw_figure_make(arena, m, rest, 1, &figure));
     FW_TRY(fw_report_bends_make(arena, in->device, in->layout, &bends));
-    box_of(in, out);
-    fw_text_add(out, ",\n");
+    boxes(in, out);
+    fw_put_line(out);
     bodies(in, &figure, out);
-    fw_text_add(out, ",\n");
+    fw_put_line(out);
     flexures(in, &bends, out);
-    fw_text_add(out, ",\n");
+    fw_put_line(out);
     pins(in, out);
-    fw_text_add(out, ",\n");
-    ties_and_springs(m, out);
-    fw_text_add(out, ",\n");
-    loads(in, out);
+    fw_put_line(out);
+    fw_preview_attached(in, out);
     return fw_text_end(out);
 }

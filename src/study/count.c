@@ -109,9 +109,11 @@ static double dump(const fw_external_room *room, int i) {
     return count > 0 ? count : (double)NAN;
 }
 
+/* --settings stands right behind the command: behind a "--" of the user's it would be a file */
 static fw_status start(const fw_external_room *room, const char *valgrind,
                        const char *const *program, const char *settings, double seconds,
                        fw_external_run *run) {
+    enum { PROGRAM_AND_COMMAND = 2 };
     char file[700];
     const char *argv[MOST_WORDS + 16];
     int n = 0;
@@ -122,10 +124,13 @@ static fw_status start(const fw_external_room *room, const char *valgrind,
     argv[n++] = "--toggle-collect=fw_tradeoff_answer";
     argv[n++] = "--dump-after=fw_tradeoff_answer";
     argv[n++] = file;
-    for (int i = 0; program[i] && i < MOST_WORDS; i++)
-        argv[n++] = program[i];
+    int word = 0;
+    while (word < PROGRAM_AND_COMMAND && program[word])
+        argv[n++] = program[word++];
     argv[n++] = "--settings";
     argv[n++] = settings;
+    for (; program[word] && word < MOST_WORDS; word++)
+        argv[n++] = program[word];
     argv[n] = NULL;
     return fw_external_call_here(room, argv, "log", seconds, run);
 }

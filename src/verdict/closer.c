@@ -10,6 +10,7 @@
 
 /* numbers that are known better than this decide nothing */
 static const double fw_known = 1e-5;
+const double fw_verdict_tightest = 1e-6;
 
 typedef struct reach { /* lowest upper end and highest lower end that a band may come to have */
     double high, low;
@@ -44,10 +45,23 @@ fw_closer fw_verdict_closer(const fw_hinge_verdict *hinge, int nhinge) {
     return may_decide(hinge, nhinge, true) ? FW_CLOSER_HINGES : FW_CLOSER_NOTHING;
 }
 
+/* half of what lies between 1 and the nearer end of a band without numbers; these are taken to go
+   with the accuracy */
+double fw_verdict_enough(const fw_hinge_verdict *hinge, int nhinge, double accuracy) {
+    double share = 1;
+    for (int k = 0; k < nhinge; k++) {
+        const fw_hinge_verdict *h = &hinge[k];
+        if (!h->scene || h->decision != FW_INCONCLUSIVE || !(h->numeric > 0)) continue;
+        double n = h->numeric, high = h->utilisation_high - n, low = h->utilisation_low + n;
+        share = fmin(share, 0.5 * fmin(fabs(1 - high), fabs(1 - low)) / n);
+    }
+    return accuracy * share;
+}
+
 fw_verdict_options fw_verdict_tighter(const fw_verdict_options *options, fw_closer closer) {
     fw_verdict_options tight = *options;
     double asked = options->motion.accuracy > 0 ? options->motion.accuracy : 1e-3;
-    tight.motion.accuracy = fmin(asked, 1e-6);
+    tight.motion.accuracy = fmin(asked, fw_verdict_tightest);
     tight.motion.rtol = 0.0;
     if (closer == FW_CLOSER_HINGES) tight.motion.hinge_accuracy = asked;
     return tight;

@@ -14,6 +14,9 @@ typedef enum fw_closer {
     FW_CLOSER_HINGES   /* those, and a better model of the hinges */
 } fw_closer;
 fw_closer fw_verdict_closer(const fw_hinge_verdict *hinge, int nhinge);
+/* accuracy at which numbers decide all that are inconclusive now, were nothing else to change */
+extern const double fw_verdict_tightest; /* accuracy of the closest look */
+double fw_verdict_enough(const fw_hinge_verdict *hinge, int nhinge, double accuracy);
 /* the same request, as close as that */
 fw_verdict_options fw_verdict_tighter(const fw_verdict_options *options, fw_closer closer);
 /* every joint is where both its bodies put it, within 10 nm, in the drawn position (FW-D206) */

@@ -6,9 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-/* accuracy at which a point is judged first */
-static const double fw_coarse = 3e-2;
-
 const char *fw_made_value(fw_arena *arena, const fw_made_input *input, double x) {
     fw_quantity q = input->q;
     char text[32];
@@ -79,23 +76,45 @@ static fw_status take(fw_search *s, const fw_variant_verdict *now, fw_made_corne
     return FW_OK;
 }
 
+static double wanted(const fw_verdict_options *o) {
+    return o->motion.accuracy > 0 ? o->motion.accuracy : 1e-3;
+}
+
+/* Options of the next look, where numbers may decide: what was asked for, then as much closer as
+   seems to be needed, then as close as it gets. false: there is none. */
+static bool look_closer(const fw_search *s, const fw_variant_verdict *now,
+                        fw_verdict_options *options) {
+    double asked = wanted(&s->options), had = wanted(options);
+    bool own = s->options.motion.rtol == 0; /* else the accuracy says nothing of the numbers */
+    fw_closer closer = fw_verdict_closer(now->hinge, now->nhinge);
+    if (options->at_a_glance || closer != FW_CLOSER_NUMBERS) return false;
+    if (options->motion.rtol == 0 && had <= fw_verdict_tightest) return false;
+    bool coarse = own && had > asked;
+    double next = fmin(0.1 * had, fw_verdict_enough(now->hinge, now->nhinge, had));
+    *options = coarse ? s->options : fw_verdict_tighter(&s->options, closer);
+    if (own && had == asked && next > 3 * fw_verdict_tightest) options->motion.accuracy = next;
+    return true;
+}
+
 /* from coarse to as close as its decision needs: most points are far enough from the limit */
 static fw_status judge_closely(const fw_search *s, fw_arena *scratch, const fw_made_device *device,
                                const fw_mechanism *m, fw_diags *diags, fw_variant_verdict *now) {
+    const fw_motion *const *like = (const fw_motion *const *)s->v->motion;
     fw_verdict_options options = s->options;
     fw_motion_options *motion = &options.motion;
-    if (motion->rtol == 0) motion->accuracy = fmax(motion->accuracy, fw_coarse);
-    for (int look = 0;; look++) {
-        *now = (fw_variant_verdict){.variant = &device->variant};
+    if (motion->rtol == 0) motion->accuracy = fmax(motion->accuracy, fw_verdict_first_look);
+    do {
+        *now = (fw_variant_verdict){.variant = &device->variant, .like = like};
         FW_TRY(
             fw_verdict_variant(scratch, &device->device, device->drawn, m, &options, diags, now));
-        if (look == 2 || options.at_a_glance ||
-            fw_verdict_closer(now->hinge, now->nhinge) != FW_CLOSER_NUMBERS)
-            return FW_OK;
-        bool asked = look == 0 && motion->accuracy > s->options.motion.accuracy;
-        options = asked ? s->options : fw_verdict_tighter(&s->options, FW_CLOSER_NUMBERS);
-        if (!asked) look = 1;
-    }
+    } while (look_closer(s, now, &options));
+    return FW_OK;
+}
+
+/* what the flow makes may be just what was drawn, and that has been judged */
+static bool as_drawn(const fw_made *made) {
+    return made->edge_m == 0.0 && made->flare_m == 0.0 && made->thickness_ratio == 1.0 &&
+           made->youngs_ratio == 1.0;
 }
 
 static fw_status judge_point(fw_search *s, fw_arena *scratch, const double *x,
@@ -106,6 +125,7 @@ static fw_status judge_point(fw_search *s, fw_arena *scratch, const double *x,
     fw_variant_verdict now = {0};
     const fw_mechanism *m = NULL;
     FW_NEED(device);
+    if (as_drawn(&made)) return take(s, s->v, corner, ln);
     FW_TRY(fw_made_build(scratch, s->device, s->layout, s->v->variant, &made, device));
     corner->decision = FW_REJECT;
     if (device->gone) {

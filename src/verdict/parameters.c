@@ -46,7 +46,8 @@ static const double known_to = 0.01;
 static const double as_typed = 1e-3;
 /* a glance may be off by less than this: a closer look pays */
 static const double worth_a_look = 1.05;
-static const double least_step = 1e-4; /* of the range: nobody asks for a finer digit */
+static const double clear_of_limit = 0.997; /* at a glance */
+static const double least_step = 1e-4;      /* of the range: nobody asks for a finer digit */
 static const double factor_without_bounds = 4.0;
 static const double ring_factor = 1.5;
 
@@ -221,6 +222,17 @@ static fw_status tighten(hunt *h, look near, look *far) {
     return FW_OK;
 }
 
+/* a step from the limit towards `outer`: right at it a verdict takes the closest of all looks, and
+   may have to leave it open all the same */
+static fw_status step_out(hunt *h, const look *outer, look *far) {
+    double rest = rest_of(h, far), at = far->at + copysign(rest, outer->at - far->at);
+    look further;
+    if (spent(h) || !between(h, far, outer, &at)) return FW_OK;
+    FW_TRY(glance(h, at, &further));
+    if (!further.rejected) *far = further;
+    return FW_OK;
+}
+
 /* the limit between near (not accepted) and *far (may be). far->accepted says whether it was found
  */
 static fw_status enclose(hunt *h, look near, look *far) {
@@ -228,6 +240,7 @@ static fw_status enclose(hunt *h, look near, look *far) {
     while (!spent(h)) {
         look inner = near;
         if (estimate(h, far) <= 1) FW_TRY(approach(h, &inner, far));
+        if (estimate(h, far) > clear_of_limit) FW_TRY(step_out(h, &outer, far));
         FW_TRY(judge(h, far->at, far));
         if (far->accepted) return tighten(h, near, far);
         if (far->at == outer.at) return FW_OK;

@@ -93,6 +93,23 @@ static fw_status attempt(fw_arena *arena, const fw_device *device, const fw_layo
     return combine(arena, device, options->motion.accuracy, verdict);
 }
 
+/* a device far from its limits is decided by a first look */
+static fw_status first_attempt(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                               const fw_verdict_options *options, fw_diags *diags,
+                               fw_verdict *verdict) {
+    fw_verdict_options coarse = *options;
+    const fw_verdict empty = {.variant = verdict->variant, .nvariant = verdict->nvariant};
+    bool looser = options->motion.rtol == 0 && options->motion.accuracy < fw_verdict_first_look;
+    if (!options->coarse_first || !looser)
+        return attempt(arena, device, layout, options, diags, verdict);
+    coarse.motion.accuracy = fw_verdict_first_look;
+    FW_TRY(attempt(arena, device, layout, &coarse, diags, verdict));
+    if (verdict->decision != FW_INCONCLUSIVE || options->at_a_glance) return FW_OK;
+    fw_diags again = fw_diags_new(arena); /* the same warnings a second time */
+    *verdict = empty;
+    return attempt(arena, device, layout, options, &again, verdict);
+}
+
 /* the drawing, or NULL where the mechanics can be judged without it; its messages are then warnings
  */
 static fw_status draw(fw_arena *arena, const fw_device *device, fw_diags *diags,
@@ -144,7 +161,7 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
     FW_TRY(take_inputs(arena, device, *layout, &options->made_of, verdict));
     int nvariant = verdict->nvariant;
     fw_variant_verdict *variant = verdict->variant;
-    FW_TRY(attempt(arena, device, *layout, options, diags, verdict));
+    FW_TRY(first_attempt(arena, device, *layout, options, diags, verdict));
 
     /* a band that straddles 1 for want of computing: once more, closer. Numbers first: they cost
        less than better hinges, which then may not be needed */

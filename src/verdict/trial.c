@@ -127,6 +127,7 @@ fw_status fw_trial_start(fw_arena *arena, const fw_device *device,
 static fw_verdict_options quiet(const fw_verdict_options *options) {
     fw_verdict_options o = *options;
     o.with_advice = false;
+    o.coarse_first = true;
     if (o.corners == FW_CORNERS_AUTO) o.corners = FW_CORNERS_FIRST;
     return o;
 }
@@ -137,6 +138,10 @@ static fw_verdict_options quiet(const fw_verdict_options *options) {
 static double carried(const fw_made_input *from, const fw_made_input *to, double x) {
     double wide = from->high - from->low;
     return wide > 0 ? to->low + (x - from->low) / wide * (to->high - to->low) : to->nominal;
+}
+
+static const fw_motion *const *motions_of(const fw_trial *trial, int i) {
+    return (const fw_motion *const *)trial->verdict->variant[i].motion;
 }
 
 /* ranges follow what was changed (a thickness), and so does the corner that governed last */
@@ -163,8 +168,8 @@ static void keep_suspect(fw_trial *trial, const fw_variant_verdict *variant) {
     }
 }
 
-/* accuracy of a glance: as of the first look at a corner */
-static const double glance_accuracy = 3e-2;
+/* of a motion: as at a corner. A row of equilibria is solved at every one. */
+static const int samples_of_a_glance = 65;
 
 static fw_status restate(fw_trial *trial, fw_arena *scratch, const fw_set *set,
                          const fw_verdict_options *options) {
@@ -177,8 +182,10 @@ static fw_status restate(fw_trial *trial, fw_arena *scratch, const fw_set *set,
                         .variant = fw_arena_array(scratch, fw_variant_verdict, (size_t)n)};
     FW_NEED(again.variant);
     FW_TRY(r->with(r->context, scratch, set, &device, again.variant));
-    for (int i = 0; i < n; i++)
+    for (int i = 0; i < n; i++) {
+        if (device->nscene == trial->device->nscene) again.variant[i].like = motions_of(trial, i);
         FW_TRY(take_suspect(trial, scratch, i, &again.variant[i]));
+    }
     FW_TRY(fw_verdict_run(scratch, device, options, &diags, &again, &layout));
     remember(trial, &again, layout);
     keep_suspect(trial, again.variant);
@@ -198,9 +205,10 @@ fw_status fw_trial_restate(fw_trial *trial, const fw_set *set, bool glance) {
     fw_verdict_options o = quiet(trial->options);
     o.work = &trial->work;
     if (glance) {
-        if (o.motion.rtol <= 0) o.motion.accuracy = fmax(o.motion.accuracy, glance_accuracy);
+        if (o.motion.rtol <= 0) o.motion.accuracy = fmax(o.motion.accuracy, fw_verdict_first_look);
         if (o.corners == FW_CORNERS_FIRST && !unknown_corners(trial))
             o.corners = FW_CORNERS_SUSPECT;
+        if (o.motion.samples > samples_of_a_glance) o.motion.samples = samples_of_a_glance;
         o.at_a_glance = true;
     }
     fw_arena *scratch = fw_arena_new(0);
@@ -241,6 +249,7 @@ fw_status fw_trial_run(fw_trial *trial) {
             .variant = trial->verdict->variant[i].variant,
             .input = trial->verdict->variant[i].input,
             .ninput = trial->verdict->variant[i].ninput,
+            .like = motions_of(trial, i),
             .suspect = trial->suspected[i] ? trial->suspect + i * FW_MADE_INPUTS : NULL};
     if (status == FW_OK)
         status = fw_verdict_run(scratch, trial->changed, &o, &diags, &again, &layout);

@@ -11,6 +11,7 @@
    held-out shapes, 2.9 %; workspace: largest moment that joint forces added at the governing hinge
    in the same cases, 21 % */
 const fw_model_error fw_verdict_model_error = {0.029, 0.029, 0.21};
+const double fw_verdict_first_look = 3e-2;
 
 const char *fw_decision_text(fw_decision decision) {
     switch (decision) {
@@ -230,10 +231,11 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         if (!fw_device_in_flow(scene->flow, m->variant->flow)) continue;
         FW_TRY(fw_watch_new(arena, m, layout, device->limits.cycles > 0, &watch[i]));
         motion.observe = fw_watch_see;
-        motion.settled = fw_watch_settled;
+        motion.unsettled = fw_watch_unsettled;
         motion.context = &watch[i];
         FW_TRY(fw_watch_new(arena, m, layout, device->limits.cycles > 0, &other[i]));
         motion.other = &other[i];
+        motion.effects.like = v->like && v->like[i] ? &v->like[i]->ledger : NULL;
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));
         if (watch[i].no_memory) return FW_NOMEM;
         if (options->work && v->motion[i]) *options->work += work_of(m, v->motion[i]);

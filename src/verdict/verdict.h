@@ -80,11 +80,13 @@ typedef struct fw_variant_verdict { /* one flow: a material and a thickness */
     const fw_variant *variant;
     const fw_made_input *input; /* (ninput) what the flow may make of it; none: as drawn only */
     int ninput;
-    const double *suspect; /* (ninput) a corner to look at first, or NULL */
-    fw_made_verdict *made; /* NULL: not asked for, or the drawn device is not accepted */
-    fw_decision drawn;     /* decision of the drawn geometry alone */
-    double *used;          /* (nhinge x (nscene + 1)) utilisation of each hinge in each scene and,
-                              last, in the workspace; NaN: none */
+    const double *suspect;        /* (ninput) a corner to look at first, or NULL */
+    const fw_motion *const *like; /* (nscene) of a device much like it, or NULL: what acts there by
+                                     far acts here (fw_effect_choice.like) */
+    fw_made_verdict *made;        /* NULL: not asked for, or the drawn device is not accepted */
+    fw_decision drawn;            /* decision of the drawn geometry alone */
+    double *used; /* (nhinge x (nscene + 1)) utilisation of each hinge in each scene and,
+                     last, in the workspace; NaN: none */
     const fw_mechanism *mechanism;
     const fw_motion **motion;   /* (device->nscene) NULL where the scene is not for this flow,
                                    or has no motion: a reason says why */
@@ -177,6 +179,7 @@ typedef struct fw_verdict_options {
     fw_corners corners;
     double *work;     /* evaluations of the forces of hinges are added to it; NULL: nobody counts */
     bool at_a_glance; /* no closer look at what is undecided: for trials */
+    bool coarse_first; /* a first look, and what was asked for only where it decides: for trials */
     fw_restated restated; /* with NULL: no advice on parameters */
     fw_made_of made_of;
 } fw_verdict_options;
@@ -189,6 +192,8 @@ typedef struct fw_model_error {
     double workspace; /* joint forces are not known for a required pose */
 } fw_model_error;
 extern const fw_model_error fw_verdict_model_error;
+/* accuracy of a first look */
+extern const double fw_verdict_first_look;
 
 /* what the hinges' level may be off by in a motion, relative to the largest strain: computed at its
    peak where that is known (level.c), else fw_verdict_model_error.motion */

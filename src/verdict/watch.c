@@ -42,14 +42,14 @@ double fw_watch_error(const fw_watch *saw, const fw_watch *looser, double margin
     return fw_strains_settle * margin * most;
 }
 
-bool fw_watch_settled(const void *saw, const void *looser, double margin, double accuracy) {
+double fw_watch_unsettled(const void *saw, const void *looser, double margin, double accuracy) {
     const fw_watch *watch = saw;
     double limit = HUGE_VAL;
     for (int k = 0; k < watch->mechanism->nhinge; k++) {
         const fw_flexure_result *c = &watch->mechanism->hinge[k].closed_form;
         limit = fmin(limit, c->limit_angle_rad * c->strain_per_rad);
     }
-    return !(fw_watch_error(watch, looser, margin) > fmin(10 * accuracy, 0.03) * limit);
+    return fw_watch_error(watch, looser, margin) / (fmin(10 * accuracy, 0.03) * limit);
 }
 
 static void keep(fw_strain_peak *p, double t_s, double strain, double between) {

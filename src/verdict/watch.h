@@ -34,8 +34,8 @@ void fw_watch_see(void *context, const fw_instant *instant);
    times was seen, test_hard_verdict.c), times the margin of the two runs; the largest difference
    of all hinges counts for each, since one alone may agree by chance. */
 double fw_watch_error(const fw_watch *saw, const fw_watch *looser, double margin);
-/* that is below ten times the accuracy wanted of each limit: fw_motion_options.settled */
-bool fw_watch_settled(const void *saw, const void *looser, double margin, double accuracy);
+/* that over ten times the accuracy wanted of the lowest limit: fw_motion_options.unsettled */
+double fw_watch_unsettled(const void *saw, const void *looser, double margin, double accuracy);
 /* one more instant of one hinge */
 void fw_strain_peak_add(fw_strain_peak *peak, double t_s, double strain);
 

@@ -88,7 +88,7 @@ class Judge:
         _, text = self.python(HERE / "layers.py", gds, table, str(stem) + ".json")
         rows = [line.split() for line in text.splitlines()]
         self.say(name + ": has polygons", bool(rows))
-        areas, least = [], self.chords(pathlib.Path(str(stem) + ".json"), gds)
+        areas, least = [], self.chords(pathlib.Path(str(stem) + ".json"))
         for layer, width, space, area in rows:
             for rule in dict.fromkeys([(width, space), ("4.0", "4.0")]):
                 self.ask("%s %s: width %s um, space %s um" % (name, layer, *rule), "kl_drc.py", f=gds, layer=layer, width=rule[0],
@@ -104,16 +104,21 @@ class Judge:
         return result[0] == 0, result[1]
 
     @staticmethod
-    def chords(certificate, gds):
-        """{layer: um}: the shortest edge that the certificate names, where no outline is cut"""
-        polygons = outlines.read_gds(gds)
-        layers = json.loads(certificate.read_text(encoding="utf-8"))["layers"] if certificate.exists() else []
-        return {k["gds"]: k["shortest_edge_nm"] * 1e-3 for k in layers
-                if k["polygons"] and len(polygons.get(k["gds"], [])) == k["polygons"]}
+    def chords(certificate):
+        """{layer: um}: 0.9 of the shortest edge that the certificate names; less only where it says so of a cut"""
+        if not certificate.exists():
+            return {}
+        said = json.loads(certificate.read_text(encoding="utf-8"))
+        least = {k["gds"]: 0.9e-3 * k["shortest_edge_nm"] for k in said["layers"] if k["polygons"]}
+        for shape in said["shapes"]:
+            cut = 1e-3 * shape.get("cut_clearance_nm", math.inf)
+            if cut < 0.9e-3 * shape["shortest_edge_nm"] * (1 - 1e-9):
+                least[shape["gds"]] = min(least[shape["gds"]], cut * (1 - 1e-9))
+        return least
 
-    def clearance(self, name, gds, layer, chord):
+    def clearance(self, name, gds, layer, least):
         """no vertex nearer to an edge than 0.9 of the shortest edge, and 20 nm in any case"""
-        done = subprocess.run([self.work / "geos_check", gds, *layer.split("/"), "%.6f" % max(0.020, 0.9 * chord)],
+        done = subprocess.run([self.work / "geos_check", gds, *layer.split("/"), "%.6f" % max(0.020, least)],
                               capture_output=True, text=True, check=False)
         self.say("%s %s: GEOS" % (name, layer), done.returncode == 0, done.stdout + done.stderr)
 

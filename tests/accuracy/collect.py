@@ -61,7 +61,7 @@ def kept(program, arguments, work):
 
 # ---- motions ----
 
-MOTION = ("problem", "setting", "tolerance", "state_error", "peak_error", "estimate", "rhs", "steps")
+MOTION = ("problem", "setting", "tolerance", "state_error", "peak_error", "estimate", "rhs", "steps", "runs")
 
 
 def count_motions(program, kind, problem, setting, first, last, step):
@@ -72,7 +72,7 @@ def count_motions(program, kind, problem, setting, first, last, step):
 
 def counted(program, kind, arguments):
     said, status, parts = callgrind.count(program, arguments)
-    found = [dict(zip(MOTION, fields)) for fields in csv.reader(io.StringIO(said)) if len(fields) == 9]
+    found = [dict(zip(MOTION, fields)) for fields in csv.reader(io.StringIO(said)) if len(fields) == 10]
     if status or len(found) != len(parts):
         sys.exit(f"{arguments}: {len(found)} motions, {len(parts)} counted, status {status}")
     return [{"kind": kind, **row, "instructions": part.total} for row, part in zip(found, parts)]
@@ -100,7 +100,7 @@ def survey(build, count):
     def work():
         with tempfile.TemporaryDirectory() as folder:
             paths = [pathlib.Path(folder) / name for name in names]
-            run(program, "--count", count, "--seed", 1, "--csv", paths[0], "--honesty", paths[1], "--jobs", 1)
+            run(program, "--count", count, "--seed", 1, "--csv", paths[0], "--honesty", paths[1], "--jobs", 2)
             return [path.read_text(encoding="utf-8") for path in paths]
 
     texts = kept(program, [count, 1], work)

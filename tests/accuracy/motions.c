@@ -39,6 +39,7 @@ typedef struct job {
 typedef struct row {
     double state, peak, estimate, cpu_ms;
     long rhs, steps;
+    int runs;
     const char *failed;
 } row;
 
@@ -136,7 +137,7 @@ static row move(job *j) {
     }
     out.cpu_ms = 1e3 * (cpu_seconds() - began);
     if (!out.failed) {
-        out.rhs = m->stats.rhs, out.steps = m->stats.steps;
+        out.rhs = m->stats.rhs, out.steps = m->stats.steps, out.runs = m->stats.runs;
         errors(j, m, &out);
     }
     fw_arena_rewind(j->arena, mark);
@@ -173,8 +174,8 @@ static void curve(job *j, const wish *w, const char *setting) {
             j->options.rtol = tolerance, j->options.accuracy = fmax(tolerance, 1e-12);
         row r = move(j);
         if (r.failed) fprintf(stderr, "%s %s %g: %s\n", j->problem, setting, tolerance, r.failed);
-        printf("%s,%s,%.0e,%.4e,%.4e,%.4e,%ld,%ld,%.4g\n", j->problem, setting, tolerance, r.state,
-               r.peak, r.estimate, r.rhs, r.steps, r.cpu_ms);
+        printf("%s,%s,%.0e,%.4e,%.4e,%.4e,%ld,%ld,%d,%.4g\n", j->problem, setting, tolerance,
+               r.state, r.peak, r.estimate, r.rhs, r.steps, r.runs, r.cpu_ms);
         fflush(stdout);
         failures += r.failed != NULL;
         if (r.rhs > most_rhs(j)) break;

@@ -5,7 +5,8 @@
    The truth: dop853 (or what auto takes) at 1e-13, all effects; its own uncertainty is its distance
    from gsl-rk8pd at 1e-12 (radau5 at 1e-11 where that fails), another method of another order.
    Devices whose truth is not known to a tenth of the accuracy are not judged by it.
-   The grid of what would have done: dop853, dopri5 and radau5 at whole decades, one run each.
+   The grid of what would have done: dop853, dopri5 and radau5 at whole decades, one run each, and
+   for a whole call the one at a hundred times the tolerance, as --rtol makes it.
    The cost of a run, in instructions: survey_cost below. */
 #include "devices.h"
 #include "survey_cost.h"
@@ -75,16 +76,19 @@ static long most_steps(const survey_row row[SURVEY_ACCURACIES]) {
 static void search_grid(const device *d, survey_row row[SURVEY_ACCURACIES]) {
     const long most = most_steps(row);
     const int bodies = d->d->r.m.nbody;
-    for (int g = 0; g < INTEGRATORS; g++)
+    for (int g = 0; g < INTEGRATORS; g++) {
+        double paid[13] = {0}; /* by decade */
         for (int e = 1; e <= 12; e++) {
             fw_mark mark = fw_arena_mark(d->arena);
             const fw_motion *m = alone(d, survey_integrators[g], pow(10, -e), most);
             double error = m ? apart(m, d->truth) / d->size : HUGE_VAL;
             double cost = m ? survey_cost(m, bodies) : HUGE_VAL;
             bool needed = false;
+            paid[e] = cost;
             for (int i = 0; i < SURVEY_ACCURACIES; i++) {
                 if (error < survey_accuracy[i] && cost < row[i].cost_cheapest) {
                     row[i].cost_cheapest = cost;
+                    row[i].cost_call = cost + paid[e > 3 ? e - 2 : 1];
                     row[i].cheapest_rtol = pow(10, -e);
                     row[i].cheapest_integrator = survey_integrators[g];
                 }
@@ -94,6 +98,7 @@ static void search_grid(const device *d, survey_row row[SURVEY_ACCURACIES]) {
             fw_arena_rewind(d->arena, mark);
             if (!m || !needed) break; /* tighter ones take no fewer steps */
         }
+    }
 }
 
 static void judge(const device *d, double accuracy, survey_row *row) {

@@ -13,10 +13,10 @@ int survey_integrator_index(const char *name) {
 }
 
 typedef struct summary {
-    int devices, below, warned, dishonest, costed, within, total_within, by[KNOWN];
+    int devices, below, warned, dishonest, costed, within, total_within, call_within, by[KNOWN];
     long runs, pins, pins_dishonest;
-    double *cost, *total, *ratio; /* (devices) ascending */
-    int nratio;
+    double *cost, *total, *call, *ratio, *digit; /* (devices) ascending */
+    int nratio, ndigit;
 } summary;
 
 /* Wilson's interval of a share, z = 1.96 */
@@ -44,7 +44,8 @@ static bool counts(const survey_row *r, double accuracy, int group) {
     return r->moved && r->accuracy == accuracy && (group < 0 || r->group == group);
 }
 
-static void add_row(summary *s, const survey_row *r) {
+/* usual: the same device at the default */
+static void add_row(summary *s, const survey_row *r, const survey_row *usual) {
     double ratio = honesty(r);
     int at = survey_integrator_index(r->integrator);
     s->devices++;
@@ -53,12 +54,15 @@ static void add_row(summary *s, const survey_row *r) {
     s->pins += r->pins, s->pins_dishonest += r->pins_dishonest;
     s->runs += r->runs;
     if (at >= 0) s->by[at]++;
+    if (usual->moved) s->digit[s->ndigit++] = r->cost_total / usual->cost_total;
     if (isfinite(ratio)) s->ratio[s->nratio++] = ratio, s->dishonest += ratio < 1;
     if (r->rows_of_equilibria || !isfinite(r->cost_cheapest)) return;
     s->cost[s->costed] = r->cost / r->cost_cheapest;
     s->total[s->costed] = r->cost_total / r->cost_cheapest;
     s->within += s->cost[s->costed] <= 1.5;
     s->total_within += s->total[s->costed] <= 1.5;
+    s->call[s->costed] = r->cost_total / r->cost_call;
+    s->call_within += s->call[s->costed] <= 1.5;
     s->costed++;
 }
 
@@ -66,18 +70,23 @@ static void add_row(summary *s, const survey_row *r) {
 static bool sum_up(const survey_result *all, double accuracy, int group, summary *s) {
     *s = (summary){.cost = calloc((size_t)all->rows, sizeof(double)),
                    .total = calloc((size_t)all->rows, sizeof(double)),
-                   .ratio = calloc((size_t)all->rows, sizeof(double))};
-    if (!s->cost || !s->total || !s->ratio) return false;
+                   .call = calloc((size_t)all->rows, sizeof(double)),
+                   .ratio = calloc((size_t)all->rows, sizeof(double)),
+                   .digit = calloc((size_t)all->rows, sizeof(double))};
+    if (!s->cost || !s->total || !s->call || !s->ratio || !s->digit) return false;
     for (int i = 0; i < all->rows; i++)
-        if (counts(&all->row[i], accuracy, group)) add_row(s, &all->row[i]);
+        if (counts(&all->row[i], accuracy, group))
+            add_row(s, &all->row[i], &all->row[i - i % SURVEY_ACCURACIES + SURVEY_DEFAULT]);
     qsort(s->cost, (size_t)s->costed, sizeof(double), bounds_by_size);
     qsort(s->total, (size_t)s->costed, sizeof(double), bounds_by_size);
+    qsort(s->call, (size_t)s->costed, sizeof(double), bounds_by_size);
     qsort(s->ratio, (size_t)s->nratio, sizeof(double), bounds_by_size);
+    qsort(s->digit, (size_t)s->ndigit, sizeof(double), bounds_by_size);
     return true;
 }
 
 static void forget(summary *s) {
-    free(s->cost), free(s->total), free(s->ratio);
+    free(s->cost), free(s->total), free(s->call), free(s->ratio), free(s->digit);
 }
 
 /* ---- files ---- */
@@ -93,15 +102,19 @@ static void put_summary(FILE *f, double accuracy, const char *group, const summa
     const double share[] = {0, 0.01, 0.1, 0.5, 0.9, 0.99};
     for (int i = 0; i < 6; i++)
         fprintf(f, ",%.3g", quantile(s->ratio, s->nratio, share[i]));
-    fprintf(f, ",%d,%d,%d,%d,%d,%.3f,%ld,%ld\n", s->dishonest, s->by[0], s->by[1], s->by[2],
-            s->by[3], (double)s->runs / n, s->pins, s->pins_dishonest);
+    fprintf(f, ",%d,%d,%d,%d,%d,%.3f,%ld,%ld", s->dishonest, s->by[0], s->by[1], s->by[2], s->by[3],
+            (double)s->runs / n, s->pins, s->pins_dishonest);
+    fprintf(f, ",%.3g,%.3g,%.3f,%.3g,%.3g\n", quantile(s->call, s->costed, 0.5),
+            quantile(s->call, s->costed, 0.9), s->call_within / c,
+            quantile(s->digit, s->ndigit, 0.5), quantile(s->digit, s->ndigit, 0.9));
 }
 
 static bool put_survey(FILE *f, const survey_result *all, const double *accuracy) {
     fprintf(f, "accuracy,group,devices,below,share_below,share_low,share_high,warned,cost_median,"
                "cost_90,cost_within,total_median,total_90,total_within,ratio_least,ratio_01,"
                "ratio_10,ratio_50,ratio_90,ratio_99,dishonest,dop853,dopri5,radau5,quasi_static,"
-               "runs_mean,pins,pins_dishonest\n");
+               "runs_mean,pins,pins_dishonest,call_median,call_90,call_within,default_median,"
+               "default_90\n");
     for (int i = 0; i < SURVEY_ACCURACIES; i++)
         for (int g = -1; g < SURVEY_GROUPS; g++) {
             summary s;
@@ -181,13 +194,15 @@ bool survey_print(const survey_result *result, const double accuracy[SURVEY_ACCU
         wilson(s.below, s.devices, &low, &high);
         printf(
             "%-6g %d devices, %.2f %% within (%.2f to %.2f), %d warned; cost over the cheapest: "
-            "median %.2f, 90 %% %.2f, up to 1.5 in %.0f %%; all runs %.2f, %.2f (%.2f runs); "
+            "median %.2f, 90 %% %.2f, up to 1.5 in %.0f %%; all runs %.2f, %.2f (%.2f runs), over "
+            "the same call by --rtol %.2f, %.2f; "
             "estimate over error: 1 %% %.2g, half %.2g, 90 %% %.2g; too small %d of %d, of peaks "
             "%ld of %ld\n",
             accuracy[i], s.devices, 100.0 * s.below / fmax(1, s.devices), 100 * low, 100 * high,
             s.warned, quantile(s.cost, s.costed, 0.5), quantile(s.cost, s.costed, 0.9),
             100.0 * s.within / fmax(1, s.costed), quantile(s.total, s.costed, 0.5),
             quantile(s.total, s.costed, 0.9), (double)s.runs / fmax(1, s.devices),
+            quantile(s.call, s.costed, 0.5), quantile(s.call, s.costed, 0.9),
             quantile(s.ratio, s.nratio, 0.01), quantile(s.ratio, s.nratio, 0.5),
             quantile(s.ratio, s.nratio, 0.9), s.dishonest, s.nratio, s.pins_dishonest, s.pins);
         double least, honest;

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { SURVEY_ACCURACIES = 5 };
+enum { SURVEY_ACCURACIES = 5, SURVEY_DEFAULT = 1 }; /* 1e-3 is the second */
 
 typedef struct survey_row { /* a device at an accuracy */
     uint64_t seed;
@@ -14,6 +14,7 @@ typedef struct survey_row { /* a device at an accuracy */
     double accuracy, true_error, estimate, reference_error; /* relative to the largest deflection */
     char integrator[24];
     double rtol, cost, cost_total, cost_cheapest, cheapest_rtol;
+    double cost_call; /* of the cheapest one and the run that --rtol compares it with */
     const char *cheapest_integrator; /* NULL: none of the grid would have done */
     int runs;
     long steps;

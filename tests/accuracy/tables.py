@@ -36,7 +36,7 @@ class Tables:
                 self.table[name] = list(csv.DictReader(file))
         for row in self["motions"]:
             row.update({name: float(row[name]) for name in NUMBERS})
-            row.update({name: int(row[name]) for name in ("rhs", "steps", "instructions")})
+            row.update({name: int(row[name]) for name in ("rhs", "steps", "runs", "instructions")})
 
     def __getitem__(self, name):
         return self.table[name]
@@ -59,6 +59,10 @@ class Tables:
     def digit(self, first=3, last=8):
         """how many times as many instructions one more digit takes, in the mean"""
         return (self.asked(last)["instructions"] / self.asked(first)["instructions"])**(1 / (last - first))
+
+    def random(self, accuracy):
+        """what --accuracy does to the random devices; None where it was not tried"""
+        return next((r for r in self["survey"] if r["group"] == "all" and float(r["accuracy"]) == accuracy), None)
 
     def scaling(self):
         found = []

@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What one evaluation of a hinge costs: ns of thread CPU time, least and median of interleaved
-   rounds. Every evaluation waits for the one before it: its result enters the next one's input.
+   rounds. Two figures of every closed form:
+     in a row   every evaluation waits for the one before: its result enters the next one's input
+     in a list  64 hinges that do not wait for each other, as when all of a mechanism are judged
    Inputs vary, so that branches are taken as they come. All of a result is worked out, the estimate
-   of its error too. `bench_hinge_closed CASE COUNT` evaluates one case (from 0) so many times and
+   of its error too. A crystal is prepared once (fw_crystal_cubic: its moduli and the direction of
+   the hinge in it), as all hinges of a material and direction share it.
+   `bench_hinge_closed CASE COUNT` evaluates one case (from 0) so many times and
    says nothing: what valgrind counts for two counts gives the instructions of one evaluation. */
 #include "flexure/finite.h"
 #include "flexure/flexure.h"
@@ -13,6 +17,8 @@
 
 enum { ROUNDS = 31, REPEAT = 200000 };
 static int repeat = REPEAT;
+
+enum kind { ARC, ARC_CRYSTAL, DEEP_ARC, LEAF, LEAF_CRYSTAL };
 
 static double now_ns(void) {
     struct timespec t;
@@ -32,9 +38,17 @@ static const fw_flexure_input h1 = {.kind = FW_FLEXURE_CSFH,
                                     .strength_Pa = 1e9,
                                     .safety_factor = 1};
 
-static double whole(bool crystal) {
+static fw_flexure_input hinge_of(int kind) {
     fw_flexure_input in = h1;
-    if (crystal) in.crystal = fw_crystal_cubic(165.7e9, 63.9e9, 79.6e9, 0.3);
+    if (kind == DEEP_ARC) in.depth_m = 85e-6;
+    if (kind == LEAF || kind == LEAF_CRYSTAL) in.kind = FW_FLEXURE_LEAF;
+    if (kind == ARC_CRYSTAL || kind == LEAF_CRYSTAL)
+        in.crystal = fw_crystal_cubic(165.7e9, 63.9e9, 79.6e9, 0.3);
+    return in;
+}
+
+static double row(int kind) {
+    fw_flexure_input in = hinge_of(kind);
     double carry = 0;
     for (int i = 0; i < repeat; i++) {
         fw_flexure_result out;
@@ -45,15 +59,27 @@ static double whole(bool crystal) {
     return carry;
 }
 
-static double part(bool crystal) {
-    fw_flexure_input in = h1;
-    if (crystal) in.crystal = fw_crystal_cubic(165.7e9, 63.9e9, 79.6e9, 0.3);
+static double list(int kind) {
+    enum { MANY = 64 };
+    static fw_flexure_input in[MANY];
+    static fw_flexure_result out[MANY];
+    for (int i = 0; i < MANY; i++) {
+        in[i] = hinge_of(kind);
+        in[i].width_m = 8e-6 + 4e-12 * i;
+    }
+    for (int i = 0; i < repeat; i++)
+        fw_flexure_closed_form(&in[i % MANY], &out[i % MANY]);
+    return out[0].stiffness_Nm_per_rad;
+}
+
+static double part(int kind) {
+    fw_flexure_input in = hinge_of(kind);
     fw_flexure_shape shape;
     fw_flexure_shape_of(&in, &shape);
     double carry = 0;
     for (int i = 0; i < repeat; i++) {
         fw_flexure_result out;
-        in.depth_m = 50e-6 + 1e-12 * (i & 255) + 1e-30 * carry;
+        in.depth_m = h1.depth_m + 1e-12 * (i & 255) + 1e-30 * carry;
         fw_flexure_closed_form_at(&shape, &in, &out);
         carry = out.stiffness_Nm_per_rad;
     }
@@ -85,18 +111,26 @@ static double law(int what) {
     return carry;
 }
 
-static double run(int which) {
-    switch (which) {
-    case 0:
-    case 1:
-        return whole(which == 1);
-    case 2:
-    case 3:
-        return part(which == 3);
-    default:
-        return law(which - 4);
-    }
-}
+static const struct bench_case {
+    const char *name;
+    double (*run)(int what);
+    int what;
+} cases[] = {
+    {"arc, in a row", row, ARC},
+    {"arc of a crystal, in a row", row, ARC_CRYSTAL},
+    {"arc, in a list", list, ARC},
+    {"arc of a crystal, in a list", list, ARC_CRYSTAL},
+    {"arc, outline at hand, in a row", part, ARC},
+    {"arc of a crystal, outline at hand, in a row", part, ARC_CRYSTAL},
+    {"arc deeper than 10 t, in a row", row, DEEP_ARC},
+    {"leaf, in a row", row, LEAF},
+    {"leaf of a crystal, in a row", row, LEAF_CRYSTAL},
+    {"leaf, in a list", list, LEAF},
+    {"leaf of a crystal, in a list", list, LEAF_CRYSTAL},
+    {"finite rotation, values and slopes", law, 0},
+    {"finite rotation, second derivatives too", law, 1},
+    {"finite rotation, wrench and tangent", law, 2},
+};
 
 static int by_size(const void *a, const void *b) {
     double x = *(const double *)a, y = *(const double *)b;
@@ -104,28 +138,26 @@ static int by_size(const void *a, const void *b) {
 }
 
 int main(int argc, char **argv) {
-    static const char *const name[] = {
-        "closed form, outline included",      "closed form of a crystal, outline included",
-        "closed form, outline at hand",       "closed form of a crystal, outline at hand",
-        "finite rotation, values and slopes", "finite rotation, second derivatives too",
-        "finite rotation, wrench and tangent"};
-    enum { CASES = sizeof name / sizeof name[0] };
+    enum { CASES = sizeof cases / sizeof cases[0] };
     static double ns[CASES][ROUNDS];
     volatile double sink = 0;
     if (argc > 2) {
         repeat = atoi(argv[2]);
-        sink = run(atoi(argv[1]));
+        int which = atoi(argv[1]);
+        if (which < 0 || which >= CASES) return 2;
+        sink = cases[which].run(cases[which].what);
         return 0;
     }
     for (int round = 0; round < ROUNDS; round++)
         for (int i = 0; i < CASES; i++) {
             double began = now_ns();
-            sink = sink + run(i);
+            sink = sink + cases[i].run(cases[i].what);
             ns[i][round] = (now_ns() - began) / REPEAT;
         }
     for (int i = 0; i < CASES; i++) {
         qsort(ns[i], ROUNDS, sizeof ns[i][0], by_size);
-        printf("%-45s %7.1f ns least %7.1f ns median\n", name[i], ns[i][0], ns[i][ROUNDS / 2]);
+        printf("%-45s %7.1f ns least %7.1f ns median\n", cases[i].name, ns[i][0],
+               ns[i][ROUNDS / 2]);
     }
     return 0;
 }

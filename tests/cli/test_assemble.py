@@ -188,6 +188,25 @@ class Assemble(unittest.TestCase):
         self.assertIn("FW-D206", result.stderr)
         self.assertIn("flexwright assemble", result.stderr)
 
+    def test_positions_typed_with_few_digits(self):
+        """What rounding leaves open is closed for all commands alike, and said; more is an error as before."""
+        leaf = (ROOT / "docs/gallery/leaf-four-bar/device.xml").read_text()
+
+        def typed(offset_um):
+            text = leaf.replace('x="0.9 mm" y="1.5 mm"', 'x="%.1f um" y="1500.1 um"' % (900 + offset_um))
+            self.assertNotEqual(text, leaf)
+            return self.device(text.replace('b-x="1.8 mm"', 'b-x="1800.1 um"'))
+
+        result = run("check", "-v", typed(0.1))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stderr, r"note: as written, joints are open by up to 141\.421 nm \(B\).*FW-D132")
+        self.assertNotIn("FW-D206", result.stderr)
+        result = run("assemble", typed(0.1))
+        self.assertIn("after what rounding left open was closed", result.stdout)
+        result = run("check", typed(0.5))
+        self.assertEqual(result.returncode, 3)
+        self.assertRegex(result.stderr, r"joint B .*0\.5099 um.*FW-D206")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -239,7 +239,7 @@ class Plan(InTemporary):
                          [("h", "fine", "accept")])
         reason, = verdict["reasons"]
         self.assertEqual((reason["code"], reason["scene"], reason["verdict"]), ("FW-D242", "bad", "reject"))
-        self.assertRegex(reason["text"], "pull-in of comb drive p is at 27.17 V, below the 60 V")
+        self.assertRegex(reason["text"], "pull-in of comb drive p is at 27.16 V, below the 60 V")
         result = self.expect(run("plan", device, "-o", self.here / "o"), 1)
         self.assertRegex(result.stdout, r"reject bad .*FW-D242")
         self.assertEqual(json.loads((self.here / "o/verdict.json").read_text())["reasons"], [reason])
@@ -264,7 +264,7 @@ class Plan(InTemporary):
     def test_a_pulse_beyond_pull_in_says_why(self):
         device = self.arm(self.plate("a", 60, 'law="step" end="0.02 ms"'))
         result = self.expect(run("check", device), 4)
-        self.assertRegex(result.stdout, "inconclusive a .*60 V, beyond the pull-in voltage 27.17 V")
+        self.assertRegex(result.stdout, "inconclusive a .*60 V, beyond the pull-in voltage 27.16 V")
         self.assertRegex(run("check", device, "-q").stdout, "beyond the pull-in voltage")
 
     def followed(self, text, sentence):

@@ -18,7 +18,7 @@ import threading
 import time
 import zipfile
 
-from client import DEVICE, Server
+from client import DEVICE, ROOT, Server
 
 TEXT = DEVICE.read_text()
 QUICK = {"kind": "check", "text": TEXT, "options": {"accuracy": 0.05, "corners": "none"}}
@@ -270,6 +270,25 @@ def kinds(program, directory):
             job = server.job({"kind": kind, "text": TEXT, "options": {"accuracy": 0.05, "corners": "none", "effects": "auto"}})
             assert job["state"] == "done" and job["result"]["schema"] == f"flexwright.{schema}/1", (kind, job)
             assert job["files"] and all(f["bytes"] > 0 for f in job["files"]), (kind, job["files"])
+
+
+def counted(program, directory):
+    """the trade-off of a job counts its instructions within the job's limits, as the command line does"""
+    text = (ROOT / "tests/data/six-bar-benchmark.xml").read_text()
+    with Server(program, directory) as server:
+        server.enter()
+        job = server.job({"kind": "tradeoff", "text": text, "options": {"budget": 1, "corners": "none"}})
+        result = job["result"]
+        assert job["state"] == "done" and result["schema"] == "flexwright.tradeoff/1", job
+        by = [p["instructions_by"] for p in result["points"] if p["state"] == "done"]
+        if shutil.which("valgrind"):
+            assert result["instructions_why"] is None and by.count("callgrind") > 3, (result["instructions_why"], by)
+        else:
+            assert result["instructions_why"] == "valgrind is not installed" and set(by) == {"model"}, by
+        assert str(directory) not in json.dumps(job), "the directory of jobs is nobody's business"
+        [work] = scratch(directory)
+        assert sorted(p.name for p in (work / "job-1").iterdir()) == ["device.xml", "out", "printed"]
+        assert (work / "job-1/device.xml").stat().st_mode & 0o777 == 0o600
 
 
 def limits(program, directory):
@@ -524,22 +543,48 @@ def six(program, directory):
                 assert s.recv(12).decode() == f"HTTP/1.1 {status}"
 
 
-def browser(program, directory):
-    """in a terminal with a display the browser is tried; one that is not there ends nothing"""
-    if os.path.exists("/usr/bin/xdg-open"):
-        print("  there is a browser here; not opened")
-        return
+def in_a_terminal(program, directory, path):
+    """serve with a display and this PATH: its process, and the terminal's end of ours"""
     ours, theirs = os.openpty()
     run = subprocess.Popen([program, "serve"], stdout=theirs, stderr=theirs, stdin=theirs,
-                           env={**os.environ, "DISPLAY": ":9", "TMPDIR": str(directory)})
+                           env={**os.environ, "DISPLAY": ":9", "TMPDIR": str(directory), "PATH": str(path)})
     os.close(theirs)
-    text = b""
-    while b"FW-D285" not in text:
-        text += os.read(ours, 1000)
-    assert run.poll() is None and text.startswith(b"http://127.0.0.1:")
-    run.terminate()
-    assert run.wait(timeout=5) == 0
-    os.close(ours)
+    return run, ours
+
+
+def until(found):
+    end = time.monotonic() + 10
+    while not found():
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+def browser(program, directory):
+    """in a terminal with a display the browser is tried; one that is not there, or is no program, ends nothing"""
+    directory = pathlib.Path(directory)
+    (path := directory / "bin").mkdir()
+    said, opener = directory / "said", path / "xdg-open"
+    for mode in (None, 0o600, 0o700):
+        if mode:
+            opener.write_text(f'#!/bin/sh\necho "$# $1" >{said}.new\n/bin/cat "$1" >>{said}.new\n/bin/mv {said}.new {said}\n')
+            opener.chmod(mode)
+        run, ours = in_a_terminal(program, directory, path)
+        text = os.read(ours, 1000)
+        if mode == 0o700:
+            until(said.exists)
+        else:
+            while b"FW-D285" not in text:
+                text += os.read(ours, 1000)
+            assert not said.exists()
+        assert run.poll() is None and text.startswith(b"http://127.0.0.1:"), text
+        url = text.split()[0].decode()
+        run.terminate()
+        assert run.wait(timeout=5) == 0
+        os.close(ours)
+    words, page = said.read_text().split("\n", 1)
+    assert words.startswith(f"1 {directory}/flexwright-serve-") and words.endswith("/open.html"), words
+    token = url.split("token=")[1]
+    assert token in page and token not in words, "the address is for the browser, not for a list of processes"
 
 
 def started_wrongly(program, directory):
@@ -556,7 +601,7 @@ def started_wrongly(program, directory):
 
 
 WAITING = [half_open, drip_alone, stopped]  # these do little but wait: beside the others
-TESTS = [only_loopback, loaded, archive, jobs, kinds, limits, crash, abandoned, file, words, entry, streams, signals, killed, six, browser,
+TESTS = [only_loopback, loaded, archive, jobs, kinds, counted, limits, crash, abandoned, file, words, entry, streams, signals, killed, six, browser,
          started_wrongly]
 
 

@@ -116,4 +116,4 @@ export const setText = (page, change) => page.evaluate((c) => {
     editor.replace(editor.text.replace(c[0], c[1]));
 }, change);
 export const verdict = (page, word) => page.waitForSelector(`#banner[data-verdict="${word}"]`);
-export const computed = (page, id) => page.waitForFunction((p) => /^computed/.test(document.querySelector(`#panel-${p} .job-message`)?.textContent ?? ""), id);
+export const computed = (page, id, timeout = 15000) => page.waitForFunction((p) => /^computed/.test(document.querySelector(`#panel-${p} .job-message`)?.textContent ?? ""), id, { timeout });

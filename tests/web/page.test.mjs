@@ -5,7 +5,7 @@ import { execFileSync, spawnSync } from "node:child_process";
 import { readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { join, relative } from "node:path";
 import { after, before, describe, test } from "node:test";
-import { answered, close, computed, finish, open, program, serve, setText, source, text, theBrowser, verdict, view } from "./helper.mjs";
+import { answered, axeSource, close, computed, finish, open, program, serve, setText, source, text, theBrowser, verdict, view } from "./helper.mjs";
 
 after(finish);
 
@@ -277,6 +277,41 @@ describe("the six-bar", () => {
         ]);
         if (told === "running") await page.click("#panel-accuracy .cancel", { timeout: 800 }).catch(() => {}); // it may just have ended
         await page.waitForFunction(() => /cancelled|not in this version/.test(document.querySelector("#panel-accuracy .job-errors").textContent));
+    });
+
+    test("what each digit costs is read off a table: cheapest settings, the accuracy wanted, what the model is off by", async () => {
+        const point = (method, integrator, rtol, error, instructions, front = true) => ({ method, integrator, rtol, state: "done", error, at_most: false, estimated: 10 * error, steps: 50, instructions, instructions_by: "callgrind", front, time: { told: true, ratio: instructions / 4e6, low: 0, high: 1, pairs: 25 } });
+        const result = {
+            schema: "flexwright.tradeoff/1", accuracy_wanted: 1e-3, chosen: { ...point("chain", "dop853", 3e-6, 3e-5, 4e6, false), over_cheapest: 2, cpu_s: 1e-3, quasi_static: false },
+            summary: { digit_here: 1.25, digit_overall: 3, floor: 0.02, floor_what: "solid" }, instructions_why: null, models: [], masks: [],
+            points: [point("chain", "dopri5", 1e-3, 4e-2, 1e6), point("chain", "dopri5", 1e-5, 5e-4, 2e6), point("svd", "rk4", 1e-5, 5e-4, 9e6, false), point("chain", "dop853", 1e-7, 8e-7, 8e6), { method: "qr", integrator: "rk4", rtol: 1e-3, state: "skipped", why: "too slow" }],
+        };
+        await page.evaluate((r) => {
+            const { job } = globalThis.flexwright.parts.accuracy;
+            job.content.hidden = false;
+            job.render({ id: 0, result: r, files: [] }, job.content);
+        }, result);
+        const facts = await page.locator("#panel-accuracy .fact strong").allTextContents();
+        assert.deepEqual(facts, ["25 % more work", "2 %", "chain, dop853", "2 ×"]);
+        const rows = await page.locator("table.digits tbody tr").evaluateAll((list) => list.map((r) => [...r.children].map((c) => c.textContent.trim()).filter(Boolean).join("; ")));
+        assert.deepEqual(rows, [
+            "10 %; 1 M instr.; 250 µs; chain, dopri5, 0.001; Use",
+            "below 2 % the model itself is off by more (what the verdict allows its model of hinges)",
+            "1 %; 2 M instr.; 2 ×; 500 µs; chain, dopri5, 1e\u22125; Use",
+            "0.1 % wanted; the same",
+            "0.01 %; 8 M instr.; 4 ×; 2 ms; chain, dop853, 1e\u22127; Use",
+            "1e\u22126; the same", // 1e-5, which costs the same as both its neighbours, is left out
+        ]);
+        const widths = await page.locator("table.digits .work-bar i").evaluateAll((list) => list.map((b) => b.getBoundingClientRect().width));
+        assert.ok([1, 2, 2, 8, 8].every((w, i) => Math.abs(widths[i] / widths[3] - w / 8) < 0.02), widths.join());
+        await answered(page, () => page.locator('table.digits button[aria-label="Use chain, dop853, 1e-7"]').click());
+        assert.deepEqual(await page.evaluate(() => ["method", "integrator", "rtol"].map((k) => globalThis.flexwright.state.options[k])), ["chain", "dop853", "1e-7"]);
+        await answered(page, () => page.selectOption('select[aria-label="Accuracy wanted"]', "1e-4"));
+        assert.equal(await page.inputValue('select[aria-label="accuracy"]'), "1e-4", "the same choice above the motion");
+        await page.selectOption('select[aria-label="Accuracy wanted"]', "");
+        await page.evaluate(axeSource);
+        const axe = await page.evaluate(() => globalThis.axe.run("#panel-accuracy", { resultTypes: ["violations"] }));
+        assert.deepEqual(axe.violations.filter((v) => ["serious", "critical"].includes(v.impact)).map((v) => [v.id, v.nodes[0].html]), []);
     });
 
     test("the slider: how long until the new motion is seen", async (t) => {

@@ -32,4 +32,23 @@ await page.waitForTimeout(600);
 await save(page, "page-masks.png");
 await close(page);
 await server.stop();
+
+const tendons = await serve("four-tendons");
+const moving = await open(tendons, size);
+await moving.waitForSelector("#banner:has-text('As fabricated')", { timeout: 60000 });
+await moving.waitForTimeout(300);
+await save(moving, "page-cables.png");
+await close(moving);
+await tendons.stop();
+
+const costs = await serve("reference-six-bar");
+const accuracy = await open(costs, size);
+await view(accuracy, "accuracy");
+await accuracy.click('button:has-text("Measure the trade-off")');
+await computed(accuracy, "accuracy", 240000);
+await accuracy.waitForSelector("#banner:has-text('As fabricated')", { timeout: 60000 });
+await accuracy.waitForTimeout(300);
+await save(accuracy, "page-accuracy.png");
+await close(accuracy);
+await costs.stop();
 await closeBrowser();

@@ -3,35 +3,21 @@
 import { h, select, setOptions } from "./dom.js";
 import { degrees, micrometres, number } from "./format.js";
 import { JobView } from "./jobs.js";
-import { Mechanism } from "./mechanism.js";
-import { zoomButtons } from "./motion.js";
-import { on, state } from "./store.js";
+import { Split } from "./split.js";
+import { state } from "./store.js";
 
-export class Assembly {
+export class Assembly extends Split {
     constructor(holder) {
-        this.stage = h("div", { class: "stage" });
-        this.side = h("div", { class: "side-panel" });
-        holder.append(h("div", { class: "split" }, this.stage, this.side));
-        this.mechanism = new Mechanism(this.stage, { label: "Assembly: outline before, filled after." });
-        this.stage.append(zoomButtons(() => this.mechanism.view), h("div", { class: "picture-key" }, h("span", { class: "ghost-key" }), "before", h("span", { class: "after-key" }), "after"));
+        super(holder, { title: "Assembly", label: "Assembly: outline before, filled after." });
+        this.stage.append(h("div", { class: "picture-key" }, h("span", { class: "ghost-key" }), "before", h("span", { class: "after-key" }), "after"));
         this.blend = h("input", { type: "range", min: 0, max: 100, value: 100, "aria-label": "From before to after" });
-        this.blend.addEventListener("input", () => this.#draw());
-        this.which = select("Assembly shown", [], "found", () => this.#draw());
-        const card = h("section", { class: "card" }, h("h2", {}, "Assembly"),
-            h("label", { class: "option" }, h("span", {}, "before"), this.blend, h("span", {}, "after")), this.which);
-        this.side.append(card);
-        this.view = new JobView(card, {
+        this.blend.addEventListener("input", () => this.draw());
+        this.which = select("Assembly shown", [], "found", () => this.draw());
+        this.card.append(h("label", { class: "option" }, h("span", {}, "before"), this.blend, h("span", {}, "after")), this.which);
+        this.view = new JobView(this.card, {
             kind: "assemble", action: "Assemble", auto: true, options: () => (state.options.scene ? { scene: state.options.scene } : {}),
             intro: "Takes the poses of the bodies as a guess and closes all joints.", render: (job, into) => this.#show(job.result, into),
         });
-        on("preview", (p) => this.visible && this.mechanism.show(p));
-    }
-
-    shown(yes) {
-        this.visible = yes;
-        this.view.show(yes);
-        if (yes && state.preview) this.mechanism.show(state.preview);
-        if (yes) this.#draw();
     }
 
     #show(result, into) {
@@ -48,10 +34,10 @@ export class Assembly {
             ].flatMap(([k, v]) => [h("dt", {}, k), h("dd", {}, v)])),
             result.branches?.length ? h("table", { class: "plain" }, h("thead", {}, h("tr", {}, ["elbow", "guess", "found"].map((x) => h("th", { scope: "col" }, x)))),
                 h("tbody", {}, result.branches.map((b) => h("tr", {}, h("td", {}, b.elbow), h("td", {}, side(b.guess)), h("td", {}, side(b.found)))))) : "");
-        this.#draw();
+        this.draw();
     }
 
-    #draw() {
+    draw() {
         const p = state.preview;
         if (!p || !this.result) return;
         const other = this.which.value === "found" ? null : this.result.alternatives?.[Number(this.which.value)];

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The device as a picture that moves: real outlines of bodies, flexures bent between them, hinges
-// coloured and numbered by how much of their limit they use, loads as arrows.
+// coloured and numbered by how much of their limit they use, springs and cables, loads as arrows.
+import { Attached } from "./attached.js";
 import { scale } from "./colours.js";
 import { h, s } from "./dom.js";
 import { percent } from "./format.js";
-import { Bend, displacement, moved } from "./outline.js";
+import { Bend, displacement, moved, place } from "./outline.js";
 import { scaleBar, Viewport } from "./viewport.js";
 
 const REST = [0, 0, 0];
@@ -21,16 +22,14 @@ export const restOf = (preview) => preview.bodies.map((b) => b.rest ?? REST);
 
 const lineOf = (text) => (text ? text.slice(1).split("L").map((p) => p.split(" ").map(Number)) : null);
 
-const place = (pose) =>
-    `translate(${(pose[0] * 1e6).toFixed(3)} ${(pose[1] * 1e6).toFixed(3)}) rotate(${((pose[2] * 180) / Math.PI).toFixed(5)})`;
-
 export class Mechanism {
     /** holder: an element that gets the picture; label: its name for assistive programs; around: room for what
-     *  moves, as a share of the device */
-    constructor(holder, { label, onhinge, pan, around = 0 } = {}) {
+     *  moves, as a share of the device; scene: the picture holds the scene's cables, too */
+    constructor(holder, { label, onhinge, pan, around = 0, scene = false } = {}) {
         this.id = `mechanism${++count}`;
         this.onhinge = onhinge;
         this.around = around;
+        this.scene = scene;
         this.svg = s("svg", { class: "mechanism" });
         holder.append(this.svg);
         this.view = new Viewport(this.svg, { label, pan, onview: () => this.#resize() });
@@ -39,11 +38,12 @@ export class Mechanism {
         this.under = s("g", { class: "under" });
         this.parts = s("g", { class: "parts" });
         this.above = s("g", { class: "above" });
-        this.view.world.append(this.under, this.ghost, this.parts, this.above);
+        this.attached = new Attached();
+        this.view.world.append(this.under, this.ghost, this.parts, this.attached.group, this.above);
         this.labels = s("g", { class: "labels" });
         this.arrows = s("g", { class: "arrows" });
         this.bar = s("g", { class: "scale-bar", "aria-hidden": "true" });
-        this.view.overlay.append(this.arrows, this.labels, this.bar);
+        this.view.overlay.append(this.attached.tags, this.arrows, this.labels, this.bar);
         this.bodies = [];
         this.flexures = [];
         this.pins = [];
@@ -63,10 +63,22 @@ export class Mechanism {
     /** Takes a new device; keeps pan and zoom. */
     show(preview) {
         const shape = JSON.stringify([preview.bodies, preview.flexures, preview.pins.map((p) => p.id)]);
+        const attached = JSON.stringify([preview.scene_box_um, preview.ties, preview.springs, preview.loads]);
         this.preview = preview;
-        if (shape === this.shape) return;
-        this.shape = shape;
+        if (shape === this.shape && attached === this.attachedShape) return;
         this.rest = restOf(preview);
+        if (shape !== this.shape) this.#parts(preview);
+        const q = shape === this.shape && this.q ? this.q : this.rest;
+        this.shape = shape;
+        this.attachedShape = attached;
+        this.attached.show(preview, this.rest);
+        this.pose(q);
+        const room = this.scene && preview.loads?.some((x) => x.kind === "tendon") ? 0.06 : 0; // for the arrows of cables
+        const box = this.scene ? preview.scene_box_um : preview.box_um;
+        if (box) this.view.setBox(grown(box, Math.max(this.around, room)));
+    }
+
+    #parts(preview) {
         this.parts.replaceChildren();
         this.bodies = preview.bodies.map((body) => {
             const paths = (list, name) => (list ?? []).map((d) => s("path", { d, class: name, "fill-rule": "evenodd" }));
@@ -89,8 +101,6 @@ export class Mechanism {
             return { id: flexure.id, a, b, path, edge, title, bend: flexure.centre_line ? new Bend(flexure.path, lineOf(flexure.centre_line)) : null, rest: flexure.path };
         });
         this.#pins(preview, index, ground);
-        if (preview.box_um) this.view.setBox(grown(preview.box_um, this.around));
-        this.pose(this.rest);
     }
 
     #pins(preview, index, ground) {
@@ -105,9 +115,12 @@ export class Mechanism {
         });
     }
 
-    /** q: pose [x_m, y_m, phi_rad] of every body, in the order of the preview's bodies. */
-    pose(q) {
+    /** q: pose [x_m, y_m, phi_rad] of every body, in the order of the preview's bodies; acting: {factors:
+     *  how much of every load acts, tensions: of every cable}; null: the picture is of no scene. */
+    pose(q, acting = null) {
         this.q = q;
+        this.factors = acting?.factors;
+        this.attached.pose(q, acting);
         const motion = q.map((pose, i) => displacement(this.rest[i], pose));
         this.motion = motion;
         q.forEach((pose, i) => this.bodies[i].setAttribute("transform", place(pose)));
@@ -156,7 +169,8 @@ export class Mechanism {
         }
     }
 
-    /** loads: [{body (index), at: [x_um, y_um] in its axes, fx_N, fy_N, factor}] or torque_Nm. */
+    /** loads: [{body (index, -1: ground), at: [x_um, y_um] in its axes, index (of the preview's loads), relative
+     *  (to the largest), and along: (at) => [x, y], at(body, point) in um, or torque_Nm}]. */
     setLoads(loads) {
         this.loads = loads;
         this.arrows.replaceChildren(...loads.map((load) => {
@@ -180,13 +194,14 @@ export class Mechanism {
             const out = Math.min(38, 12 + 90 * this.view.k);
             pin.g.setAttribute("transform", `translate(${(x - (dx / far) * out * 1.5).toFixed(1)} ${(y - (dy / far) * out + 4).toFixed(1)})`);
         }
+        this.attached.name((x, y) => this.view.toScreen(x, y), this.view.k);
         for (const load of this.loads) this.#load(load);
     }
 
     #load(load) {
-        const size = load.size ?? 1;
-        const at = moved(this.q[load.body].map((v, i) => (i < 2 ? v * 1e6 : v)), load.at);
-        const [x, y] = this.view.toScreen(...at);
+        const size = (load.of ?? ((x) => x))(this.factors?.[load.index] ?? 1);
+        const at = (body, point) => moved((this.q[body] ?? REST).map((v, i) => (i < 2 ? v * 1e6 : v)), point);
+        const [x, y] = this.view.toScreen(...at(load.body, load.at));
         load.path.classList.toggle("none", Math.abs(size) < 0.02);
         if (load.torque_Nm !== undefined) {
             const r = 17;
@@ -197,11 +212,10 @@ export class Mechanism {
             load.path.setAttribute("d", `M${p(begin)}A${r} ${r} 0 1 ${sweep} ${p(end)}`);
             return;
         }
-        const f = Math.hypot(load.fx_N, load.fy_N) || 1;
-        const length = 22 + 34 * Math.abs(size) * (load.relative ?? 1);
-        const dx = (Math.sign(size) * load.fx_N * length) / f;
-        const dy = (-Math.sign(size) * load.fy_N * length) / f;
-        load.path.setAttribute("d", `M${x.toFixed(1)} ${y.toFixed(1)}L${(x + dx).toFixed(1)} ${(y + dy).toFixed(1)}`);
+        const [ux, uy] = load.along(at, this.q);
+        const far = Math.hypot(ux, uy) || 1;
+        const length = Math.sign(size) * (14 + (load.longest ?? 42) * Math.min(Math.abs(size), 1.5) * (load.relative ?? 1));
+        load.path.setAttribute("d", `M${x.toFixed(1)} ${y.toFixed(1)}L${(x + (ux / far) * length).toFixed(1)} ${(y - (uy / far) * length).toFixed(1)}`);
     }
 
     #resize() {

@@ -3,46 +3,30 @@
 import { button, h, select } from "./dom.js";
 import { number, percent, si } from "./format.js";
 import { JobView } from "./jobs.js";
-import { Mechanism } from "./mechanism.js";
-import { zoomButtons } from "./motion.js";
-import { on, state } from "./store.js";
+import { Split } from "./split.js";
+import { state } from "./store.js";
 
 const PERIOD_S = 1.6;
 
-export class Modes {
+export class Modes extends Split {
     constructor(holder) {
-        this.stage = h("div", { class: "stage" });
-        this.side = h("div", { class: "side-panel" });
-        holder.append(h("div", { class: "split" }, this.stage, this.side));
-        this.mechanism = new Mechanism(this.stage, { label: "A mode shape of the mechanism, moving.", around: 0.08 });
-        this.stage.append(zoomButtons(() => this.mechanism.view));
+        super(holder, { title: "Modes", label: "A mode shape of the mechanism, moving.", around: 0.08 });
         this.at = select("About", [["rest", "about rest"], ["equilibrium", "about the equilibrium"]], "rest", () => this.view.run());
         this.amplitude = h("input", { type: "range", min: 1, max: 100, value: 30, "aria-label": "Amplitude of the picture" });
         this.pause = button("Pause", { icon: "pause", class: "small" }, () => this.#toggle());
-        const card = h("section", { class: "card" }, h("h2", {}, "Modes"), h("div", { class: "row" }, this.at, this.pause),
-            h("label", { class: "option" }, h("span", {}, "amplitude"), this.amplitude));
-        this.side.append(card);
-        this.view = new JobView(card, {
+        this.card.append(h("div", { class: "row" }, this.at, this.pause), h("label", { class: "option" }, h("span", {}, "amplitude"), this.amplitude));
+        this.view = new JobView(this.card, {
             kind: "modes", action: "Compute the modes", auto: true, options: () => ({ at: this.at.value, ...(state.options.scene ? { scene: state.options.scene } : {}) }),
             intro: "Natural frequencies, damping and shapes of small motions.", render: (job, into) => this.#list(job, into),
         });
         this.chosen = 0;
         this.moving = !matchMedia("(prefers-reduced-motion: reduce)").matches;
-        this.visible = false;
-        on("preview", (p) => this.visible && this.mechanism.show(p));
-    }
-
-    shown(yes) {
-        this.visible = yes;
-        this.view.show(yes);
-        if (yes && state.preview) this.mechanism.show(state.preview);
-        if (yes) this.#animate();
     }
 
     #toggle() {
         this.moving = !this.moving;
         this.pause.replaceChildren(...button(this.moving ? "Pause" : "Play", { icon: this.moving ? "pause" : "play" }).childNodes);
-        if (this.moving) this.#animate();
+        if (this.moving) this.draw();
     }
 
     #list(job, into) {
@@ -55,14 +39,14 @@ export class Modes {
             h("span", { class: "mode-d" }, m.damping_ratio !== null ? `damping ${percent(m.damping_ratio, 2)}` : m.kind), h("span", { class: "mode-b" }, m.bodies)));
         into.replaceChildren(h("div", { class: "mode-list" }, items),
             h("p", { class: "doc" }, `${job.result.scene}, about ${job.result.at}; a step to equilibrium would still move ${number(job.result.out_of_rest, 2)} (rad, or of ${si(this.unit, "m")}).`));
-        this.#animate();
+        this.draw();
     }
 
     #choose(i) {
         this.chosen = i;
-        this.side.querySelectorAll(".mode").forEach((b, k) => b.setAttribute("aria-pressed", String(k === i)));
+        this.card.querySelectorAll(".mode").forEach((b, k) => b.setAttribute("aria-pressed", String(k === i)));
         this.#frame(this.phase ?? 0);
-        if (this.moving) this.#animate();
+        if (this.moving) this.draw();
     }
 
     #frame(phase) {
@@ -77,7 +61,7 @@ export class Modes {
         }));
     }
 
-    #animate() {
+    draw() {
         if (this.running) return;
         if (!this.moving) {
             this.#frame(Math.PI / 2);

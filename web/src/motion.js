@@ -4,13 +4,16 @@
 import { curve, dash } from "./colours.js";
 import { setOption } from "./design.js";
 import { button, h, s, select, setOptions } from "./dom.js";
-import { degrees, number, percent, prefixOf, si } from "./format.js";
+import { degrees, micrometres, number, percent, prefixOf, si } from "./format.js";
 import { colourLegend, Mechanism, posesOf, restOf } from "./mechanism.js";
 import { Plot } from "./plots.js";
 import { lookAt, on, state } from "./store.js";
 
 const SECONDS = 4; // that a whole scene takes at speed 1
 const RTOL = ["1e-5", "1e-6", "1e-7", "1e-8", "1e-9", "1e-10", "1e-11"]; // what explicit integrators take
+
+/** What --accuracy is offered beside 1e-3, which it is by itself. */
+export const ACCURACIES = ["1e-2", "1e-4", "1e-5"];
 
 /** Limit of a pin in the flow of the motion, rad, or null. */
 export function limitOf(preview, pin, flow) {
@@ -31,7 +34,7 @@ export class Motion {
         this.player = h("div", { class: "player", role: "group", "aria-label": "Time" });
         this.plots = h("div", { class: "plots" });
         holder.append(this.tools, this.stage, this.player, this.plots);
-        this.mechanism = new Mechanism(this.stage, { label: "The mechanism in motion. Arrow keys pan, plus and minus zoom, 0 fits.", onhinge: lookAt });
+        this.mechanism = new Mechanism(this.stage, { label: "The mechanism in motion. Arrow keys pan, plus and minus zoom, 0 fits.", onhinge: lookAt, scene: true });
         this.stage.append(colourLegend(), this.#zoomButtons());
         this.stats = h("div", { class: "run-stats" });
         this.#player();
@@ -76,7 +79,7 @@ export class Motion {
             pick("tolerance", "rtol", RTOL, "auto"),
             pick("hinges", "hinge_model", o.hinge_models, "auto"),
             pick("effects", "effects", ["all", "none"], "auto"),
-            pick("accuracy", "accuracy", ["1e-2", "1e-4", "1e-5"], "1e-3"),
+            pick("accuracy", "accuracy", ACCURACIES, "1e-3"),
             this.stats);
     }
 
@@ -202,7 +205,7 @@ export class Motion {
         const m = p.motion;
         const a = m.q[i];
         const b = m.q[Math.min(i + 1, m.q.length - 1)];
-        this.mechanism.pose(posesOf(p, a.map((x, k) => x + f * (b[k] - x))));
+        this.mechanism.pose(posesOf(p, a.map((x, k) => x + f * (b[k] - x))), { factors: between(p.motion.load_factor, p.loads.length, i, f, 1), tensions: between(p.motion.tension_N, p.motion.tension_N?.length ?? 0, i, f, 0) });
         const angles = m.angle_rad[i].map((x, k) => x + f * ((m.angle_rad[Math.min(i + 1, m.angle_rad.length - 1)][k] ?? x) - x));
         const shares = new Map(p.pins.map((pin, k) => [pin.id, this.limits[k] ? Math.abs(angles[k]) / this.limits[k] : null]));
         this.mechanism.colour(shares, state.hinge);
@@ -257,15 +260,33 @@ function legend(plot, names, onclick) {
     box.replaceChildren(...items);
 }
 
-/** Arrows for the loads of the scene. */
+/** Of n lists of values at the samples each one's value between sample i and the next; without a list `usual`. */
+const between = (lists, n, i, f, usual) => Array.from({ length: n }, (_, k) => {
+    const list = lists?.[k];
+    return list ? list[i] + f * ((list[i + 1] ?? list[i]) - list[i]) : usual;
+});
+
+/** Arrows for the loads of the scene, each as long as it is beside the largest of its kind. */
 function loadsOf(p) {
-    const list = (p.loads ?? []).filter((x) => x.body >= 0);
-    const size = (x) => Math.hypot(...(x.force_N ?? [0, 0]));
-    const most = Math.max(...list.map(size), 1e-30);
-    return list.filter((x) => x.torque_Nm || size(x) > 0).map((x) => {
-        const name = p.bodies[x.body].id;
-        const law = x.law && x.law !== "step" ? `, ${x.law}` : "";
-        return x.kind === "torque" ? { body: x.body, at: [0, 0], torque_Nm: x.torque_Nm, text: `torque ${si(x.torque_Nm, "N m")} on ${name}${law}` }
-            : { body: x.body, at: x.at_um, fx_N: x.force_N[0], fy_N: x.force_N[1], relative: size(x) / most, text: `force ${si(size(x), "N")} on ${name}${law}` };
-    });
+    const list = (p.loads ?? []).map((x, index) => ({ ...x, index }));
+    const size = { force: (x) => Math.hypot(...x.force_N), torque: (x) => Math.abs(x.torque_Nm), tendon: (x) => Math.abs(x.pull_N ?? x.draw_m), "comb-drive": (x) => x.voltage_V ** 2 };
+    const most = (x) => Math.max(...list.filter((y) => y.kind === x.kind).map(size[x.kind]));
+    return list.filter((x) => size[x.kind]?.(x) > 0).map((x) => ({ index: x.index, relative: size[x.kind](x) / most(x), ...arrows[x.kind](p, x) }));
 }
+
+const lawOf = (x) => (x.law && x.law !== "step" ? `, ${x.law}` : "");
+const bodyOf = (p, i) => p.bodies[i]?.id ?? "ground";
+const arrows = {
+    force: (p, x) => ({ body: x.body, at: x.at_um, along: () => x.force_N, text: `force ${si(Math.hypot(...x.force_N), "N")} on ${bodyOf(p, x.body)}${lawOf(x)}` }),
+    torque: (p, x) => ({ body: x.body, at: [0, 0], torque_Nm: x.torque_Nm, text: `torque ${si(x.torque_Nm, "N m")} on ${bodyOf(p, x.body)}${lawOf(x)}` }),
+    tendon: (p, x) => { // behind the last eyelet, the way the cable is drawn
+        const [before, last] = x.eyelets.slice(-2);
+        const amount = x.pull_N ?? x.draw_m;
+        return { body: last.body, at: last.at_um, longest: 14, of: (f) => f * Math.sign(amount),
+            along: (at) => [0, 1].map((k) => at(last.body, last.at_um)[k] - at(before.body, before.at_um)[k]),
+            text: `cable ${x.id ?? ""}: ${x.pull_N === null ? `${micrometres(amount)} drawn in` : `pulled with ${si(amount, "N")}`}${lawOf(x)}` };
+    },
+    "comb-drive": (p, x) => ({ body: x.bodies[1], at: x.at_um, of: (f) => f * f, // its force goes with the square of the voltage
+        along: (at, q) => [Math.cos, Math.sin].map((g) => g(x.direction_rad + (q[x.bodies[0]]?.[2] ?? 0))),
+        text: `drive ${x.id ?? ""}: ${si(x.voltage_V, "V")}${lawOf(x)}` }),
+};

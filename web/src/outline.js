@@ -74,6 +74,10 @@ export const moved = (pose, [x, y]) => {
     return [pose[0] + c * x - q * y, pose[1] + q * x + c * y];
 };
 
+/** A pose as an SVG transform, in um. */
+export const place = (pose) =>
+    `translate(${(pose[0] * 1e6).toFixed(3)} ${(pose[1] * 1e6).toFixed(3)}) rotate(${((pose[2] * 180) / Math.PI).toFixed(5)})`;
+
 /**
  * A flexure between two bodies that have moved: its ends go with the bodies, and between them its
  * curvature changes evenly, as that of a beam under a pure moment does; the small gap that the pin

@@ -183,10 +183,49 @@ static void nothing_promised(void **state) {
     trio_free(&t);
 }
 
+static fw_effect_entry give_of(rig *r, double accuracy, const fw_effect_ledger *like,
+                               fw_effect_ledger *ledger) {
+    const fw_effect_choice choice = {.like = like};
+    fw_diags diags = fw_diags_new(r->arena);
+    fw_terms terms;
+    assert_int_equal(
+        fw_effects_compile(r->arena, &r->m, &r->scene, &choice, accuracy, &diags, ledger, &terms),
+        FW_OK);
+    for (int i = 0; i < ledger->count; i++)
+        if (strcmp(ledger->item[i].id, "nonlinear-hinge") == 0) return ledger->item[i];
+    fail();
+    return (fw_effect_entry){0};
+}
+
+/* what acts by far in a device much like this one acts here, with that bound; else it is found */
+static void like_another(void **state) {
+    (void)state;
+    double load[RIG_N] = {0, 1e-6, 0};
+    fw_effect_ledger first, same, ledger;
+    trio t;
+    trio_new(&t, false, 1, 1e-3);
+    rig *r = &t.real;
+    put_on(r, load);
+    const fw_effect_entry found = give_of(r, 1e-9, NULL, &first);
+    assert_true(found.active && isfinite(found.bound));
+    for (int i = 0; i < first.count; i++) /* a bound that is none of this device's */
+        if (strcmp(first.item[i].id, found.id) == 0) first.item[i].bound *= 1.5;
+    fw_effect_entry e = give_of(r, found.bound / 4, &first, &same);
+    assert_true(e.active);
+    assert_near(e.bound, 1.5 * found.bound, 1e-9 * found.bound);
+    for (int i = 0; i < 2; i++) { /* not by far; and not a bit */
+        e = give_of(r, found.bound / (i ? 0.5 : 2), &first, &ledger);
+        assert_near(e.bound, found.bound, 1e-9 * found.bound);
+        assert_true(e.active == !i);
+    }
+    trio_free(&t);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(motions),
         cmocka_unit_test(nothing_promised),
+        cmocka_unit_test(like_another),
     };
     return cmocka_run_group_tests_name("hinge give", tests, NULL, NULL);
 }

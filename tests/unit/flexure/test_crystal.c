@@ -4,6 +4,7 @@
 #include "flexure/finite.h"
 #include "flexure/kinds.h"
 #include "flexure/section.h"
+#include "flexure/section_core.h"
 #include "test.h"
 
 static const double degree = M_PI / 180, c11 = 165.7e9, c12 = 63.9e9, c44 = 79.6e9;
@@ -110,8 +111,9 @@ static void arcs_match_finite_elements(void **state) {
         assert_relative(o.youngs_Pa, 147.08e9, 1e-4); /* sin 4a = 0: the harmonic mean */
 
         in = arc(row[i].angle, 1e-4, row[i].axis); /* so thin that nothing else is left */
+        in.depth_m = 1e-13;
         fw_flexure_closed_form(&in, &o);
-        double thin = pow(row[i].t / 1e-4, 3) * up;
+        double thin = pow(row[i].t / 1e-4, 3) * 50e-6 / 1e-13;
         assert_relative(o.stiffness_Nm_per_rad * 1e12 * thin, row[i].K, 2e-8);
         assert_near((o.centre_m + o.offset_m[0]) * 1e6, row[i].wx, 2e-6);
         assert_near(o.offset_m[1] * 1e6, row[i].wy, 2e-6);
@@ -126,9 +128,7 @@ static fw_flexure_input real_root(double axis_deg) {
     return in;
 }
 
-/* by how much W moves when ends that are ideal become blocks with fillets, um: finite elements, and
-   closed form with what it is short of for an isotropic arc too (30.2353 - 29.8787, 29.9944 -
-   29.6829) */
+/* by how much W moves when ends that are ideal become blocks with fillets, um */
 static void roots_of_silicon(void **state) {
     (void)state;
     const double row[][3] = {
@@ -140,8 +140,82 @@ static void roots_of_silicon(void **state) {
         in.fillet_m = -1;
         fw_flexure_closed_form(&in, &ideal);
         double moved = real.centre_m + real.offset_m[0] - ideal.centre_m - ideal.offset_m[0];
-        assert_near(moved * 1e6 - 0.0451, row[i][2] - row[i][1], 0.04);
+        assert_near(moved * 1e6, row[i][2] - row[i][1], 0.04);
     }
+}
+
+/* W (um) and K (uN um/rad) of solids whose ends keep the section straight: three with roots and six
+   with rigid ends by an independent program's meshes, and own ones (half of the arc, quadratic
+   bricks; the first is the reference's arc: 0.003 um, 0.01 %). Without what the ends take away W is
+   0.2 to 0.8 um and K 0.2 to 1.1 % off; the law knows neither of these W */
+static void ends_of_silicon(void **state) {
+    (void)state;
+    const struct {
+        double r, t, angle, rho, h, axis, W, K, off_W, off_K;
+    } row[] = {
+        {100, 8, 270, 4, 50, 0, 30.1922, 674491.7, 0.07, 1e-3},
+        {100, 8, 270, 4, 50, 22.5, 30.1172, 675783.4, 0.07, 1e-3},
+        {100, 8, 270, 4, 50, 45, 30.0240, 676954.0, 0.07, 1e-3},
+        {100, 8, 270, -1, 50, 0, 30.7037, 677903.1, 0.11, 2e-3},
+        {100, 8, 270, -1, 50, 22.5, 30.4977, 678310.4, 0.11, 2e-3},
+        {100, 8, 270, -1, 50, 45, 30.2687, 678560.5, 0.11, 2e-3},
+        {100, 10, 180, -1, 50, 0, 63.4924, 1986226.7, 0.11, 3e-3},
+        {100, 10, 180, -1, 50, 22.5, 64.0199, 1985191.5, 0.11, 3e-3},
+        {100, 10, 180, -1, 50, 45, 64.5243, 1983379.9, 0.11, 3e-3},
+        {100, 8, 270, 4, 50, 0, 30.1895, 674435.0, 0.07, 1e-3},
+        {100, 8, 270, 4, 50, 45, 30.0239, 676914.6, 0.07, 1e-3},
+        {100, 10, 180, 5, 50, 45, 63.9325, 1964818.7, 0.07, 2e-3},
+        {100, 5, 140, 0.5, 30, 0, 77.4726, 192705.8, 0.07, 1e-3},
+        {120, 6, 300, 3, 60, 45, 21.6121, 257067.3, 0.07, 1e-3},
+        /* a wide fillet in a thick arc: the root's law too, as for isotropic ones */
+        {80, 10, 220, 10, 60, 0, 39.7175, 2481227.0, 0.12, 4e-3},
+    };
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        fw_flexure_input in = arc(row[i].angle, row[i].t, row[i].axis);
+        in.radius_m = row[i].r * 1e-6, in.length_m = in.radius_m * in.angle_rad;
+        in.fillet_m = row[i].rho * 1e-6, in.depth_m = row[i].h * 1e-6;
+        fw_flexure_result o;
+        fw_flexure_closed_form(&in, &o);
+        assert_near((o.centre_m + o.offset_m[0]) * 1e6, row[i].W, row[i].off_W);
+        assert_relative(o.stiffness_Nm_per_rad * 1e12, row[i].K, row[i].off_K);
+    }
+    /* the moduli behind it, from the stiffnesses: what a strip along [100] loses of 1/E where it is
+       held from straining across, and G/E' */
+    const fw_crystal k = silicon(0);
+    double held = 1 / (c11 - c12 * c12 / c11); /* e_z = 0, s_y = 0 */
+    assert_relative(k.bow_per_Pa, k.a0_per_Pa + k.a1_per_Pa - held, 1e-12);
+    double d = (c11 - c12) * (c11 + 2 * c12);
+    assert_relative(k.reach, sqrt(c44 / (3 * d / (c11 + c12))), 1e-14);
+}
+
+/* the bow that the law's length comes from, by differences: energy (b^2/l^2 + b'^2) over a half
+   line, held by a spring of block at the end, is least for what is written there */
+static void end_loss_is_the_least_energy(void **state) {
+    (void)state;
+    for (int i = 0; i < 6; i++) {
+        double h = 1 + i, reach = 0.3 + 0.05 * i, f = 1 - 0.1 * i, block = i ? 0.3 * i : 0;
+        const fw_end_loss o = fw_end_loss_of(reach, h, f, 1e3, block);
+        double l = h * reach * f;
+        enum { N = 20000 };
+        double step = 30 * l / N, b[N + 1], sub[N + 1], sum = 0;
+        /* -b'' + b/l^2 = 0, block b'(0) = b(0) - 1, b(far) = 0: Thomas */
+        sub[0] = block / (block + step), b[0] = step / (block + step);
+        for (int j = 1; j < N; j++) {
+            double mid = 2 + step * step / (l * l) - sub[j - 1];
+            sub[j] = 1 / mid, b[j] = b[j - 1] / mid;
+        }
+        b[N] = 0;
+        double first = 0;
+        for (int j = N - 1; j >= 0; j--) {
+            b[j] += sub[j] * b[j + 1];
+            sum += (j ? 1 : 0.5) * b[j] * step, first += b[j] * j * step * step;
+        }
+        assert_relative(o.length_m, f * sum, 3e-3);
+        assert_relative(o.reach_m, first / sum, 3e-3);
+    }
+    /* short strips: no more than a third of them at either end */
+    const fw_end_loss o = fw_end_loss_of(0.4, 100, 1, 30, 0);
+    assert_relative(o.length_m, 10, 1e-14);
 }
 
 static void peak_stress_of_silicon(void **state) {
@@ -156,10 +230,11 @@ static void peak_stress_of_silicon(void **state) {
         fw_flexure_input in = real_root(row[i].axis);
         fw_flexure_closed_form(&in, &o);
         assert_relative(o.stiffness_Nm_per_rad * 1e12, row[i].K, o.error.stiffness);
-        assert_relative(o.stiffness_Nm_per_rad * 1e12, row[i].K, 0.0075);
+        assert_relative(o.stiffness_Nm_per_rad * 1e12, row[i].K, 0.001);
         assert_near((o.centre_m + o.offset_m[0]) * 1e6, row[i].wx, o.error.centre_m * 1e6);
-        assert_relative(o.kx_N_per_m, row[i].kx, o.error.kx);
-        assert_relative(o.ky_N_per_m, row[i].ky, o.error.ky);
+        assert_near(o.offset_m[1] * 1e6, i == 2 ? -1.0344 : 0, 0.015);
+        assert_relative(o.kx_N_per_m, row[i].kx, 0.002);
+        assert_relative(o.ky_N_per_m, row[i].ky, 0.004);
         /* on the safe side, but for what one mesh is off by (finer ones: 2023, 1737, 2085) */
         assert_true(o.stress_per_rad_Pa * 1e-6 > 0.997 * row[i].stress);
         assert_true(o.stress_per_rad_Pa * 1e-6 < 1.05 * row[i].stress);
@@ -196,11 +271,14 @@ static void symmetries(void **state) {
     }
 }
 
-/* a crystal that is isotropic is the isotropic closed form; a leaf has the modulus of its direction
- */
+/* a crystal that is isotropic is the isotropic closed form, as long as it is so shallow that its
+   ends lose nothing: the isotropic one leaves that in its error; a leaf has the modulus of its
+   direction */
 static void agrees_with_the_isotropic_form(void **state) {
     (void)state;
-    fw_flexure_input in = real_root(17), same = in;
+    fw_flexure_input in = real_root(17);
+    in.depth_m = 1e-18;
+    fw_flexure_input same = in;
     double E = 150e9, nu = 0.25, d = E / ((1 + nu) * (1 - 2 * nu));
     in.crystal = fw_crystal_cubic(d * (1 - nu), d * nu, 0.5 * E / (1 + nu), 0.7);
     same.crystal.known = false;
@@ -216,9 +294,21 @@ static void agrees_with_the_isotropic_form(void **state) {
     assert_true(o.strain_per_rad > p.strain_per_rad);
     assert_true(o.strain_per_rad < 1.08 / (1 - nu * nu) * p.strain_per_rad);
     assert_near(o.offset_m[0], 0, 1e-18);
+    in.depth_m = same.depth_m = 50e-6; /* by sums about the middle of each loss */
+    fw_flexure_closed_form(&in, &o);
+    fw_flexure_closed_form(&same, &p);
+    const fw_depth deep = fw_depth_factors(in.radius_m, in.width_m, in.depth_m, nu);
+    double l = in.depth_m * deep.bow / sqrt(6 * (1 + nu)), q = l / in.radius_m, a = 0.75 * M_PI;
+    double loss = nu * nu * deep.bow * l * l / (l + 0.4192 * in.width_m);
+    double whole = in.length_m + 2 * p.root_length_m, place = (cos(a) + q * sin(a)) / (1 + q * q);
+    assert_relative(o.stiffness_Nm_per_rad / p.stiffness_Nm_per_rad, whole / (whole - 2 * loss),
+                    1e-12);
+    assert_near(o.offset_m[0], (p.centre_m - in.radius_m * place) * 2 * loss / (whole - 2 * loss),
+                1e-17);
+    assert_near(o.offset_m[1], 0, 1e-18);
     for (int i = 0; i < 5; i++) {
         double axis = 11.0 * i;
-        in = real_root(axis), same = in;
+        in = real_root(axis), in.depth_m = 1e-18, same = in;
         in.kind = same.kind = FW_FLEXURE_LEAF;
         in.fillet_m = same.fillet_m = -1;
         same.crystal.known = false;
@@ -258,7 +348,9 @@ static void law_knows_the_directions(void **state) {
             assert_near(is[k], of[k], 2e-4);
             assert_near(is[k], 1, 3e-3);
         }
-        in.crystal = silicon((double)NAN); /* its shear modulus is not that of 1/a0 and nu */
+        /* its shear modulus is not that of 1/a0 and nu; so shallow that its ends lose nothing,
+           which lies inside of them, while the law has it at them */
+        in.crystal = silicon((double)NAN), in.depth_m = 1e-12;
         fw_flexure_closed_form(&in, &o);
         assert_near(o.uneven_x, 0, 2e-3);
         assert_near(o.uneven_y, 0, 4e-3);
@@ -297,23 +389,25 @@ typedef struct plain_arc {
     real W[2], weight, C[3]; /* centre; r int 1/E + roots; C_xx, C_yy, C_xy times h t */
 } plain_arc;
 
-/* theory, eq. 1, 3, 4 with weights that vary; per_D: 1/D */
+/* theory, eq. 1, 3, 4 with weights that vary, and lost (1/Pa m) at `at`; per_D: 1/D */
 static plain_arc plain_of(const fw_flexure_shape *f, const sums *S, const sums *G,
-                          const real root[2], real per_D) {
+                          const real root[2], real lost, const real at[2], real per_D) {
     real r = (real)f->radius_m, rn = (real)f->neutral_m, e = (real)f->eccentric_m;
     real a = (real)f->half_angle_rad, t = (real)f->width_m, both = root[0] + root[1];
     real x = r * cosl(a), y = r * sinl(a);
-    plain_arc p = {.weight = r * S->w + both};
-    p.W[0] = (r * rn * S->x + x * both) / p.weight;
+    plain_arc p = {.weight = r * S->w + both - 2 * lost};
+    p.W[0] = (r * rn * S->x + x * both - 2 * lost * at[0]) / p.weight;
     p.W[1] = (r * rn * S->y + y * (root[1] - root[0])) / p.weight;
     real X = p.W[0], Y = p.W[1], bend = per_D / e, end = 12 / (t * t) * per_D, k = 1.2L * r;
     real low = -y - Y, high = y - Y, ends = root[0] * low + root[1] * high;
+    real u = at[0] - X, v = at[1] - Y, w = -at[1] - Y;
     p.C[0] = bend * (r * rn * S->yy - 2 * Y * rn * S->y + Y * Y * S->w) +
-             end * (root[0] * low * low + root[1] * high * high) + k * G->xx;
+             end * (root[0] * low * low + root[1] * high * high - lost * (v * v + w * w)) +
+             k * G->xx;
     p.C[1] = bend * (r * rn * S->xx - 2 * X * rn * S->x + X * X * S->w) +
-             end * both * (x - X) * (x - X) + k * G->yy;
+             end * (both * (x - X) * (x - X) - 2 * lost * u * u) + k * G->yy;
     p.C[2] = -bend * (r * rn * S->xy - rn * (X * S->y + Y * S->x) + X * Y * S->w) -
-             end * (x - X) * ends + k * G->xy;
+             end * ((x - X) * ends - lost * u * (v + w)) + k * G->xy;
     return p;
 }
 
@@ -336,11 +430,21 @@ static void crystals_beside_plain_sums(void **state) {
             root[end] = dL * a0 + spare * a1 * cosl(four + (end ? 4 : -4) * a);
         const sums S = sums_of(a, a0, a1 * c4, a1 * s4);
         const sums G = sums_of(a, (real)k->g0_per_Pa, g1 * c4, g1 * s4);
+        fw_depth depth =
+            fw_depth_crystal(in.depth_m / sqrt(in.radius_m * in.width_m), k, (double)(2 * a / S.w));
+        real r = (real)in.radius_m, s11 = a0 + (real)k->a1_per_Pa, bow = (real)depth.bow;
+        real l = (real)in.depth_m * bow * sqrtl(s11 / 3 * (real)c44), q = l / r;
+        real s12 = (real)k->s12_per_Pa, one = r / (1 + q * q);
+        if (l > 2 * r * a / 3) l = 2 * r * a / 3, q = l / r, one = r / (1 + q * q);
+        real lost = s12 * s12 / s11 * bow * l * l / (l + (real)f.root_block_m);
+        const real at[2] = {one * (cosl(a) + q * sinl(a)), one * (sinl(a) - q * cosl(a))};
+        const real ends[2] = {r * cosl(a), r * sinl(a)};
+        assert_relative(o.depth_factor, depth.stiffness, 1e-12);
         real E = 2 * a / S.w, nu = -(real)k->s12_per_Pa * E, mean = (root[0] + root[1]) / 2;
         const sums mS = sums_of(a, 1 / E, 0, 0), mG = sums_of(a, 2 * (1 + nu) / E, 0, 0);
-        const plain_arc p = plain_of(&f, &S, &G, root, 1 / D);
-        const plain_arc m = plain_of(&f, &mS, &mG, (const real[2]){mean, mean}, 1 / D);
-        real per = 1 / ((real)in.depth_m * (real)in.width_m), r = (real)in.radius_m;
+        const plain_arc p = plain_of(&f, &S, &G, root, lost, at, 1 / D);
+        const plain_arc m = plain_of(&f, &mS, &mG, (const real[2]){mean, mean}, lost, ends, 1 / D);
+        real per = 1 / ((real)in.depth_m * (real)in.width_m);
         assert_relative(o.youngs_Pa, (double)E, 1e-14);
         assert_relative(o.poisson, (double)nu, 1e-14);
         assert_relative(
@@ -363,6 +467,8 @@ int main(void) {
         cmocka_unit_test(sums_are_the_integrals),
         cmocka_unit_test(arcs_match_finite_elements),
         cmocka_unit_test(roots_of_silicon),
+        cmocka_unit_test(ends_of_silicon),
+        cmocka_unit_test(end_loss_is_the_least_energy),
         cmocka_unit_test(peak_stress_of_silicon),
         cmocka_unit_test(symmetries),
         cmocka_unit_test(agrees_with_the_isotropic_form),

@@ -1,16 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Peak strain per radian beside solids: tests/data/hinge/root_strain.csv, 20-node bricks (CalculiX,
-   src/continuum with 12 elements along a fillet, one more layer across and in depth), E 150 GPa or
-   silicon (165.7, 63.9, 79.6 GPa), of silicon the peak stress over 150 GPa. */
+/* Peak strain per radian beside solids: tests/data/hinge/root_strain.csv, made by tools/solids.
+   Mesh of src/continuum with 12 elements along a fillet, one more across half the width and in
+   depth (16, two and two more where a coarser mesh is named beside it; deeper than 10 t two or
+   three more in depth), 20-node bricks solved by CalculiX, half of the strip, its middle section
+   held plane and turned; strains not those CalculiX extrapolates to nodes, which scatter by 1 to 2
+   %, but by the surface's own displacements at the points where their derivatives converge fastest,
+   a cubic through six of them along the fillet. Two meshes differ by 0.12 % (rms), at most 0.43 %.
+   E 150 GPa or silicon (165.7, 63.9, 79.6 GPa), of silicon the peak stress over 150 GPa; of an arc
+   of silicon that is not its own mirror image either half.
+ */
 #include "flexure/flexure.h"
 #include "test.h"
 
 typedef struct row {
     bool leaf, silicon;
     double size, width, angle, fillet, depth, poisson, axis, strain; /* um, deg, 1/rad */
+    double coarser;                                                  /* 0: one mesh only */
 } row;
 
-enum { MOST = 400 };
+enum { MOST = 600 };
 
 static int rows_of(row *rows) {
     char line[256], kind[16], material[16];
@@ -19,10 +27,10 @@ static int rows_of(row *rows) {
     assert_non_null(file);
     assert_non_null(fgets(line, sizeof line, file));
     for (row *r = rows; n < MOST && fgets(line, sizeof line, file); r++, n++) {
-        assert_int_equal(sscanf(line, "%15[^,],%15[^,],%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", kind,
-                                material, &r->size, &r->width, &r->angle, &r->fillet, &r->depth,
-                                &r->poisson, &r->axis, &r->strain),
-                         10);
+        r->coarser = 0;
+        assert_true(sscanf(line, "%15[^,],%15[^,],%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%*d,%lf", kind,
+                           material, &r->size, &r->width, &r->angle, &r->fillet, &r->depth,
+                           &r->poisson, &r->axis, &r->strain, &r->coarser) >= 10);
         r->leaf = strcmp(kind, "leaf") == 0, r->silicon = strcmp(material, "silicon") == 0;
     }
     fclose(file);
@@ -46,12 +54,12 @@ static fw_flexure_input input_of(const row *r) {
     return in;
 }
 
-/* never below a solid, and not far above; with the fillets that were compared the own estimate
+/* never below a solid and at most 4 % above, 5 % above those deeper than 10 t; the own estimate
    holds all of it. One figure in ten thousand is what the table is rounded to */
 static void never_below_a_solid(void **state) {
     (void)state;
     static row rows[MOST];
-    int n = rows_of(rows), counted[2] = {0};
+    int n = rows_of(rows), counted[2] = {0}, deep = 0;
     double most[2] = {0};
     for (int i = 0; i < n; i++) {
         const row *r = &rows[i];
@@ -59,16 +67,57 @@ static void never_below_a_solid(void **state) {
         fw_flexure_result o;
         fw_flexure_closed_form(&in, &o);
         double over = o.strain_per_rad / r->strain - 1;
-        bool wide = r->fillet > 1.2501 * r->width;
-        double top = r->silicon ? 0.0431 : wide ? 0.05 : 0.032;
+        bool deeper = r->depth > 10.001 * r->width;
+        double top = deeper ? 0.05 : 0.04;
         if (!(over >= -1e-4 && over <= top))
             fail_msg("row %d: %.4f above the solid, allowed 0 to %.4f", i + 2, over, top);
-        if (wide) continue;
         assert_true(fabs(1 / (1 + over) - 1) < o.error.strain);
-        most[r->silicon] = fmax(most[r->silicon], over), counted[r->silicon]++;
+        if (deeper)
+            deep++;
+        else
+            most[r->silicon] = fmax(most[r->silicon], over), counted[r->silicon]++;
     }
-    assert_true(counted[0] > 150 && counted[1] > 100);
-    assert_true(most[0] > 0.02 && most[1] > 0.03); /* the bounds above say something */
+    assert_true(counted[0] > 200 && counted[1] > 200 && deep > 30);
+    assert_true(most[0] > 0.02 && most[1] > 0.02); /* the bounds above say something */
+}
+
+/* what a solid's own mesh is off by: two of them */
+static void solids_agree_with_themselves(void **state) {
+    (void)state;
+    static row rows[MOST];
+    int n = rows_of(rows), twice = 0;
+    double sum = 0;
+    for (int i = 0; i < n; i++) {
+        if (!(rows[i].coarser > 0)) continue;
+        double off = rows[i].coarser / rows[i].strain - 1;
+        assert_true(fabs(off) < 0.0045);
+        sum += off * off, twice++;
+    }
+    assert_true(twice > 80 && sqrt(sum / twice) < 0.0015);
+}
+
+/* An independent program's meshes (free quadrilaterals swept to 20-node bricks, CalculiX, strains
+   as CalculiX has them at its nodes): H1, H2, H3 of docs/theory, uN um. Of H1 of silicon by
+   direction: test_crystal.c */
+static void never_below_the_reference(void **state) {
+    (void)state;
+    const row fe[] = {
+        {.size = 100, .width = 8, .angle = 270, .depth = 50, .poisson = 0.22, .strain = 0.01162555},
+        {.size = 100, .width = 10, .angle = 180, .depth = 50, .poisson = 0.22, .strain = 0.0225749},
+        {.size = 100,
+         .width = 10,
+         .angle = 270,
+         .depth = 9,
+         .poisson = 0.34,
+         .strain = 0.01443857}};
+    for (int i = 0; i < 3; i++) {
+        row r = fe[i];
+        r.fillet = 4;
+        const fw_flexure_input in = input_of(&r);
+        fw_flexure_result o;
+        fw_flexure_closed_form(&in, &o);
+        assert_true(o.strain_per_rad >= r.strain && o.strain_per_rad <= 1.04 * r.strain);
+    }
 }
 
 /* (5), what plane-stress solids gave, is beside it and differs by what the depth does at the root
@@ -82,13 +131,13 @@ static void fit_is_beside(void **state) {
         const fw_flexure_input in = input_of(&rows[i]);
         fw_flexure_result o;
         fw_flexure_closed_form(&in, &o);
-        if (rows[i].silicon) continue;
+        if (rows[i].silicon || rows[i].depth > 10.001 * rows[i].width) continue;
         double t = in.width_m, beam = 0.5 * t / (in.length_m + 2 * o.root_length_m);
         assert_relative(o.strain_per_rad, beam * o.concentration, 1e-13);
         low = fmin(low, o.strain_per_rad / o.strain_fit_per_rad);
         high = fmax(high, o.strain_per_rad / o.strain_fit_per_rad);
     }
-    assert_true(low > 0.9 && low < 1 && high > 1.1 && high < 1.15);
+    if (!(low > 0.9 && low < 1 && high > 1.1 && high < 1.15)) fail_msg("%.4f to %.4f", low, high);
 }
 
 /* the two fillets of a leaf and the two roots of an arc: mirrored, and from the other end, the same
@@ -115,6 +164,8 @@ static void mirrored(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(never_below_a_solid),
+                                       cmocka_unit_test(solids_agree_with_themselves),
+                                       cmocka_unit_test(never_below_the_reference),
                                        cmocka_unit_test(fit_is_beside), cmocka_unit_test(mirrored)};
     return cmocka_run_group_tests_name("root_strain", tests, NULL, NULL);
 }

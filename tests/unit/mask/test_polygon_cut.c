@@ -43,12 +43,45 @@ static void assert_partition(fw_arena *arena, const fw_polygon *p, int most, con
     assert_int_equal(total, p->count + 2 * (npart - 1));
 }
 
-static void cut_and_check(fw_arena *arena, const fw_polygon *p, int most, int npart_most) {
+/* least distance of a vertex from an edge that is not its own, nm */
+static double clearance_dbu(const fw_polygon *p) {
+    double least = HUGE_VAL;
+    for (int i = 0; i < p->count; i++)
+        for (int j = 0; j < p->count; j++) {
+            fw_point v = p->vertex[i], a = p->vertex[j], b = p->vertex[(j + 1) % p->count];
+            if (j == i || (j + 1) % p->count == i) continue;
+            double x = (double)b.x_dbu - a.x_dbu, y = (double)b.y_dbu - a.y_dbu;
+            double u = (double)v.x_dbu - a.x_dbu, w = (double)v.y_dbu - a.y_dbu;
+            double t = fmin(1, fmax(0, (x * u + y * w) / (x * x + y * y)));
+            double dx = u - t * x, dy = w - t * y;
+            least = fmin(least, dx * dx + dy * dy);
+        }
+    return sqrt(least);
+}
+
+/* the parts cover the polygon, and what is said of the cuts is what all pairs of vertices and edges
+   say. Returns it. */
+static double cut_and_check(fw_arena *arena, const fw_polygon *p, int most, int npart_most) {
     fw_polygon *part;
     int npart;
-    assert_int_equal(fw_polygon_cut(arena, p, most, &part, &npart), FW_OK);
+    double said, least = HUGE_VAL;
+    assert_int_equal(fw_polygon_cut(arena, p, most, &part, &npart, &said), FW_OK);
     assert_partition(arena, p, most, part, npart);
     if (npart > npart_most) fail_msg("%d parts of %d vertices", npart, p->count);
+    for (int k = 0; k < npart; k++)
+        least = fmin(least, clearance_dbu(&part[k]));
+    if (p->count > 3000) return least; /* all pairs of the whole: too long */
+    assert_true(least > fmin(said, clearance_dbu(p)) - 1e-6);
+    return least;
+}
+
+static double shortest_dbu(const fw_polygon *p) {
+    double least = HUGE_VAL;
+    for (int i = 0; i < p->count; i++) {
+        fw_point a = p->vertex[i], b = p->vertex[(i + 1) % p->count];
+        least = fmin(least, hypot((double)b.x_dbu - a.x_dbu, (double)b.y_dbu - a.y_dbu));
+    }
+    return least;
 }
 
 static fw_polygon flat(fw_arena *arena, const fw_contour *c, double tolerance_m) {
@@ -63,7 +96,7 @@ static void small_ones_stay(void **state) {
     fw_point v[4] = {{0, 0}, {10, 0}, {10, 10}, {0, 10}};
     fw_polygon p = {v, 4}, *part;
     int npart;
-    assert_int_equal(fw_polygon_cut(arena, &p, 8, &part, &npart), FW_OK);
+    assert_int_equal(fw_polygon_cut(arena, &p, 8, &part, &npart, NULL), FW_OK);
     assert_int_equal(npart, 1);
     assert_ptr_equal(part->vertex, v);
     fw_arena_free(arena);
@@ -96,7 +129,7 @@ static void necks_are_preferred(void **state) {
                      FW_OK);
     fw_polygon p = flat(arena, &c, 1.5e-9), *part;
     int npart;
-    assert_int_equal(fw_polygon_cut(arena, &p, p.count - 1, &part, &npart), FW_OK);
+    assert_int_equal(fw_polygon_cut(arena, &p, p.count - 1, &part, &npart, NULL), FW_OK);
     assert_int_equal(npart, 2);
     fw_point a = part[0].vertex[0], b = part[0].vertex[part[0].count - 1];
     assert_near(hypot(a.x_dbu - b.x_dbu, a.y_dbu - b.y_dbu), 10000, 60);
@@ -144,52 +177,84 @@ static void combs(void **state) {
     fw_arena_free(arena);
 }
 
-/* least distance of a vertex from an edge that is not its own, nm */
-static double clearance_dbu(const fw_polygon *p) {
-    double least = HUGE_VAL;
-    for (int i = 0; i < p->count; i++)
-        for (int j = 0; j < p->count; j++) {
-            fw_point v = p->vertex[i], a = p->vertex[j], b = p->vertex[(j + 1) % p->count];
-            if (j == i || (j + 1) % p->count == i) continue;
-            double x = (double)b.x_dbu - a.x_dbu, y = (double)b.y_dbu - a.y_dbu;
-            double u = (double)v.x_dbu - a.x_dbu, w = (double)v.y_dbu - a.y_dbu;
-            double t = fmin(1, fmax(0, (x * u + y * w) / (x * x + y * y)));
-            least = fmin(least, hypot(u - t * x, w - t * y));
-        }
-    return least;
-}
-
-/* rounded fingers on a stage, as a comb drive has them: the shortest cuts run along their roots,
-   where vertices lie on one line but for the roundings of a few micrometres */
+/* Rounded fingers on a stage, as a comb drive has them, turned by any angle: the shortest cuts run
+   along their roots, where vertices lie on one line but for the roundings of a few micrometres, and
+   a cut that takes any one of them leaves parts that have none. */
 static void fingers_leave_no_slivers(void **state) {
     (void)state;
-    for (int fingers = 6; fingers <= 15; fingers += 3) {
+    uint64_t seed = 11;
+    for (int run = 0; run < 5; run++) {
         fw_arena *arena = fw_arena_new(0);
-        double pitch = 36.47 * UM, wide = 11.48 * UM, top = (fingers + 1) * pitch;
-        fw_outline o = fw_outline_start(arena, (fw_vec2){0, 0});
-        fw_outline_line(&o, (fw_vec2){200 * UM, 0}, 0);
-        for (int k = 0; k < fingers; k++) {
-            double y = (k + 1) * pitch;
-            fw_outline_line(&o, (fw_vec2){200 * UM, y}, 0);
-            fw_outline_line(&o, (fw_vec2){296 * UM, y}, 0);
-            fw_outline_line(&o, (fw_vec2){296 * UM, y + wide}, 0);
-            fw_outline_line(&o, (fw_vec2){200 * UM, y + wide}, 0);
+        int fingers = 6 + (int)(7 * random01(&seed));
+        double pitch = (33 + 4 * random01(&seed)) * UM, wide = 11.48 * UM;
+        double height = (fingers + 2) * pitch, turn = run % 2 ? 2 * PI * random01(&seed) : 0;
+        double tolerance_m = (run % 2 ? 1.42 : 3) * 1e-9;
+        fw_vec2 corner[4 * 16 + 4];
+        int n = 0;
+        corner[n++] = (fw_vec2){0, 0};
+        corner[n++] = (fw_vec2){200 * UM, 0};
+        for (int k = 0; k < fingers; k++)
+            for (int i = 0; i < 4; i++)
+                corner[n++] = (fw_vec2){(i == 1 || i == 2 ? 296 : 200) * UM,
+                                        (k + 1) * pitch + (i > 1 ? wide : 0)};
+        corner[n++] = (fw_vec2){200 * UM, height};
+        corner[n++] = (fw_vec2){0, height};
+        fw_outline o = {0};
+        for (int i = 0; i < n; i++) {
+            fw_vec2 at = {corner[i].x * cos(turn) - corner[i].y * sin(turn),
+                          corner[i].x * sin(turn) + corner[i].y * cos(turn)};
+            if (i == 0)
+                o = fw_outline_start(arena, at);
+            else
+                fw_outline_line(&o, at, 0);
         }
-        fw_outline_line(&o, (fw_vec2){200 * UM, top + pitch}, 0);
-        fw_outline_line(&o, (fw_vec2){0, top + pitch}, 0);
         fw_contour sharp, c;
         assert_int_equal(fw_outline_close(&o, &sharp), FW_OK);
         assert_int_equal(fw_contour_round(arena, &sharp, 3.1 * UM, 6.9 * UM, &c, NULL), FW_OK);
-        fw_polygon p = flat(arena, &c, 1.42e-9), *part;
-        int npart;
-        assert_int_equal(fw_polygon_cut(arena, &p, 199, &part, &npart), FW_OK);
-        assert_partition(arena, &p, 199, part, npart);
-        for (int k = 0; k < npart; k++)
-            if (clearance_dbu(&part[k]) < 50)
-                fail_msg("%d fingers: part %d of %d has %g nm", fingers, k, npart,
-                         clearance_dbu(&part[k]));
+        fw_polygon p = flat(arena, &c, tolerance_m);
+        double least = cut_and_check(arena, &p, 199, 2 * p.count / 199 + 4);
+        if (least < FW_CUT_SHARE * shortest_dbu(&p) * (1 - 1e-9))
+            fail_msg("run %d, %d fingers: %g nm where %g are the shortest edge", run, fingers,
+                     least, shortest_dbu(&p));
         fw_arena_free(arena);
     }
+}
+
+/* Polygons of random corners around a point, all rounded, as plates and links are: every part keeps
+   0.9 of the shortest edge to every vertex, though most cuts end on arcs. */
+static void rounded_plates(void **state) {
+    (void)state;
+    uint64_t seed = 23;
+    int cut = 0;
+    for (int run = 0; run < 24; run++) {
+        fw_arena *arena = fw_arena_new(0);
+        int n = 5 + (int)(12 * random01(&seed));
+        fw_outline o = {0};
+        for (int i = 0; i < n; i++) {
+            double r = (i % 2 ? 150 : 60) * (1 + 2 * random01(&seed)) * UM;
+            double angle = 2 * PI * (i + 0.4 * random01(&seed)) / n;
+            fw_vec2 at = {r * cos(angle), r * sin(angle)};
+            if (i == 0)
+                o = fw_outline_start(arena, at);
+            else
+                fw_outline_line(&o, at, 0);
+        }
+        fw_contour sharp, c;
+        assert_int_equal(fw_outline_close(&o, &sharp), FW_OK);
+        double radius_m = (3 + 9 * random01(&seed)) * UM;
+        if (fw_contour_round(arena, &sharp, radius_m, radius_m, &c, NULL) == FW_OK) {
+            fw_polygon p = flat(arena, &c, 1.42e-9);
+            int most = p.count > 120 ? 60 + (int)(60 * random01(&seed)) : p.count;
+            double least = cut_and_check(arena, &p, most, 3 * p.count / most + 4);
+            double wanted = fmin(FW_CUT_SHARE * shortest_dbu(&p), clearance_dbu(&p));
+            if (least < wanted * (1 - 1e-9))
+                fail_msg("run %d: %g nm of %g, %d vertices in parts of %d", run, least, wanted,
+                         p.count, most);
+            cut += p.count > most;
+        }
+        fw_arena_free(arena);
+    }
+    assert_true(cut > 16);
 }
 
 /* through the whole room: the file has the same area, in parts within the limit */
@@ -225,6 +290,7 @@ int main(void) {
         cmocka_unit_test(random_outlines),
         cmocka_unit_test(combs),
         cmocka_unit_test(fingers_leave_no_slivers),
+        cmocka_unit_test(rounded_plates),
         cmocka_unit_test(limits_of_a_mask),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

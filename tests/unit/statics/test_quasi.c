@@ -309,6 +309,7 @@ static void left_out_by_itself(void **state) {
     const fw_motion_options o = {.samples = 2, .accuracy = 2e-2};
     fw_motion_options named = o, all = o;
     named.integrator = "dop853", all.effects.mode = FW_EFFECTS_ALL;
+    all.accuracy = 1e-5; /* what its own steps miss is not what inertia does */
     const fw_motion *row = move(&f, &r, &o), *full = move(&f, &r, &all);
     assert_string_equal(row->method, "quasi-static");
     assert_false(inertia(row)->active);

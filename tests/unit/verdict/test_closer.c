@@ -67,8 +67,41 @@ static void all_hinges_count(void **state) {
     assert_int_equal(fw_verdict_closer(two + 1, 1), FW_CLOSER_NOTHING);
 }
 
+/* where the utilisation stays and numbers go with the accuracy, the one that is asked for decides
+ */
+static void enough_decides(void **state) {
+    (void)state;
+    uint64_t seed = 11;
+    int count = 0;
+    for (int i = 0; i < 20000; i++) {
+        fw_hinge_verdict two[2];
+        double numeric[2], model[2];
+        for (int k = 0; k < 2; k++) {
+            numeric[k] = pow(10, -4 + 3 * unit(&seed));
+            model[k] = 0.02 + 0.1 * unit(&seed);
+            two[k] = hinge(0.85 + 0.1 * unit(&seed), numeric[k], model[k], 0.01);
+        }
+        if (fw_verdict_closer(two, 2) != FW_CLOSER_NUMBERS) continue;
+        double share = fw_verdict_enough(two, 2, 1e-3) / 1e-3;
+        assert_true(share > 0 && share <= 1);
+        bool decided = true, looser = true, stays = true;
+        for (int k = 0; k < 2; k++) /* without numbers it would be accepted */
+            stays &= two[k].utilisation * (1 + model[k]) < 1;
+        if (!stays) continue;
+        for (int k = 0; k < 2; k++) {
+            double u = two[k].utilisation;
+            decided &= hinge(u, share * numeric[k], model[k], 0.01).decision == FW_ACCEPT;
+            looser &= hinge(u, 2.01 * share * numeric[k], model[k], 0.01).decision == FW_ACCEPT;
+        }
+        assert_true(decided && (!looser || share > 0.49));
+        count++;
+    }
+    assert_true(count > 100);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(no_outcome_is_missed),
+                                       cmocka_unit_test(enough_decides),
                                        cmocka_unit_test(all_hinges_count)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -130,15 +130,16 @@ static void what_is_made_follows_the_edges(void **state) {
     assert_near(f->width_m, 7e-6, 1e-15);
     assert_near(f->gap_m, 7e-6, 1e-15);
     assert_near(f->flare_m, 0.25e-6, 0);
-    assert_near(f->fillet_m, 7e-6, 1e-15); /* 8.5, not wider than the flexure */
+    assert_near(f->fillet_m, 8.5e-6, 1e-15); /* wider than the flexure */
     assert_near(d.variant.thickness_m, 49e-6, 1e-15);
     const fw_mechanism *drawn, *now;
     assert_int_equal(fw_mechanism_build(s.arena, s.device, NULL, &s.variant, &s.diags, &drawn),
                      FW_OK);
     assert_int_equal(fw_mechanism_build(s.arena, &d.device, NULL, &d.variant, &s.diags, &now),
                      FW_OK);
-    /* leaf: K goes with E h (t^3 + t d^2)/(L + 2 dL); dL goes with t at this fillet */
-    double dL = 8e-6 * (0.4192 - 0.5972 - 0.1167), dL7 = dL * 7 / 8;
+    /* leaf: K goes with E h (t^3 + t d^2)/(L + 2 dL), dL with t and rho/t */
+    double x = 8.5 / 7, dL = 8e-6 * (0.4192 - 0.5972 - 0.1167);
+    double dL7 = 7e-6 * (0.4192 - 0.5972 * x - 0.1167 * x * x);
     double section = (343 + 7 * 0.0625) / 512.0;
     double want = 1.1 * 0.98 * section * (300e-6 + 2 * dL) / (300e-6 + 2 * dL7);
     assert_relative(now->pin[0].stiffness_Nm_per_rad / drawn->pin[0].stiffness_Nm_per_rad, want,
@@ -149,6 +150,17 @@ static void what_is_made_follows_the_edges(void **state) {
     assert_relative(now->pin[1].stiffness_Nm_per_rad / drawn->pin[1].stiffness_Nm_per_rad,
                     own / was, 2e-3); /* the depth factor sees the thickness, too */
     assert_relative(now->body[0].mass_kg, 0.98 * drawn->body[0].mass_kg, 1e-12);
+    /* to the end of the range that was compared, unless it was drawn beyond that */
+    fw_device wide = *s.device;
+    fw_flexure flexure[2] = {s.device->flexure[0], s.device->flexure[1]};
+    wide.flexure = flexure;
+    const fw_made thin = {-1e-6, 0, 1, 1};
+    const double fillet[] = {3e-6, 8e-6, 9.9e-6, 11e-6}, then[] = {4e-6, 7.5e-6, 7.5e-6, 12e-6};
+    for (int i = 0; i < 4; i++) {
+        flexure[0].fillet_m = fillet[i];
+        assert_int_equal(fw_made_build(s.arena, &wide, NULL, &s.variant, &thin, &d), FW_OK);
+        assert_near(d.device.flexure[0].fillet_m, then[i], 1e-15);
+    }
     const fw_made cut = {-3.9e-6, 0.3e-6, 1, 1};
     assert_int_equal(fw_made_build(s.arena, s.device, NULL, &s.variant, &cut, &d), FW_OK);
     assert_non_null(d.gone);
@@ -254,6 +266,58 @@ static void what_must_be_held_is_enough(void **state) {
     fw_arena_free(s.arena);
 }
 
+/* where the flow makes at its nominal point what is drawn, both have one verdict: that of a run */
+static void made_as_drawn(void **state) {
+    (void)state;
+    set_up s;
+    begin(&s, "20 uN");
+    s.input[1].nominal = s.input[1].drawn;
+    const double x[3] = {s.input[0].nominal, s.input[1].nominal, s.input[2].nominal};
+    fw_verdict v = judge(&s, FW_CORNERS_AUTO);
+    fw_variant_verdict again = at(&s, x);
+    for (int k = 0; k < 2; k++) {
+        const fw_hinge_verdict *made = &v.variant[0].made->corner[0].hinge[k];
+        assert_near(made->utilisation, v.variant[0].hinge[k].utilisation, 0);
+        assert_near(made->utilisation, again.hinge[k].utilisation, 1e-12);
+    }
+    s.input[0].nominal = 0.1e-6; /* a little wider: no longer the same */
+    v = judge(&s, FW_CORNERS_AUTO);
+    double drawn = v.variant[0].hinge[0].utilisation;
+    assert_true(fabs(v.variant[0].made->corner[0].hinge[0].utilisation - drawn) > 0.01 * drawn);
+    fw_arena_free(s.arena);
+}
+
+/* a first look decides as the whole one does, also where it is not enough */
+static void first_look_decides_alike(void **state) {
+    (void)state;
+    int decisions[3] = {0};
+    for (int n = 0; n < 24; n++) {
+        char load[32];
+        snprintf(load, sizeof load, "%d uN", 100 + 12 * n);
+        set_up s;
+        begin(&s, load);
+        fw_verdict v[2];
+        for (int coarse = 0; coarse < 2; coarse++) {
+            const fw_verdict_options options = {.motion = {.accuracy = 1e-3, .samples = 65},
+                                                .corners = FW_CORNERS_FIRST,
+                                                .coarse_first = coarse};
+            const fw_layout *layout;
+            v[coarse] = (fw_verdict){.nvariant = 1,
+                                     .variant = fw_arena_array(s.arena, fw_variant_verdict, 1)};
+            v[coarse].variant[0].variant = &s.variant;
+            v[coarse].variant[0].input = s.input, v[coarse].variant[0].ninput = 3;
+            assert_int_equal(
+                fw_verdict_run(s.arena, s.device, &options, &s.diags, &v[coarse], &layout), FW_OK);
+        }
+        decisions[v[0].decision]++;
+        assert_int_equal(v[0].drawn, v[1].drawn);
+        assert_int_equal(v[0].decision, v[1].decision);
+        fw_arena_free(s.arena);
+    }
+    assert_true(decisions[FW_ACCEPT] > 0 && decisions[FW_INCONCLUSIVE] > 0);
+    assert_true(decisions[FW_REJECT] > 0);
+}
+
 static void drawn_only_when_asked(void **state) {
     (void)state;
     set_up s;
@@ -271,6 +335,8 @@ int main(void) {
         cmocka_unit_test(no_corner_is_worse),
         cmocka_unit_test(sigma_is_first_order),
         cmocka_unit_test(what_must_be_held_is_enough),
+        cmocka_unit_test(made_as_drawn),
+        cmocka_unit_test(first_look_decides_alike),
         cmocka_unit_test(drawn_only_when_asked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
