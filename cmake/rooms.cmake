@@ -35,7 +35,12 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
                                 "-mavx;-ffp-contract=off")
     set_source_files_properties(${kernels}/kernel_path_single_avx512.c PROPERTIES COMPILE_OPTIONS
                                 "-mavx512f;-mavx512dq;-mavx512vl;-ffp-contract=off")
+    # four hinges at once: registers of four numbers; bits as without
+    set_source_files_properties(${PROJECT_SOURCE_DIR}/src/flexure/csfh_four_avx.c PROPERTIES COMPILE_OPTIONS
+                                "-mavx;-Wno-psabi")
 endif()
+# vectors wider than the registers never cross a call: gcc's note on how they would is of no use
+set_source_files_properties(${PROJECT_SOURCE_DIR}/src/flexure/csfh_four.c PROPERTIES COMPILE_OPTIONS "-Wno-psabi")
 
 # The rooms without some effects: their files are not compiled and they have no row. A scene's elements of
 # such an effect are then not looked at, so that such a build is good for counting only (target

@@ -89,9 +89,13 @@ typedef struct fw_flexure_model { /* one row per kind: adding a hinge kind is on
     void (*at_once)(const fw_flexure_input *in, fw_flexure_result *out); /* both; or NULL */
 } fw_flexure_model;
 const fw_flexure_model *fw_flexure_models(size_t *count);
-/* 37 ns, of a crystal 75; leaves 24 and 37; errors included (tests/bench/bench_hinge_closed.c) */
+/* 48 ns, of a crystal 97; leaves 36 and 48; errors included (tests/bench/bench_hinge_closed.c) */
 void fw_flexure_closed_form(const fw_flexure_input *in, fw_flexure_result *out);
-/* the same in two steps: outline once, then everything else (arcs: 29 and 64 ns) */
+/* the same of many, in: (n), out: (n), bit by bit: arcs in a row that are as most are go four at
+   once, where the processor has AVX for less than half of the cost */
+void fw_flexure_closed_forms(const fw_flexure_input *const in[], fw_flexure_result *const out[],
+                             size_t n);
+/* the same in two steps: outline once, then everything else (arcs: 39 and 86 ns) */
 void fw_flexure_shape_of(const fw_flexure_input *in, fw_flexure_shape *shape);
 void fw_flexure_closed_form_at(const fw_flexure_shape *shape, const fw_flexure_input *in,
                                fw_flexure_result *out);

@@ -9,6 +9,10 @@ void fw_flexure_csfh(const fw_flexure_shape *shape, const fw_flexure_input *in,
                      fw_flexure_result *out);
 /* both at once, the same to rounding */
 void fw_csfh_at_once(const fw_flexure_input *in, fw_flexure_result *out);
+/* as most arcs are: four of them, all crystals or none, may go at once; csfh_four.c */
+bool fw_csfh_usual(const fw_flexure_input *in);
+void fw_csfh_four(const fw_flexure_input *const in[4], fw_flexure_result *const out[4]);
+void fw_csfh_four_avx(const fw_flexure_input *const in[4], fw_flexure_result *const out[4]);
 /* an arc of a crystal; csfh_crystal.c */
 void fw_flexure_crystal_arc(const fw_flexure_shape *shape, const fw_flexure_input *in,
                             fw_flexure_result *out);

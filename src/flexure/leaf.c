@@ -62,7 +62,7 @@ FW_INLINE void leaf(const fw_flexure_shape *f, const fw_flexure_input *in, fw_fl
         double lost = E * k->bow_per_Pa * end.length_m, at = 0.5 * L - end.reach_m;
         dL = E * (dL * k->a0_per_Pa + (dL - f->root_block_m) * k->a1_per_Pa * k->cos4);
         ends = dL - lost, whole = L + 2 * ends, lost_xx = 2 * lost * (at * at) * per;
-        const fw_pair strip = (fw_pair){1, EI} / (fw_pair){L + 2 * dL, whole};
+        const fw_pair strip = fw_quotients(1, EI, L + 2 * dL, whole);
         per_whole = strip[0], K = strip[1];
     }
     out->youngs_Pa = E, out->poisson = nu;

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The laws of section.h in line, with what a hinge's closed form has worked out already. Private to
-   the room. */
+/* The laws of section.h in line, with what a hinge's closed form has worked out already; of four
+   hinges at once too (lanes.h). Private to the room. */
 #ifndef FW_FLEXURE_SECTION_CORE_H
 #define FW_FLEXURE_SECTION_CORE_H
 #include "flexure/quick.h"
 #include "flexure/section.h"
 
 /* x = rho/t in the range of the laws of the root */
-FW_INLINE double fw_fitted_ratio(double x) {
-    return fw_smaller(fw_larger(x, 0.05), 2.0);
+FW_INLINE fw_real fw_fitted_ratio(fw_real x) {
+    return fw_smaller(fw_larger(x, fw_all(0.05)), fw_all(2.0));
 }
 
 /* dL = t (0.4192 - 0.5972 x - 0.1167 x^2), x = rho/t
@@ -17,39 +17,41 @@ FW_INLINE double fw_fitted_ratio(double x) {
    fitted to plane-stress finite elements of three geometries and two materials
    docs/theory/flexure.md eq. 6; test_flexure.c root_law_matches_finite_elements */
 static const double fw_root_block_law = 0.4192;
-FW_INLINE double fw_root_law(double x) {
+FW_INLINE fw_real fw_root_law(fw_real x) {
     return fw_root_block_law - 0.5972 * x - 0.1167 * x * x;
 }
 
 /* Kt = 0.944 + 0.2113 (t/rho)^(2/3), without the curved-beam factor 1 + t/3r
    valid as above; within 1 % of the finite elements it was fitted to, -0.2..+2.9 % on held-out ones
    docs/theory/flexure.md eq. 7; test_flexure.c concentration_matches_finite_elements */
-FW_INLINE double fw_concentration_law(double x) {
+FW_INLINE fw_real fw_concentration_law(fw_real x) {
     return 0.944 + 0.2113 * fw_quick_two_thirds(x);
 }
 
 /* (t/rho)^(2/3) of that, no more than of rho = t/10 */
-FW_INLINE double fw_notch_of(double concentration) {
-    return fw_smaller((concentration - 0.944) * (1 / 0.2113), 4.641588833612779);
+FW_INLINE fw_real fw_notch_of(fw_real concentration) {
+    return fw_smaller((concentration - 0.944) * (1 / 0.2113), fw_all(4.641588833612779));
 }
 
 /* e/(r u^2), e = r - rn = r (1 - u/atanh u) (Winkler), where the difference would cancel by the
    polynomial of u^2 nearest to it (off by 3e-17; tools/minimax.py); thicker than t/r = 0.32 by
    fw_neutral_thick */
-FW_INLINE double fw_neutral_thin(double u) {
-    double z = u * u, z2 = z * z;
+FW_INLINE fw_real fw_neutral_thin(fw_real u) {
+    fw_real z = u * u, z2 = z * z;
     return ((0x1.5555555555556p-2 + z * 0x1.6c16c16c16088p-4) +
             z2 * (0x1.7d6d2c2b9bbe8p-5 + z * 0x1.eeb2ce0297badp-6)) +
            z2 * z2 *
                ((0x1.652133d2697fdp-6 + z * 0x1.126e236b9b095p-6) + z2 * 0x1.dcf590d6add0ap-7);
 }
 
+#ifndef FW_FOUR_HINGES
 FW_INLINE double fw_neutral_series(double u) {
     return u < 0.16 ? fw_neutral_thin(u) : fw_neutral_thick(u);
 }
+#endif
 
-FW_INLINE double fw_golovin_law(double u) {
-    double u2 = u * u;
+FW_INLINE fw_real fw_golovin_law(fw_real u) {
+    fw_real u2 = u * u;
     return 1.0 - 2.0 / 15.0 * u2 - u2 * u2 * (1 / 21.0);
 }
 
@@ -71,11 +73,11 @@ FW_INLINE double fw_golovin_law(double u) {
    ns docs/theory/flexure.md eq. 8-10; test_flexure.c depth_factor_limits_and_reference,
    test_quick.c depth_factors */
 typedef struct fw_depth_start {
-    double z, poisson, nu2, rest, per, lift; /* x^4, nu, nu^2, 1 - nu^2, 1 over that, k */
+    fw_real z, poisson, nu2, rest, per, lift; /* x^4, nu, nu^2, 1 - nu^2, 1 over that, k */
 } fw_depth_start;
 
-FW_INLINE fw_depth_start fw_depth_start_of(double square, double poisson) {
-    double nu2 = poisson * poisson, rest = 1 - nu2;
+FW_INLINE fw_depth_start fw_depth_start_of(fw_real square, fw_real poisson) {
+    fw_real nu2 = poisson * poisson, rest = 1 - nu2;
     return (fw_depth_start){.z = 3 * rest * (square * square),
                             .poisson = poisson,
                             .nu2 = nu2,
@@ -92,9 +94,9 @@ FW_INLINE fw_depth_start fw_depth_start_of(double square, double poisson) {
    and leave nu h^2, hence the hoop strain's k, as it is. With one nu D of silicon is 0.3 to 0.6 %
    too high for h >= 9 t, r <= 20 t.
    in: square = h^2/(r t), E Pa of the mean 1/E. Test: test_crystal.c ends_of_silicon */
-FW_INLINE fw_depth_start fw_depth_start_crystal(double square, const fw_crystal *k, double E) {
-    double n2 = k->bow_per_Pa * E, rest = 1 - n2, unlike = (k->a0_per_Pa + k->a1_per_Pa) * E;
-    double poisson = -k->s12_per_Pa * E;
+FW_INLINE fw_depth_start fw_depth_start_crystal(fw_real square, const fw_crystal *k, fw_real E) {
+    fw_real n2 = k->bow_per_Pa * E, rest = 1 - n2, unlike = (k->a0_per_Pa + k->a1_per_Pa) * E;
+    fw_real poisson = -k->s12_per_Pa * E;
     return (fw_depth_start){.z = 3 * rest * unlike * (square * square),
                             .poisson = poisson,
                             .nu2 = n2,
@@ -120,31 +122,24 @@ FW_INLINE fw_depth_start fw_depth_start_crystal(double square, const fw_crystal 
    rms (without: 0.42 %, 1.25 % at most), W of others 0.1 um.
    source: docs/theory/flexure.md eq. 13a; test_crystal.c ends_of_silicon */
 typedef struct fw_end_loss {
-    double reach_m, length_m; /* l; f l^2/(l + 0.4192 t) */
+    fw_real reach_m, length_m; /* l; f l^2/(l + 0.4192 t) */
 } fw_end_loss;
 
-FW_INLINE double fw_end_reach(double reach, double depth_m, double f, double length_m) {
+FW_INLINE fw_real fw_end_reach(fw_real reach, fw_real depth_m, fw_real f, fw_real length_m) {
     return fw_smaller(depth_m * reach * f, (1 / 3.0) * length_m);
 }
 
-FW_INLINE fw_end_loss fw_end_loss_of(double reach, double depth_m, double f, double length_m,
-                                     double block_m) {
-    double l = fw_end_reach(reach, depth_m, f, length_m);
+FW_INLINE fw_end_loss fw_end_loss_of(fw_real reach, fw_real depth_m, fw_real f, fw_real length_m,
+                                     fw_real block_m) {
+    fw_real l = fw_end_reach(reach, depth_m, f, length_m);
     return (fw_end_loss){.reach_m = l, .length_m = f * (l * l) / (l + block_m)};
 }
 
-/* polynomials of degree 7, two at once */
-FW_INLINE fw_pair fw_depth_polynomial(const fw_pair c[8], const double power[3]) {
-    fw_pair z1 = {power[0], power[0]}, z2 = {power[1], power[1]}, z4 = {power[2], power[2]};
-    return ((c[0] + z1 * c[1]) + z2 * (c[2] + z1 * c[3])) +
-           z4 * ((c[4] + z1 * c[5]) + z2 * (c[6] + z1 * c[7]));
-}
-
 /* f = of over; c1 = C1 / (rt/2), edge the bracket over it */
-FW_INLINE fw_depth fw_depth_by(const fw_depth_start *from, double of, double over, double c1,
-                               double edge, double per_part) {
-    double left = over - from->nu2 * of, per = 1 / (over * left); /* (1 - nu^2 f) over */
-    double per_over = left * per, per_left = over * per, part = per_part * per_over;
+FW_INLINE fw_depth fw_depth_by(const fw_depth_start *from, fw_real of, fw_real over, fw_real c1,
+                               fw_real edge, fw_real per_part) {
+    fw_real left = over - from->nu2 * of, per = 1 / (over * left); /* (1 - nu^2 f) over */
+    fw_real per_over = left * per, per_left = over * per, part = per_part * per_over;
     return (fw_depth){.stiffness = left * from->per * per_over,
                       .softness = from->rest * over * per_left,
                       .bow = of * per_over,
@@ -154,31 +149,32 @@ FW_INLINE fw_depth fw_depth_by(const fw_depth_start *from, double of, double ove
 
 /* x <= 8 */
 FW_INLINE fw_depth fw_depth_near(const fw_depth_start *from) {
-    static const fw_pair stiff[8] = {{0x1.0000000000000p+0, 0x1.0000000000000p+0},
-                                     {0x1.10fe6934aafd4p-7, 0x1.6bcc21fa7e721p-9},
-                                     {0x1.6f618bcc145b3p-19, 0x1.249456cbca3fcp-21},
-                                     {0x1.53b7e96db87b8p-33, 0x1.7e2b72af5744dp-36},
-                                     {0x1.62da427f36276p-49, 0x1.2f2a73804c661p-52},
-                                     {0x1.04435993ae757p-66, 0x1.5b6fd9b1ee1eap-70},
-                                     {0x1.1b8b627de79fdp-85, 0x1.23e4828aabafbp-89},
-                                     {0x1.8311c31e245a2p-106, 0x1.0d47eb5a2a719p-110}};
-    static const fw_pair hoop[8] = {{0x1.5555555555555p-2, 0x1.5555555555555p-1},
-                                    {-0x1.a335fbb11d4f6p-14, 0x1.9f53031bd92e1p-11},
-                                    {0x1.ccd907801cb81p-29, 0x1.a6d1cc063236dp-24},
-                                    {-0x1.1894031d8ba8ap-45, 0x1.8f74db51ee5abp-39},
-                                    {0x1.2b45ed8f480c1p-63, 0x1.e6683f27eb5d9p-56},
-                                    {-0x1.6fe4c96047d55p-82, 0x1.b413d9facee34p-74},
-                                    {0x1.361e8235e345ep-101, 0x1.1699265c4a5f2p-93},
-                                    {-0x1.8c0b9e948c137p-121, 0x1.364bc77d9de83p-115}};
-    double z = from->z, z2 = z * z;
-    const double power[3] = {z, z2, z2 * z2};
-    fw_pair f = fw_depth_polynomial(stiff, power), c = fw_depth_polynomial(hoop, power);
-    return fw_depth_by(from, f[1], f[0], -c[0], c[1], from->lift);
+    static const double stiff[8][2] = {{0x1.0000000000000p+0, 0x1.0000000000000p+0},
+                                       {0x1.10fe6934aafd4p-7, 0x1.6bcc21fa7e721p-9},
+                                       {0x1.6f618bcc145b3p-19, 0x1.249456cbca3fcp-21},
+                                       {0x1.53b7e96db87b8p-33, 0x1.7e2b72af5744dp-36},
+                                       {0x1.62da427f36276p-49, 0x1.2f2a73804c661p-52},
+                                       {0x1.04435993ae757p-66, 0x1.5b6fd9b1ee1eap-70},
+                                       {0x1.1b8b627de79fdp-85, 0x1.23e4828aabafbp-89},
+                                       {0x1.8311c31e245a2p-106, 0x1.0d47eb5a2a719p-110}};
+    static const double hoop[8][2] = {{0x1.5555555555555p-2, 0x1.5555555555555p-1},
+                                      {-0x1.a335fbb11d4f6p-14, 0x1.9f53031bd92e1p-11},
+                                      {0x1.ccd907801cb81p-29, 0x1.a6d1cc063236dp-24},
+                                      {-0x1.1894031d8ba8ap-45, 0x1.8f74db51ee5abp-39},
+                                      {0x1.2b45ed8f480c1p-63, 0x1.e6683f27eb5d9p-56},
+                                      {-0x1.6fe4c96047d55p-82, 0x1.b413d9facee34p-74},
+                                      {0x1.361e8235e345ep-101, 0x1.1699265c4a5f2p-93},
+                                      {-0x1.8c0b9e948c137p-121, 0x1.364bc77d9de83p-115}};
+    fw_real z = from->z, z2 = z * z, z4 = z2 * z2;
+    fw_both f = fw_septics(stiff, z, z2, z4), c = fw_septics(hoop, z, z2, z4);
+    return fw_depth_by(from, fw_second(f), fw_first(f), -fw_first(c), fw_second(c), from->lift);
 }
 
+#ifndef FW_FOUR_HINGES
 FW_INLINE fw_depth fw_depth_law(const fw_depth_start *from) {
     return from->z <= 4096 ? fw_depth_near(from) : fw_depth_deep(*from);
 }
+#endif
 
 /* What a solid has at a root over what (5) says without its depth factors, as an upper bound:
      q = (t/rho)^(2/3),  x = rho/t,  p = h/(h + 4 t),  u = t/3R (0: straight)
@@ -196,8 +192,8 @@ FW_INLINE fw_depth fw_depth_law(const fw_depth_start *from) {
    solids' own error is 0.3 %.
    source: docs/theory/flexure.md "Peak strain of a root"; solids and fit: tools/solids;
    test_root_strain.c */
-FW_INLINE double fw_root_rise(double x, double q, double p, double nu, double n, double u) {
-    double p2 = p * p;
+FW_INLINE fw_real fw_root_rise(fw_real x, fw_real q, fw_real p, fw_real nu, fw_real n, fw_real u) {
+    fw_real p2 = p * p;
     return 1.0312 + n * p * (1.8208 * p2 - 0.7838) +
            nu * p2 * (q * (0.8824 - 1.069 * p) - 0.0907 * x * p) +
            u * (0.316 * p + 3.092 * n * x - 0.2066 * q);
@@ -222,16 +218,16 @@ FW_INLINE double fw_root_rise(double x, double q, double p, double nu, double n,
    peak_stress_of_silicon
  */
 typedef struct fw_root_crystal {
-    double even, along, across, lean; /* A, B, C, D u */
-    double x, q, u;
+    fw_real even, along, across, lean; /* A, B, C, D u */
+    fw_real x, q, u;
 } fw_root_crystal;
 
 typedef struct fw_root_worst { /* (1 + u)(A + ...) of the inner fillet, (1 - u)(A + ...) of the
                                   outer */
-    double inner, outer;
+    fw_real inner, outer;
 } fw_root_worst;
 
-FW_INLINE fw_root_crystal fw_root_crystal_of(double share, double x, double q, double u) {
+FW_INLINE fw_root_crystal fw_root_crystal_of(fw_real share, fw_real x, fw_real q, fw_real u) {
     return (fw_root_crystal){.even = 1.0721 + 0.02 * x + q * (0.0172 + 0.0039 * q),
                              .along = share * (-0.1134 + 0.0261 * x + 0.0305 * q),
                              .across = share * (-0.077 + 0.0061 * x + q * (0.1783 - 0.0305 * q)),
@@ -245,33 +241,35 @@ FW_INLINE fw_root_crystal fw_root_crystal_of(double share, double x, double q, d
    is turned back by 16.2 x u = 5.4 rho/R, of which sine and cosine stand as their Taylor series,
    2e-4 of 1 off at 1 rad, with which the laws were fitted. The larger of a + b and a - b is a + |b|
  */
-FW_INLINE fw_root_worst fw_root_crystal_at(const fw_root_crystal *r, double cos_w, double sin_w,
-                                           double cos_b, double sin_b) {
-    double e = 16.2 * r->x * r->u, z = e * e;
-    double S = e * (1 - z * (1 / 6.0 - z * (1 / 120.0)));
-    double C = 1 - z * (0.5 - z * (1 / 24.0 - z * (1 / 720.0)));
-    double c = cos_b * C + sin_b * S, s = sin_b * C - cos_b * S, Bc = r->along * c,
-           Bs = r->along * s;
-    double P = r->lean + r->across, Q = r->lean - r->across;
+FW_INLINE fw_root_worst fw_root_crystal_at(const fw_root_crystal *r, fw_real cos_w, fw_real sin_w,
+                                           fw_real cos_b, fw_real sin_b) {
+    fw_real e = 16.2 * r->x * r->u, z = e * e;
+    fw_real S = e * (1 - z * (1 / 6.0 - z * (1 / 120.0)));
+    fw_real C = 1 - z * (0.5 - z * (1 / 24.0 - z * (1 / 720.0)));
+    fw_real c = cos_b * C + sin_b * S, s = sin_b * C - cos_b * S, Bc = r->along * c,
+            Bs = r->along * s;
+    fw_real P = r->lean + r->across, Q = r->lean - r->across;
     return (fw_root_worst){
-        (1 + r->u) * (r->even + (Bc + P * s) * cos_w + fabs((P * c - Bs) * sin_w)),
-        (1 - r->u) * (r->even + (Bc + Q * s) * cos_w + fabs((Q * c - Bs) * sin_w))};
+        (1 + r->u) * (r->even + (Bc + P * s) * cos_w + fw_size((P * c - Bs) * sin_w)),
+        (1 - r->u) * (r->even + (Bc + Q * s) * cos_w + fw_size((Q * c - Bs) * sin_w))};
 }
 
+#ifndef FW_FOUR_HINGES
 /* the worst direction */
 FW_INLINE fw_root_worst fw_root_crystal_any(const fw_root_crystal *r) {
-    double P = r->lean + r->across, Q = r->lean - r->across, B = r->along * r->along;
+    fw_real P = r->lean + r->across, Q = r->lean - r->across, B = r->along * r->along;
     return (fw_root_worst){(1 + r->u) * (r->even + sqrt(B + P * P)),
                            (1 - r->u) * (r->even + sqrt(B + Q * Q))};
 }
+#endif
 
 /* G */
-FW_INLINE double fw_root_crystal_peak(const fw_root_crystal *r, const fw_root_worst *worst,
-                                      double p, double nu, double n) {
-    p = fw_smaller(p, 15 / 17.0);
-    double p2 = p * p, level = 1 + n * p * (-4.4563 * p2 + 6.5109 * p - 2.0268) +
-                               nu * p2 * r->x * (-1.3063 + 1.6285 * p);
-    double tilt = r->u * (1.5231 * p + n * (0.3433 * r->x + 2.1208) - 0.4898 * r->q);
+FW_INLINE fw_real fw_root_crystal_peak(const fw_root_crystal *r, const fw_root_worst *worst,
+                                       fw_real p, fw_real nu, fw_real n) {
+    p = fw_smaller(p, fw_all(15 / 17.0));
+    fw_real p2 = p * p, level = 1 + n * p * (-4.4563 * p2 + 6.5109 * p - 2.0268) +
+                                nu * p2 * r->x * (-1.3063 + 1.6285 * p);
+    fw_real tilt = r->u * (1.5231 * p + n * (0.3433 * r->x + 2.1208) - 0.4898 * r->q);
     return fw_larger(worst->inner * (level + tilt), worst->outer * (level - tilt));
 }
 

@@ -74,6 +74,47 @@ void fw_flexure_closed_form(const fw_flexure_input *in, fw_flexure_result *out) 
     fw_flexure_closed_form_at(&f, in, out);
 }
 
+/* how many from the first on may go at once, at most four */
+static size_t alike(const fw_flexure_input *const in[], size_t n) {
+    size_t k = 0;
+    while (k < n && k < 4 && in[k]->kind == FW_FLEXURE_CSFH && !varying(in[k]) &&
+           in[k]->crystal.known == in[0]->crystal.known && fw_csfh_usual(in[k]))
+        k++;
+    return k;
+}
+
+/* four cost what three do alone, with AVX what one and a half do: fewer are made four with the last
+   one */
+static bool at_once(const fw_flexure_input *const in[], fw_flexure_result *const out[], size_t n) {
+    bool avx = false;
+#ifdef __x86_64__
+    avx = __builtin_cpu_supports("avx") != 0;
+#endif
+    if (n < (avx ? 2 : 3)) return false;
+    const fw_flexure_input *from[4];
+    fw_flexure_result *to[4];
+    for (size_t k = 0; k < 4; k++)
+        from[k] = in[k < n ? k : n - 1], to[k] = out[k < n ? k : n - 1];
+#ifdef __x86_64__
+    if (avx) {
+        fw_csfh_four_avx(from, to);
+        return true;
+    }
+#endif
+    fw_csfh_four(from, to);
+    return true;
+}
+
+void fw_flexure_closed_forms(const fw_flexure_input *const in[], fw_flexure_result *const out[],
+                             size_t n) {
+    for (size_t i = 0, k; i < n; i += k) {
+        k = alike(in + i, n - i);
+        if (at_once(in + i, out + i, k)) continue;
+        fw_flexure_closed_form(in[i], out[i]);
+        k = 1;
+    }
+}
+
 double fw_flexure_default_fillet(const fw_flexure *flexure) {
     double t = flexure->width_m;
     if (flexure->kind == FW_FLEXURE_PATH) { /* of the two ends the one that leaves less */

@@ -99,21 +99,18 @@ static void move_hinge_point(fw_device *d, int j, double by_m, double axis_rad) 
     move(&joint->bx_m, &joint->by_m, by_m, axis_rad - turned(d, joint->body_b));
 }
 
-/* in one thickness and modulus, so that only the section counts */
-static void closed_form(const fw_device *d, const fw_layout *layout, const fw_variant *v, int j,
-                        fw_flexure_result *out) {
-    const fw_flexure_input in = fw_mechanism_flexure(d, layout, v, j);
-    fw_flexure_closed_form(&in, out);
-    fw_flexure_flare(&in, d->flexure[d->joint[j].flexure].flare_m, out);
-}
-
 static void change_joint(const fw_device *was, const fw_layout *drawn, fw_made_device *out, int j) {
     fw_device *d = &out->device;
     fw_joint *joint = &d->joint[j];
     if (joint->flexure == FW_NONE) return;
+    /* in one thickness and modulus, so that only the section counts */
+    const fw_flexure_input then = fw_mechanism_flexure(was, drawn, &out->variant, j),
+                           made = fw_mechanism_flexure(d, out->drawn, &out->variant, j);
     fw_flexure_result before, now;
-    closed_form(was, drawn, &out->variant, j, &before);
-    closed_form(d, out->drawn, &out->variant, j, &now);
+    fw_flexure_closed_forms((const fw_flexure_input *const[]){&then, &made},
+                            (fw_flexure_result *const[]){&before, &now}, 2);
+    fw_flexure_flare(&then, was->flexure[joint->flexure].flare_m, &before);
+    fw_flexure_flare(&made, d->flexure[joint->flexure].flare_m, &now);
     double ratio = now.stiffness_Nm_per_rad / before.stiffness_Nm_per_rad;
     joint->stiffness_Nm_per_rad *= ratio;
     joint->damping_Nms_per_rad *= sqrt(ratio);

@@ -3,6 +3,7 @@
    rounds. Two figures of every closed form:
      in a row   every evaluation waits for the one before: its result enters the next one's input
      in a list  64 hinges that do not wait for each other, as when all of a mechanism are judged
+     by one call  the same 64 by fw_flexure_closed_forms, which takes four arcs at once
    Inputs vary, so that branches are taken as they come. All of a result is worked out, the estimate
    of its error too. A crystal is prepared once (fw_crystal_cubic: its moduli and the direction of
    the hinge in it), as all hinges of a material and direction share it.
@@ -72,6 +73,22 @@ static double list(int kind) {
     return out[0].stiffness_Nm_per_rad;
 }
 
+static double many(int kind) {
+    enum { MANY = 64 };
+    static fw_flexure_input in[MANY];
+    static fw_flexure_result out[MANY];
+    const fw_flexure_input *from[MANY];
+    fw_flexure_result *to[MANY];
+    for (int i = 0; i < MANY; i++) {
+        in[i] = hinge_of(kind);
+        in[i].width_m = 8e-6 + 4e-12 * i;
+        from[i] = &in[i], to[i] = &out[i];
+    }
+    for (int i = 0; i < repeat; i += MANY)
+        fw_flexure_closed_forms(from, to, MANY);
+    return out[0].stiffness_Nm_per_rad;
+}
+
 static double part(int kind) {
     fw_flexure_input in = hinge_of(kind);
     fw_flexure_shape shape;
@@ -120,6 +137,8 @@ static const struct bench_case {
     {"arc of a crystal, in a row", row, ARC_CRYSTAL},
     {"arc, in a list", list, ARC},
     {"arc of a crystal, in a list", list, ARC_CRYSTAL},
+    {"arc, 64 by one call", many, ARC},
+    {"arc of a crystal, 64 by one call", many, ARC_CRYSTAL},
     {"arc, outline at hand, in a row", part, ARC},
     {"arc of a crystal, outline at hand, in a row", part, ARC_CRYSTAL},
     {"arc deeper than 10 t, in a row", row, DEEP_ARC},
