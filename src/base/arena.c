@@ -50,7 +50,7 @@ static int injected_fault(void) {
 fw_arena *fw_arena_new(size_t cap_bytes) {
     if (injected_fault()) return NULL;
     fw_arena *arena = calloc(1, sizeof *arena);
-    if (arena) arena->cap = cap_bytes ? cap_bytes : (size_t)512 * 1024 * 1024;
+    if (arena) arena->cap = cap_bytes ? cap_bytes : FW_ARENA_USUAL;
     return arena;
 }
 

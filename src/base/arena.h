@@ -12,7 +12,8 @@ typedef struct fw_mark {
     size_t used, total;
 } fw_mark;
 
-/* cap_bytes 0 means the default of 512 MiB; NULL when memory is short */
+#define FW_ARENA_USUAL ((size_t)512 << 20)
+/* cap_bytes 0 means FW_ARENA_USUAL; NULL when memory is short */
 fw_arena *fw_arena_new(size_t cap_bytes);
 void fw_arena_free(fw_arena *arena); /* NULL allowed */
 

