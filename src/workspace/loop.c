@@ -1,31 +1,31 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "workspace/loop.h"
 
-static fw_centred2 plus(fw_centred2 a, fw_centred2 b) {
+FW_CENTRED fw_centred2 plus(fw_centred2 a, fw_centred2 b) {
     return (fw_centred2){fw_centred_add(a.x, b.x), fw_centred_add(a.y, b.y)};
 }
 
-static fw_centred2 minus(fw_centred2 a, fw_centred2 b) {
+FW_CENTRED fw_centred2 minus(fw_centred2 a, fw_centred2 b) {
     return (fw_centred2){fw_centred_sub(a.x, b.x), fw_centred_sub(a.y, b.y)};
 }
 
-static fw_centred dot(fw_centred2 a, fw_centred2 b) {
+FW_CENTRED fw_centred dot(fw_centred2 a, fw_centred2 b) {
     return fw_centred_add(fw_centred_mul(a.x, b.x), fw_centred_mul(a.y, b.y));
 }
 
-static fw_centred cross(fw_centred2 a, fw_centred2 b) {
+FW_CENTRED fw_centred cross(fw_centred2 a, fw_centred2 b) {
     return fw_centred_sub(fw_centred_mul(a.x, b.y), fw_centred_mul(a.y, b.x));
 }
 
-static fw_centred2 quarter(fw_centred2 a) { /* J a */
+FW_CENTRED fw_centred2 quarter(fw_centred2 a) { /* J a */
     return (fw_centred2){fw_centred_negated(a.y), a.x};
 }
 
-static fw_centred2 exactly(fw_vec2 p) {
+FW_CENTRED fw_centred2 exactly(fw_vec2 p) {
     return (fw_centred2){fw_centred_exact(p.x), fw_centred_exact(p.y)};
 }
 
-static fw_centred2 rotated(fw_vec2 p, fw_centred s, fw_centred c) {
+FW_CENTRED fw_centred2 rotated(fw_vec2 p, fw_centred s, fw_centred c) {
     return (fw_centred2){fw_centred_sub(fw_centred_scaled(c, p.x), fw_centred_scaled(s, p.y)),
                          fw_centred_add(fw_centred_scaled(s, p.x), fw_centred_scaled(c, p.y))};
 }
@@ -87,12 +87,12 @@ double fw_box3_middle(const fw_box3 *box, int axis, double *half) {
 /* ---- forms ---- */
 
 /* at the middle of the box */
-static fw_interval middle_of(fw_centred a) {
+FW_CENTRED fw_interval middle_of(fw_centred a) {
     return (fw_interval){fw_down(a.m - a.e), fw_up(a.m + a.e)};
 }
 
 /* f(c + d) = f(c) + g(c).d within sum |d_i| (g_i.e + g_i.r)/2 (centred.h) */
-static fw_form form(fw_interval at, const fw_centred *grad, int n, const double half[3]) {
+FW_CENTRED fw_form form(fw_interval at, const fw_centred *grad, int n, const double half[3]) {
     fw_form f = {.at = at};
     for (int i = 0; i < n; i++) {
         f.grad[i] = grad[i].m;
@@ -128,9 +128,9 @@ typedef struct coordinates { /* of the box: how the platform depends on them */
    place, a x b. Error: proved by centred.h. Out of reach where h^2 < 0. Cost about 80 centred
    operations. Source: the velocity of Q = O + a + b, dotted with b and with a. Test: test_loop.c.
  */
-static fw_reached solve(const fw_leg *leg, fw_centred2 q, const fw_centred2 *dq,
-                        const coordinates *on, fw_centred phi, fw_interval d2_allowed,
-                        fw_form *reach, fw_form psi[3], fw_centred2 *elbow, fw_centred *side) {
+FW_CENTRED fw_reached solve(const fw_leg *leg, fw_centred2 q, const fw_centred2 *dq,
+                            const coordinates *on, fw_centred phi, fw_interval d2_allowed,
+                            fw_form *reach, fw_form psi[3], fw_centred2 *elbow, fw_centred *side) {
     fw_centred2 v = minus(q, exactly(leg->base));
     fw_centred d2 = dot(v, v), of_a[3], of_b[3], grad[3];
     for (int i = 0; i < on->n; i++)
@@ -171,8 +171,8 @@ static fw_reached solve(const fw_leg *leg, fw_centred2 q, const fw_centred2 *dq,
 }
 
 /* platform hinge Q of a leg at the pose: T + R(phi) to, and its derivatives by x, y, phi */
-static fw_centred2 platform_hinge(const fw_leg *leg, fw_centred2 at, fw_centred s, fw_centred c,
-                                  fw_centred2 dq[3]) {
+FW_CENTRED fw_centred2 platform_hinge(const fw_leg *leg, fw_centred2 at, fw_centred s, fw_centred c,
+                                      fw_centred2 dq[3]) {
     fw_centred2 arm = rotated(leg->to, s, c);
     dq[0] = exactly((fw_vec2){1.0, 0.0});
     dq[1] = exactly((fw_vec2){0.0, 1.0});
@@ -213,8 +213,8 @@ void fw_loop_pose_box(const fw_loop *k, const fw_box3 *box, fw_loop_box *out) {
 
 /* C and D for rotations of the three left links, their derivatives by the coordinates. With the
    platform's rotation given (`slice`) it does not depend on them. */
-static void from_joints(const fw_loop *k, const coordinates *on, const fw_centred turn[3],
-                        fw_interval d2_m2, fw_loop_box *out) {
+FW_CENTRED void from_joints(const fw_loop *k, const coordinates *on, const fw_centred turn[3],
+                            fw_interval d2_m2, fw_loop_box *out) {
     fw_centred s, c;
     const fw_leg *left = &k->leg[0], *right = &k->leg[1];
     fw_centred_turn(turn[0], &s, &c);
