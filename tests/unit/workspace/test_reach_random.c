@@ -72,7 +72,8 @@ static void boxes_agree_with_plain_kinematics(void **state) {
         }
         fw_loop_box known;
         fw_interval share;
-        fw_inside where = fw_reach_judge(&s.loop, &allowed, 3, 0, &box, &known, &share);
+        unsigned open = FW_WANT_LIMITS;
+        fw_inside where = fw_reach_judge(&s.loop, &allowed, 3, 0, &box, &open, &known, &share);
         enum { POINTS = 400 };
         int in = 0;
         for (int n = 0; n < POINTS; n++) {
