@@ -78,12 +78,6 @@ fw_interval fw_loop_angle_range(const fw_loop *k, int hinge, fw_interval psi) {
     return fw_interval_add(turn, fw_interval_point(k->start_rad[hinge]));
 }
 
-double fw_box3_middle(const fw_box3 *box, int axis, double *half) {
-    double c = 0.5 * (box->lo[axis] + box->hi[axis]);
-    *half = fw_up(fmax(box->hi[axis] - c, c - box->lo[axis]));
-    return c;
-}
-
 /* ---- forms ---- */
 
 /* at the middle of the box */
@@ -100,14 +94,6 @@ FW_CENTRED fw_form form(fw_interval at, const fw_centred *grad, int n, const dou
     }
     f.rest = fw_grown(f.rest);
     return f;
-}
-
-fw_interval fw_form_range(const fw_form *f, const double half[3]) {
-    double reach = 0.0;
-    for (int i = 0; i < 3; i++)
-        reach += fabs(f->grad[i]) * half[i];
-    reach = fw_grown(reach + f->rest);
-    return (fw_interval){fw_down(f->at.lo - reach), fw_up(f->at.hi + reach)};
 }
 
 /* ---- one leg ---- */

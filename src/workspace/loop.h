@@ -87,7 +87,19 @@ void fw_loop_slice_box(const fw_loop *loop, const fw_box3 *box, double phi_rad, 
                        unsigned wanted, fw_loop_box *out);
 
 /* range of a form over the box with these half widths */
-fw_interval fw_form_range(const fw_form *form, const double half[3]);
-double fw_box3_middle(const fw_box3 *box, int axis, double *half);
+static inline fw_interval fw_form_range(const fw_form *f, const double half[3]) {
+    double reach = 0.0;
+    for (int i = 0; i < 3; i++)
+        reach += fabs(f->grad[i]) * half[i];
+    reach = fw_grown(reach + f->rest);
+    return (fw_interval){fw_down(f->at.lo - reach), fw_up(f->at.hi + reach)};
+}
+
+static inline double fw_box3_middle(const fw_box3 *box, int axis, double *half) {
+    double c = 0.5 * (box->lo[axis] + box->hi[axis]);
+    double up = box->hi[axis] - c, down = c - box->lo[axis];
+    *half = fw_up(up > down ? up : down);
+    return c;
+}
 
 #endif

@@ -72,8 +72,8 @@ static fw_interval below(const fw_form *f, const double half[3], fw_interval lim
     double least = fw_down(fw_down(limit.lo - f->at.hi) - f->rest);
     double most = fw_up(fw_up(limit.hi - f->at.lo) + f->rest);
     double low = fw_cut_share(p, least).lo, high = fw_cut_share(p, most).hi;
-    if (low < 1.0) low = fmax(low - slack, 0.0);
-    if (high > 0.0) high = fmin(high + slack, 1.0);
+    if (low < 1.0) low = low > slack ? low - slack : 0.0;
+    if (high > 0.0) high = high + slack < 1.0 ? high + slack : 1.0;
     return (fw_interval){low, high};
 }
 
@@ -101,11 +101,15 @@ static fw_inside one_hinge(const fw_form *f, const fw_bound *range, double perio
         return FW_CUT;
     }
     fw_form minus = mirrored(f);
-    fw_interval top = below(f, half, range->high, slack),
-                bottom = below(&minus, half, fw_interval_negated(range->low), slack);
+    fw_interval top = {1.0, 1.0}, bottom = {1.0, 1.0};
+    if (now.hi > range->high.lo) top = below(f, half, range->high, slack);
+    if (now.lo < range->low.hi)
+        bottom = below(&minus, half, fw_interval_negated(range->low), slack);
     double missing = fw_up(fw_up(1.0 - top.lo) + fw_up(1.0 - bottom.lo));
-    share->lo = fmax(fw_down(share->lo - missing), 0.0);
-    share->hi = fmin(share->hi, fmin(top.hi, bottom.hi));
+    double left = fw_down(share->lo - missing);
+    double right = top.hi < bottom.hi ? top.hi : bottom.hi;
+    share->lo = left > 0.0 ? left : 0.0;
+    share->hi = right < share->hi ? right : share->hi;
     return share->hi > 0.0 ? FW_CUT : FW_OUTSIDE;
 }
 
@@ -194,9 +198,10 @@ static fw_interval weight(const search *s, const fw_box3 *box, const fw_loop_box
         density = (fw_interval){side.m - side.r, side.m + side.r};
         factor = widths * (box->hi[1] - box->lo[1]);
     }
-    density.lo = fmax(density.lo, 0.0); /* across the stretched leg: the branch has part of it */
-    fw_interval out = fw_interval_mul(density, fw_interval_mul(unit, fw_interval_point(factor)));
-    return fw_interval_mul(out, share);
+    if (!(density.lo > 0.0))
+        density.lo = 0.0; /* across the stretched leg: the branch has part of it */
+    fw_interval size = fw_interval_mul_sizes(unit, fw_interval_point(factor));
+    return fw_interval_mul_sizes(fw_interval_mul_sizes(density, size), share);
 }
 
 /* ---- open boxes, a binary heap ---- */
@@ -238,21 +243,17 @@ static cell take(search *s) {
 /* ---- the search ---- */
 
 /* looks at one box; keeps it when it is neither inside nor outside */
-static fw_status look(search *s, const unsigned short at[3], int level, unsigned open) {
-    fw_box3 box = {0};
+static fw_status look(search *s, const fw_box3 *box, const unsigned short at[3], int level,
+                      unsigned open) {
     fw_loop_box known;
     fw_interval share;
-    for (int i = 0; i < s->dimensions; i++) {
-        box.lo[i] = edge(s, i, at[i], level);
-        box.hi[i] = edge(s, i, at[i] + 1u, level);
-    }
     s->boxes++;
     if (level > s->level) s->level = level;
-    fw_inside where = fw_reach_judge(s->loop, &s->allowed, s->dimensions, s->phi_rad, &box, &open,
-                                     &known, &share);
+    fw_inside where =
+        fw_reach_judge(s->loop, &s->allowed, s->dimensions, s->phi_rad, box, &open, &known, &share);
     if (where == FW_OUTSIDE) return FW_OK;
-    fw_interval part = weight(s, &box, &known, where, share);
-    part.lo = fmax(part.lo, 0.0);
+    fw_interval part = weight(s, box, &known, where, share);
+    if (!(part.lo > 0.0)) part.lo = 0.0;
     bool sure = known.cross[0].m * s->loop->leg[0].sign > known.cross[0].r;
     if (where == FW_INSIDE && !sure) part.lo = 0.0;
     s->about.lo += part.lo, s->about.hi += part.hi;
@@ -268,11 +269,20 @@ static fw_status look(search *s, const unsigned short at[3], int level, unsigned
 static fw_status split(search *s) {
     cell parent = take(s);
     s->about.lo -= parent.part.lo, s->about.hi -= parent.part.hi;
+    int level = parent.level + 1;
+    double edges[3][3] = {0};
+    for (int i = 0; i < s->dimensions; i++)
+        for (unsigned k = 0; k < 3; k++)
+            edges[i][k] = edge(s, i, 2u * parent.at[i] + k, level);
     for (int child = 0; child < 1 << s->dimensions; child++) {
         unsigned short at[3];
-        for (int i = 0; i < 3; i++)
-            at[i] = (unsigned short)(2 * parent.at[i] + (child >> i & 1));
-        FW_TRY(look(s, at, parent.level + 1, parent.open));
+        fw_box3 box;
+        for (int i = 0; i < 3; i++) {
+            int upper = child >> i & 1;
+            at[i] = (unsigned short)(2 * parent.at[i] + upper);
+            box.lo[i] = edges[i][upper], box.hi[i] = edges[i][upper + 1];
+        }
+        FW_TRY(look(s, &box, at, level, parent.open));
     }
     return FW_OK;
 }
@@ -309,7 +319,7 @@ static fw_status measured(search *s, fw_effort effort, fw_measure *out) {
             return FW_OK;
         }
     const unsigned short first[3] = {0};
-    FW_TRY(look(s, first, 0, FW_WANT_LIMITS));
+    FW_TRY(look(s, &s->whole, first, 0, FW_WANT_LIMITS));
     sum_up(s, effort.relative, out);
     if (out->reached) return FW_OK;
     const long children = 1 << s->dimensions;
