@@ -263,6 +263,12 @@ FW_CENTRED void from_joints(const fw_loop *k, const coordinates *on, const fw_ce
     if (wanted & (FW_WANT_D | FW_WANT_REST)) out->psi[3] = psi[2];
 }
 
+fw_centred fw_loop_left_cross(const fw_loop *k, double c, double half) {
+    fw_centred sine, cosine;
+    fw_centred_turn(fw_centred_axis(c, half), &sine, &cosine);
+    return cross(exactly(k->leg[0].a), rotated(k->leg[0].b, sine, cosine));
+}
+
 void fw_loop_joint_box(const fw_loop *k, const fw_box3 *box, fw_interval d2_m2, unsigned wanted,
                        fw_loop_box *out) {
     coordinates on = {.n = 3, .turns = {1.0, 1.0, 1.0}};

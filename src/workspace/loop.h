@@ -86,6 +86,9 @@ void fw_loop_joint_box(const fw_loop *loop, const fw_box3 *box, fw_interval d2_m
 void fw_loop_slice_box(const fw_loop *loop, const fw_box3 *box, double phi_rad, fw_interval d2_m2,
                        unsigned wanted, fw_loop_box *out);
 
+/* a x b of the left leg, m2, for rotations of B within c +- half */
+fw_centred fw_loop_left_cross(const fw_loop *loop, double c, double half);
+
 /* range of a form over the box with these half widths */
 static inline fw_interval fw_form_range(const fw_form *f, const double half[3]) {
     double reach = 0.0;

@@ -5,6 +5,7 @@
 
 enum { MOST_LEVEL = 14, FIRST_CELLS = 64, FIRST_SUM = 1024 };
 
+static const int judged[] = {4, 2, 3, 5};     /* hinges, the one that costs least first */
 static const double turn = 6.283185307179586; /* below 2 pi */
 
 fw_reach_limits fw_limits_symmetric(const double limit_rad[FW_SIX]) {
@@ -83,20 +84,27 @@ static fw_form mirrored(const fw_form *f) {
                      .rest = f->rest};
 }
 
+/* A rotation found beyond +-180 deg is another one less a turn: outside only where that is out of
+   range too. *known: it cannot reach round to the other side. */
+static fw_inside stands(fw_interval now, const fw_bound *range, double period, bool *known) {
+    double most = period - 1e-9; /* less than a turn, whatever rounding does */
+    double next = most + range->low.lo, last = range->high.hi - most;
+    *known = now.lo > last && now.hi < next;
+    if (now.lo >= range->low.hi && now.hi <= range->high.lo) return FW_INSIDE;
+    bool beyond = now.lo > range->high.hi && now.hi < next;
+    bool before = now.hi < range->low.lo && now.lo > last;
+    return beyond || before ? FW_OUTSIDE : FW_CUT;
+}
+
 /* One hinge over a box: narrows the share that all hinges leave. Two planes per hinge stand for its
-   constraint; at least 1 - sum(1 - v_i) of the box is within all of them, at most min v_i. A
-   rotation found beyond +-180 deg is another one less a turn: outside only where that is out of
-   range too. */
+   constraint; at least 1 - sum(1 - v_i) of the box is within all of them, at most min v_i. */
 static fw_inside one_hinge(const fw_form *f, const fw_bound *range, double period,
                            const double half[3], double slack, fw_interval *share) {
     fw_interval now = fw_form_range(f, half);
-    if (now.lo >= range->low.hi && now.hi <= range->high.lo) return FW_INSIDE;
-    double most = period - 1e-9; /* less than a turn, whatever rounding does */
-    double next = most + range->low.lo, last = range->high.hi - most;
-    bool beyond = now.lo > range->high.hi && now.hi < next;
-    bool before = now.hi < range->low.lo && now.lo > last;
-    if (beyond || before) return FW_OUTSIDE;
-    if (!(now.lo > last && now.hi < next)) {
+    bool clear;
+    fw_inside where = stands(now, range, period, &clear);
+    if (where != FW_CUT) return where;
+    if (!clear) {
         share->lo = 0.0; /* may reach round to the other side: nothing known */
         return FW_CUT;
     }
@@ -118,7 +126,6 @@ static fw_inside one_hinge(const fw_form *f, const fw_bound *range, double perio
 fw_inside fw_reach_judge(const fw_loop *k, const fw_allowed *allowed, int dimensions,
                          double phi_rad, const fw_box3 *box, unsigned *open, fw_loop_box *known,
                          fw_interval *share) {
-    static const int order[] = {4, 2, 3, 5};
     const unsigned wanted = *open;
     double half[3] = {0}, slack = 0.0;
     for (int i = 0; i < dimensions; i++) {
@@ -134,7 +141,7 @@ fw_inside fw_reach_judge(const fw_loop *k, const fw_allowed *allowed, int dimens
     if (known->reached == FW_OUT_OF_REACH) return FW_OUTSIDE;
     *open = 0;
     for (int n = 0; n < 4; n++) {
-        int i = order[n];
+        int i = judged[n];
         if (i < dimensions || !(wanted & 1u << i)) continue;
         bool elbow = i == 4;
         fw_inside one = FW_CUT;
@@ -150,12 +157,65 @@ fw_inside fw_reach_judge(const fw_loop *k, const fw_allowed *allowed, int dimens
     return *open ? FW_CUT : FW_INSIDE;
 }
 
+/* Which parts of a box one hinge's form decides: bits. On the part's side of the middle d_i is
+   within
+   +-half/2 +- (half/2 + off), `off` what rounding has moved the edge between parts by. Some ten
+   roundings of numbers below `reach`. */
+static void decide_parts(const fw_form *f, const fw_bound *range, double period, int parts,
+                         const double half[3], const double off[3], unsigned *inside,
+                         unsigned *outside) {
+    bool clear;
+    double step[3], reach = f->rest;
+    for (int i = 0; i < 3; i++) {
+        step[i] = f->grad[i] * (0.5 * half[i]);
+        reach += fabs(f->grad[i]) * (0.5 * half[i] + off[i]);
+    }
+    reach = reach * (1.0 + 0x1p-48) + 1e-300;
+    stands(fw_form_range(f, half), range, period, &clear);
+    double from = fw_up(fw_up(range->low.hi - f->at.lo) + reach);
+    double to = fw_down(fw_down(range->high.lo - f->at.hi) - reach);
+    double before = fw_down(fw_down(range->low.lo - f->at.hi) - reach);
+    double beyond = fw_up(fw_up(range->high.hi - f->at.lo) + reach);
+    *inside = *outside = 0;
+    for (int part = 0; part < parts && clear; part++) {
+        double at = (part & 1 ? step[0] : -step[0]) + (part & 2 ? step[1] : -step[1]) +
+                    (part & 4 ? step[2] : -step[2]);
+        *inside |= (unsigned)(at >= from && at <= to) << part;
+        *outside |= (unsigned)(at < before || at > beyond) << part;
+    }
+}
+
+void fw_reach_parts(const fw_allowed *allowed, int dimensions, const fw_box3 *box,
+                    const double between[3], unsigned open, const fw_loop_box *known,
+                    unsigned *inside, unsigned *outside) {
+    double half[3] = {0}, off[3] = {0};
+    const int parts = 1 << dimensions;
+    for (int i = 0; i < dimensions; i++) {
+        double middle = fw_box3_middle(box, i, &half[i]);
+        off[i] = fw_up(fabs(between[i] - middle));
+    }
+    *inside = (1u << parts) - 1u, *outside = 0;
+    for (int n = 0; n < 4; n++) {
+        int i = judged[n];
+        unsigned in = 0, out = 0;
+        if (i < dimensions || !(open & 1u << i)) continue;
+        if (i == 4)
+            decide_parts(&known->d2[1], &allowed->d2, (double)INFINITY, parts, half, off, &in,
+                         &out);
+        else if (known->reached == FW_REACHED)
+            decide_parts(&known->psi[i], &allowed->psi[i], turn, parts, half, off, &in, &out);
+        *inside &= in;
+        *outside |= out;
+    }
+}
+
 /* ---- the sum ---- */
 
 typedef struct cell {
     fw_interval part; /* of the measure that its inside has */
     unsigned short at[3];
-    unsigned char level, open; /* FW_WANT_*: what is not proved of it */
+    unsigned char level, open;     /* FW_WANT_*: what is not proved of it */
+    unsigned char inside, outside; /* bits of its parts of which that is proved already */
 } cell;
 
 typedef struct search {
@@ -242,6 +302,27 @@ static cell take(search *s) {
 
 /* ---- the search ---- */
 
+static void note_parts(const search *s, const fw_box3 *box, const fw_loop_box *known, cell *c) {
+    double between[3];
+    unsigned inside, outside;
+    for (int i = 0; i < s->dimensions; i++)
+        between[i] = edge(s, i, 2u * c->at[i] + 1u, c->level + 1);
+    fw_reach_parts(&s->allowed, s->dimensions, box, between, c->open, known, &inside, &outside);
+    c->inside = (unsigned char)inside, c->outside = (unsigned char)outside;
+}
+
+/* a part that is inside for certain; false: the left leg may be stretched or folded in it */
+static bool count_inside(search *s, const fw_box3 *box) {
+    fw_loop_box known;
+    double half, middle = fw_box3_middle(box, 1, &half);
+    known.cross[0] = fw_loop_left_cross(s->loop, middle, half);
+    if (!(known.cross[0].m * s->loop->leg[0].sign > known.cross[0].r)) return false;
+    fw_interval part = weight(s, box, &known, FW_INSIDE, fw_interval_point(1.0));
+    s->about.lo += part.lo, s->about.hi += part.hi;
+    s->decided = fw_interval_add(s->decided, part);
+    return true;
+}
+
 /* looks at one box; keeps it when it is neither inside nor outside */
 static fw_status look(search *s, const fw_box3 *box, const unsigned short at[3], int level,
                       unsigned open) {
@@ -257,11 +338,14 @@ static fw_status look(search *s, const fw_box3 *box, const unsigned short at[3],
     bool sure = known.cross[0].m * s->loop->leg[0].sign > known.cross[0].r;
     if (where == FW_INSIDE && !sure) part.lo = 0.0;
     s->about.lo += part.lo, s->about.hi += part.hi;
-    if ((where != FW_INSIDE || !sure) && level < MOST_LEVEL)
-        return keep(s, &(cell){.part = part,
-                               .at = {at[0], at[1], at[2]},
-                               .level = (unsigned char)level,
-                               .open = (unsigned char)open});
+    if ((where != FW_INSIDE || !sure) && level < MOST_LEVEL) {
+        cell one = {.part = part,
+                    .at = {at[0], at[1], at[2]},
+                    .level = (unsigned char)level,
+                    .open = (unsigned char)open};
+        if (where == FW_CUT) note_parts(s, box, &known, &one);
+        return keep(s, &one);
+    }
     s->decided = fw_interval_add(s->decided, part);
     return FW_OK;
 }
@@ -282,6 +366,8 @@ static fw_status split(search *s) {
             at[i] = (unsigned short)(2 * parent.at[i] + upper);
             box.lo[i] = edges[i][upper], box.hi[i] = edges[i][upper + 1];
         }
+        if (parent.outside >> child & 1) continue;
+        if (parent.inside >> child & 1 && count_inside(s, &box)) continue;
         FW_TRY(look(s, &box, at, level, parent.open));
     }
     return FW_OK;
@@ -303,13 +389,14 @@ static void sum_up(search *s, double relative, fw_measure *out) {
 /* Measure of a set of joint rotations by branch and bound: boxes that are inside count whole, boxes
    outside not, of the others the share that the planes of all hinges leave (cut.h); what they leave
    open falls fourfold with every halving. The box that leaves most open is halved next, along all
-   coordinates. What is proved of a box is not asked again within it: most open boxes are cut by one
-   hinge, and the parts of a box that only the right elbow cuts need no inverse kinematics. Brackets
-   are summed whenever the boxes have doubled and at the end, each sum is proved, so that the
-   largest lower and the smallest upper one hold. dx dy dphi = |a x b| dpsi_A dpsi_B dpsi_C, dx dy =
-   |a x b| dpsi_A dpsi_B at constant phi, one to one on the branch (a x b of one sign). in: limits
-   rad; out: m2 rad, or m2. Error: proved; sums are rounded outward. Cost about 0.45 us per box.
-   Source: docs/theory/workspace.md. Test: test_reach.c, test_reach_random.c. */
+   coordinates. Its own forms decide two of five parts beforehand, which need no look; what is
+   proved of a box is not asked again within it: most open boxes are cut by one hinge, and the parts
+   of a box that only the right elbow cuts need no inverse kinematics. Brackets are summed whenever
+   the boxes have doubled and at the end, each sum is proved, so that the largest lower and the
+   smallest upper one hold. dx dy dphi = |a x b| dpsi_A dpsi_B dpsi_C,  dx dy = |a x b| dpsi_A
+   dpsi_B at constant phi, one to one on the branch (a x b of one sign). in: limits rad; out: m2
+   rad, or m2. Error: proved; sums are rounded outward. Cost about 0.5 us per box. Source:
+   docs/theory/workspace.md. Test: test_reach.c, test_reach_random.c. */
 static fw_status measured(search *s, fw_effort effort, fw_measure *out) {
     *out = (fw_measure){.value = {0.0, (double)INFINITY}};
     for (int i = 0; i < s->dimensions; i++)
