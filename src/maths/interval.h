@@ -64,6 +64,11 @@ static inline fw_interval fw_interval_negated(fw_interval a) {
     return (fw_interval){-a.hi, -a.lo};
 }
 
+/* of numbers that are not negative */
+static inline fw_interval fw_interval_mul_sizes(fw_interval a, fw_interval b) {
+    return (fw_interval){fw_down(a.lo * b.lo), fw_up(a.hi * b.hi)};
+}
+
 fw_interval fw_interval_mul(fw_interval a, fw_interval b);
 /* all numbers where b holds 0 */
 fw_interval fw_interval_div(fw_interval a, fw_interval b);

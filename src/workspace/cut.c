@@ -33,11 +33,12 @@ fw_interval fw_cut_share(const double p[3], double t) {
     if (!(c > 0.0) || !(t > -(double)INFINITY)) return (fw_interval){0.0, 1.0};
     double from = 0.5 * (t + sum), share;
     if (from > 0.5 * sum)
-        share = 1.0 - corner(a, b, c, fmax(sum - from, 0.0));
+        share = 1.0 - corner(a, b, c, from < sum ? sum - from : 0.0);
     else
-        share = corner(a, b, c, fmax(from, 0.0));
+        share = corner(a, b, c, from > 0.0 ? from : 0.0);
     /* the distance errs by 4 units of the sum, which is at most 3 c; the share grows at most by the
        distance over c */
     const double slack = 1e-13;
-    return (fw_interval){fmax(share - slack, 0.0), fmin(share + slack, 1.0)};
+    return (fw_interval){share > slack ? share - slack : 0.0,
+                         share < 1.0 - slack ? share + slack : 1.0};
 }

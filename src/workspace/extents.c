@@ -150,7 +150,9 @@ static void try_point(end *e, const fw_box3 *box) {
         point.lo[i] = point.hi[i] = 0.5 * (box->lo[i] + box->hi[i]);
         fw_box3_middle(&point, i, &half[i]);
     }
-    if (fw_reach_judge(e->loop, e->allowed, 3, 0.0, &point, &known, &share) != FW_INSIDE) return;
+    unsigned open = FW_WANT_ALL;
+    if (fw_reach_judge(e->loop, e->allowed, 3, 0.0, &point, &open, &known, &share) != FW_INSIDE)
+        return;
     fw_interval range = fw_form_range(&known.extent[e->coordinate], half);
     double now = e->sign > 0.0 ? range.lo : -range.hi;
     if (!(now > e->found)) return;
@@ -195,7 +197,9 @@ static void look(end *e, const fw_box3 *box, double far) {
     fw_interval share;
     double half[3];
     e->boxes++;
-    if (fw_reach_judge(e->loop, e->allowed, 3, 0.0, box, &known, &share) == FW_OUTSIDE) return;
+    unsigned open = FW_WANT_ALL;
+    if (fw_reach_judge(e->loop, e->allowed, 3, 0.0, box, &open, &known, &share) == FW_OUTSIDE)
+        return;
     for (int i = 0; i < 3; i++)
         fw_box3_middle(box, i, &half[i]);
     far = fmin(far, most_of(e, &known, half));
@@ -245,7 +249,7 @@ fw_status fw_reach_extents(fw_arena *arena, const fw_loop *loop, const fw_reach_
             fw_loop_box known;
             double half[3];
             fw_loop_joint_box(loop, &whole, (fw_interval){-(double)INFINITY, (double)INFINITY},
-                              &known);
+                              FW_WANT_ALL, &known);
             for (int i = 0; i < 3; i++)
                 fw_box3_middle(&whole, i, &half[i]);
             end e = {.loop = loop,

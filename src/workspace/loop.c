@@ -1,31 +1,31 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "workspace/loop.h"
 
-static fw_centred2 plus(fw_centred2 a, fw_centred2 b) {
+FW_CENTRED fw_centred2 plus(fw_centred2 a, fw_centred2 b) {
     return (fw_centred2){fw_centred_add(a.x, b.x), fw_centred_add(a.y, b.y)};
 }
 
-static fw_centred2 minus(fw_centred2 a, fw_centred2 b) {
+FW_CENTRED fw_centred2 minus(fw_centred2 a, fw_centred2 b) {
     return (fw_centred2){fw_centred_sub(a.x, b.x), fw_centred_sub(a.y, b.y)};
 }
 
-static fw_centred dot(fw_centred2 a, fw_centred2 b) {
+FW_CENTRED fw_centred dot(fw_centred2 a, fw_centred2 b) {
     return fw_centred_add(fw_centred_mul(a.x, b.x), fw_centred_mul(a.y, b.y));
 }
 
-static fw_centred cross(fw_centred2 a, fw_centred2 b) {
+FW_CENTRED fw_centred cross(fw_centred2 a, fw_centred2 b) {
     return fw_centred_sub(fw_centred_mul(a.x, b.y), fw_centred_mul(a.y, b.x));
 }
 
-static fw_centred2 quarter(fw_centred2 a) { /* J a */
+FW_CENTRED fw_centred2 quarter(fw_centred2 a) { /* J a */
     return (fw_centred2){fw_centred_negated(a.y), a.x};
 }
 
-static fw_centred2 exactly(fw_vec2 p) {
+FW_CENTRED fw_centred2 exactly(fw_vec2 p) {
     return (fw_centred2){fw_centred_exact(p.x), fw_centred_exact(p.y)};
 }
 
-static fw_centred2 rotated(fw_vec2 p, fw_centred s, fw_centred c) {
+FW_CENTRED fw_centred2 rotated(fw_vec2 p, fw_centred s, fw_centred c) {
     return (fw_centred2){fw_centred_sub(fw_centred_scaled(c, p.x), fw_centred_scaled(s, p.y)),
                          fw_centred_add(fw_centred_scaled(s, p.x), fw_centred_scaled(c, p.y))};
 }
@@ -78,21 +78,15 @@ fw_interval fw_loop_angle_range(const fw_loop *k, int hinge, fw_interval psi) {
     return fw_interval_add(turn, fw_interval_point(k->start_rad[hinge]));
 }
 
-double fw_box3_middle(const fw_box3 *box, int axis, double *half) {
-    double c = 0.5 * (box->lo[axis] + box->hi[axis]);
-    *half = fw_up(fmax(box->hi[axis] - c, c - box->lo[axis]));
-    return c;
-}
-
 /* ---- forms ---- */
 
 /* at the middle of the box */
-static fw_interval middle_of(fw_centred a) {
+FW_CENTRED fw_interval middle_of(fw_centred a) {
     return (fw_interval){fw_down(a.m - a.e), fw_up(a.m + a.e)};
 }
 
 /* f(c + d) = f(c) + g(c).d within sum |d_i| (g_i.e + g_i.r)/2 (centred.h) */
-static fw_form form(fw_interval at, const fw_centred *grad, int n, const double half[3]) {
+FW_CENTRED fw_form form(fw_interval at, const fw_centred *grad, int n, const double half[3]) {
     fw_form f = {.at = at};
     for (int i = 0; i < n; i++) {
         f.grad[i] = grad[i].m;
@@ -100,14 +94,6 @@ static fw_form form(fw_interval at, const fw_centred *grad, int n, const double 
     }
     f.rest = fw_grown(f.rest);
     return f;
-}
-
-fw_interval fw_form_range(const fw_form *f, const double half[3]) {
-    double reach = 0.0;
-    for (int i = 0; i < 3; i++)
-        reach += fabs(f->grad[i]) * half[i];
-    reach = fw_grown(reach + f->rest);
-    return (fw_interval){fw_down(f->at.lo - reach), fw_up(f->at.hi + reach)};
 }
 
 /* ---- one leg ---- */
@@ -126,18 +112,24 @@ typedef struct coordinates { /* of the box: how the platform depends on them */
      a' = (Q'.b)/(a x b),  b' = -(Q'.a)/(a x b)
    in: Q, Q' (n); out: psi of the leg's three hinges (base, elbow, platform), rad, the elbow's
    place, a x b. Error: proved by centred.h. Out of reach where h^2 < 0. Cost about 80 centred
-   operations. Source: the velocity of Q = O + a + b, dotted with b and with a. Test: test_loop.c.
+   operations, 20 where only the reach is wanted. Source: the velocity of Q = O + a + b, dotted with
+   b and with a. Test: test_loop.c.
  */
-static fw_reached solve(const fw_leg *leg, fw_centred2 q, const fw_centred2 *dq,
-                        const coordinates *on, fw_centred phi, fw_interval d2_allowed,
-                        fw_form *reach, fw_form psi[3], fw_centred2 *elbow, fw_centred *side) {
+FW_CENTRED fw_reached solve(const fw_leg *leg, fw_centred2 q, const fw_centred2 *dq,
+                            const coordinates *on, fw_centred phi, fw_interval d2_allowed,
+                            unsigned wanted, fw_form *reach, fw_form psi[3], fw_centred2 *elbow,
+                            fw_centred *side) {
+    const unsigned legs = FW_WANT_D | FW_WANT_F | FW_WANT_REST;
     fw_centred2 v = minus(q, exactly(leg->base));
     fw_centred d2 = dot(v, v), of_a[3], of_b[3], grad[3];
-    for (int i = 0; i < on->n; i++)
-        grad[i] = fw_centred_scaled(dot(v, dq[i]), 2.0);
-    *reach = form(middle_of(d2), grad, on->n, on->half);
-    fw_interval range = fw_form_range(reach, on->half);
-    if (range.hi < d2_allowed.lo || range.lo > d2_allowed.hi) return FW_OUT_OF_REACH;
+    if (wanted & FW_WANT_E) {
+        for (int i = 0; i < on->n; i++)
+            grad[i] = fw_centred_scaled(dot(v, dq[i]), 2.0);
+        *reach = form(middle_of(d2), grad, on->n, on->half);
+        fw_interval range = fw_form_range(reach, on->half);
+        if (range.hi < d2_allowed.lo || range.lo > d2_allowed.hi) return FW_OUT_OF_REACH;
+    }
+    if (!(wanted & (legs | FW_WANT_BRANCH))) return FW_REACHED;
     fw_centred inverse = fw_centred_inverse(d2);
     fw_centred k =
         fw_centred_scaled(fw_centred_add(fw_centred_exact(1.0),
@@ -146,6 +138,7 @@ static fw_reached solve(const fw_leg *leg, fw_centred2 q, const fw_centred2 *dq,
     fw_centred h2 = fw_centred_sub(fw_centred_mul(leg->a2, inverse), fw_centred_mul(k, k));
     if (h2.m + h2.r < 0.0) return FW_OUT_OF_REACH;
     if (!(h2.m - h2.r > 0.0)) return FW_MAY_BE_OUT;
+    if (!(wanted & legs)) return FW_REACHED;
     fw_centred h = fw_centred_scaled(fw_centred_sqrt(h2), -leg->sign);
     fw_centred2 jv = quarter(v);
     fw_centred2 a = {fw_centred_add(fw_centred_mul(k, v.x), fw_centred_mul(h, jv.x)),
@@ -154,25 +147,32 @@ static fw_reached solve(const fw_leg *leg, fw_centred2 q, const fw_centred2 *dq,
     *side = fw_centred_negated(fw_centred_mul(h, d2));
     *elbow = plus(exactly(leg->base), a);
     fw_centred gain = fw_centred_inverse(*side);
-    for (int i = 0; i < on->n; i++) {
-        of_a[i] = fw_centred_mul(dot(dq[i], b), gain);
-        of_b[i] = fw_centred_negated(fw_centred_mul(dot(dq[i], a), gain));
+    fw_interval turn_a = any, turn_b = any;
+    if (wanted & (FW_WANT_F | FW_WANT_REST)) {
+        for (int i = 0; i < on->n; i++)
+            of_a[i] = fw_centred_mul(dot(dq[i], b), gain);
+        turn_a = fw_centred_direction(cross(a0, a), dot(a0, a));
+        psi[0] = form(turn_a, of_a, on->n, on->half);
     }
-    fw_interval turn_a = fw_centred_direction(cross(a0, a), dot(a0, a));
-    fw_interval turn_b = fw_centred_direction(cross(b0, b), dot(b0, b));
-    psi[0] = form(turn_a, of_a, on->n, on->half);
-    for (int i = 0; i < on->n; i++)
-        grad[i] = fw_centred_sub(of_b[i], of_a[i]);
-    psi[1] = form(fw_interval_sub(turn_b, turn_a), grad, on->n, on->half);
-    for (int i = 0; i < on->n; i++)
-        grad[i] = fw_centred_sub(fw_centred_exact(on->turns[i]), of_b[i]);
-    psi[2] = form(fw_interval_sub(middle_of(phi), turn_b), grad, on->n, on->half);
+    if (wanted & (FW_WANT_D | FW_WANT_REST)) {
+        for (int i = 0; i < on->n; i++) {
+            of_b[i] = fw_centred_negated(fw_centred_mul(dot(dq[i], a), gain));
+            grad[i] = fw_centred_sub(fw_centred_exact(on->turns[i]), of_b[i]);
+        }
+        turn_b = fw_centred_direction(cross(b0, b), dot(b0, b));
+        psi[2] = form(fw_interval_sub(middle_of(phi), turn_b), grad, on->n, on->half);
+    }
+    if (wanted & FW_WANT_REST) {
+        for (int i = 0; i < on->n; i++)
+            grad[i] = fw_centred_sub(of_b[i], of_a[i]);
+        psi[1] = form(fw_interval_sub(turn_b, turn_a), grad, on->n, on->half);
+    }
     return FW_REACHED;
 }
 
 /* platform hinge Q of a leg at the pose: T + R(phi) to, and its derivatives by x, y, phi */
-static fw_centred2 platform_hinge(const fw_leg *leg, fw_centred2 at, fw_centred s, fw_centred c,
-                                  fw_centred2 dq[3]) {
+FW_CENTRED fw_centred2 platform_hinge(const fw_leg *leg, fw_centred2 at, fw_centred s, fw_centred c,
+                                      fw_centred2 dq[3]) {
     fw_centred2 arm = rotated(leg->to, s, c);
     dq[0] = exactly((fw_vec2){1.0, 0.0});
     dq[1] = exactly((fw_vec2){0.0, 1.0});
@@ -199,7 +199,7 @@ void fw_loop_pose_box(const fw_loop *k, const fw_box3 *box, fw_loop_box *out) {
         fw_centred2 q = platform_hinge(leg, at, s, c, dq);
         out->hinge[base] = exactly(leg->base);
         out->hinge[base + 2 * step] = q;
-        fw_reached now = solve(leg, q, dq, &on, axis[2], any, &out->d2[side], psi,
+        fw_reached now = solve(leg, q, dq, &on, axis[2], any, FW_WANT_ALL, &out->d2[side], psi,
                                &out->hinge[base + step], &out->cross[side]);
         for (int i = 0; i < 3 && now == FW_REACHED; i++)
             out->psi[base + i * step] = psi[i];
@@ -211,10 +211,31 @@ void fw_loop_pose_box(const fw_loop *k, const fw_box3 *box, fw_loop_box *out) {
 
 /* ---- boxes of the left leg's rotations ---- */
 
+/* where hinges and platform are, the left links turned: C = A + a + b, the platform's centre of
+   mass C - to_c */
+FW_CENTRED void places(const fw_loop *k, const coordinates *on, fw_centred2 a, fw_centred2 at_c,
+                       fw_centred2 ja, fw_centred2 jb, fw_centred2 to_c, fw_loop_box *out) {
+    fw_centred2 jc = quarter(to_c), dt[3], none = exactly((fw_vec2){0.0, 0.0});
+    dt[2] = (fw_centred2){fw_centred_negated(jc.x), fw_centred_negated(jc.y)};
+    dt[1] = plus(jb, on->n == 3 ? dt[2] : none);
+    dt[0] = plus(ja, dt[1]);
+    out->hinge[0] = exactly(k->leg[0].base);
+    out->hinge[1] = plus(exactly(k->leg[0].base), a);
+    out->hinge[2] = at_c;
+    out->hinge[5] = exactly(k->leg[1].base);
+    out->place = minus(minus(at_c, to_c), exactly(k->centre));
+    fw_centred x[3], y[3], one[3];
+    for (int i = 0; i < on->n; i++)
+        x[i] = dt[i].x, y[i] = dt[i].y, one[i] = fw_centred_exact(on->turns[i]);
+    out->extent[0] = form(middle_of(out->place.x), x, on->n, on->half);
+    out->extent[1] = form(middle_of(out->place.y), y, on->n, on->half);
+    out->extent[2] = form(middle_of(out->phi), one, on->n, on->half);
+}
+
 /* C and D for rotations of the three left links, their derivatives by the coordinates. With the
-   platform's rotation given (`slice`) it does not depend on them. */
-static void from_joints(const fw_loop *k, const coordinates *on, const fw_centred turn[3],
-                        fw_interval d2_m2, fw_loop_box *out) {
+   platform's rotation given (a slice) it does not depend on them. */
+FW_CENTRED void from_joints(const fw_loop *k, const coordinates *on, const fw_centred turn[3],
+                            fw_interval d2_m2, unsigned wanted, fw_loop_box *out) {
     fw_centred s, c;
     const fw_leg *left = &k->leg[0], *right = &k->leg[1];
     fw_centred_turn(turn[0], &s, &c);
@@ -222,40 +243,35 @@ static void from_joints(const fw_loop *k, const coordinates *on, const fw_centre
     fw_centred_turn(turn[1], &s, &c);
     fw_centred2 b = rotated(left->b, s, c);
     fw_centred_turn(turn[2], &s, &c);
-    fw_centred2 to_c = rotated(left->to, s, c);
     fw_centred2 platform = rotated(from_to(left->to, right->to), s, c);
     fw_centred2 at_c = plus(plus(exactly(left->base), a), b), at_d = plus(at_c, platform);
-    fw_centred2 ja = quarter(a), jb = quarter(b), jp = quarter(platform), jc = quarter(to_c);
-    fw_centred2 zero = exactly((fw_vec2){0.0, 0.0}), dq[3], dt[3];
+    fw_centred2 ja = quarter(a), jb = quarter(b), dq[3], none = exactly((fw_vec2){0.0, 0.0});
     /* coordinates A, B, C turn the links from there on; a slice's platform does not turn */
-    bool turns = on->n == 3;
-    dq[2] = jp, dt[2] = (fw_centred2){fw_centred_negated(jc.x), fw_centred_negated(jc.y)};
-    dq[1] = plus(jb, turns ? dq[2] : zero), dt[1] = plus(jb, turns ? dt[2] : zero);
-    dq[0] = plus(ja, dq[1]), dt[0] = plus(ja, dt[1]);
+    dq[2] = quarter(platform);
+    dq[1] = plus(jb, on->n == 3 ? dq[2] : none);
+    dq[0] = plus(ja, dq[1]);
     out->phi = turn[2];
     out->cross[0] = cross(a, b);
-    out->hinge[0] = exactly(left->base);
-    out->hinge[1] = plus(exactly(left->base), a);
-    out->hinge[2] = at_c;
     out->hinge[3] = at_d;
-    out->hinge[5] = exactly(right->base);
-    out->place = minus(minus(at_c, to_c), exactly(k->centre));
-    fw_centred x[3], y[3], one[3];
-    for (int i = 0; i < on->n; i++)
-        x[i] = dt[i].x, y[i] = dt[i].y, one[i] = fw_centred_exact(on->turns[i]);
-    fw_centred2 p = out->place;
-    out->extent[0] = form(middle_of(p.x), x, on->n, on->half);
-    out->extent[1] = form(middle_of(p.y), y, on->n, on->half);
-    out->extent[2] = form(middle_of(turn[2]), one, on->n, on->half);
+    if (wanted & FW_WANT_REST) places(k, on, a, at_c, ja, jb, rotated(left->to, s, c), out);
     fw_form psi[3];
     out->leg = 1;
-    out->reached = solve(right, at_d, dq, on, turn[2], d2_m2, &out->d2[1], psi, &out->hinge[4],
-                         &out->cross[1]);
-    for (int i = 0; i < 3 && out->reached == FW_REACHED; i++)
-        out->psi[5 - i] = psi[i];
+    out->reached = solve(right, at_d, dq, on, turn[2], d2_m2, wanted, &out->d2[1], psi,
+                         &out->hinge[4], &out->cross[1]);
+    if (out->reached != FW_REACHED) return;
+    if (wanted & (FW_WANT_F | FW_WANT_REST)) out->psi[5] = psi[0];
+    if (wanted & FW_WANT_REST) out->psi[4] = psi[1];
+    if (wanted & (FW_WANT_D | FW_WANT_REST)) out->psi[3] = psi[2];
 }
 
-void fw_loop_joint_box(const fw_loop *k, const fw_box3 *box, fw_interval d2_m2, fw_loop_box *out) {
+fw_centred fw_loop_left_cross(const fw_loop *k, double c, double half) {
+    fw_centred sine, cosine;
+    fw_centred_turn(fw_centred_axis(c, half), &sine, &cosine);
+    return cross(exactly(k->leg[0].a), rotated(k->leg[0].b, sine, cosine));
+}
+
+void fw_loop_joint_box(const fw_loop *k, const fw_box3 *box, fw_interval d2_m2, unsigned wanted,
+                       fw_loop_box *out) {
     coordinates on = {.n = 3, .turns = {1.0, 1.0, 1.0}};
     fw_centred axis[3], turn[3];
     for (int i = 0; i < 3; i++) {
@@ -264,11 +280,11 @@ void fw_loop_joint_box(const fw_loop *k, const fw_box3 *box, fw_interval d2_m2, 
         turn[i] = i ? fw_centred_add(turn[i - 1], axis[i]) : axis[i];
         out->psi[i] = (fw_form){.at = fw_interval_point(middle), .grad = {i == 0, i == 1, i == 2}};
     }
-    from_joints(k, &on, turn, d2_m2, out);
+    from_joints(k, &on, turn, d2_m2, wanted, out);
 }
 
 void fw_loop_slice_box(const fw_loop *k, const fw_box3 *box, double phi_rad, fw_interval d2_m2,
-                       fw_loop_box *out) {
+                       unsigned wanted, fw_loop_box *out) {
     coordinates on = {.n = 2};
     fw_centred axis[2], turn[3];
     for (int i = 0; i < 2; i++) {
@@ -281,5 +297,5 @@ void fw_loop_slice_box(const fw_loop *k, const fw_box3 *box, double phi_rad, fw_
     turn[2] = fw_centred_exact(phi_rad);
     out->psi[2] = (fw_form){.at = fw_interval_sub(fw_interval_point(phi_rad), middle_of(turn[1])),
                             .grad = {-1.0, -1.0}};
-    from_joints(k, &on, turn, d2_m2, out);
+    from_joints(k, &on, turn, d2_m2, wanted, out);
 }

@@ -64,16 +64,45 @@ fw_interval fw_loop_angle_range(const fw_loop *loop, int hinge, fw_interval psi)
 /* poses: x, y (m) and phi (rad) from the drawn one; `middle` and the half widths are chosen so that
    the box lies within middle +- half */
 void fw_loop_pose_box(const fw_loop *loop, const fw_box3 *box, fw_loop_box *out);
-/* rotations of A, B, C (rad). Where d2 of the right leg is certain to be outside of `d2_m2`, the
-   box is called out of reach and nothing more is computed. */
-void fw_loop_joint_box(const fw_loop *loop, const fw_box3 *box, fw_interval d2_m2,
+/* What is wanted of a box of rotations: D and F their psi, E the reach of the right leg, which
+   stands for its psi; BRANCH whether that leg can be there at all; REST everything else but the
+   rotations of A, B, C, phi, the left leg's cross product and D's place, which always come. What is
+   not wanted is not set; without D, F, BRANCH and REST a box is called reached unseen. */
+enum {
+    FW_WANT_C = 1 << 2,
+    FW_WANT_D = 1 << 3,
+    FW_WANT_E = 1 << 4,
+    FW_WANT_F = 1 << 5,
+    FW_WANT_BRANCH = 1 << 6,
+    FW_WANT_REST = 1 << 7,
+    FW_WANT_LIMITS = FW_WANT_C | FW_WANT_D | FW_WANT_E | FW_WANT_F | FW_WANT_BRANCH,
+    FW_WANT_ALL = FW_WANT_LIMITS | FW_WANT_REST
+};
+/* rotations of A, B, C (rad). Where d2 of the right leg is wanted and certain to be outside of
+   `d2_m2`, the box is called out of reach and nothing more is computed. */
+void fw_loop_joint_box(const fw_loop *loop, const fw_box3 *box, fw_interval d2_m2, unsigned wanted,
                        fw_loop_box *out);
 /* rotations of A and B (rad) with the platform at the rotation phi; box[2] is not used */
 void fw_loop_slice_box(const fw_loop *loop, const fw_box3 *box, double phi_rad, fw_interval d2_m2,
-                       fw_loop_box *out);
+                       unsigned wanted, fw_loop_box *out);
+
+/* a x b of the left leg, m2, for rotations of B within c +- half */
+fw_centred fw_loop_left_cross(const fw_loop *loop, double c, double half);
 
 /* range of a form over the box with these half widths */
-fw_interval fw_form_range(const fw_form *form, const double half[3]);
-double fw_box3_middle(const fw_box3 *box, int axis, double *half);
+static inline fw_interval fw_form_range(const fw_form *f, const double half[3]) {
+    double reach = 0.0;
+    for (int i = 0; i < 3; i++)
+        reach += fabs(f->grad[i]) * half[i];
+    reach = fw_grown(reach + f->rest);
+    return (fw_interval){fw_down(f->at.lo - reach), fw_up(f->at.hi + reach)};
+}
+
+static inline double fw_box3_middle(const fw_box3 *box, int axis, double *half) {
+    double c = 0.5 * (box->lo[axis] + box->hi[axis]);
+    double up = box->hi[axis] - c, down = c - box->lo[axis];
+    *half = fw_up(up > down ? up : down);
+    return c;
+}
 
 #endif

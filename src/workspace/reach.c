@@ -3,8 +3,9 @@
 #include "base/cancel.h"
 #include "workspace/cut.h"
 
-enum { MOST_LEVEL = 14, FIRST_CELLS = 64 };
+enum { MOST_LEVEL = 14, FIRST_CELLS = 64, FIRST_SUM = 1024 };
 
+static const int judged[] = {4, 2, 3, 5};     /* hinges, the one that costs least first */
 static const double turn = 6.283185307179586; /* below 2 pi */
 
 fw_reach_limits fw_limits_symmetric(const double limit_rad[FW_SIX]) {
@@ -72,8 +73,8 @@ static fw_interval below(const fw_form *f, const double half[3], fw_interval lim
     double least = fw_down(fw_down(limit.lo - f->at.hi) - f->rest);
     double most = fw_up(fw_up(limit.hi - f->at.lo) + f->rest);
     double low = fw_cut_share(p, least).lo, high = fw_cut_share(p, most).hi;
-    if (low < 1.0) low = fmax(low - slack, 0.0);
-    if (high > 0.0) high = fmin(high + slack, 1.0);
+    if (low < 1.0) low = low > slack ? low - slack : 0.0;
+    if (high > 0.0) high = high + slack < 1.0 ? high + slack : 1.0;
     return (fw_interval){low, high};
 }
 
@@ -83,37 +84,49 @@ static fw_form mirrored(const fw_form *f) {
                      .rest = f->rest};
 }
 
+/* A rotation found beyond +-180 deg is another one less a turn: outside only where that is out of
+   range too. *known: it cannot reach round to the other side. */
+static fw_inside stands(fw_interval now, const fw_bound *range, double period, bool *known) {
+    double most = period - 1e-9; /* less than a turn, whatever rounding does */
+    double next = most + range->low.lo, last = range->high.hi - most;
+    *known = now.lo > last && now.hi < next;
+    if (now.lo >= range->low.hi && now.hi <= range->high.lo) return FW_INSIDE;
+    bool beyond = now.lo > range->high.hi && now.hi < next;
+    bool before = now.hi < range->low.lo && now.lo > last;
+    return beyond || before ? FW_OUTSIDE : FW_CUT;
+}
+
 /* One hinge over a box: narrows the share that all hinges leave. Two planes per hinge stand for its
-   constraint; at least 1 - sum(1 - v_i) of the box is within all of them, at most min v_i. A
-   rotation found beyond +-180 deg is another one less a turn: outside only where that is out of
-   range too. */
+   constraint; at least 1 - sum(1 - v_i) of the box is within all of them, at most min v_i. */
 static fw_inside one_hinge(const fw_form *f, const fw_bound *range, double period,
                            const double half[3], double slack, fw_interval *share) {
     fw_interval now = fw_form_range(f, half);
-    if (now.lo >= range->low.hi && now.hi <= range->high.lo) return FW_INSIDE;
-    double most = period - 1e-9; /* less than a turn, whatever rounding does */
-    double next = most + range->low.lo, last = range->high.hi - most;
-    bool beyond = now.lo > range->high.hi && now.hi < next;
-    bool before = now.hi < range->low.lo && now.lo > last;
-    if (beyond || before) return FW_OUTSIDE;
-    if (!(now.lo > last && now.hi < next)) {
+    bool clear;
+    fw_inside where = stands(now, range, period, &clear);
+    if (where != FW_CUT) return where;
+    if (!clear) {
         share->lo = 0.0; /* may reach round to the other side: nothing known */
         return FW_CUT;
     }
     fw_form minus = mirrored(f);
-    fw_interval top = below(f, half, range->high, slack),
-                bottom = below(&minus, half, fw_interval_negated(range->low), slack);
+    fw_interval top = {1.0, 1.0}, bottom = {1.0, 1.0};
+    if (now.hi > range->high.lo) top = below(f, half, range->high, slack);
+    if (now.lo < range->low.hi)
+        bottom = below(&minus, half, fw_interval_negated(range->low), slack);
     double missing = fw_up(fw_up(1.0 - top.lo) + fw_up(1.0 - bottom.lo));
-    share->lo = fmax(fw_down(share->lo - missing), 0.0);
-    share->hi = fmin(share->hi, fmin(top.hi, bottom.hi));
+    double left = fw_down(share->lo - missing);
+    double right = top.hi < bottom.hi ? top.hi : bottom.hi;
+    share->lo = left > 0.0 ? left : 0.0;
+    share->hi = right < share->hi ? right : share->hi;
     return share->hi > 0.0 ? FW_CUT : FW_OUTSIDE;
 }
 
 /* The right elbow is judged by its leg's reach, which has no singularity: d2 falls as |elbow|
  * grows. */
 fw_inside fw_reach_judge(const fw_loop *k, const fw_allowed *allowed, int dimensions,
-                         double phi_rad, const fw_box3 *box, fw_loop_box *known,
+                         double phi_rad, const fw_box3 *box, unsigned *open, fw_loop_box *known,
                          fw_interval *share) {
+    const unsigned wanted = *open;
     double half[3] = {0}, slack = 0.0;
     for (int i = 0; i < dimensions; i++) {
         double c = fw_box3_middle(box, i, &half[i]);
@@ -121,24 +134,79 @@ fw_inside fw_reach_judge(const fw_loop *k, const fw_allowed *allowed, int dimens
     }
     const fw_interval d2 = {allowed->d2.low.lo, allowed->d2.high.hi};
     if (dimensions == 3)
-        fw_loop_joint_box(k, box, d2, known);
+        fw_loop_joint_box(k, box, d2, wanted, known);
     else
-        fw_loop_slice_box(k, box, phi_rad, d2, known);
+        fw_loop_slice_box(k, box, phi_rad, d2, wanted, known);
     *share = (fw_interval){1.0, 1.0};
     if (known->reached == FW_OUT_OF_REACH) return FW_OUTSIDE;
-    fw_inside all = one_hinge(&known->d2[1], &allowed->d2, (double)INFINITY, half, slack, share);
-    if (all == FW_OUTSIDE) return FW_OUTSIDE;
-    if (known->reached == FW_MAY_BE_OUT) {
-        share->lo = 0.0;
-        return FW_CUT;
-    }
-    for (int i = dimensions; i < FW_SIX; i++) {
-        if (i == 4) continue;
-        fw_inside one = one_hinge(&known->psi[i], &allowed->psi[i], turn, half, slack, share);
+    *open = 0;
+    for (int n = 0; n < 4; n++) {
+        int i = judged[n];
+        if (i < dimensions || !(wanted & 1u << i)) continue;
+        bool elbow = i == 4;
+        fw_inside one = FW_CUT;
+        if (elbow)
+            one = one_hinge(&known->d2[1], &allowed->d2, (double)INFINITY, half, slack, share);
+        else if (known->reached == FW_REACHED)
+            one = one_hinge(&known->psi[i], &allowed->psi[i], turn, half, slack, share);
+        else
+            share->lo = 0.0, *open |= FW_WANT_BRANCH;
         if (one == FW_OUTSIDE) return FW_OUTSIDE;
-        if (one == FW_CUT) all = FW_CUT;
+        if (one == FW_CUT) *open |= 1u << i;
     }
-    return all;
+    return *open ? FW_CUT : FW_INSIDE;
+}
+
+/* Which parts of a box one hinge's form decides, as bits: in a part f is within at + v +- reach, v
+   = sum of +-g_i half_i/2 as the part lies above or below the middle, reach = sum |g_i| (half_i/2 +
+   off_i) + rest, off what rounding has moved the edge between parts by. Some ten roundings of
+   numbers below `reach`: 2^-48 of it. Test: test_reach_random.c. */
+static void decide_parts(const fw_form *f, const fw_bound *range, double period, int parts,
+                         const double half[3], const double off[3], unsigned *inside,
+                         unsigned *outside) {
+    bool clear;
+    double step[3], reach = f->rest;
+    for (int i = 0; i < 3; i++) {
+        step[i] = f->grad[i] * (0.5 * half[i]);
+        reach += fabs(f->grad[i]) * (0.5 * half[i] + off[i]);
+    }
+    reach = reach * (1.0 + 0x1p-48) + 1e-300;
+    stands(fw_form_range(f, half), range, period, &clear);
+    double from = fw_up(fw_up(range->low.hi - f->at.lo) + reach);
+    double to = fw_down(fw_down(range->high.lo - f->at.hi) - reach);
+    double before = fw_down(fw_down(range->low.lo - f->at.hi) - reach);
+    double beyond = fw_up(fw_up(range->high.hi - f->at.lo) + reach);
+    *inside = *outside = 0;
+    for (int part = 0; part < parts && clear; part++) {
+        double v = (part & 1 ? step[0] : -step[0]) + (part & 2 ? step[1] : -step[1]) +
+                   (part & 4 ? step[2] : -step[2]);
+        *inside |= (unsigned)(v >= from && v <= to) << part;
+        *outside |= (unsigned)(v < before || v > beyond) << part;
+    }
+}
+
+void fw_reach_parts(const fw_allowed *allowed, int dimensions, const fw_box3 *box,
+                    const double between[3], unsigned open, const fw_loop_box *known,
+                    unsigned *inside, unsigned *outside) {
+    double half[3] = {0}, off[3] = {0};
+    const int parts = 1 << dimensions;
+    for (int i = 0; i < dimensions; i++) {
+        double middle = fw_box3_middle(box, i, &half[i]);
+        off[i] = fw_up(fabs(between[i] - middle));
+    }
+    *inside = (1u << parts) - 1u, *outside = 0;
+    for (int n = 0; n < 4; n++) {
+        int i = judged[n];
+        unsigned in = 0, out = 0;
+        if (i < dimensions || !(open & 1u << i)) continue;
+        if (i == 4)
+            decide_parts(&known->d2[1], &allowed->d2, (double)INFINITY, parts, half, off, &in,
+                         &out);
+        else if (known->reached == FW_REACHED)
+            decide_parts(&known->psi[i], &allowed->psi[i], turn, parts, half, off, &in, &out);
+        *inside &= in;
+        *outside |= out;
+    }
 }
 
 /* ---- the sum ---- */
@@ -146,12 +214,9 @@ fw_inside fw_reach_judge(const fw_loop *k, const fw_allowed *allowed, int dimens
 typedef struct cell {
     fw_interval part; /* of the measure that its inside has */
     unsigned short at[3];
+    unsigned char level, open;     /* FW_WANT_*: what is not proved of it */
+    unsigned char inside, outside; /* bits of its parts of which that is proved already */
 } cell;
-
-typedef struct cells {
-    cell *item;
-    size_t count, capacity;
-} cells;
 
 typedef struct search {
     fw_arena *arena;
@@ -160,13 +225,18 @@ typedef struct search {
     int dimensions;
     double phi_rad;
     fw_box3 whole;
-    fw_interval decided; /* sum over boxes that are inside */
+    fw_interval decided; /* sum over boxes that are inside, or too small to be halved */
+    fw_interval about;   /* that and the open ones, but for rounding: says when to sum up */
     long boxes;
+    int level;  /* deepest looked at */
+    cell *heap; /* (count) neither inside nor outside; the one that leaves most open first */
+    size_t count, capacity;
 } search;
 
 static double edge(const search *s, int axis, unsigned i, int level) {
     if (i >> level) return s->whole.hi[axis];
-    return s->whole.lo[axis] + (s->whole.hi[axis] - s->whole.lo[axis]) * ldexp((double)i, -level);
+    double share = (double)i / (double)(1u << level); /* exact */
+    return s->whole.lo[axis] + (s->whole.hi[axis] - s->whole.lo[axis]) * share;
 }
 
 /* integral of |a x b| over the box: product of the widths, with the elbow's
@@ -188,87 +258,144 @@ static fw_interval weight(const search *s, const fw_box3 *box, const fw_loop_box
         density = (fw_interval){side.m - side.r, side.m + side.r};
         factor = widths * (box->hi[1] - box->lo[1]);
     }
-    density.lo = fmax(density.lo, 0.0); /* across the stretched leg: the branch has part of it */
-    fw_interval out = fw_interval_mul(density, fw_interval_mul(unit, fw_interval_point(factor)));
-    return fw_interval_mul(out, share);
+    if (!(density.lo > 0.0))
+        density.lo = 0.0; /* across the stretched leg: the branch has part of it */
+    fw_interval size = fw_interval_mul_sizes(unit, fw_interval_point(factor));
+    return fw_interval_mul_sizes(fw_interval_mul_sizes(density, size), share);
 }
 
-static fw_status keep(search *s, cells *list, const cell *one) {
-    if (list->count == list->capacity) {
-        size_t more = list->capacity ? 2 * list->capacity : FIRST_CELLS;
-        FW_NEED(list->item = fw_arena_grow(s->arena, list->item, list->count, more, sizeof *one));
-        list->capacity = more;
+/* ---- open boxes, a binary heap ---- */
+
+static double open_in(const cell *c) {
+    return c->part.hi - c->part.lo;
+}
+
+static fw_status keep(search *s, const cell *one) {
+    if (s->count == s->capacity) {
+        size_t more = s->capacity ? 2 * s->capacity : FIRST_CELLS;
+        FW_NEED(s->heap = fw_arena_grow(s->arena, s->heap, s->count, more, sizeof *one));
+        s->capacity = more;
     }
-    list->item[list->count++] = *one;
+    size_t i = s->count++;
+    for (double width = open_in(one); i > 0 && open_in(&s->heap[(i - 1) / 2]) < width;
+         i = (i - 1) / 2)
+        s->heap[i] = s->heap[(i - 1) / 2];
+    s->heap[i] = *one;
     return FW_OK;
 }
 
-/* looks at one box; keeps it in `next` when it is neither inside nor outside */
-static fw_status look(search *s, int level, const unsigned short at[3], cells *next,
-                      fw_interval *part) {
-    fw_box3 box = {0};
+/* takes the first; the hole goes down to the end and the last cell up from there, since it mostly
+   belongs near the end */
+static cell take(search *s) {
+    cell top = s->heap[0], last = s->heap[--s->count];
+    size_t i = 0;
+    for (size_t child = 1; child < s->count; i = child, child = 2 * i + 1) {
+        if (child + 1 < s->count && open_in(&s->heap[child + 1]) > open_in(&s->heap[child]))
+            child++;
+        s->heap[i] = s->heap[child];
+    }
+    for (; i > 0 && open_in(&s->heap[(i - 1) / 2]) < open_in(&last); i = (i - 1) / 2)
+        s->heap[i] = s->heap[(i - 1) / 2];
+    s->heap[i] = last;
+    return top;
+}
+
+/* ---- the search ---- */
+
+static void note_parts(const search *s, const fw_box3 *box, const fw_loop_box *known, cell *c) {
+    double between[3];
+    unsigned inside, outside;
+    for (int i = 0; i < s->dimensions; i++)
+        between[i] = edge(s, i, 2u * c->at[i] + 1u, c->level + 1);
+    fw_reach_parts(&s->allowed, s->dimensions, box, between, c->open, known, &inside, &outside);
+    c->inside = (unsigned char)inside, c->outside = (unsigned char)outside;
+}
+
+/* a part that is inside for certain; false: the left leg may be stretched or folded in it */
+static bool count_inside(search *s, const fw_box3 *box) {
+    fw_loop_box known;
+    double half, middle = fw_box3_middle(box, 1, &half);
+    known.cross[0] = fw_loop_left_cross(s->loop, middle, half);
+    if (!(known.cross[0].m * s->loop->leg[0].sign > known.cross[0].r)) return false;
+    fw_interval part = weight(s, box, &known, FW_INSIDE, fw_interval_point(1.0));
+    s->about.lo += part.lo, s->about.hi += part.hi;
+    s->decided = fw_interval_add(s->decided, part);
+    return true;
+}
+
+/* looks at one box; keeps it when it is neither inside nor outside */
+static fw_status look(search *s, const fw_box3 *box, const unsigned short at[3], int level,
+                      unsigned open) {
     fw_loop_box known;
     fw_interval share;
-    for (int i = 0; i < s->dimensions; i++) {
-        box.lo[i] = edge(s, i, at[i], level);
-        box.hi[i] = edge(s, i, at[i] + 1u, level);
-    }
     s->boxes++;
-    *part = (fw_interval){0.0, 0.0};
+    if (level > s->level) s->level = level;
     fw_inside where =
-        fw_reach_judge(s->loop, &s->allowed, s->dimensions, s->phi_rad, &box, &known, &share);
+        fw_reach_judge(s->loop, &s->allowed, s->dimensions, s->phi_rad, box, &open, &known, &share);
     if (where == FW_OUTSIDE) return FW_OK;
-    *part = weight(s, &box, &known, where, share);
-    part->lo = fmax(part->lo, 0.0);
-    if (where == FW_INSIDE && known.cross[0].m * s->loop->leg[0].sign > known.cross[0].r) {
-        s->decided = fw_interval_add(s->decided, *part);
-        return FW_OK;
+    fw_interval part = weight(s, box, &known, where, share);
+    if (!(part.lo > 0.0)) part.lo = 0.0;
+    bool sure = known.cross[0].m * s->loop->leg[0].sign > known.cross[0].r;
+    if (where == FW_INSIDE && !sure) part.lo = 0.0;
+    s->about.lo += part.lo, s->about.hi += part.hi;
+    if ((where != FW_INSIDE || !sure) && level < MOST_LEVEL) {
+        cell one = {.part = part,
+                    .at = {at[0], at[1], at[2]},
+                    .level = (unsigned char)level,
+                    .open = (unsigned char)open};
+        if (where == FW_CUT) note_parts(s, box, &known, &one);
+        return keep(s, &one);
     }
-    if (where == FW_INSIDE) part->lo = 0.0;
-    return keep(s, next, &(cell){.part = *part, .at = {at[0], at[1], at[2]}});
-}
-
-static fw_status split(search *s, int level, const cell *parent, cells *next, double *gap) {
-    for (int child = 0; child < 1 << s->dimensions; child++) {
-        unsigned short at[3];
-        fw_interval part;
-        for (int i = 0; i < 3; i++)
-            at[i] = (unsigned short)(2 * parent->at[i] + (child >> i & 1));
-        FW_TRY(look(s, level, at, next, &part));
-        *gap += part.hi - part.lo;
-    }
-    *gap -= parent->part.hi - parent->part.lo;
+    s->decided = fw_interval_add(s->decided, part);
     return FW_OK;
 }
 
-/* boxes that leave more than the mean open come first: a level is seldom looked at as a whole */
-static void widest_first(cells *list) {
-    double mean = 0.0;
-    for (size_t i = 0; i < list->count; i++)
-        mean += list->item[i].part.hi - list->item[i].part.lo;
-    mean /= (double)list->count;
-    size_t wide = 0;
-    for (size_t i = 0; i < list->count; i++) {
-        if (list->item[i].part.hi - list->item[i].part.lo <= mean) continue;
-        cell swap = list->item[i];
-        list->item[i] = list->item[wide];
-        list->item[wide++] = swap;
+static fw_status split(search *s) {
+    cell parent = take(s);
+    s->about.lo -= parent.part.lo, s->about.hi -= parent.part.hi;
+    int level = parent.level + 1;
+    double edges[3][3] = {0};
+    for (int i = 0; i < s->dimensions; i++)
+        for (unsigned k = 0; k < 3; k++)
+            edges[i][k] = edge(s, i, 2u * parent.at[i] + k, level);
+    for (int child = 0; child < 1 << s->dimensions; child++) {
+        unsigned short at[3];
+        fw_box3 box;
+        for (int i = 0; i < 3; i++) {
+            int upper = child >> i & 1;
+            at[i] = (unsigned short)(2 * parent.at[i] + upper);
+            box.lo[i] = edges[i][upper], box.hi[i] = edges[i][upper + 1];
+        }
+        if (parent.outside >> child & 1) continue;
+        if (parent.inside >> child & 1 && count_inside(s, &box)) continue;
+        FW_TRY(look(s, &box, at, level, parent.open));
     }
+    return FW_OK;
 }
 
-static fw_interval sum(fw_interval start, const cell *item, size_t count) {
-    for (size_t i = 0; i < count; i++)
-        start = fw_interval_add(start, item[i].part);
-    return start;
+/* the bracket that all boxes give together, cut with those before */
+static void sum_up(search *s, double relative, fw_measure *out) {
+    fw_interval all = s->decided;
+    for (size_t i = 0; i < s->count; i++)
+        all = fw_interval_add(all, s->heap[i].part);
+    s->about = all;
+    out->value.lo = fmax(out->value.lo, all.lo);
+    out->value.hi = fmin(out->value.hi, all.hi);
+    out->boxes = s->boxes;
+    out->level = s->level;
+    out->reached = out->value.hi - out->value.lo <= relative * out->value.lo;
 }
 
-/* Measure of a set of joint rotations by branch and bound, level by level: boxes that are inside
-   count whole, boxes outside not, of the others the share that the planes of all hinges leave
-   (cut.h); the width falls fourfold with every halving. Levels share one bracket: each sum is
-   proved, so that the largest lower and the smallest upper one hold. The last level stops as soon
-   as it is narrow enough. dx dy dphi = |a x b| dpsi_A dpsi_B dpsi_C,  dx dy = |a x b| dpsi_A dpsi_B
-   at constant phi, one to one on the branch (a x b of one sign). in: limits rad; out: m2 rad, or
-   m2. Error: proved; sums are rounded outward. Cost about 0.5 us per box. Source:
+/* Measure of a set of joint rotations by branch and bound: boxes that are inside count whole, boxes
+   outside not, of the others the share that the planes of all hinges leave (cut.h); what they leave
+   open falls fourfold with every halving. The box that leaves most open is halved next, along all
+   coordinates. Its own forms decide two of five parts beforehand, which need no look; what is
+   proved of a box is not asked again within it: most open boxes are cut by one hinge, and the parts
+   of a box that only the right elbow cuts need no inverse kinematics. Brackets are summed whenever
+   the boxes have doubled and at the end, each sum is proved, so that the largest lower and the
+   smallest upper one hold. dx dy dphi = |a x b| dpsi_A dpsi_B dpsi_C,  dx dy = |a x b| dpsi_A
+   dpsi_B at constant phi, one to one on the branch (a x b of one sign). in: limits rad; out: m2
+   rad, or m2. Error: proved; sums are rounded outward. Cost about 0.5 us per box. Source:
    docs/theory/workspace.md. Test: test_reach.c, test_reach_random.c. */
 static fw_status measured(search *s, fw_effort effort, fw_measure *out) {
     *out = (fw_measure){.value = {0.0, (double)INFINITY}};
@@ -278,39 +405,24 @@ static fw_status measured(search *s, fw_effort effort, fw_measure *out) {
             out->reached = true;
             return FW_OK;
         }
-    cells list = {0};
-    fw_interval part;
     const unsigned short first[3] = {0};
-    FW_TRY(look(s, 0, first, &list, &part));
-    for (int level = 0;; level++) {
-        fw_interval all = sum(s->decided, list.item, list.count);
-        out->value.lo = fmax(out->value.lo, all.lo);
-        out->value.hi = fmin(out->value.hi, all.hi);
-        out->boxes = s->boxes;
-        out->level = level;
-        double wanted = effort.relative * out->value.lo;
-        out->reached = out->value.hi - out->value.lo <= wanted;
-        if (out->reached || list.count == 0 || level == MOST_LEVEL) break;
-        if (s->boxes + (long)(list.count << s->dimensions) > 8 * effort.most) break;
-        cells next = {0};
-        size_t done = 0;
-        widest_first(&list);
-        double gap = out->value.hi - out->value.lo;
-        for (; done < list.count && (gap > 0.98 * wanted || wanted <= 0.0); done++) {
-            if (s->boxes >= effort.most) break;
-            if (done % 4096 == 0 && fw_cancel_requested()) return FW_CANCELLED;
-            FW_TRY(split(s, level + 1, &list.item[done], &next, &gap));
-        }
-        if (done < list.count) { /* narrow enough on the way, or out of boxes: the rest as it is */
-            all = sum(sum(s->decided, list.item + done, list.count - done), next.item, next.count);
-            out->value.lo = fmax(out->value.lo, all.lo);
-            out->value.hi = fmin(out->value.hi, all.hi);
-            out->boxes = s->boxes;
-            out->reached = out->value.hi - out->value.lo <= effort.relative * out->value.lo;
-            break;
-        }
-        list = next;
+    FW_TRY(look(s, &s->whole, first, 0, FW_WANT_LIMITS));
+    sum_up(s, effort.relative, out);
+    if (out->reached) return FW_OK;
+    const long children = 1 << s->dimensions;
+    long next =
+        FIRST_SUM; /* the same places in all runs, so that finer brackets lie in coarser ones */
+    for (long done = 1; s->count > 0 && s->boxes + children <= effort.most; done++) {
+        if (done % 1024 == 0 && fw_cancel_requested()) return FW_CANCELLED;
+        FW_TRY(split(s));
+        bool narrow = s->about.hi - s->about.lo <= 0.96 * effort.relative * s->about.lo;
+        if (!narrow && s->boxes < next) continue;
+        while (next <= s->boxes)
+            next *= 2;
+        sum_up(s, effort.relative, out);
+        if (out->reached) return FW_OK;
     }
+    sum_up(s, effort.relative, out);
     return FW_OK;
 }
 

@@ -23,8 +23,8 @@ fw_reach_limits fw_limits_symmetric(const double limit_rad[FW_SIX]);
 
 typedef struct fw_measure {
     fw_interval value; /* m2 rad of a volume, m2 of an area */
-    long boxes;        /* looked at */
-    int level;         /* halvings of every coordinate */
+    long boxes;        /* looked at; parts that a box decides beforehand are not */
+    int level;         /* most halvings of every coordinate */
     bool reached;      /* the relative width asked for */
 } fw_measure;
 
@@ -41,10 +41,18 @@ fw_status fw_reach_area(fw_arena *arena, const fw_loop *loop, const fw_reach_lim
 
 typedef enum fw_inside { FW_OUTSIDE, FW_INSIDE, FW_CUT } fw_inside;
 /* where a box of joint rotations stands, for `dimensions` 3 (A, B, C) or 2 (A, B at rotation phi).
-   share: of the box that is within the limits */
+   share: of the box that is within the limits. open (FW_WANT_*): in, what is not proved yet of a
+   box around this one, with FW_WANT_REST if all of `known` is to be set; the rest is not looked at.
+   Out: what is not proved of this box, unless it is outside. */
 fw_inside fw_reach_judge(const fw_loop *loop, const fw_allowed *allowed, int dimensions,
-                         double phi_rad, const fw_box3 *box, fw_loop_box *known,
+                         double phi_rad, const fw_box3 *box, unsigned *open, fw_loop_box *known,
                          fw_interval *share);
+/* Which of the parts of a cut box, halved along every coordinate at `between` (its middle within
+   rounding), its forms decide already: bits, of which bit i is set for the upper half along i. open
+   and known: what fw_reach_judge left of the box. */
+void fw_reach_parts(const fw_allowed *allowed, int dimensions, const fw_box3 *box,
+                    const double between[3], unsigned open, const fw_loop_box *known,
+                    unsigned *inside, unsigned *outside);
 /* all rotations of A, B (and C) that the limits of these hinges and the branch leave */
 fw_box3 fw_reach_whole(const fw_loop *loop, const fw_allowed *allowed);
 

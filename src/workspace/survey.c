@@ -80,7 +80,8 @@ static fw_status descend(walk *w, const fw_box3 *box, int levels) {
     fw_loop_box known;
     fw_interval share;
     if (fw_cancel_requested()) return FW_CANCELLED;
-    fw_inside where = fw_reach_judge(w->loop, &w->allowed, 3, 0.0, box, &known, &share);
+    unsigned open = levels > 0 ? FW_WANT_LIMITS : FW_WANT_ALL;
+    fw_inside where = fw_reach_judge(w->loop, &w->allowed, 3, 0.0, box, &open, &known, &share);
     if (where == FW_OUTSIDE) return FW_OK;
     if (levels > 0) {
         for (int child = 0; child < 8; child++) {
@@ -99,7 +100,9 @@ static fw_status descend(walk *w, const fw_box3 *box, int levels) {
         fw_loop_box at;
         for (int i = 0; i < 3; i++)
             point.lo[i] = point.hi[i] = 0.5 * (box->lo[i] + box->hi[i]);
-        inside = fw_reach_judge(w->loop, &w->allowed, 3, 0.0, &point, &at, &share) == FW_INSIDE;
+        open = FW_WANT_LIMITS;
+        inside =
+            fw_reach_judge(w->loop, &w->allowed, 3, 0.0, &point, &open, &at, &share) == FW_INSIDE;
     }
     fw_regularity_add(w->loop, &w->out->singular, &known, inside);
     boundary(w, box, &known);

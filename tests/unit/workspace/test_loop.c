@@ -100,7 +100,7 @@ static void joint_boxes_close(void **state) {
         }
         fw_loop_box known;
         const fw_interval all = {-(double)INFINITY, (double)INFINITY};
-        fw_loop_joint_box(&loop, &box, all, &known);
+        fw_loop_joint_box(&loop, &box, all, FW_WANT_ALL, &known);
         if (known.reached != FW_REACHED) continue;
         for (int n = 0; n < 10; n++) {
             double q[3], angle[FW_SIX], pose[3];
@@ -147,7 +147,7 @@ static void remainders_fall_fourfold(void **state) {
         fw_box3 box = {{0.02 - h, -0.03 - h, 0.01 - h}, {0.02 + h, -0.03 + h, 0.01 + h}};
         fw_loop_box known;
         const fw_interval all = {-(double)INFINITY, (double)INFINITY};
-        fw_loop_joint_box(&loop, &box, all, &known);
+        fw_loop_joint_box(&loop, &box, all, FW_WANT_ALL, &known);
         assert_int_equal(known.reached, FW_REACHED);
         for (int j = 3; j < FW_SIX; j++) {
             if (n > 1) assert_near(before[j] / known.psi[j].rest, 4.0, 0.4);
