@@ -54,11 +54,19 @@ static bool at_shared_corner(const fw_contour *contour, int i, int j, const fw_c
     return after || before;
 }
 
+/* Do two lines that follow each other turn by less than 90 degrees, or so little more that no chord
+   between them counts (cosine of their normals above -1e-6)? Right corners are most of a drawing,
+   and rounding leaves them on either side. */
+static bool turns_little(const fw_segment *p, const fw_segment *q) {
+    fw_vec2 u = vec_sub(p->b, p->a), v = vec_sub(q->b, q->a);
+    double along = vec_dot(u, v);
+    return along > 0 || along * along < 0.25e-12 * vec_dot(u, u) * vec_dot(v, v);
+}
+
 static bool no_chord_of_line(const search *in, int i, double limit) {
     const fw_segment *p = around(in->contour, i), *q = around(in->contour, i + 1);
     fw_vec2 v = p->b;
-    if (p->kind == FW_LINE && q->kind == FW_LINE)
-        return vec_dot(vec_sub(v, p->a), vec_sub(q->b, v)) > 0;
+    if (p->kind == FW_LINE && q->kind == FW_LINE) return turns_little(p, q);
     const fw_segment *line = p->kind == FW_LINE ? p : q, *arc = line == p ? q : p;
     double off = vec_cross(fw_segment_tangent(line, 0), vec_sub(arc->centre, v));
     if (fabs(fabs(off) - arc->radius) > FW_COINCIDENT_M || off * arc->sweep_rad < 0)
@@ -77,7 +85,7 @@ static bool no_chord_of_line(const search *in, int i, double limit) {
    a chord counts only square on both, hence on the line of the centres; outwards from the convex
    arc and out of the hollow one's disc it is the diameter of that disc.
    3. A line is such a circle: a convex arc lies wholly on its other side, a hollow one is met as in
-   2. Two lines that turn by less than 90 degrees do not face each other.
+   2. Two lines that turn by 90 degrees or less do not face each other.
    In: edges i and i + 1. false says nothing. Test: test_distance.c, against all chords. */
 static bool no_chord_of_touching(const search *in, int i, double limit) {
     const fw_segment *p = around(in->contour, i), *q = around(in->contour, i + 1);

@@ -68,10 +68,10 @@ int fw_segment_chords(const fw_segment *p, const fw_segment *q, fw_chord chord[F
     for (int end = 0; end < 2; end++) {
         double t;
         fw_vec2 foot, from = end ? p->b : p->a;
-        fw_segment_nearest(q, from, &t, &foot);
+        foot = fw_segment_foot(q, from, &t);
         n = add_chord(chord, n, end, t, from, foot);
         from = end ? q->b : q->a;
-        fw_segment_nearest(p, from, &t, &foot);
+        foot = fw_segment_foot(p, from, &t);
         n = add_chord(chord, n, t, end, foot, from);
         for (int other = 0; other < 2; other++)
             n = add_chord(chord, n, end, other, end ? p->b : p->a, other ? q->b : q->a);

@@ -196,8 +196,8 @@ static void sharper(double sine, double cosine, double least[2]) {
 /* Lengths and corners, in one pass without roots or angles: the least square, and the sharpest
    corner as a pair (u x v, u . v), compared crosswise.
    In: vertices (dbu), exact products. Out: shortest edge (m), sharpest corners (rad) towards
-   material and space, numbers of zero edges, spikes and straight vertices. Error: one rounding of
-   each. Cost O(n). Test: test_polygon.c. */
+   material and space, whether one is below 90 degrees (exact), numbers of zero edges, spikes and
+   straight vertices. Error: one rounding of each. Cost O(n). Test: test_polygon.c. */
 static bool measure(const fw_polygon *p, fw_polygon_report *report) {
     int n = p->count;
     int64_t least2 = INT64_MAX;
@@ -227,6 +227,7 @@ static bool measure(const fw_polygon *p, fw_polygon_report *report) {
     report->sharpest_space_rad = atan2(corner[1][0], corner[1][1]);
     report->sharpest_material_rad = atan2(corner[0][0], corner[0][1]);
     report->sharpest_rad = fmin(report->sharpest_material_rad, report->sharpest_space_rad);
+    report->acute = corner[0][1] > 0 || corner[1][1] > 0;
     return report->bad_i < 0;
 }
 

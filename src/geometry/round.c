@@ -192,15 +192,15 @@ fw_status fw_contour_round(fw_arena *arena, const fw_contour *contour, double co
         return FW_GEOMETRY;
     }
     int n = contour->count, bad = -1;
-    fw_segment *segment = fw_arena_array(arena, fw_segment, 2 * (size_t)n);
+    fw_segment *segment = fw_arena_raw(arena, 2 * (size_t)n * sizeof *segment);
     FW_NEED(segment);
     fw_mark mark = fw_arena_mark(arena);
-    fw_segment *kept = fw_arena_array(arena, fw_segment, (size_t)n);
+    fw_segment *kept = fw_arena_raw(arena, (size_t)n * sizeof *kept);
     FW_NEED(kept);
     n = leave_out(contour, convex_m, concave_m, kept);
     fw_contour long_ones = {kept, n};
     contour = &long_ones;
-    fillet *f = fw_arena_array(arena, fillet, (size_t)n);
+    fillet *f = fw_arena_raw(arena, (size_t)n * sizeof *f);
     FW_NEED(f);
     for (int i = 0; i < n; i++)
         plan_corner(&contour->segment[i], &contour->segment[(i + 1) % n], convex_m, concave_m,

@@ -80,25 +80,28 @@ bool fw_segment_faces(const fw_segment *arc, fw_vec2 direction, double *t) {
 
 /* Nearest point of a segment: line, foot of the perpendicular clamped to the ends; arc, the radial
    projection c + r (p - c) / |p - c| when the arc faces it, else the nearer end.
-   Returns the distance, m. Closed form, error a few ulp. Test: test_distance.c. */
-double fw_segment_nearest(const fw_segment *s, fw_vec2 from, double *t, fw_vec2 *at) {
-    double best_t = 0;
-    fw_vec2 best = s->a;
+   Out: the point; *t. Closed form, error a few ulp. Test: test_distance.c. */
+fw_vec2 fw_segment_foot(const fw_segment *s, fw_vec2 from, double *t) {
     if (s->kind == FW_LINE) {
-        best_t = fw_segment_parameter(s, from);
-        best = fw_segment_point(s, best_t);
-    } else {
-        fw_vec2 ray = vec_sub(from, s->centre);
-        double length = vec_length(ray);
-        if (length > 0 && fw_segment_faces(s, ray, &best_t)) {
-            best = best_t <= 0   ? s->a
-                   : best_t >= 1 ? s->b
-                                 : vec_along(s->centre, s->radius / length, ray);
-        } else {
-            best_t = vec_distance(from, s->b) < vec_distance(from, s->a) ? 1 : 0;
-            best = best_t > 0 ? s->b : s->a;
-        }
+        fw_vec2 along = vec_sub(s->b, s->a);
+        double square = vec_dot(along, along);
+        double here = square > 0 ? vec_dot(vec_sub(from, s->a), along) / square : 0;
+        *t = here < 0 ? 0 : here > 1 ? 1 : here;
+        if (here <= 0) return s->a;
+        if (here >= 1) return s->b;
+        return here <= 0.5 ? vec_along(s->a, here, along) : vec_along(s->b, here - 1, along);
     }
+    fw_vec2 ray = vec_sub(from, s->centre);
+    double length = vec_length(ray);
+    if (length > 0 && fw_segment_faces(s, ray, t))
+        return *t <= 0 ? s->a : *t >= 1 ? s->b : vec_along(s->centre, s->radius / length, ray);
+    *t = vec_distance(from, s->b) < vec_distance(from, s->a) ? 1 : 0;
+    return *t > 0 ? s->b : s->a;
+}
+
+double fw_segment_nearest(const fw_segment *s, fw_vec2 from, double *t, fw_vec2 *at) {
+    double best_t;
+    fw_vec2 best = fw_segment_foot(s, from, &best_t);
     if (t) *t = best_t;
     if (at) *at = best;
     return vec_distance(from, best);

@@ -65,6 +65,8 @@ fw_vec2 fw_segment_point(const fw_segment *s, double t);
 fw_vec2 fw_segment_tangent(const fw_segment *s, double t); /* unit, in the running direction */
 double fw_segment_length(const fw_segment *s);
 double fw_segment_parameter(const fw_segment *s, fw_vec2 on); /* of a point on the segment, 0..1 */
+/* the nearest point; the second: its distance (t and at may be NULL) */
+fw_vec2 fw_segment_foot(const fw_segment *s, fw_vec2 from, double *t);
 double fw_segment_nearest(const fw_segment *s, fw_vec2 from, double *t, fw_vec2 *at);
 /* does the ray from the arc's centre along `direction` meet the arc (ends included)? */
 bool fw_segment_faces(const fw_segment *arc, fw_vec2 direction, double *t);

@@ -172,7 +172,7 @@ fw_status fw_flatten(fw_arena *arena, const fw_contour *contour, double toleranc
     fw_flat_bounds proven;
     double most, length_m;
     if (contour->count > FEW_SEGMENTS)
-        FW_NEED(chords = fw_arena_array(arena, fw_chords, (size_t)contour->count));
+        FW_NEED(chords = fw_arena_raw(arena, (size_t)contour->count * sizeof *chords));
     plan_arcs(contour, tolerance_m, kind, chords, &most, &length_m, &proven);
     if (!(most < 1e9)) return FW_LIMIT;
     builder b = {.vertex = fw_arena_raw(arena, (size_t)most * sizeof(fw_point))}; /* < 8e9 bytes */

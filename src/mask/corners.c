@@ -36,8 +36,7 @@ void fw_mask_check_corners(const fw_mask_shape *shape, int nshape, fw_diags *dia
         const fw_polygon *p = &shape[k].polygon;
         int count = 0, worst = 0;
         double most = 0;
-        if (shape[k].report.sharpest_rad > acos(0.0) + 1e-9)
-            continue; /* as measured of all corners */
+        if (!shape[k].report.acute) continue; /* as measured of all corners */
         for (int i = 0; i < p->count; i++) {
             double c = cosine(p, i);
             if (c <= 0 || ends_joint(&shape[k].contour, p->vertex[i])) continue;
