@@ -166,7 +166,7 @@ static fw_box box_of(const fw_box *box, int from, int to) {
 
 static fw_status intersect_all(fw_graph *g) {
     fw_box *box = fw_arena_raw(g->arena, (size_t)g->nsegment * sizeof *box);
-    FW_NEED(box);
+    FW_NEED(g->own = box);
     for (int i = 0; i < g->nsegment; i++)
         box[i] = fw_segment_box(g->segment[i]);
     g->box[0] = box_of(box, 0, g->nfirst);
@@ -282,6 +282,15 @@ static bool may_hold(fw_box b, fw_vec2 p) {
     return p.x >= b.x0 - wider && p.x <= b.x1 + wider && p.y >= b.y0 - wider && p.y <= b.y1 + wider;
 }
 
+/* Does the other region hold the middle of an edge? Where all of its segment is clear of that
+   region's box the middle is not worked out. */
+static bool is_within(const fw_graph *g, const fw_edge *e, const fw_region *other) {
+    const fw_box *box = &g->box[!e->owner];
+    if (fw_box_gap(g->own[e->segment], *box) > 2e-9) return false;
+    fw_vec2 middle = middle_of(g, e);
+    return may_hold(*box, middle) && region_winding(other, middle) != 0;
+}
+
 /* which edges bound the result, and in which direction */
 static void choose(fw_edge *e, bool within, fw_boolean op) {
     if (op == FW_UNION)
@@ -338,11 +347,7 @@ fw_status fw_region_boolean(fw_arena *arena, const fw_region *p, const fw_region
     FW_TRY(cut_edges(&g));
     FW_TRY(pair_twins(&g, op));
     for (int i = 0; i < g.nedge; i++)
-        if (g.edge[i].twin < 0) {
-            fw_edge *e = &g.edge[i];
-            fw_vec2 middle = middle_of(&g, e);
-            bool near = may_hold(g.box[!e->owner], middle);
-            choose(e, near && region_winding(e->owner ? p : q, middle) != 0, op);
-        }
+        if (g.edge[i].twin < 0)
+            choose(&g.edge[i], is_within(&g, &g.edge[i], g.edge[i].owner ? p : q), op);
     return fw_graph_stitch(&g, out);
 }

@@ -29,6 +29,7 @@ typedef struct fw_graph {
     fw_edge *edge;    /* (nedge) */
     int nsegment, nfirst, nnode, ncut, nedge; /* nfirst: segments of p */
     int node_room, cut_room;
+    fw_box *own;   /* (nsegment) of each segment */
     fw_box box[2]; /* of p, of q */
     fw_vec2 asked; /* the last place that a node was asked for, */
     int answer;    /* and which it was */

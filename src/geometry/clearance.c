@@ -115,7 +115,7 @@ static bool lines_look_away(const fw_segment *p, const fw_segment *q) {
            vec_dot(vec_sub(p->b, p->a), vec_sub(q->b, q->a)) >= 0;
 }
 
-/* gap: of the two boxes */
+/* less than the limit, or not: then nothing more is said. gap: of the two boxes */
 static double pair_clearance(const search *in, int i, int j, double limit, double gap) {
     const fw_segment *p = around(in->contour, i), *q = around(in->contour, j);
     int n = in->contour->count;
@@ -135,9 +135,11 @@ static double pair_clearance(const search *in, int i, int j, double limit, doubl
     }
     fw_chord chord[FW_MOST_CHORDS];
     int count = fw_segment_chords(p, q, chord);
-    double least = HUGE_VAL;
+    double least = limit;
     for (int k = 0; k < count; k++) {
-        double length = vec_distance(chord[k].at_p, chord[k].at_q);
+        fw_vec2 c = vec_sub(chord[k].at_q, chord[k].at_p);
+        if (vec_dot(c, c) > least * least * (1 + 1e-12)) continue;
+        double length = vec_length(c);
         if (length > FW_COINCIDENT_M && length < least && counts(in, i, j, &chord[k], length))
             least = length;
     }

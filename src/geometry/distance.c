@@ -100,7 +100,9 @@ static double nearest_chord(const fw_segment *p, const fw_segment *q, double lim
     int n = fw_segment_chords(p, q, chord);
     double least = limit;
     for (int i = 0; i < n; i++) {
-        double length = vec_distance(chord[i].at_p, chord[i].at_q);
+        fw_vec2 c = vec_sub(chord[i].at_p, chord[i].at_q);
+        if (vec_dot(c, c) > least * least * (1 + 1e-12)) continue;
+        double length = vec_length(c);
         if (length < least) {
             least = length;
             *at_p = chord[i].at_p;

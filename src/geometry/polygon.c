@@ -186,7 +186,7 @@ static bool sweep_edges(sweep *s, const event *events, fw_polygon_report *report
 }
 
 /* the smaller of two angles between 0 and pi, each as (|sine|, cosine) times the same lengths */
-static void sharper(double sine, double cosine, double least[2]) {
+static inline void sharper(double sine, double cosine, double least[2]) {
     if (cosine * least[0] > sine * least[1]) {
         least[0] = sine;
         least[1] = cosine;
@@ -220,7 +220,8 @@ static bool measure(const fw_polygon *p, fw_polygon_report *report) {
             }
         }
         /* counter-clockwise, an edge that turns left leaves material in the corner */
-        sharper(fabs((double)turn), (double)dot, corner[turn > 0]);
+        double *least = corner[turn > 0];
+        if (dot >= 0 || least[1] < 0) sharper(fabs((double)turn), (double)dot, least);
         ux = -vx, uy = -vy, b = c;
     }
     report->shortest_edge_m = sqrt((double)least2) * 1e-9;

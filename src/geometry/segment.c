@@ -28,7 +28,8 @@ fw_vec2 fw_segment_point(const fw_segment *s, double t) {
 
 fw_vec2 fw_segment_tangent(const fw_segment *s, double t) {
     if (s->kind == FW_LINE) return vec_unit(vec_sub(s->b, s->a));
-    fw_vec2 left = vec_left(vec_unit(vec_sub(fw_segment_point(s, t), s->centre)));
+    fw_vec2 at = t <= 0 ? s->a : t >= 1 ? s->b : fw_segment_point(s, t);
+    fw_vec2 left = vec_left(vec_unit(vec_sub(at, s->centre)));
     return s->sweep_rad > 0 ? left : vec_scale(-1, left);
 }
 
@@ -119,8 +120,10 @@ static int quarter(fw_vec2 v) {
    test_segment.c. */
 fw_box fw_arc_box(const fw_segment *s, fw_box box) {
     bool left = s->sweep_rad > 0;
-    int from = quarter(vec_sub(left ? s->a : s->b, s->centre));
-    int to = quarter(vec_sub(left ? s->b : s->a, s->centre)), axes = (to - from) & 3;
+    fw_vec2 u = vec_sub(left ? s->a : s->b, s->centre), v = vec_sub(left ? s->b : s->a, s->centre);
+    if (u.x * v.x > 0 && u.y * v.y > 0 && fabs(s->sweep_rad) <= FW_PI)
+        return box; /* within one quarter, as most are */
+    int from = quarter(u), to = quarter(v), axes = (to - from) & 3;
     if (axes == 0 && fabs(s->sweep_rad) > FW_PI) axes = 4;
     for (int k = 1; k <= axes; k++)
         switch ((from + k) & 3) {

@@ -80,10 +80,9 @@ typedef struct crossing { /* a chord, as two edges see it */
     double slant_p, slant_q; /* |cosine| of its angle with either edge */
 } crossing;
 
-/* a chord between two edges or parts of them, whose normals are theirs */
-static bool crosses(const fw_rule_edge *p, const fw_rule_edge *q, const fw_chord *chord,
-                    crossing *x) {
-    fw_vec2 np = outward(p, chord->at_p), nq = outward(q, chord->at_q);
+/* a chord between two edges or parts of them, whose normals are theirs; np: that of p there */
+static bool crosses(const fw_rule_edge *q, const fw_chord *chord, fw_vec2 np, crossing *x) {
+    fw_vec2 nq = outward(q, chord->at_q);
     if (!(vec_dot(np, nq) < FACING)) return false;
     fw_vec2 c = vec_sub(chord->at_q, chord->at_p);
     double length = vec_length(c);
@@ -102,10 +101,10 @@ static bool at_corner(const fw_rule_edge *e, double t) {
 static void measure_chord(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q,
                           const fw_chord *chord) {
     crossing x;
-    fw_vec2 c = vec_sub(chord->at_q, chord->at_p);
-    double least = fw_greater(in->measure->width_m, in->measure->space_m);
-    if (vec_dot(c, c) > least * least * (1 + 1e-12)) return; /* it would change neither */
-    if (!crosses(p, q, chord, &x)) return;
+    fw_vec2 c = vec_sub(chord->at_q, chord->at_p), np = outward(p, chord->at_p);
+    double least = vec_dot(c, np) > 0 ? in->measure->space_m : in->measure->width_m;
+    if (vec_dot(c, c) > least * least * (1 + 1e-12)) return; /* it would not change it */
+    if (!crosses(q, chord, np, &x)) return;
     if ((x.slant_p < SQUARE || at_corner(p, chord->tp)) &&
         (x.slant_q < SQUARE || at_corner(q, chord->tq)))
         measured(in, x.kind, chord->at_p, chord->at_q, x.length_m);
@@ -145,7 +144,7 @@ static void judge_chords(fw_rule_search *in, const fw_rule_edge *p, const fw_rul
     for (int i = 0; i < n; i++) {
         fw_vec2 c = vec_sub(chord[i].at_q, chord[i].at_p);
         if (vec_dot(c, c) > needed * needed * (1 + 1e-12)) continue;
-        if (crosses(p, q, &chord[i], &x))
+        if (crosses(q, &chord[i], outward(p, chord[i].at_p), &x))
             judged(in, x.kind, p, q, x.length_m, chord[i].at_p, chord[i].at_q);
     }
 }
@@ -163,15 +162,26 @@ static void judge_parts(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q, in
     judge_chords(in, p, q, chord, fw_segment_chords(&p->part[i], &q->part[j], chord));
 }
 
+/* is the least of all chords between edges that do not meet, and with it every chord between parts
+   of them, longer than that? */
+static bool all_longer(const fw_chord *chord, int n, double needed) {
+    for (int i = 0; i < n; i++) {
+        fw_vec2 c = vec_sub(chord[i].at_q, chord[i].at_p);
+        if (vec_dot(c, c) < needed * needed * (1 + 1e-9)) return false;
+    }
+    return true;
+}
+
 /* chord (n): of the whole edges; two lines have no others */
 static void judge_pair(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q, const fw_chord *chord,
-                       int nchord) {
+                       int nchord, bool meet) {
     double needed = fw_greater(fw_rule_needed(in, FW_RULE_WIDTH, p->slack_m + q->slack_m),
                                fw_rule_needed(in, FW_RULE_SPACE, p->slack_m + q->slack_m));
     if (!in->everything && (!(fw_box_gap(p->box, q->box) < needed) ||
                             !(fw_segment_clear_of(&p->s, &q->box) < needed) ||
                             !(fw_segment_clear_of(&q->s, &p->box) < needed)))
         return;
+    if (!in->everything && !meet && all_longer(chord, nchord, needed)) return;
     if (p->s.kind == FW_LINE && q->s.kind == FW_LINE) {
         if (in->everything || may_face(&p->s, &q->s)) judge_chords(in, p, q, chord, nchord);
         return;
@@ -235,7 +245,8 @@ static void look_at_corner(fw_rule_search *in, const fw_rule_edge *p, const fw_r
                p->s.b);
 }
 
-static void look_at_contacts(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q) {
+/* whether there is any */
+static bool look_at_contacts(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q) {
     bool p_then_q = vec_same(p->s.b, q->s.a), q_then_p = vec_same(q->s.b, p->s.a);
     if (p_then_q) look_at_corner(in, p, q);
     if (q_then_p) look_at_corner(in, q, p);
@@ -251,6 +262,7 @@ static void look_at_contacts(fw_rule_search *in, const fw_rule_edge *p, const fw
                                             .at = {hit[i].at, hit[i].at},
                                             .edge = {p, q}});
     }
+    return n > 0;
 }
 
 /* No two of their normals enclose more than 90 degrees: theirs in the middle and half of either
@@ -276,9 +288,9 @@ void fw_rule_pair(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q) {
         clear > fw_greater(fw_rule_bound(in, FW_RULE_WIDTH), fw_rule_bound(in, FW_RULE_SPACE)))
         return;
     if (concentric(in, p, q)) return; /* they cannot meet either */
-    if (touch) look_at_contacts(in, p, q);
+    bool meet = touch && look_at_contacts(in, p, q);
     fw_chord chord[FW_MOST_CHORDS];
     int n = fw_segment_chords(&p->s, &q->s, chord);
     measure_pair(in, p, q, chord, n);
-    judge_pair(in, p, q, chord, n);
+    judge_pair(in, p, q, chord, n, meet);
 }
