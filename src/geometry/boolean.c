@@ -174,8 +174,7 @@ static fw_status intersect_all(fw_graph *g) {
     for (int i = 0; i < g->nfirst; i++) {
         if (fw_box_gap(box[i], g->box[1]) > FW_COINCIDENT_M) continue;
         for (int j = g->nfirst; j < g->nsegment; j++) {
-            if (box[j].x0 - box[i].x1 > FW_COINCIDENT_M || box[i].x0 - box[j].x1 > FW_COINCIDENT_M)
-                continue;
+            if (fw_box_apart(&box[i], &box[j], 2 * FW_COINCIDENT_M)) continue;
             if (fw_box_gap(box[i], box[j]) > FW_COINCIDENT_M) continue;
             fw_hit hit[FW_MOST_HITS];
             int n = fw_segment_intersect(g->segment[i], g->segment[j], hit);

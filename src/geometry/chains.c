@@ -65,17 +65,24 @@ static void rotate(const fw_polygon *p, key *v) {
 /* vertices where chains begin and end, an even number. Edges without length were refused before. */
 static int count_events(const key *v, int n) {
     int count = 1; /* the least vertex, where the first two begin */
-    for (int i = 1; i < n; i++)
-        count += (v[i + 1] > v[i]) != (v[i] > v[i - 1]);
+    bool up = v[1] > v[0];
+    for (int i = 1; i < n; i++) {
+        bool next = v[i + 1] > v[i];
+        count += next != up;
+        up = next;
+    }
     return count;
 }
 
 static void find_events(sweep *s, int n) {
     const key *v = s->v;
     s->events[s->nevent++] = (event){v[0], 0, true};
-    for (int i = 1; i < n; i++)
-        if ((v[i + 1] > v[i]) != (v[i] > v[i - 1]))
-            s->events[s->nevent++] = (event){v[i], i, v[i + 1] > v[i]};
+    bool up = v[1] > v[0];
+    for (int i = 1; i < n; i++) {
+        bool next = v[i + 1] > v[i];
+        if (next != up) s->events[s->nevent++] = (event){v[i], i, next};
+        up = next;
+    }
 }
 
 static int by_place(const void *left, const void *right) {

@@ -176,13 +176,15 @@ static void look_beyond(const search *in, int p, const fw_box *box, int boxed, c
     if (alone < best->least) *best = (nearest){alone, p, p};
     int end = p == 0 ? c->count - 1 : c->count;
     for (int q = p + 2; q < end; q++) {
-        if (q % RUN == 0 && q + RUN <= boxed && fw_box_gap(own, run[q / RUN]) >= best->least) {
+        if (q % RUN == 0 && q + RUN <= boxed &&
+            (fw_box_apart(&own, &run[q / RUN], best->least) ||
+             fw_box_gap(own, run[q / RUN]) >= best->least)) {
             q += RUN - 1;
             continue;
         }
         const fw_segment *other = &c->segment[q];
         fw_box there = q < boxed ? box[q] : fw_segment_box(other);
-        if (there.x0 - own.x1 >= best->least || own.x0 - there.x1 >= best->least) continue;
+        if (fw_box_apart(&own, &there, best->least)) continue;
         double gap = fw_box_gap(own, there);
         if (gap >= best->least || is_joint(other)) continue;
         if (fw_segment_clear_of(&c->segment[p], &there) >= best->least ||
@@ -209,8 +211,8 @@ double fw_contour_clearance_below(const fw_contour *contour, bool inside, double
             int q = k == 0 ? p + 1 : n - 1; /* the first one is the last one's neighbour, too */
             if (q >= n || q <= p || (k == 1 && (p > 0 || q == p + 1))) continue;
             if (is_joint(&contour->segment[p]) || is_joint(&contour->segment[q])) continue;
-            double gap = fw_box_gap(fw_segment_box(&contour->segment[p]),
-                                    fw_segment_box(&contour->segment[q]));
+            double gap = fw_box_gap(p < boxed ? box[p] : fw_segment_box(&contour->segment[p]),
+                                    q < boxed ? box[q] : fw_segment_box(&contour->segment[q]));
             if (gap < best.least) look_at_pair(&in, p, q, gap, &best);
         }
     if (i) *i = best.i;

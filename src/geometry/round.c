@@ -69,12 +69,21 @@ static bool fit(const fw_segment *before, const fw_segment *after, fillet *f) {
     return least < HUGE_VAL;
 }
 
+/* A turn by its sine and cosine: no less than FW_SMOOTH_RAD? The angle itself is asked for only
+   where it is about that. */
+static bool is_corner(double sine, double cosine) {
+    if (cosine <= 0 || fabs(sine) >= 2 * FW_SMOOTH_RAD * cosine) return true;
+    return fabs(sine) > 0.5 * FW_SMOOTH_RAD * cosine && fabs(atan2(sine, cosine)) >= FW_SMOOTH_RAD;
+}
+
 static void plan_corner(const fw_segment *before, const fw_segment *after, double convex_m,
                         double concave_m, fillet *f) {
-    double turn = fw_corner_turn(before, after);
-    *f = (fillet){.factor = 1, .scale = 1, .side = turn > 0 ? 1 : -1};
-    f->radius_m = turn > 0 ? convex_m : concave_m;
-    f->wanted = fabs(turn) >= FW_SMOOTH_RAD && f->radius_m > FW_COINCIDENT_M &&
+    fw_vec2 u = fw_segment_tangent(before, 1), v = fw_segment_tangent(after, 0);
+    double sine = vec_cross(u, v), cosine = vec_dot(u, v);
+    bool left = sine > 0 || (sine == 0 && !signbit(sine) && cosine < 0); /* half a turn */
+    *f = (fillet){.factor = 1, .scale = 1, .side = left ? 1 : -1};
+    f->radius_m = left ? convex_m : concave_m;
+    f->wanted = is_corner(sine, cosine) && f->radius_m > FW_COINCIDENT_M &&
                 !((before->flags | after->flags) & FW_SEGMENT_JOINT);
 }
 

@@ -83,15 +83,7 @@ bool fw_segment_faces(const fw_segment *arc, fw_vec2 direction, double *t) {
    projection c + r (p - c) / |p - c| when the arc faces it, else the nearer end.
    Out: the point; *t. Closed form, error a few ulp. Test: test_distance.c. */
 fw_vec2 fw_segment_foot(const fw_segment *s, fw_vec2 from, double *t) {
-    if (s->kind == FW_LINE) {
-        fw_vec2 along = vec_sub(s->b, s->a);
-        double square = vec_dot(along, along);
-        double here = square > 0 ? vec_dot(vec_sub(from, s->a), along) / square : 0;
-        *t = here < 0 ? 0 : here > 1 ? 1 : here;
-        if (here <= 0) return s->a;
-        if (here >= 1) return s->b;
-        return here <= 0.5 ? vec_along(s->a, here, along) : vec_along(s->b, here - 1, along);
-    }
+    if (s->kind == FW_LINE) return vec_line_foot(s->a, s->b, from, t);
     fw_vec2 ray = vec_sub(from, s->centre);
     double length = vec_length(ray);
     if (length > 0 && fw_segment_faces(s, ray, t))
