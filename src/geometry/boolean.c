@@ -268,17 +268,22 @@ static bool is_twin(const fw_graph *g, const fw_edge *a, const fw_edge *b, bool 
     return vec_distance(middle_of(g, a), middle_of(g, b)) <= 8 * FW_COINCIDENT_M;
 }
 
-static int region_winding(const fw_region *region, fw_vec2 point) {
-    int winding = 0;
-    for (int i = 0; i < region->count; i++)
-        winding += fw_contour_winding(&region->contour[i], point);
-    return winding;
-}
-
 /* outside the box nothing winds around a point */
 static bool may_hold(fw_box b, fw_vec2 p) {
     const double wider = 1e-9;
     return p.x >= b.x0 - wider && p.x <= b.x1 + wider && p.y >= b.y0 - wider && p.y <= b.y1 + wider;
+}
+
+/* own: boxes of the region's segments, outline by outline; of many outlines few are near a point */
+static int region_winding(const fw_region *region, const fw_box *own, fw_vec2 point) {
+    int winding = 0;
+    for (int i = 0; i < region->count; i++) {
+        const fw_contour *c = &region->contour[i];
+        if (region->count == 1 || may_hold(box_of(own, 0, c->count), point))
+            winding += fw_contour_winding(c, point);
+        own += c->count;
+    }
+    return winding;
 }
 
 /* Does the other region hold the middle of an edge? Where all of its segment is clear of that
@@ -287,7 +292,8 @@ static bool is_within(const fw_graph *g, const fw_edge *e, const fw_region *othe
     const fw_box *box = &g->box[!e->owner];
     if (fw_box_gap(g->own[e->segment], *box) > 2e-9) return false;
     fw_vec2 middle = middle_of(g, e);
-    return may_hold(*box, middle) && region_winding(other, middle) != 0;
+    return may_hold(*box, middle) &&
+           region_winding(other, g->own + (e->owner ? 0 : g->nfirst), middle) != 0;
 }
 
 /* which edges bound the result, and in which direction */

@@ -172,6 +172,15 @@ double fw_corner_turn(const fw_segment *before, const fw_segment *after) {
     return fw_vec_angle(fw_segment_tangent(before, 1), fw_segment_tangent(after, 0));
 }
 
+/* Is an end within the slack of the circle? |d - r| = |d^2 - r^2| / (d + r) is below half of it
+   wherever |d^2 - r^2| <= slack r / 2; only what is farther off, and huge circles, take a root. */
+static bool on_circle(const fw_segment *s, fw_vec2 end, double slack) {
+    fw_vec2 ray = vec_sub(end, s->centre);
+    double square = vec_dot(ray, ray), r = s->radius;
+    if (r < 1e3 && fabs(square - r * r) <= 0.5 * slack * r) return true;
+    return fabs(sqrt(square) - r) <= slack;
+}
+
 bool fw_segment_valid(const fw_segment *s) {
     if (!vec_finite(s->a) || !vec_finite(s->b)) return false;
     if (s->kind == FW_LINE) return !vec_same(s->a, s->b);
@@ -179,9 +188,8 @@ bool fw_segment_valid(const fw_segment *s) {
     /* ends may lie off the circle by the tolerance each operation adds */
     double slack = 16 * FW_COINCIDENT_M;
     return s->kind == FW_ARC && vec_finite(s->centre) && isfinite(s->radius) && s->radius > 0 &&
-           sweep > 0 && sweep <= FW_TURN * (1 + 1e-15) &&
-           fabs(vec_distance(s->a, s->centre) - s->radius) <= slack &&
-           fabs(vec_distance(s->b, s->centre) - s->radius) <= slack;
+           sweep > 0 && sweep <= FW_TURN * (1 + 1e-15) && on_circle(s, s->a, slack) &&
+           on_circle(s, s->b, slack);
 }
 
 bool fw_contour_valid(const fw_contour *contour) {
