@@ -2,27 +2,59 @@
 /* Exact boolean of outlines of lines and arcs: cut both at all common points, keep the parts that
    bound the result, stitch them. Nothing is flattened. */
 #include "geometry/boolean.h"
+#include <stdint.h>
+#include <string.h>
 
+/* Number of the strip of 1 nm that a coordinate lies in, points of the grid in its middle: nearest
+   whole number of nanometres, left in the lowest bits of the sum; never decreasing, whatever x is.
+ */
+static uint64_t strip_of(double x) {
+    double shifted = x * 1e9 + 6755399441055744.0;
+    uint64_t bits;
+    memcpy(&bits, &shifted, sizeof bits);
+    return bits;
+}
+
+static int *head_at(const fw_graph *g, uint64_t x, uint64_t y) {
+    uint64_t h = (x ^ (y << 32 | y >> 32)) * UINT64_C(0x9e3779b97f4a7c15);
+    return &g->head[(unsigned)(h >> 32) & (g->heads - 1)];
+}
+
+/* The earliest node within the tolerance, or -1. What is that near lies in the strips of x and y
+   less and more the tolerance: one square, but at its rim. Cost O(1). */
 static int find_node(const fw_graph *g, fw_vec2 at) {
-    for (int i = 0; i < g->nnode; i++)
-        if (fabs(g->node[i].x - at.x) <= FW_COINCIDENT_M &&
-            vec_distance(g->node[i], at) <= FW_COINCIDENT_M)
-            return i;
-    return -1;
+    const double wider = 2 * FW_COINCIDENT_M;
+    const uint64_t x[2] = {strip_of(at.x - wider), strip_of(at.x + wider)};
+    const uint64_t y[2] = {strip_of(at.y - wider), strip_of(at.y + wider)};
+    int found = -1;
+    for (int k = 0; k < 4; k++) {
+        if ((k & 1 && x[0] == x[1]) || (k & 2 && y[0] == y[1])) continue;
+        for (int i = *head_at(g, x[k & 1], y[k >> 1]); i >= 0; i = g->next[i])
+            if (fabs(g->node[i].x - at.x) <= FW_COINCIDENT_M &&
+                vec_distance(g->node[i], at) <= FW_COINCIDENT_M && (found < 0 || i < found))
+                found = i;
+    }
+    return found;
 }
 
 static fw_status new_node(fw_graph *g, fw_vec2 at, int *node) {
     if (g->nnode == g->node_room) {
-        int more = g->node_room ? 2 * g->node_room : 64;
+        int more = 2 * g->node_room;
         fw_vec2 *grown =
             fw_arena_grow(g->arena, g->node, (size_t)g->nnode, (size_t)more, sizeof *grown);
         int *same = fw_arena_grow(g->arena, g->same, (size_t)g->nnode, (size_t)more, sizeof *same);
+        int *next = fw_arena_grow(g->arena, g->next, (size_t)g->nnode, (size_t)more, sizeof *next);
         FW_NEED(grown);
         FW_NEED(same);
+        FW_NEED(next);
         g->node = grown;
         g->same = same;
+        g->next = next;
         g->node_room = more;
     }
+    int *head = head_at(g, strip_of(at.x), strip_of(at.y));
+    g->next[g->nnode] = *head;
+    *head = g->nnode;
     *node = g->same[g->nnode] = g->nnode;
     g->node[g->nnode++] = at;
     return FW_OK;
@@ -54,7 +86,7 @@ static void unite(fw_graph *g, int a, int b) {
 
 static fw_status add_cut(fw_graph *g, int segment, double t, int node) {
     if (g->ncut == g->cut_room) {
-        int more = g->cut_room ? 2 * g->cut_room : 64;
+        int more = 2 * g->cut_room;
         fw_cut *grown =
             fw_arena_grow(g->arena, g->cut, (size_t)g->ncut, (size_t)more, sizeof *grown);
         FW_NEED(grown);
@@ -72,12 +104,28 @@ static int count_segments(const fw_region *region) {
     return n;
 }
 
+/* room for the nodes and cuts of all ends and of some crossings */
+static fw_status make_room(fw_graph *g) {
+    size_t n = (size_t)g->nsegment;
+    for (g->heads = 16; g->heads < n;)
+        g->heads *= 2;
+    FW_NEED(g->segment = fw_arena_raw(g->arena, n * sizeof *g->segment));
+    FW_NEED(g->head = fw_arena_raw(g->arena, g->heads * sizeof *g->head));
+    memset(g->head, -1, g->heads * sizeof *g->head);
+    g->cut_room = 2 * g->nsegment + 32;
+    FW_NEED(g->cut = fw_arena_raw(g->arena, (size_t)g->cut_room * sizeof *g->cut));
+    g->node_room = g->nsegment + 16;
+    FW_NEED(g->node = fw_arena_raw(g->arena, (size_t)g->node_room * sizeof *g->node));
+    FW_NEED(g->same = fw_arena_raw(g->arena, (size_t)g->node_room * sizeof *g->same));
+    FW_NEED(g->next = fw_arena_raw(g->arena, (size_t)g->node_room * sizeof *g->next));
+    return FW_OK;
+}
+
 /* every segment with cuts at its own two ends; ends of p come first and keep their doubles */
 static fw_status collect(fw_graph *g, const fw_region *p, const fw_region *q) {
     g->nfirst = count_segments(p);
     g->nsegment = g->nfirst + count_segments(q);
-    g->segment = fw_arena_array(g->arena, const fw_segment *, (size_t)g->nsegment);
-    FW_NEED(g->segment);
+    FW_TRY(make_room(g));
     int n = 0;
     for (int side = 0; side < 2; side++) {
         const fw_region *region = side ? q : p;
@@ -117,8 +165,8 @@ static fw_box box_of(const fw_box *box, int from, int to) {
 }
 
 static fw_status intersect_all(fw_graph *g) {
-    fw_box *box = fw_arena_array(g->arena, fw_box, (size_t)g->nsegment);
-    FW_NEED(box);
+    fw_box *box = fw_arena_raw(g->arena, (size_t)g->nsegment * sizeof *box);
+    FW_NEED(g->own = box);
     for (int i = 0; i < g->nsegment; i++)
         box[i] = fw_segment_box(g->segment[i]);
     g->box[0] = box_of(box, 0, g->nfirst);
@@ -126,6 +174,7 @@ static fw_status intersect_all(fw_graph *g) {
     for (int i = 0; i < g->nfirst; i++) {
         if (fw_box_gap(box[i], g->box[1]) > FW_COINCIDENT_M) continue;
         for (int j = g->nfirst; j < g->nsegment; j++) {
+            if (fw_box_apart(&box[i], &box[j], 2 * FW_COINCIDENT_M)) continue;
             if (fw_box_gap(box[i], box[j]) > FW_COINCIDENT_M) continue;
             fw_hit hit[FW_MOST_HITS];
             int n = fw_segment_intersect(g->segment[i], g->segment[j], hit);
@@ -171,7 +220,7 @@ static fw_status cut_edges(fw_graph *g) {
     for (int i = 0; i < g->ncut; i++)
         g->cut[i].node = root_of(g, g->cut[i].node);
     FW_TRY(sort_cuts(g));
-    g->edge = fw_arena_array(g->arena, fw_edge, (size_t)g->ncut);
+    g->edge = fw_arena_raw(g->arena, (size_t)g->ncut * sizeof *g->edge);
     FW_NEED(g->edge);
     for (int i = 1, rank = 0; i < g->ncut; i++) {
         const fw_cut *a = &g->cut[i - 1], *b = &g->cut[i];
@@ -219,17 +268,32 @@ static bool is_twin(const fw_graph *g, const fw_edge *a, const fw_edge *b, bool 
     return vec_distance(middle_of(g, a), middle_of(g, b)) <= 8 * FW_COINCIDENT_M;
 }
 
-static int region_winding(const fw_region *region, fw_vec2 point) {
-    int winding = 0;
-    for (int i = 0; i < region->count; i++)
-        winding += fw_contour_winding(&region->contour[i], point);
-    return winding;
-}
-
 /* outside the box nothing winds around a point */
 static bool may_hold(fw_box b, fw_vec2 p) {
     const double wider = 1e-9;
     return p.x >= b.x0 - wider && p.x <= b.x1 + wider && p.y >= b.y0 - wider && p.y <= b.y1 + wider;
+}
+
+/* own: boxes of the region's segments, outline by outline; of many outlines few are near a point */
+static int region_winding(const fw_region *region, const fw_box *own, fw_vec2 point) {
+    int winding = 0;
+    for (int i = 0; i < region->count; i++) {
+        const fw_contour *c = &region->contour[i];
+        if (region->count == 1 || may_hold(box_of(own, 0, c->count), point))
+            winding += fw_contour_winding(c, point);
+        own += c->count;
+    }
+    return winding;
+}
+
+/* Does the other region hold the middle of an edge? Where all of its segment is clear of that
+   region's box the middle is not worked out. */
+static bool is_within(const fw_graph *g, const fw_edge *e, const fw_region *other) {
+    const fw_box *box = &g->box[!e->owner];
+    if (fw_box_gap(g->own[e->segment], *box) > 2e-9) return false;
+    fw_vec2 middle = middle_of(g, e);
+    return may_hold(*box, middle) &&
+           region_winding(other, g->own + (e->owner ? 0 : g->nfirst), middle) != 0;
 }
 
 /* which edges bound the result, and in which direction */
@@ -248,8 +312,8 @@ static void choose(fw_edge *e, bool within, fw_boolean op) {
    union or an intersection once when both regions lie on one side, never when on either side; a
    difference the other way round. The copy of p is kept, with its flags. */
 static fw_status pair_twins(fw_graph *g, fw_boolean op) {
-    int *first = fw_arena_array(g->arena, int, (size_t)g->nnode);
-    int *after = fw_arena_array(g->arena, int, (size_t)g->nedge);
+    int *first = fw_arena_raw(g->arena, (size_t)g->nnode * sizeof *first);
+    int *after = fw_arena_raw(g->arena, (size_t)g->nedge * sizeof *after);
     FW_NEED(first);
     FW_NEED(after);
     for (int i = 0; i < g->nnode; i++)
@@ -288,11 +352,7 @@ fw_status fw_region_boolean(fw_arena *arena, const fw_region *p, const fw_region
     FW_TRY(cut_edges(&g));
     FW_TRY(pair_twins(&g, op));
     for (int i = 0; i < g.nedge; i++)
-        if (g.edge[i].twin < 0) {
-            fw_edge *e = &g.edge[i];
-            fw_vec2 middle = middle_of(&g, e);
-            bool near = may_hold(g.box[!e->owner], middle);
-            choose(e, near && region_winding(e->owner ? p : q, middle) != 0, op);
-        }
+        if (g.edge[i].twin < 0)
+            choose(&g.edge[i], is_within(&g, &g.edge[i], g.edge[i].owner ? p : q), op);
     return fw_graph_stitch(&g, out);
 }

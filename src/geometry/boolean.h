@@ -23,10 +23,13 @@ typedef struct fw_graph {
     const fw_segment **segment; /* (nsegment) of p, then of q */
     fw_vec2 *node;              /* (nnode) */
     int *same;                  /* (nnode) an earlier node that it is one with, or itself */
-    fw_cut *cut;                /* (ncut) */
-    fw_edge *edge;              /* (nedge) */
+    int *head, *next; /* (heads), (nnode) chains of nodes by the square of 1 nm they lie in; -1 */
+    unsigned heads;   /* a power of two */
+    fw_cut *cut;      /* (ncut) */
+    fw_edge *edge;    /* (nedge) */
     int nsegment, nfirst, nnode, ncut, nedge; /* nfirst: segments of p */
     int node_room, cut_room;
+    fw_box *own;   /* (nsegment) of each segment */
     fw_box box[2]; /* of p, of q */
     fw_vec2 asked; /* the last place that a node was asked for, */
     int answer;    /* and which it was */

@@ -6,8 +6,9 @@
 #include <stdlib.h>
 
 enum {
-    MOST_ACTIVE = 2048
-}; /* chains met by one vertical: beyond, the sweep over edges is cheaper */
+    MOST_ACTIVE = 2048, /* chains met by one vertical: beyond, the sweep over edges is cheaper */
+    FEW_EVENTS = 24,    /* put into order one by one */
+};
 
 /* A vertex as one number that is ordered as (x, y): x 2^32 + y, exact for |x|, |y| < 2^30. */
 typedef int64_t key;
@@ -50,8 +51,11 @@ static inline int64_t height(key a, key b, key c) {
 /* from the least vertex on, so that no chain runs over the end of the list */
 static void rotate(const fw_polygon *p, key *v) {
     int least = 0, n = p->count;
-    for (int i = 1; i < n; i++)
-        if (key_of(p->vertex[i]) < key_of(p->vertex[least])) least = i;
+    key first = key_of(p->vertex[0]);
+    for (int i = 1; i < n; i++) {
+        key k = key_of(p->vertex[i]);
+        if (k < first) first = k, least = i;
+    }
     for (int i = least; i < n; i++)
         *v++ = key_of(p->vertex[i]);
     for (int i = 0; i <= least; i++)
@@ -61,22 +65,43 @@ static void rotate(const fw_polygon *p, key *v) {
 /* vertices where chains begin and end, an even number. Edges without length were refused before. */
 static int count_events(const key *v, int n) {
     int count = 1; /* the least vertex, where the first two begin */
-    for (int i = 1; i < n; i++)
-        count += (v[i + 1] > v[i]) != (v[i] > v[i - 1]);
+    bool up = v[1] > v[0];
+    for (int i = 1; i < n; i++) {
+        bool next = v[i + 1] > v[i];
+        count += next != up;
+        up = next;
+    }
     return count;
 }
 
 static void find_events(sweep *s, int n) {
     const key *v = s->v;
     s->events[s->nevent++] = (event){v[0], 0, true};
-    for (int i = 1; i < n; i++)
-        if ((v[i + 1] > v[i]) != (v[i] > v[i - 1]))
-            s->events[s->nevent++] = (event){v[i], i, v[i + 1] > v[i]};
+    bool up = v[1] > v[0];
+    for (int i = 1; i < n; i++) {
+        bool next = v[i + 1] > v[i];
+        if (next != up) s->events[s->nevent++] = (event){v[i], i, next};
+        up = next;
+    }
 }
 
 static int by_place(const void *left, const void *right) {
     key a = ((const event *)left)->at, b = ((const event *)right)->at;
     return (a > b) - (a < b);
+}
+
+static void sort_events(event *list, int n) {
+    if (n > FEW_EVENTS) {
+        qsort(list, (size_t)n, sizeof *list, by_place);
+        return;
+    }
+    for (int i = 1; i < n; i++) {
+        event e = list[i];
+        int k = i;
+        for (; k > 0 && list[k - 1].at > e.at; k--)
+            list[k] = list[k - 1];
+        list[k] = e;
+    }
 }
 
 /* the two chains of the k-th beginning, upper one last; false: they leave in one direction */
@@ -117,19 +142,24 @@ static bool apart(const sweep *s, int below, key p) {
     const chain *low = &s->chain[s->active[below]], *up = &s->chain[s->active[below + 1]];
     const key *v = s->v;
     int i = low->pair_at, j = low->pair_up, di = low->step, dj = up->step;
+    key a = v[i + di],
+        b = v[j + dj]; /* where the two edges end, and as points from where to where */
+    fw_point from_a = point_of(v[i]), from_b = point_of(v[j]), to_a = point_of(a),
+             to_b = point_of(b);
     for (;;) {
-        key a = v[i + di], b = v[j + dj];
         if (a < b) {
             if (a > p) return true;
-            if (height(v[j], b, a) >= 0) return false;
-            i += di;
+            if (fw_cross(from_b, to_b, to_a) >= 0) return false;
             if (a == p) return true;
+            i += di;
+            from_a = to_a, a = v[i + di], to_a = point_of(a);
         } else {
             if (b > p) return true;
             if (a == b) return a == p && i + di == j + dj;
-            if (height(v[i], a, b) <= 0) return false;
-            j += dj;
+            if (fw_cross(from_a, to_a, to_b) <= 0) return false;
             if (b == p) return true;
+            j += dj;
+            from_b = to_b, b = v[j + dj], to_b = point_of(b);
         }
     }
 }
@@ -204,20 +234,19 @@ fw_status fw_polygon_prove(fw_arena *arena, const fw_polygon *polygon, bool *pro
     int n = polygon->count;
     *proved = false;
     fw_mark mark = fw_arena_mark(arena);
-    key *v = fw_arena_array(arena, key, (size_t)n + 1);
+    key *v = fw_arena_raw(arena, ((size_t)n + 1) * sizeof *v); /* written before it is read */
     FW_NEED(v);
     rotate(polygon, v);
-    int most = count_events(v, n);
+    size_t most = (size_t)count_events(v, n), active = most < MOST_ACTIVE ? most : MOST_ACTIVE;
     sweep s = {.v = v,
-               .events = fw_arena_array(arena, event, (size_t)most),
-               .chain = fw_arena_array(arena, chain, (size_t)most),
-               .active =
-                   fw_arena_array(arena, int, (size_t)(most < MOST_ACTIVE ? most : MOST_ACTIVE))};
+               .events = fw_arena_raw(arena, most * sizeof(event)),
+               .chain = fw_arena_raw(arena, most * sizeof(chain)),
+               .active = fw_arena_raw(arena, active * sizeof(int))};
     FW_NEED(s.events);
     FW_NEED(s.chain);
     FW_NEED(s.active);
     find_events(&s, n);
-    qsort(s.events, (size_t)s.nevent, sizeof *s.events, by_place);
+    sort_events(s.events, s.nevent);
     *proved = sweep_chains(&s, n);
     fw_arena_rewind(arena, mark);
     return FW_OK;

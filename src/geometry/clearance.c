@@ -54,11 +54,19 @@ static bool at_shared_corner(const fw_contour *contour, int i, int j, const fw_c
     return after || before;
 }
 
+/* Do two lines that follow each other turn by less than 90 degrees, or so little more that no chord
+   between them counts (cosine of their normals above -1e-6)? Right corners are most of a drawing,
+   and rounding leaves them on either side. */
+static bool turns_little(const fw_segment *p, const fw_segment *q) {
+    fw_vec2 u = vec_sub(p->b, p->a), v = vec_sub(q->b, q->a);
+    double along = vec_dot(u, v);
+    return along > 0 || along * along < 0.25e-12 * vec_dot(u, u) * vec_dot(v, v);
+}
+
 static bool no_chord_of_line(const search *in, int i, double limit) {
     const fw_segment *p = around(in->contour, i), *q = around(in->contour, i + 1);
     fw_vec2 v = p->b;
-    if (p->kind == FW_LINE && q->kind == FW_LINE)
-        return vec_dot(vec_sub(v, p->a), vec_sub(q->b, v)) > 0;
+    if (p->kind == FW_LINE && q->kind == FW_LINE) return turns_little(p, q);
     const fw_segment *line = p->kind == FW_LINE ? p : q, *arc = line == p ? q : p;
     double off = vec_cross(fw_segment_tangent(line, 0), vec_sub(arc->centre, v));
     if (fabs(fabs(off) - arc->radius) > FW_COINCIDENT_M || off * arc->sweep_rad < 0)
@@ -77,7 +85,7 @@ static bool no_chord_of_line(const search *in, int i, double limit) {
    a chord counts only square on both, hence on the line of the centres; outwards from the convex
    arc and out of the hollow one's disc it is the diameter of that disc.
    3. A line is such a circle: a convex arc lies wholly on its other side, a hollow one is met as in
-   2. Two lines that turn by less than 90 degrees do not face each other.
+   2. Two lines that turn by 90 degrees or less do not face each other.
    In: edges i and i + 1. false says nothing. Test: test_distance.c, against all chords. */
 static bool no_chord_of_touching(const search *in, int i, double limit) {
     const fw_segment *p = around(in->contour, i), *q = around(in->contour, i + 1);
@@ -107,7 +115,7 @@ static bool lines_look_away(const fw_segment *p, const fw_segment *q) {
            vec_dot(vec_sub(p->b, p->a), vec_sub(q->b, q->a)) >= 0;
 }
 
-/* gap: of the two boxes */
+/* less than the limit, or not: then nothing more is said. gap: of the two boxes */
 static double pair_clearance(const search *in, int i, int j, double limit, double gap) {
     const fw_segment *p = around(in->contour, i), *q = around(in->contour, j);
     int n = in->contour->count;
@@ -127,9 +135,11 @@ static double pair_clearance(const search *in, int i, int j, double limit, doubl
     }
     fw_chord chord[FW_MOST_CHORDS];
     int count = fw_segment_chords(p, q, chord);
-    double least = HUGE_VAL;
+    double least = limit;
     for (int k = 0; k < count; k++) {
-        double length = vec_distance(chord[k].at_p, chord[k].at_q);
+        fw_vec2 c = vec_sub(chord[k].at_q, chord[k].at_p);
+        if (vec_dot(c, c) > least * least * (1 + 1e-12)) continue;
+        double length = vec_length(c);
         if (length > FW_COINCIDENT_M && length < least && counts(in, i, j, &chord[k], length))
             least = length;
     }
@@ -166,13 +176,15 @@ static void look_beyond(const search *in, int p, const fw_box *box, int boxed, c
     if (alone < best->least) *best = (nearest){alone, p, p};
     int end = p == 0 ? c->count - 1 : c->count;
     for (int q = p + 2; q < end; q++) {
-        if (q % RUN == 0 && q + RUN <= boxed && fw_box_gap(own, run[q / RUN]) >= best->least) {
+        if (q % RUN == 0 && q + RUN <= boxed &&
+            (fw_box_apart(&own, &run[q / RUN], best->least) ||
+             fw_box_gap(own, run[q / RUN]) >= best->least)) {
             q += RUN - 1;
             continue;
         }
         const fw_segment *other = &c->segment[q];
         fw_box there = q < boxed ? box[q] : fw_segment_box(other);
-        if (there.x0 - own.x1 >= best->least || own.x0 - there.x1 >= best->least) continue;
+        if (fw_box_apart(&own, &there, best->least)) continue;
         double gap = fw_box_gap(own, there);
         if (gap >= best->least || is_joint(other)) continue;
         if (fw_segment_clear_of(&c->segment[p], &there) >= best->least ||
@@ -199,8 +211,8 @@ double fw_contour_clearance_below(const fw_contour *contour, bool inside, double
             int q = k == 0 ? p + 1 : n - 1; /* the first one is the last one's neighbour, too */
             if (q >= n || q <= p || (k == 1 && (p > 0 || q == p + 1))) continue;
             if (is_joint(&contour->segment[p]) || is_joint(&contour->segment[q])) continue;
-            double gap = fw_box_gap(fw_segment_box(&contour->segment[p]),
-                                    fw_segment_box(&contour->segment[q]));
+            double gap = fw_box_gap(p < boxed ? box[p] : fw_segment_box(&contour->segment[p]),
+                                    q < boxed ? box[q] : fw_segment_box(&contour->segment[q]));
             if (gap < best.least) look_at_pair(&in, p, q, gap, &best);
         }
     if (i) *i = best.i;

@@ -81,6 +81,7 @@ fw_status fw_contour_ring_sector(fw_arena *arena, fw_vec2 centre, double inner_m
 double fw_contour_area(const fw_contour *contour);      /* m2, > 0 counter-clockwise */
 double fw_contour_perimeter(const fw_contour *contour); /* m */
 fw_box fw_contour_box(const fw_contour *contour);
+double fw_contour_area_in(const fw_contour *contour, fw_box box); /* m2, where the box is known */
 /* area, centroid and polar second moment about the centroid (m4), by Green's theorem */
 typedef struct fw_moments {
     double area_m2;

@@ -60,6 +60,10 @@ static int square_chords(const fw_segment *p, const fw_segment *q, fw_chord *cho
     return n;
 }
 
+static inline fw_vec2 foot_on(const fw_segment *s, fw_vec2 from, double *t) {
+    return s->kind == FW_LINE ? vec_line_foot(s->a, s->b, from, t) : fw_segment_foot(s, from, t);
+}
+
 /* All chords between two segments at which the distance can be least: end to foot (4), end to end
    (4), square on both (4). In: two segments. Out: at most 12 chords with parameters and places (m).
    Error: a few ulp of the coordinates. Source: first-order conditions. Test: test_distance.c. */
@@ -68,10 +72,10 @@ int fw_segment_chords(const fw_segment *p, const fw_segment *q, fw_chord chord[F
     for (int end = 0; end < 2; end++) {
         double t;
         fw_vec2 foot, from = end ? p->b : p->a;
-        fw_segment_nearest(q, from, &t, &foot);
+        foot = foot_on(q, from, &t);
         n = add_chord(chord, n, end, t, from, foot);
         from = end ? q->b : q->a;
-        fw_segment_nearest(p, from, &t, &foot);
+        foot = foot_on(p, from, &t);
         n = add_chord(chord, n, t, end, foot, from);
         for (int other = 0; other < 2; other++)
             n = add_chord(chord, n, end, other, end ? p->b : p->a, other ? q->b : q->a);
@@ -100,7 +104,9 @@ static double nearest_chord(const fw_segment *p, const fw_segment *q, double lim
     int n = fw_segment_chords(p, q, chord);
     double least = limit;
     for (int i = 0; i < n; i++) {
-        double length = vec_distance(chord[i].at_p, chord[i].at_q);
+        fw_vec2 c = vec_sub(chord[i].at_p, chord[i].at_q);
+        if (vec_dot(c, c) > least * least * (1 + 1e-12)) continue;
+        double length = vec_length(c);
         if (length < least) {
             least = length;
             *at_p = chord[i].at_p;
@@ -127,12 +133,13 @@ static double nearest_of(const fw_segment *s, fw_box own, const fw_contour *q, c
                          const fw_box *run, double least, fw_vec2 *at_p, fw_vec2 *at_q) {
     for (int j = 0; j < q->count; j++) {
         if (j % RUN == 0 && j + RUN <= q->count && j + RUN <= FEW &&
-            fw_box_gap(own, run[j / RUN]) >= least) {
+            (fw_box_apart(&own, &run[j / RUN], least) || fw_box_gap(own, run[j / RUN]) >= least)) {
             j += RUN - 1;
             continue;
         }
         const fw_segment *t = &q->segment[j];
         fw_box there = j < FEW ? box[j] : fw_segment_box(t);
+        if (fw_box_apart(&own, &there, least)) continue;
         double gap = fw_box_gap(own, there);
         if (gap >= least || fw_segment_clear_of(s, &there) >= least ||
             fw_segment_clear_of(t, &own) >= least)

@@ -65,15 +65,19 @@ static fw_vec2 middle_of(fw_box box) {
 }
 
 /* the first of the integrals alone, by the same sums */
-double fw_contour_area(const fw_contour *contour) {
+double fw_contour_area_in(const fw_contour *contour, fw_box box) {
     double sum = 0;
-    fw_vec2 reference = middle_of(fw_contour_box(contour));
+    fw_vec2 reference = middle_of(box);
     for (int i = 0; i < contour->count; i++) {
         const fw_segment *s = &contour->segment[i];
         sum += 0.5 * vec_cross(vec_sub(s->a, reference), vec_sub(s->b, reference));
         if (s->kind == FW_ARC) sum += 0.5 * (s->radius * s->radius) * less_sine(s->sweep_rad);
     }
     return sum;
+}
+
+double fw_contour_area(const fw_contour *contour) {
+    return fw_contour_area_in(contour, fw_contour_box(contour));
 }
 
 fw_moments fw_region_moments(const fw_region *region) {

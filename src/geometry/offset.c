@@ -209,7 +209,7 @@ fw_status fw_contour_offset(fw_arena *arena, const fw_contour *contour, double d
     *out = (fw_contour){0};
     if (!isfinite(d_m) || !fw_contour_valid(contour)) return refuse(i, j, -1, -1);
     int n = contour->count;
-    fw_contour made = {fw_arena_array(arena, fw_segment, 2 * (size_t)n), n};
+    fw_contour made = {fw_arena_raw(arena, 2 * (size_t)n * sizeof(fw_segment)), n};
     FW_NEED(made.segment);
     if (d_m == 0) {
         for (int k = 0; k < n; k++)
@@ -219,7 +219,7 @@ fw_status fw_contour_offset(fw_arena *arena, const fw_contour *contour, double d
     }
     FW_TRY(check_room(contour, d_m, i, j));
     fw_mark mark = fw_arena_mark(arena);
-    junction *vertex = fw_arena_array(arena, junction, (size_t)n);
+    junction *vertex = fw_arena_raw(arena, (size_t)n * sizeof *vertex);
     FW_NEED(vertex);
     for (int k = 0; k < n; k++) {
         int before = (k + n - 1) % n;

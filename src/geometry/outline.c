@@ -36,7 +36,9 @@ void fw_outline_line(fw_outline *outline, fw_vec2 to, unsigned flags) {
         outline->invalid = true;
         return;
     }
-    if (vec_distance(outline->at, to) <= FW_COINCIDENT_M) {
+    fw_vec2 step = vec_sub(to, outline->at);
+    bool far = fabs(step.x) > FW_COINCIDENT_M || fabs(step.y) > FW_COINCIDENT_M;
+    if (!far && vec_length(step) <= FW_COINCIDENT_M) {
         nudge(outline, to);
         return;
     }

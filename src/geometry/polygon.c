@@ -186,7 +186,7 @@ static bool sweep_edges(sweep *s, const event *events, fw_polygon_report *report
 }
 
 /* the smaller of two angles between 0 and pi, each as (|sine|, cosine) times the same lengths */
-static void sharper(double sine, double cosine, double least[2]) {
+static inline void sharper(double sine, double cosine, double least[2]) {
     if (cosine * least[0] > sine * least[1]) {
         least[0] = sine;
         least[1] = cosine;
@@ -196,8 +196,8 @@ static void sharper(double sine, double cosine, double least[2]) {
 /* Lengths and corners, in one pass without roots or angles: the least square, and the sharpest
    corner as a pair (u x v, u . v), compared crosswise.
    In: vertices (dbu), exact products. Out: shortest edge (m), sharpest corners (rad) towards
-   material and space, numbers of zero edges, spikes and straight vertices. Error: one rounding of
-   each. Cost O(n). Test: test_polygon.c. */
+   material and space, whether one is below 90 degrees (exact), numbers of zero edges, spikes and
+   straight vertices. Error: one rounding of each. Cost O(n). Test: test_polygon.c. */
 static bool measure(const fw_polygon *p, fw_polygon_report *report) {
     int n = p->count;
     int64_t least2 = INT64_MAX;
@@ -220,13 +220,15 @@ static bool measure(const fw_polygon *p, fw_polygon_report *report) {
             }
         }
         /* counter-clockwise, an edge that turns left leaves material in the corner */
-        sharper(fabs((double)turn), (double)dot, corner[turn > 0]);
+        double *least = corner[turn > 0];
+        if (dot >= 0 || least[1] < 0) sharper(fabs((double)turn), (double)dot, least);
         ux = -vx, uy = -vy, b = c;
     }
     report->shortest_edge_m = sqrt((double)least2) * 1e-9;
     report->sharpest_space_rad = atan2(corner[1][0], corner[1][1]);
     report->sharpest_material_rad = atan2(corner[0][0], corner[0][1]);
     report->sharpest_rad = fmin(report->sharpest_material_rad, report->sharpest_space_rad);
+    report->acute = corner[0][1] > 0 || corner[1][1] > 0;
     return report->bad_i < 0;
 }
 

@@ -69,12 +69,21 @@ static bool fit(const fw_segment *before, const fw_segment *after, fillet *f) {
     return least < HUGE_VAL;
 }
 
+/* A turn by its sine and cosine: no less than FW_SMOOTH_RAD? The angle itself is asked for only
+   where it is about that. */
+static bool is_corner(double sine, double cosine) {
+    if (cosine <= 0 || fabs(sine) >= 2 * FW_SMOOTH_RAD * cosine) return true;
+    return fabs(sine) > 0.5 * FW_SMOOTH_RAD * cosine && fabs(atan2(sine, cosine)) >= FW_SMOOTH_RAD;
+}
+
 static void plan_corner(const fw_segment *before, const fw_segment *after, double convex_m,
                         double concave_m, fillet *f) {
-    double turn = fw_corner_turn(before, after);
-    *f = (fillet){.factor = 1, .scale = 1, .side = turn > 0 ? 1 : -1};
-    f->radius_m = turn > 0 ? convex_m : concave_m;
-    f->wanted = fabs(turn) >= FW_SMOOTH_RAD && f->radius_m > FW_COINCIDENT_M &&
+    fw_vec2 u = fw_segment_tangent(before, 1), v = fw_segment_tangent(after, 0);
+    double sine = vec_cross(u, v), cosine = vec_dot(u, v);
+    bool left = sine > 0 || (sine == 0 && !signbit(sine) && cosine < 0); /* half a turn */
+    *f = (fillet){.factor = 1, .scale = 1, .side = left ? 1 : -1};
+    f->radius_m = left ? convex_m : concave_m;
+    f->wanted = is_corner(sine, cosine) && f->radius_m > FW_COINCIDENT_M &&
                 !((before->flags | after->flags) & FW_SEGMENT_JOINT);
 }
 
@@ -192,15 +201,15 @@ fw_status fw_contour_round(fw_arena *arena, const fw_contour *contour, double co
         return FW_GEOMETRY;
     }
     int n = contour->count, bad = -1;
-    fw_segment *segment = fw_arena_array(arena, fw_segment, 2 * (size_t)n);
+    fw_segment *segment = fw_arena_raw(arena, 2 * (size_t)n * sizeof *segment);
     FW_NEED(segment);
     fw_mark mark = fw_arena_mark(arena);
-    fw_segment *kept = fw_arena_array(arena, fw_segment, (size_t)n);
+    fw_segment *kept = fw_arena_raw(arena, (size_t)n * sizeof *kept);
     FW_NEED(kept);
     n = leave_out(contour, convex_m, concave_m, kept);
     fw_contour long_ones = {kept, n};
     contour = &long_ones;
-    fillet *f = fw_arena_array(arena, fillet, (size_t)n);
+    fillet *f = fw_arena_raw(arena, (size_t)n * sizeof *f);
     FW_NEED(f);
     for (int i = 0; i < n; i++)
         plan_corner(&contour->segment[i], &contour->segment[(i + 1) % n], convex_m, concave_m,

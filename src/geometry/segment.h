@@ -60,11 +60,24 @@ double fw_vec_angle(fw_vec2 p, fw_vec2 q);
 /* angle + 2 pi k nearest to `near` */
 double fw_angle_near(double angle_rad, double near_rad);
 
+/* foot of the perpendicular on a line, or the nearer end; *t: where */
+static inline fw_vec2 vec_line_foot(fw_vec2 a, fw_vec2 b, fw_vec2 from, double *t) {
+    fw_vec2 along = vec_sub(b, a);
+    double square = vec_dot(along, along);
+    double here = square > 0 ? vec_dot(vec_sub(from, a), along) / square : 0;
+    *t = here < 0 ? 0 : here > 1 ? 1 : here;
+    if (here <= 0) return a;
+    if (here >= 1) return b;
+    return here <= 0.5 ? vec_along(a, here, along) : vec_along(b, here - 1, along);
+}
+
 /* t runs from 0 at a to 1 at b; both ends are returned bit for bit */
 fw_vec2 fw_segment_point(const fw_segment *s, double t);
 fw_vec2 fw_segment_tangent(const fw_segment *s, double t); /* unit, in the running direction */
 double fw_segment_length(const fw_segment *s);
 double fw_segment_parameter(const fw_segment *s, fw_vec2 on); /* of a point on the segment, 0..1 */
+/* the nearest point; the second: its distance (t and at may be NULL) */
+fw_vec2 fw_segment_foot(const fw_segment *s, fw_vec2 from, double *t);
 double fw_segment_nearest(const fw_segment *s, fw_vec2 from, double *t, fw_vec2 *at);
 /* does the ray from the arc's centre along `direction` meet the arc (ends included)? */
 bool fw_segment_faces(const fw_segment *arc, fw_vec2 direction, double *t);
@@ -115,6 +128,11 @@ static inline double fw_box_gap(fw_box p, fw_box q) {
     double x = fw_greater(fw_greater(p.x0 - q.x1, q.x0 - p.x1), 0);
     double y = fw_greater(fw_greater(p.y0 - q.y1, q.y0 - p.y1), 0);
     return x > 0 && y > 0 ? sqrt(x * x + y * y) : x + y;
+}
+/* are they that far apart along x or along y alone, as most boxes are? */
+static inline bool fw_box_apart(const fw_box *p, const fw_box *q, double least) {
+    return p->x0 - q->x1 >= least || q->x0 - p->x1 >= least || p->y0 - q->y1 >= least ||
+           q->y0 - p->y1 >= least;
 }
 static inline fw_box fw_box_join(fw_box p, fw_box q) {
     return (fw_box){fw_lesser(p.x0, q.x0), fw_lesser(p.y0, q.y0), fw_greater(p.x1, q.x1),

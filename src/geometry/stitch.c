@@ -95,8 +95,8 @@ static fw_status outline_of(const fw_graph *g, const int *edge, int n, fw_contou
     while (start < n && goes_on(&g->edge[edge[(start + n - 1) % n]], &g->edge[edge[start]]))
         start++;
     start %= n;
-    fw_segment *segment = fw_arena_array(g->arena, fw_segment, (size_t)n);
-    int *owner = fw_arena_array(g->arena, int, (size_t)n);
+    fw_segment *segment = fw_arena_raw(g->arena, (size_t)n * sizeof *segment);
+    int *owner = fw_arena_raw(g->arena, (size_t)n * sizeof *owner);
     FW_NEED(segment);
     FW_NEED(owner);
     int count = 0;
@@ -190,12 +190,13 @@ static fw_status order_outlines(fw_graph *g, const collector *c, fw_region *out)
 }
 
 fw_status fw_graph_stitch(fw_graph *g, fw_region *out) {
-    int *first = fw_arena_array(g->arena, int, (size_t)g->nnode);
-    int *seen = fw_arena_array(g->arena, int, (size_t)g->nnode);
-    int *after = fw_arena_array(g->arena, int, (size_t)g->nedge);
-    chain path = {fw_arena_array(g->arena, int, (size_t)g->nedge), 0};
-    collector c = {g, fw_arena_array(g->arena, fw_contour, (size_t)g->nedge),
-                   fw_arena_array(g->arena, bool, (size_t)g->nedge), 0};
+    size_t nodes = (size_t)g->nnode, edges = (size_t)g->nedge; /* all written before it is read */
+    int *first = fw_arena_raw(g->arena, nodes * sizeof *first);
+    int *seen = fw_arena_raw(g->arena, nodes * sizeof *seen);
+    int *after = fw_arena_raw(g->arena, edges * sizeof *after);
+    chain path = {fw_arena_raw(g->arena, edges * sizeof *path.edge), 0};
+    collector c = {g, fw_arena_raw(g->arena, edges * sizeof *c.contour),
+                   fw_arena_raw(g->arena, edges * sizeof *c.hole), 0};
     if (!first || !seen || !after || !path.edge || !c.contour || !c.hole) return FW_NOMEM;
     for (int i = 0; i < g->nnode; i++)
         first[i] = seen[i] = -1;

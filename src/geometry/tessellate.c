@@ -172,7 +172,7 @@ fw_status fw_flatten(fw_arena *arena, const fw_contour *contour, double toleranc
     fw_flat_bounds proven;
     double most, length_m;
     if (contour->count > FEW_SEGMENTS)
-        FW_NEED(chords = fw_arena_array(arena, fw_chords, (size_t)contour->count));
+        FW_NEED(chords = fw_arena_raw(arena, (size_t)contour->count * sizeof *chords));
     plan_arcs(contour, tolerance_m, kind, chords, &most, &length_m, &proven);
     if (!(most < 1e9)) return FW_LIMIT;
     builder b = {.vertex = fw_arena_raw(arena, (size_t)most * sizeof(fw_point))}; /* < 8e9 bytes */
@@ -196,11 +196,13 @@ fw_status fw_tessellate(fw_arena *arena, const fw_contour *contour, double toler
 }
 
 int64_t fw_polygon_area2(const fw_polygon *polygon) {
-    __int128 sum = 0;
-    for (int i = 0; i < polygon->count; i++) {
-        fw_point p = polygon->vertex[i];
-        fw_point q = polygon->vertex[i + 1 < polygon->count ? i + 1 : 0];
-        sum += (int64_t)p.x_dbu * q.y_dbu - (int64_t)p.y_dbu * q.x_dbu;
+    uint64_t sum = 0; /* it may pass over 2^64 and back: the result does not */
+    int n = polygon->count;
+    fw_point p = n > 0 ? polygon->vertex[n - 1] : (fw_point){0, 0};
+    for (int i = 0; i < n; i++) {
+        fw_point q = polygon->vertex[i];
+        sum += (uint64_t)((int64_t)p.x_dbu * q.y_dbu - (int64_t)p.y_dbu * q.x_dbu);
+        p = q;
     }
     return (int64_t)sum;
 }

@@ -68,8 +68,9 @@ typedef struct fw_polygon_report {
     double shortest_edge_m;
     double sharpest_rad; /* smallest interior or exterior corner angle */
     double sharpest_material_rad, sharpest_space_rad; /* interior, exterior ones; pi: none */
-    int zero_edges, spikes;                           /* none of a simple polygon */
-    int straight; /* vertices exactly between their neighbours: ends of joints */
+    bool acute;             /* a corner is below 90 degrees on one of its sides, exactly */
+    int zero_edges, spikes; /* none of a simple polygon */
+    int straight;           /* vertices exactly between their neighbours: ends of joints */
 } fw_polygon_report;
 fw_status fw_polygon_check(fw_arena *arena, const fw_polygon *polygon, fw_polygon_report *report);
 

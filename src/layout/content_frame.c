@@ -17,7 +17,8 @@ typedef struct sheet {
     const fw_layout *device;
     fw_piece *piece;
     int npiece, capacity;
-    const fw_box *box; /* (npiece), while a place is looked for */
+    fw_box *box; /* (nbox) of the first pieces, as far as they were asked for */
+    int nbox, box_room;
 } sheet;
 
 static bool in_frame(const fw_piece *p) {
@@ -47,17 +48,27 @@ static bool is_free(const sheet *s, const fw_contour *place) {
     return inside;
 }
 
+/* of all pieces, those added since the last time included */
+static fw_status find_boxes(sheet *s) {
+    if (s->npiece > s->box_room) {
+        int more = s->npiece + 32;
+        FW_NEED(s->box =
+                    fw_arena_grow(s->arena, s->box, (size_t)s->nbox, (size_t)more, sizeof *s->box));
+        s->box_room = more;
+    }
+    for (; s->nbox < s->npiece; s->nbox++)
+        s->box[s->nbox] = fw_contour_box(&s->piece[s->nbox].contour);
+    return FW_OK;
+}
+
 /* lower left corner of a free place in an upright; from the top or from below */
 static fw_status find_place(sheet *s, bool right, bool from_top, double width, double height,
                             fw_vec2 *at, bool *found) {
     const fw_layout *d = s->device;
     double lane = HUGE_VAL; /* the frame begins where the lane ends */
-    fw_box *box = fw_arena_array(s->arena, fw_box, (size_t)s->npiece);
-    FW_NEED(s->box = box);
-    for (int i = 0; i < s->npiece; i++) {
-        box[i] = fw_contour_box(&s->piece[i].contour);
-        if (s->piece[i].role == FW_ROLE_FRAME) lane = fmin(lane, d->die.x1 - box[i].x1);
-    }
+    FW_TRY(find_boxes(s));
+    for (int i = 0; i < s->npiece; i++)
+        if (s->piece[i].role == FW_ROLE_FRAME) lane = fmin(lane, d->die.x1 - s->box[i].x1);
     double x0 = right ? d->window.x1 : d->die.x0 + lane;
     double x1 = right ? d->die.x1 - lane : d->window.x0;
     double x = fw_layout_to_grid(0.5 * (x0 + x1 - width));
@@ -103,7 +114,8 @@ fw_status fw_content_on_frame(fw_arena *arena, const fw_layout *device, const fw
         n += pattern[i].kind->on_frame + (device->fill && pattern[i].kind->in_window);
     if (n == 0 || !device->drawn) return FW_OK;
     fw_layout *l = fw_arena_one(arena, fw_layout);
-    sheet s = {arena, device, NULL, device->npiece, device->npiece + 8, NULL};
+    sheet s = {
+        .arena = arena, .device = device, .npiece = device->npiece, .capacity = device->npiece + 8};
     FW_NEED(l);
     FW_NEED(s.piece = fw_arena_grow(arena, device->piece, (size_t)device->npiece,
                                     (size_t)s.capacity, sizeof *s.piece));
@@ -132,7 +144,11 @@ fw_status fw_content_on_frame(fw_arena *arena, const fw_layout *device, const fw
 
 fw_status fw_content_die_id(fw_arena *arena, const fw_layout *device, const char *id,
                             fw_piece **piece, int *npiece, int *capacity) {
-    sheet s = {arena, device, device->piece, device->npiece, device->npiece, NULL};
+    sheet s = {.arena = arena,
+               .device = device,
+               .piece = device->piece,
+               .npiece = device->npiece,
+               .capacity = device->npiece};
     double room = 0;
     for (int i = 0; i < device->npiece; i++)
         if (device->piece[i].role == FW_ROLE_FRAME)

@@ -38,6 +38,7 @@ static double clear_way(const fw_contour *c, const fw_box *box, fw_vec2 p) {
     double least = HUGE_VAL;
     for (int i = 0; i < c->count; i++) {
         fw_box own = i < FEW ? box[i] : fw_segment_box(&c->segment[i]);
+        if (fw_box_apart(&at, &own, least)) continue;
         double gap = fw_box_gap(at, own);
         if (gap < least) gap = fmax(gap, fw_segment_clear_of(&c->segment[i], &at));
         if (gap < least) least = gap;

@@ -87,7 +87,7 @@ static fw_status bias_shapes(fw_arena *arena, const fw_mask_table *table, fw_mas
 }
 
 static fw_status check_range(const fw_mask_shape *shape, fw_diags *diags) {
-    fw_box b = fw_contour_box(&shape->contour);
+    fw_box b = shape->box;
     double far = fmax(fmax(fabs(b.x0), fabs(b.x1)), fmax(fabs(b.y0), fabs(b.y1)));
     if (far < (FARTHEST_DBU - 1) * GRID_M) return FW_OK;
     char number[32];
@@ -151,7 +151,7 @@ static fw_status flatten(fw_arena *arena, fw_mask_shape *shape, double tolerance
                              name, shape->report.bad_i, shape->report.bad_j, at);
     }
     FW_TRY(cut(arena, shape, most, diags));
-    shape->area_m2 = fw_contour_area(&shape->contour);
+    shape->area_m2 = fw_contour_area_in(&shape->contour, shape->box);
     double flat = 0.5 * (double)fw_polygon_area2(p) * GRID_M * GRID_M;
     shape->polygon_area_m2 = flat;
     if (fabs(flat - shape->area_m2) <= shape->bound_m2) return FW_OK;
@@ -181,7 +181,7 @@ static void sum_up(fw_mask *mask, fw_mask_measure *measure) {
     for (int k = 0; k < mask->nshape; k++) {
         const fw_mask_shape *s = &mask->shape[k];
         fw_mask_measure *m = &measure[s->layer];
-        fw_box b = fw_contour_box(&s->contour);
+        fw_box b = s->box;
         mask->box = (fw_box){fmin(mask->box.x0, b.x0), fmin(mask->box.y0, b.y0),
                              fmax(mask->box.x1, b.x1), fmax(mask->box.y1, b.y1)};
         if (s->polygon.count == 0) continue; /* rules are broken, and it could not be flattened */
@@ -269,6 +269,8 @@ fw_status fw_mask_examine(fw_arena *arena, const fw_layout *layout, const fw_mas
     fw_mask_set_flattening(m->shape, m->nshape, options->flattening);
     FW_TRY(bias_shapes(arena, table, m->shape, m->nshape, options->bias_m, diags));
     FW_TRY(fw_mask_join(arena, m->shape, m->nshape, diags));
+    for (int k = 0; k < m->nshape; k++)
+        m->shape[k].box = fw_contour_box(&m->shape[k].contour);
     fw_status status = judge(arena, m, measure, diags);
     if (status != FW_OK && !(status == FW_INPUT && m->nbroken)) return status;
     m->rejected = options->rejected || m->nbroken > 0;

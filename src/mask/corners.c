@@ -20,10 +20,8 @@ static bool ends_joint(const fw_contour *c, fw_point vertex) {
     return false;
 }
 
-/* cosine of the angle between the two edges at vertex i; exact sign: |coordinates| < 2^30 */
-static double cosine(const fw_polygon *p, int i) {
-    fw_point v = p->vertex[i], a = p->vertex[i > 0 ? i - 1 : p->count - 1];
-    fw_point b = p->vertex[i + 1 < p->count ? i + 1 : 0];
+/* cosine of the angle between two edges of a vertex; exact sign: |coordinates| < 2^30 */
+static double cosine(fw_point a, fw_point v, fw_point b) {
     int64_t ax = (int64_t)a.x_dbu - v.x_dbu, ay = (int64_t)a.y_dbu - v.y_dbu;
     int64_t bx = (int64_t)b.x_dbu - v.x_dbu, by = (int64_t)b.y_dbu - v.y_dbu;
     int64_t dot = ax * bx + ay * by;
@@ -36,11 +34,12 @@ void fw_mask_check_corners(const fw_mask_shape *shape, int nshape, fw_diags *dia
         const fw_polygon *p = &shape[k].polygon;
         int count = 0, worst = 0;
         double most = 0;
-        if (shape[k].report.sharpest_rad > acos(0.0) + 1e-9)
-            continue; /* as measured of all corners */
-        for (int i = 0; i < p->count; i++) {
-            double c = cosine(p, i);
-            if (c <= 0 || ends_joint(&shape[k].contour, p->vertex[i])) continue;
+        if (!shape[k].report.acute) continue; /* as measured of all corners */
+        fw_point a = p->vertex[p->count - 1], v = p->vertex[0], b;
+        for (int i = 0; i < p->count; i++, a = v, v = b) {
+            b = p->vertex[i + 1 < p->count ? i + 1 : 0];
+            double c = cosine(a, v, b);
+            if (c <= 0 || ends_joint(&shape[k].contour, v)) continue;
             count++;
             if (c > most) {
                 most = c;

@@ -113,8 +113,12 @@ fw_status fw_mask_join(fw_arena *arena, fw_mask_shape *shape, int nshape, fw_dia
 
 /* the polygon's edge whose ends round from a and b; false when there is none */
 static bool edge_at(const fw_polygon *polygon, fw_vec2 a, fw_vec2 b, fw_point *u, fw_point *v) {
+    double x = a.x / GRID_M; /* within the grid's range */
+    int32_t low = (int32_t)floor(x) - 2, high = low + 5;
     for (int i = 0; i < polygon->count; i++) {
-        fw_point s = polygon->vertex[i], e = polygon->vertex[i + 1 < polygon->count ? i + 1 : 0];
+        fw_point s = polygon->vertex[i];
+        if (s.x_dbu < low || s.x_dbu > high) continue; /* as nearly all are */
+        fw_point e = polygon->vertex[i + 1 < polygon->count ? i + 1 : 0];
         fw_vec2 ps = {s.x_dbu * GRID_M, s.y_dbu * GRID_M},
                 pe = {e.x_dbu * GRID_M, e.y_dbu * GRID_M};
         if (fabs(ps.x - a.x) < GRID_M && apart(ps, a) < GRID_M && apart(pe, b) < GRID_M) {

@@ -75,6 +75,7 @@ typedef struct fw_mask_shape {
     int layer; /* index into table->layer */
     const fw_piece *piece;
     fw_contour contour;       /* biased, exact */
+    fw_box box;               /* of it */
     fw_polygon polygon;       /* flattened */
     fw_polygon *part;         /* (npart) the same, cut to the vertex limit of GDSII */
     int npart;                /* 0: not cut, `polygon` itself */

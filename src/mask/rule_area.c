@@ -36,7 +36,7 @@ static fw_status islands(fw_rules *rules, const fw_mask_rule *rule) {
         int g = group[k];
         if (g < 0) continue;
         fw_box own = fw_contour_box(&rules->shape[k].contour);
-        area[g] += fw_contour_area(&rules->shape[k].contour);
+        area[g] += fw_contour_area_in(&rules->shape[k].contour, own);
         box[g] = g == k ? own : fw_box_join(box[g], own);
     }
     for (int k = 0; k < rules->nshape; k++)

@@ -21,6 +21,7 @@ static int by_left(const void *left, const void *right) {
 static void look_at_edges(fw_rule_search *out, const fw_rule_edge *p, const fw_rule_edge *q,
                           double limit_m) {
     double slack = p->slack_m + q->slack_m;
+    if (fw_box_apart(&p->box, &q->box, limit_m + slack)) return;
     if (!(fw_box_gap(p->box, q->box) < limit_m + slack)) return;
     fw_vec2 at_p, at_q;
     double d = fw_segment_distance(&p->s, &q->s, &at_p, &at_q);

@@ -10,19 +10,20 @@ static const double GRID_M = 1e-9;
 static const double ROUND_M = 0.70710678118654752e-9; /* a vertex moves by at most g/sqrt2 */
 static const double PART_RAD = FW_PI / 24;            /* 7.5 deg */
 
-static bool on_grid(double x) {
-    double n = x / GRID_M;
-    return fabs(n - nearbyint(n)) < 1e-5;
+/* nearest whole number, as nearbyint finds it, without its call */
+static double nearest(double n) {
+    const double magic = 6755399441055744.0, far = 1125899906842624.0; /* 1.5 2^52, 2^50 */
+    return fabs(n) < far ? n + magic - magic : nearbyint(n);
 }
 
-static double slack_of(const fw_segment *s, double tolerance_m) {
-    if (s->kind == FW_ARC) return tolerance_m + ROUND_M;
-    bool exact = on_grid(s->a.x) && on_grid(s->a.y) && on_grid(s->b.x) && on_grid(s->b.y);
-    return exact ? 0 : ROUND_M;
+static bool on_grid(fw_vec2 p) {
+    double x = p.x / GRID_M, y = p.y / GRID_M;
+    return fabs(x - nearest(x)) < 1e-5 && fabs(y - nearest(y)) < 1e-5;
 }
 
 struct fw_rule_starts { /* chains of edges whose places fall into one slot */
     int *first, *next;  /* (slots), (nedge); -1: the end */
+    fw_vec2 *at;        /* (nedge) where each begins, side by side to be looked through */
     uint32_t mask;      /* slots - 1 */
 };
 
@@ -36,7 +37,7 @@ static uint32_t slot_of(const struct fw_rule_starts *s, fw_vec2 at) {
 }
 
 static int same_place(const fw_rule_search *in, fw_vec2 at, int edge) {
-    while (edge >= 0 && !vec_same(in->edge[edge].s.a, at))
+    while (edge >= 0 && !vec_same(in->start->at[edge], at))
         edge = in->start->next[edge];
     return edge;
 }
@@ -52,12 +53,14 @@ static fw_status list_starts(fw_rule_search *in) {
         slots *= 2;
     struct fw_rule_starts *s = fw_arena_one(in->arena, struct fw_rule_starts);
     FW_NEED(s);
-    FW_NEED(s->first = fw_arena_array(in->arena, int, slots));
-    FW_NEED(s->next = fw_arena_array(in->arena, int, (size_t)in->nedge));
+    FW_NEED(s->first = fw_arena_raw(in->arena, slots * sizeof *s->first));
+    FW_NEED(s->next = fw_arena_raw(in->arena, (size_t)in->nedge * sizeof *s->next));
+    FW_NEED(s->at = fw_arena_raw(in->arena, (size_t)in->nedge * sizeof *s->at));
     s->mask = slots - 1;
     memset(s->first, -1, slots * sizeof *s->first);
     for (int i = in->nedge - 1; i >= 0; i--) { /* backwards: chains then run forwards */
-        int *head = &s->first[slot_of(s, in->edge[i].s.a)];
+        s->at[i] = in->edge[i].s.a;
+        int *head = &s->first[slot_of(s, s->at[i])];
         s->next[i] = *head;
         *head = i;
     }
@@ -89,10 +92,32 @@ static int by_left(const void *left, const void *right) {
     return p->first - q->first;
 }
 
-static int by_left_edge(const void *left, const void *right) {
-    const fw_rule_edge *p = left, *q = right;
+typedef struct entry { /* an edge to be */
+    fw_box box;
+    double slack_m;
+    int segment;
+} entry;
+
+static int by_left_entry(const void *left, const void *right) {
+    const entry *p = left, *q = right;
     if (p->box.x0 != q->box.x0) return p->box.x0 < q->box.x0 ? -1 : 1;
     return p->segment - q->segment;
+}
+
+/* they come in the order of segments */
+static void sort_entries(entry *list, int n) {
+    enum { FEW = 32 }; /* put into order one by one */
+    if (n > FEW) {
+        qsort(list, (size_t)n, sizeof *list, by_left_entry);
+        return;
+    }
+    for (int i = 1; i < n; i++) {
+        entry e = list[i];
+        int k = i;
+        for (; k > 0 && list[k - 1].box.x0 > e.box.x0; k--)
+            list[k] = list[k - 1];
+        list[k] = e;
+    }
 }
 
 /* which ways it runs: the direction of the chord is that of the middle, up to a whole turn */
@@ -104,25 +129,46 @@ static void set_direction(fw_rule_edge *e) {
     e->cos_half = line ? 1 : cos(half);
 }
 
-static void add_shape(fw_rule_search *in, int k, double tolerance_m) {
+/* all of a shape that is no joint, by the left end; a vertex is asked once whether it is on the
+ * grid
+ */
+static int list_entries(const fw_contour *c, double tolerance_m, entry *list, fw_box *box) {
+    int n = 0;
+    bool start, end = c->count > 0 && on_grid(c->segment[0].a);
+    for (int i = 0; i < c->count; i++) {
+        const fw_segment *s = &c->segment[i];
+        entry e = {.box = fw_segment_box(s), .segment = i};
+        *box = i > 0 ? fw_box_join(*box, e.box) : e.box;
+        start = end, end = on_grid(s->b);
+        if (s->flags & FW_SEGMENT_JOINT) continue;
+        e.slack_m = s->kind == FW_ARC ? tolerance_m + ROUND_M : start && end ? 0 : ROUND_M;
+        list[n++] = e;
+    }
+    sort_entries(list, n);
+    return n;
+}
+
+static fw_status add_shape(fw_rule_search *in, int k, double tolerance_m) {
     const fw_contour *c = &in->shape[k].contour;
     fw_rule_range *range = &in->range[in->nrange];
     *range = (fw_rule_range){.first = in->nedge, .shape = k};
-    for (int i = 0; i < c->count; i++) {
-        const fw_segment *s = &c->segment[i];
-        fw_box box = fw_segment_box(s);
-        range->box = i > 0 ? fw_box_join(range->box, box) : box;
-        if (s->flags & FW_SEGMENT_JOINT) continue;
+    fw_mark mark = fw_arena_mark(in->arena);
+    entry *list = fw_arena_raw(in->arena, (size_t)c->count * sizeof *list);
+    FW_NEED(list);
+    range->count = list_entries(c, tolerance_m, list, &range->box);
+    for (int i = 0; i < range->count; i++) {
         fw_rule_edge *e = &in->edge[in->nedge++];
-        *e = (fw_rule_edge){
-            .s = *s, .box = box, .shape = k, .segment = i, .slack_m = slack_of(s, tolerance_m)};
+        *e = (fw_rule_edge){.s = c->segment[list[i].segment],
+                            .box = list[i].box,
+                            .shape = k,
+                            .segment = list[i].segment,
+                            .slack_m = list[i].slack_m};
         set_direction(e);
-        range->count++;
-        in->slack_m = fmax(in->slack_m, e->slack_m);
+        in->slack_m = fw_greater(in->slack_m, e->slack_m);
     }
-    if (range->count == 0) return;
-    qsort(in->edge + range->first, (size_t)range->count, sizeof *in->edge, by_left_edge);
-    in->nrange++;
+    fw_arena_rewind(in->arena, mark);
+    if (range->count > 0) in->nrange++;
+    return FW_OK;
 }
 
 fw_status fw_rule_edges(fw_rule_search *in, int nshape, double tolerance_m) {
@@ -133,7 +179,7 @@ fw_status fw_rule_edges(fw_rule_search *in, int nshape, double tolerance_m) {
     FW_NEED(in->edge = fw_arena_raw(in->arena, edges * sizeof *in->edge));
     FW_NEED(in->range = fw_arena_array(in->arena, fw_rule_range, shapes));
     for (int k = 0; k < nshape; k++)
-        if (in->shape[k].layer == in->index) add_shape(in, k, tolerance_m);
+        if (in->shape[k].layer == in->index) FW_TRY(add_shape(in, k, tolerance_m));
     FW_TRY(list_starts(in));
     mark_corners(in);
     qsort(in->range, (size_t)in->nrange, sizeof *in->range, by_left);
@@ -142,9 +188,13 @@ fw_status fw_rule_edges(fw_rule_search *in, int nshape, double tolerance_m) {
 
 bool fw_rule_parts(fw_rule_search *in, fw_rule_edge *e) {
     if (e->part) return true;
-    int n = e->s.kind == FW_ARC ? (int)ceil(fabs(e->s.sweep_rad) / PART_RAD) : 1;
-    fw_segment *part = fw_arena_array(in->arena, fw_segment, (size_t)n);
-    fw_box *box = fw_arena_array(in->arena, fw_box, (size_t)n);
+    int n = (int)ceil(fabs(e->s.sweep_rad) / PART_RAD);
+    if (e->s.kind == FW_LINE) { /* itself */
+        e->part = &e->s, e->part_box = &e->box, e->nparts = 1;
+        return true;
+    }
+    fw_segment *part = fw_arena_raw(in->arena, (size_t)n * sizeof *part);
+    fw_box *box = fw_arena_raw(in->arena, (size_t)n * sizeof *box);
     if (!part || !box) {
         in->no_memory = true;
         return false;

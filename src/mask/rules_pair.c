@@ -67,12 +67,10 @@ static void measured(fw_rule_search *in, fw_rule_kind what, fw_vec2 from, fw_vec
 
 /* ---- chords ---- */
 
-/* of a segment whose material is on its left, at a point on it: no angle is computed */
-static fw_vec2 outward(const fw_segment *s, fw_vec2 at) {
-    if (s->kind == FW_LINE) {
-        fw_vec2 u = vec_unit(vec_sub(s->b, s->a));
-        return (fw_vec2){u.y, -u.x};
-    }
+/* of an edge whose material is on its left, at a point on it: no angle is computed */
+static fw_vec2 outward(const fw_rule_edge *e, fw_vec2 at) {
+    const fw_segment *s = &e->s;
+    if (s->kind == FW_LINE) return (fw_vec2){e->along.y, -e->along.x};
     return vec_scale((s->sweep_rad > 0 ? 1 : -1) / s->radius, vec_sub(at, s->centre));
 }
 
@@ -82,12 +80,13 @@ typedef struct crossing { /* a chord, as two edges see it */
     double slant_p, slant_q; /* |cosine| of its angle with either edge */
 } crossing;
 
-static bool crosses(const fw_segment *p, const fw_segment *q, const fw_chord *chord, crossing *x) {
+/* a chord between two edges or parts of them, whose normals are theirs; np: that of p there */
+static bool crosses(const fw_rule_edge *q, const fw_chord *chord, fw_vec2 np, crossing *x) {
+    fw_vec2 nq = outward(q, chord->at_q);
+    if (!(vec_dot(np, nq) < FACING)) return false;
     fw_vec2 c = vec_sub(chord->at_q, chord->at_p);
     double length = vec_length(c);
     if (length <= FW_COINCIDENT_M) return false;
-    fw_vec2 np = outward(p, chord->at_p), nq = outward(q, chord->at_q);
-    if (!(vec_dot(np, nq) < FACING)) return false;
     double leaves = vec_dot(c, np) / length, arrives = -vec_dot(c, nq) / length;
     if (!(leaves > 1e-9 && arrives > 1e-9) && !(leaves < -1e-9 && arrives < -1e-9)) return false;
     *x = (crossing){leaves > 0 ? FW_RULE_SPACE : FW_RULE_WIDTH, length,
@@ -102,10 +101,10 @@ static bool at_corner(const fw_rule_edge *e, double t) {
 static void measure_chord(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q,
                           const fw_chord *chord) {
     crossing x;
-    fw_vec2 c = vec_sub(chord->at_q, chord->at_p);
-    double least = fw_greater(in->measure->width_m, in->measure->space_m);
-    if (vec_dot(c, c) > least * least * (1 + 1e-12)) return; /* it would change neither */
-    if (!crosses(&p->s, &q->s, chord, &x)) return;
+    fw_vec2 c = vec_sub(chord->at_q, chord->at_p), np = outward(p, chord->at_p);
+    double least = vec_dot(c, np) > 0 ? in->measure->space_m : in->measure->width_m;
+    if (vec_dot(c, c) > least * least * (1 + 1e-12)) return; /* it would not change it */
+    if (!crosses(q, chord, np, &x)) return;
     if ((x.slant_p < SQUARE || at_corner(p, chord->tp)) &&
         (x.slant_q < SQUARE || at_corner(q, chord->tq)))
         measured(in, x.kind, chord->at_p, chord->at_q, x.length_m);
@@ -124,9 +123,9 @@ static void measure_far_feet(fw_rule_search *in, const fw_rule_edge *p, const fw
     }
 }
 
-static void measure_pair(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q) {
-    fw_chord chord[FW_MOST_CHORDS];
-    int n = fw_segment_chords(&p->s, &q->s, chord);
+/* chord (n): of the whole edges */
+static void measure_pair(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q,
+                         const fw_chord *chord, int n) {
     for (int i = 0; i < n; i++)
         measure_chord(in, p, q, &chord[i]);
     measure_far_feet(in, p, q);
@@ -135,18 +134,17 @@ static void measure_pair(fw_rule_search *in, const fw_rule_edge *p, const fw_rul
 
 /* ---- the rule ---- */
 
-static void judge_parts(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q,
-                        const fw_segment *s, const fw_segment *t) {
-    fw_chord chord[FW_MOST_CHORDS];
+/* chord (n): of the two edges, or of two parts of them */
+static void judge_chords(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q,
+                         const fw_chord *chord, int n) {
     crossing x;
-    int n = fw_segment_chords(s, t, chord);
     double slack = p->slack_m + q->slack_m,
            needed = fw_greater(fw_rule_needed(in, FW_RULE_WIDTH, slack),
                                fw_rule_needed(in, FW_RULE_SPACE, slack));
     for (int i = 0; i < n; i++) {
         fw_vec2 c = vec_sub(chord[i].at_q, chord[i].at_p);
         if (vec_dot(c, c) > needed * needed * (1 + 1e-12)) continue;
-        if (crosses(s, t, &chord[i], &x))
+        if (crosses(q, &chord[i], outward(p, chord[i].at_p), &x))
             judged(in, x.kind, p, q, x.length_m, chord[i].at_p, chord[i].at_q);
     }
 }
@@ -159,13 +157,35 @@ static bool may_face(const fw_segment *s, const fw_segment *t) {
     return vec_dot(u, v) < limit * sqrt(vec_dot(u, u) * vec_dot(v, v));
 }
 
-static void judge_pair(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q) {
+static void judge_parts(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q, int i, int j) {
+    fw_chord chord[FW_MOST_CHORDS];
+    judge_chords(in, p, q, chord, fw_segment_chords(&p->part[i], &q->part[j], chord));
+}
+
+/* is the least of all chords between edges that do not meet, and with it every chord between parts
+   of them, longer than that? */
+static bool all_longer(const fw_chord *chord, int n, double needed) {
+    for (int i = 0; i < n; i++) {
+        fw_vec2 c = vec_sub(chord[i].at_q, chord[i].at_p);
+        if (vec_dot(c, c) < needed * needed * (1 + 1e-9)) return false;
+    }
+    return true;
+}
+
+/* chord (n): of the whole edges; two lines have no others */
+static void judge_pair(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q, const fw_chord *chord,
+                       int nchord, bool meet) {
     double needed = fw_greater(fw_rule_needed(in, FW_RULE_WIDTH, p->slack_m + q->slack_m),
                                fw_rule_needed(in, FW_RULE_SPACE, p->slack_m + q->slack_m));
     if (!in->everything && (!(fw_box_gap(p->box, q->box) < needed) ||
                             !(fw_segment_clear_of(&p->s, &q->box) < needed) ||
                             !(fw_segment_clear_of(&q->s, &p->box) < needed)))
         return;
+    if (!in->everything && !meet && all_longer(chord, nchord, needed)) return;
+    if (p->s.kind == FW_LINE && q->s.kind == FW_LINE) {
+        if (in->everything || may_face(&p->s, &q->s)) judge_chords(in, p, q, chord, nchord);
+        return;
+    }
     if (!fw_rule_parts(in, p) || !fw_rule_parts(in, q)) return;
     int near[MOST_PARTS], n = 0; /* parts of q that are near p at all */
     for (int j = 0; j < q->nparts; j++)
@@ -175,7 +195,7 @@ static void judge_pair(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q) {
         for (int k = 0; k < n; k++)
             if (in->everything || (fw_box_gap(p->part_box[i], q->part_box[near[k]]) < needed &&
                                    may_face(&p->part[i], &q->part[near[k]])))
-                judge_parts(in, p, q, &p->part[i], &q->part[near[k]]);
+                judge_parts(in, p, q, i, near[k]);
     }
 }
 
@@ -225,7 +245,8 @@ static void look_at_corner(fw_rule_search *in, const fw_rule_edge *p, const fw_r
                p->s.b);
 }
 
-static void look_at_contacts(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q) {
+/* whether there is any */
+static bool look_at_contacts(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q) {
     bool p_then_q = vec_same(p->s.b, q->s.a), q_then_p = vec_same(q->s.b, p->s.a);
     if (p_then_q) look_at_corner(in, p, q);
     if (q_then_p) look_at_corner(in, q, p);
@@ -241,6 +262,7 @@ static void look_at_contacts(fw_rule_search *in, const fw_rule_edge *p, const fw
                                             .at = {hit[i].at, hit[i].at},
                                             .edge = {p, q}});
     }
+    return n > 0;
 }
 
 /* No two of their normals enclose more than 90 degrees: theirs in the middle and half of either
@@ -266,7 +288,9 @@ void fw_rule_pair(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q) {
         clear > fw_greater(fw_rule_bound(in, FW_RULE_WIDTH), fw_rule_bound(in, FW_RULE_SPACE)))
         return;
     if (concentric(in, p, q)) return; /* they cannot meet either */
-    if (touch) look_at_contacts(in, p, q);
-    measure_pair(in, p, q);
-    judge_pair(in, p, q);
+    bool meet = touch && look_at_contacts(in, p, q);
+    fw_chord chord[FW_MOST_CHORDS];
+    int n = fw_segment_chords(&p->s, &q->s, chord);
+    measure_pair(in, p, q, chord, n);
+    judge_pair(in, p, q, chord, n, meet);
 }

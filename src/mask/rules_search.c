@@ -23,23 +23,26 @@ static void look_inside(fw_rule_search *in, const fw_rule_range *r) {
     fw_rule_edge *e = in->edge + r->first;
     for (int i = 0; i < r->count; i++) {
         fw_rule_own(in, &e[i]);
-        for (int j = i + 1; j < r->count; j++) {
-            double far = reach(in);
-            if (e[j].box.x0 - e[i].box.x1 > far) break;
-            if (fw_box_gap(e[i].box, e[j].box) <= far) fw_rule_pair(in, &e[i], &e[j]);
+        double far = reach(in); /* only a pair that was looked at changes it */
+        fw_box own = e[i].box;
+        for (int j = i + 1; j < r->count && e[j].box.x0 - own.x1 <= far; j++) {
+            if (fw_box_gap(own, e[j].box) > far) continue;
+            fw_rule_pair(in, &e[i], &e[j]);
+            far = reach(in);
         }
     }
 }
 
 static void look_between(fw_rule_search *in, const fw_rule_range *r, const fw_rule_range *s) {
     for (int i = 0; i < r->count; i++) {
-        fw_rule_edge *p = &in->edge[r->first + i];
-        if (fw_box_gap(p->box, s->box) > reach(in)) continue;
-        for (int j = 0; j < s->count; j++) {
-            fw_rule_edge *q = &in->edge[s->first + j];
-            double far = reach(in);
-            if (q->box.x0 - p->box.x1 > far) break;
-            if (fw_box_gap(p->box, q->box) <= far) fw_rule_pair(in, p, q);
+        fw_rule_edge *p = &in->edge[r->first + i], *q = &in->edge[s->first];
+        fw_box own = p->box;
+        double far = reach(in);
+        if (fw_box_gap(own, s->box) > far) continue;
+        for (int j = 0; j < s->count && q[j].box.x0 - own.x1 <= far; j++) {
+            if (fw_box_gap(own, q[j].box) > far) continue;
+            fw_rule_pair(in, p, &q[j]);
+            far = reach(in);
         }
     }
 }

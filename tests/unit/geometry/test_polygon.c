@@ -122,12 +122,14 @@ static void measures_what_is_there(void **state) {
         fw_arena_rewind(*state, mark);
         double shortest = HUGE_VAL, sharpest[2] = {FW_PI, FW_PI};
         int count[3] = {0};
+        bool acute = false;
         for (int k = 0; k < n; k++) {
             fw_point a = v[k], b = v[(k + 1) % n], c = v[(k + 2) % n];
             double ux = a.x_dbu - b.x_dbu, uy = a.y_dbu - b.y_dbu;
             double vx = c.x_dbu - b.x_dbu, vy = c.y_dbu - b.y_dbu;
             double turn = ux * vy - uy * vx, dot = ux * vx + uy * vy;
             shortest = fmin(shortest, 1e-9 * hypot(vx, vy));
+            acute = acute || dot > 0;
             count[0] += hypot(vx, vy) == 0;
             count[1] += turn == 0 && dot > 0;
             count[2] += turn == 0 && dot < 0;
@@ -138,6 +140,7 @@ static void measures_what_is_there(void **state) {
         assert_int_equal(report.spikes, count[1]);
         assert_int_equal(report.straight, count[2]);
         if (!report.simple) continue;
+        assert_int_equal(report.acute, acute);
         assert_near(report.sharpest_material_rad, sharpest[0], 1e-12);
         assert_near(report.sharpest_space_rad, sharpest[1], 1e-12);
         assert_near(report.sharpest_rad, fmin(sharpest[0], sharpest[1]), 1e-12);
