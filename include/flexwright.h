@@ -111,6 +111,8 @@ typedef struct fw_design_options {
                                of the process packs by id, and every one is named */
     const char *cut; /* where recipes cut the wafer open: "x1,y1,x2,y2" (um, or lengths with unit)
                         or "flexure:ID"; default: radially through the narrowest gap of a hinge */
+    const char *advice; /* "auto" (default): for a design that is not accepted, changes that would
+                           be are looked for, each one run; "none": the verdict only */
 } fw_design_options;
 
 /* Fills `size` bytes (as the caller's header defines the struct) with the defaults. NULL options:

@@ -66,6 +66,11 @@ static const char *take_corners(fw_cli_options *o, const char *v) {
     return strcmp(v, "auto") == 0 || strcmp(v, "none") == 0 ? NULL : "needs auto or none";
 }
 
+static const char *take_advice(fw_cli_options *o, const char *v) {
+    o->design.advice = v;
+    return strcmp(v, "auto") == 0 || strcmp(v, "none") == 0 ? NULL : "needs auto or none";
+}
+
 static const char *take_quiet(fw_cli_options *o, const char *v) {
     (void)v;
     o->quiet = true;
@@ -388,6 +393,10 @@ static const fw_option_row table[] = {
      "ranges "
      "(edges, etch, thickness, modulus); none: for the drawn geometry only",
      FW_OPT_PLAN, take_corners},
+    {"advice", 0, "WHICH",
+     "auto: for a design that is not accepted, the smallest changes that would be are looked for, "
+     "each one run; none: the verdict only, in a fraction of the time",
+     FW_OPT_VERDICT, take_advice},
     {"flow", 0, "NAME", "only this process flow", FW_OPT_PLAN, take_flow},
     {"hinge-model", 0, "MODEL",
      "how flexures enter the mechanism: auto (the cheapest whose error is below the accuracy), "

@@ -50,7 +50,8 @@ enum { /* option groups */
        FW_OPT_CALIBRATE = 1024,
        FW_OPT_LOG = 2048,
        FW_OPT_TRADEOFF = 4096,
-       FW_OPT_SERVE = 8192
+       FW_OPT_SERVE = 8192,
+       FW_OPT_VERDICT = 16384
 };
 
 /* fills options from argv[2..]; false: wrong usage, said on stderr */

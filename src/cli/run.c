@@ -17,13 +17,14 @@ static const fw_command table[] = {
      "recipes and writes a report. Exit status 0: accepted; 1: rejected (the report says which\n"
      "parameter to change and by how much), or a flow cannot make it; 4: the error band straddles\n"
      "the limit. The directory appears complete or not at all.",
-     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_FABRICATE | FW_OPT_SCHEDULE,
+     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_VERDICT | FW_OPT_OUTPUT | FW_OPT_FABRICATE |
+         FW_OPT_SCHEDULE,
      fw_command_plan},
     {"check", "DEVICE.xml", "only the verdict: does a hinge leave its elastic range?",
      "flexwright check device.xml --set arc=\"250 deg\"",
      "Runs every scene and the required workspace and compares each hinge's peak strain with its\n"
      "limit. Writes nothing, or with -o DIR the verdict as JSON.",
-     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT, fw_command_check},
+     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_VERDICT | FW_OPT_OUTPUT, fw_command_check},
     {"simulate", "DEVICE.xml", "one scene: motion, peaks, statistics",
      "flexwright simulate device.xml --scene step-load --csv motion.csv",
      "Solves the equations of motion of one scene and prints the peak of every hinge angle. With\n"
@@ -64,7 +65,8 @@ static const fw_command table[] = {
      "only the masks (GDSII, SVG, OASIS, DXF, KLayout files, certificate, order sheet)",
      "flexwright mask device.xml --flow al-masked-rie -o masks-out",
      "Judges the device first: a rejected design gets no mask unless --force.",
-     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_FABRICATE, fw_command_mask},
+     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_VERDICT | FW_OPT_OUTPUT | FW_OPT_FABRICATE,
+     fw_command_mask},
     {"recipe", "DEVICE.xml",
      "only the recipes (run sheet, sections, CSV, calendar, JSON, schedule)",
      "flexwright recipe device.xml --wafers 4 --operators 2 --day 08:00-18:00",
@@ -78,7 +80,8 @@ static const fw_command table[] = {
      "the wafer after every step, cut along --cut; FLOW.sections.svg and .stack.svg are these "
      "pictures\n"
      "by themselves.",
-     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_OUTPUT | FW_OPT_FABRICATE | FW_OPT_SCHEDULE,
+     FW_OPT_COMMON | FW_OPT_PLAN | FW_OPT_VERDICT | FW_OPT_OUTPUT | FW_OPT_FABRICATE |
+         FW_OPT_SCHEDULE,
      fw_command_recipe},
     {"log", "DEVICE.xml", "what was done, beside what was planned",
      "flexwright log device.xml --flow copper-on-porous-silicon --run lot7.log",

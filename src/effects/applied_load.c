@@ -67,6 +67,6 @@ const fw_effect_row fw_effect_applied_load = {
     .called_for = called_for,
     .bound = bound,
     .add = add,
-    .cost = 45,
+    .cost = 56,
     .count = count,
     .kept = true};

@@ -130,5 +130,5 @@ const fw_effect_row fw_effect_friction = {
     .called_for = called_for,
     .bound = bound,
     .add = add,
-    .cost = 14600,
+    .cost = 12000,
     .count = count};

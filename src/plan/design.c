@@ -101,6 +101,8 @@ static const char *wrong_option(const fw_design_options *o) {
     if (!known(o->stabilise, fw_stabilisation_at)) return "there is no such stabilisation";
     if (o->corners && strcmp(o->corners, "auto") != 0 && strcmp(o->corners, "none") != 0)
         return "corners must be auto or none";
+    if (o->advice && strcmp(o->advice, "auto") != 0 && strcmp(o->advice, "none") != 0)
+        return "advice must be auto or none";
     if (o->at && strcmp(o->at, "rest") != 0 && strcmp(o->at, "equilibrium") != 0)
         return "at must be \"rest\" or \"equilibrium\"";
     return NULL;
@@ -138,25 +140,11 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     if (d->wrong_option) return FW_OK;
     if (given) memcpy(&o, given, given->size < sizeof o ? given->size : sizeof o);
     fw_arena *arena = d->plan->arena;
-    const char **text[] = {&o.data_directory,
-                           &o.flow,
-                           &o.scene,
-                           &o.effects,
-                           &o.method,
-                           &o.integrator,
-                           &o.stabilise,
-                           &o.at,
-                           &o.independent,
-                           &o.rates,
-                           &o.accelerations,
-                           &o.corners,
-                           &o.hinge_model,
-                           &o.mask_formats,
-                           &o.mask_flatten,
-                           &o.day,
-                           &o.planning_times,
-                           &o.laboratory,
-                           &o.cut};
+    const char **text[] = {&o.data_directory, &o.flow,         &o.scene,         &o.effects,
+                           &o.method,         &o.integrator,   &o.stabilise,     &o.at,
+                           &o.independent,    &o.rates,        &o.accelerations, &o.corners,
+                           &o.hinge_model,    &o.mask_formats, &o.mask_flatten,  &o.day,
+                           &o.planning_times, &o.laboratory,   &o.cut,           &o.advice};
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
         FW_TRY(keep(arena, text[i]));
     d->wrong_option = wrong_option(&o);
@@ -180,6 +168,7 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     p->rates = o.rates;
     p->accelerations = o.accelerations;
     if (o.corners && strcmp(o.corners, "none") == 0) p->verdict.corners = FW_CORNERS_NONE;
+    if (o.advice && strcmp(o.advice, "none") == 0) p->verdict.with_advice = false;
     m->effects = effects_of(o.effects);
     if (!d->wrong_option) m->effects.hinge = (fw_hinge_model)hinge_model_of(o.hinge_model);
     m->method = o.method;

@@ -40,6 +40,7 @@ static const option_row options[] = {
     {"accuracy", "accuracy", ALL},
     {"effects", "effects", ALL},
     {"corners", "corners", ALL},
+    {"advice", "advice", CHECK | MADE},
     {"hinge_model", "hinge-model", ALL},
     {"force", "force", MADE},
     {"mask_tolerance", "mask-tolerance", MADE},

@@ -178,7 +178,8 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
     }
     verdict->layout = *layout;
     FW_TRY(as_made(arena, device, *layout, options, verdict));
-    if (options->with_advice && verdict->decision != FW_ACCEPT)
-        FW_TRY(fw_verdict_advise(arena, device, options, verdict));
+    if (verdict->decision == FW_ACCEPT) return FW_OK;
+    if (options->with_advice) return fw_verdict_advise(arena, device, options, verdict);
+    verdict->advice_note = "no change that would be accepted was looked for";
     return FW_OK;
 }

@@ -7,14 +7,13 @@ cd "$(dirname "$0")/../.."
 . tools/setup.sh
 configure_and_build build-asan -DFW_SANITIZE=ON -DFW_TESTS=ON -DFW_PAGE=OFF -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG="-g1 -O1"
 ctest --test-dir build-asan -L quick --output-on-failure -j 2
-FW_HARD_QUICK=1 FW_BOUNDS_COUNT=100 ctest --test-dir build-asan -L hard -LE quick -E valgrind --output-on-failure -j 2
+FW_HARD_QUICK=1 FW_BOUNDS_COUNT=40 ctest --test-dir build-asan -L hard -LE quick -E valgrind --output-on-failure -j 2
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 for device in docs/gallery/*/device.xml; do
-    case $device in # its advice runs the device dozens of times; others have the same code
-    */copper-nodder/*) ;;
-    *) build-asan/flexwright plan "$device" --accuracy 3e-2 -o "$out/plan" -q >/dev/null ;;
-    esac
+    status=0
+    build-asan/flexwright plan "$device" --accuracy 3e-2 --advice none -o "$out/plan" -q >/dev/null || status=$?
+    [ "$status" -le 1 ] || exit "$status" # 1: rejected, as one of them is
     build-asan/flexwright simulate "$device" --accuracy 3e-2 --json >/dev/null
 done
 # the server and its workers; the tests fail when anything is said on standard error

@@ -253,7 +253,8 @@ class Hinge(unittest.TestCase):
         path = GALLERY.parent.parent / "free-form-four-bar/device.xml"
         peaks = []
         for model in ("compliance", "elastica"):
-            done = run("simulate", path, "--hinge-model", model, "--accuracy", "1e-5", "--json")
+            done = run("simulate", path, "--hinge-model", model, "--accuracy", "1e-5", "--json",
+                       "--set", "scene[push]/@duration=3 ms")
             self.assertEqual(done.returncode, 0, done.stderr)
             result = json.loads(done.stdout)
             self.assertLess(result["stats"]["energy_error"], 1e-7)

@@ -17,6 +17,7 @@ static const struct {
     {"accuracy", "0.01", "check"},
     {"effects", "\"auto\"", "check"},
     {"corners", "\"none\"", "check"},
+    {"advice", "\"none\"", "check"},
     {"hinge_model", "\"revolute\"", "check"},
     {"force", "true", "mask"},
     {"mask_tolerance", "5", "mask"},
