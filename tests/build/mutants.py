@@ -1,0 +1,127 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Would a test fail if a sign, a factor of 2 or a limit were wrong? Changes one operator or number of a source at a
+time, builds, runs the quick tests, and lists what no test noticed. Not part of ./test: half a minute for each change.
+
+    mutants.py [--count N] [--seed S] [--tests REGEX] [--jobs J] FILE ...
+
+Works on a copy of the tree as committed in BUILD/../build-mutants (kept; a second run starts at once). Changes: + and -
+exchanged, * and / exchanged, a factor of 2 or 1/2 more, fmax and fmin exchanged, < and > exchanged, && and || exchanged,
+and what a condition returns early for turned round. Comments, strings, tables of fitted numbers (a line of more than
+three numbers) and lines that only print are left alone. Exit status 1: something was not noticed."""
+import argparse
+import pathlib
+import random
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+TREE, BUILD = ROOT / "build-mutants/tree", ROOT / "build-mutants/build"
+CHANGES = [
+    (re.compile(r"(?<=[\w)\]]) \+ (?=[\w(])"), " - ", "sign"),
+    (re.compile(r"(?<=[\w)\]]) - (?=[\w(])"), " + ", "sign"),
+    (re.compile(r"(?<=[=(,] )-(?=[\w(])"), "", "sign"),
+    (re.compile(r"(?<=[\w)\]]) \* (?=[\w(])"), " / ", "factor"),
+    (re.compile(r"(?<=[\w)\]]) / (?=[\w(])"), " * ", "factor"),
+    (re.compile(r"\b0\.5 \* "), "", "factor 2"),
+    (re.compile(r"\b2(\.0)? \* "), "", "factor 2"),
+    (re.compile(r"\bfmax\("), "fmin(", "limit"),
+    (re.compile(r"\bfmin\("), "fmax(", "limit"),
+    (re.compile(r"\bfabs\("), "(", "sign"),
+    (re.compile(r"(?<=[\w)\]]) < (?=[\w(])"), " > ", "limit"),
+    (re.compile(r"(?<=[\w)\]]) > (?=[\w(])"), " < ", "limit"),
+    (re.compile(r" && "), " || ", "condition"),
+    (re.compile(r" \|\| "), " && ", "condition"),
+]
+SKIP = re.compile(r"printf|diag_|FW_NEED|FW_TRY|fw_arena|for \(|static const|^\s*(#|\*|/\*|\{|\")|sizeof|message")
+
+
+def bare(text):
+    """the same length, with comments and strings blanked"""
+    def blank(match):
+        return re.sub(r"[^\n]", " ", match.group())
+    return re.sub(r'/\*.*?\*/|//[^\n]*|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'', blank, text, flags=re.S)
+
+
+def candidates(path):
+    text = (TREE / path).read_text()
+    clean, found, start = bare(text), [], 0
+    for number, line in enumerate(clean.splitlines(keepends=True), 1):
+        shown = text[start:start + len(line)]
+        tables = len(re.findall(r"\d\.\d{3,}", line)) > 3
+        if not SKIP.search(shown) and not tables:
+            for pattern, by, kind in CHANGES:
+                for match in pattern.finditer(line):
+                    found.append((path, number, start + match.start(), start + match.end(), by, kind))
+        start += len(line)
+    return found
+
+
+def quiet(*command, timeout=None):
+    try:
+        return subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=timeout, check=False)
+    except subprocess.TimeoutExpired:
+        return None
+
+
+def prepare():
+    if not (TREE / ".git").exists():
+        TREE.parent.mkdir(exist_ok=True)
+        quiet("git", "-C", ROOT, "worktree", "prune")
+        subprocess.run(["git", "-C", str(ROOT), "worktree", "add", "--detach", str(TREE)], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["git", "-C", str(TREE), "checkout", "-q", "--detach", "-f",
+                    quiet("git", "-C", ROOT, "rev-parse", "HEAD").stdout.strip()], check=True)
+    subprocess.run(["cmake", "-S", str(TREE), "-B", str(BUILD), "-G", "Ninja", "-DFW_TESTS=ON", "-DFW_PAGE=OFF",
+                    "-DCMAKE_BUILD_TYPE=Release"], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["cmake", "--build", str(BUILD)], check=True, stdout=subprocess.DEVNULL)
+
+
+def verdict(change, tests, jobs):
+    """noticed by: "compiler", a test's name, "time"; None: by nothing"""
+    path, _, begin, end, by, _ = change
+    file = TREE / path
+    text = file.read_text()
+    try:
+        file.write_text(text[:begin] + by + text[end:])
+        if quiet("cmake", "--build", BUILD).returncode:
+            return "compiler"
+        for which in (rf"unit\.{path.parts[1]}\.", tests):  # those of its room first: most end there
+            done = quiet("ctest", "--test-dir", BUILD, "-L", "quick", "-R", which, "-j", jobs, "--stop-on-failure", "--timeout", 60,
+                         timeout=400)
+            if done is None:
+                return "time"
+            if done.returncode:
+                failed = re.search(r"\d+ - (\S+) \(", done.stdout)
+                return failed.group(1) if failed else "a test"
+        return None
+    finally:
+        file.write_text(text)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--count", type=int, default=40)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--tests", default="unit|hard|docs")
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("files", nargs="+")
+    options = parser.parse_args()
+    prepare()
+    found = [c for f in options.files for c in candidates(pathlib.Path(f).resolve().relative_to(ROOT))]
+    chosen = random.Random(options.seed).sample(found, min(options.count, len(found)))
+    print(f"{len(chosen)} of {len(found)} changes", flush=True)
+    left = 0
+    for change in chosen:
+        path, number, begin, end, by, kind = change
+        text = (TREE / path).read_text()
+        line = text[:begin].rsplit("\n", 1)[-1] + f"[{text[begin:end]}>{by}]" + text[end:].split("\n", 1)[0]
+        by_whom = verdict(change, options.tests, options.jobs)
+        left += by_whom is None
+        print(f"{'noticed by ' + by_whom if by_whom else 'NOT NOTICED'}: {path}:{number}: {kind}: {line.strip()}", flush=True)
+    print(f"{left} of {len(chosen)} not noticed")
+    return 1 if left else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
