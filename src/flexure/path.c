@@ -12,7 +12,7 @@ typedef struct rule {
 } rule;
 
 /* sums over the strip about a point; see fw_flexure_path */
-enum { W1, WX, WY, F1, FX, FY, FXX, FXY, FYY, AXX, AXY, AYY, THIN, LOST, MODULUS, INERTIA, SUMS };
+enum { W1, WX, WY, FXX, FXY, FYY, AXX, AXY, AYY, THIN, LOST, SUMS };
 
 static void add(const fw_path_section *at, double weight, const double about[2], double *sum) {
     double x = at->neutral_x_m - about[0], y = at->neutral_y_m - about[1];
@@ -20,7 +20,6 @@ static void add(const fw_path_section *at, double weight, const double about[2],
     double w = weight * at->bend_per_Nm2, f = weight * at->force_per_Nm2;
     double n = weight * at->stretch_per_N, v = weight * at->shear_per_N;
     sum[W1] += w, sum[WX] += w * x, sum[WY] += w * y;
-    sum[F1] += f, sum[FX] += f * x, sum[FY] += f * y;
     sum[FXX] += f * x * x, sum[FXY] += f * x * y, sum[FYY] += f * y * y;
     sum[AXX] += n * c * c + v * s * s;
     sum[AXY] += (n - v) * c * s;

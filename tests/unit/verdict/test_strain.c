@@ -204,6 +204,46 @@ static void root_strains_have_signs(void **state) {
     assert_true(governed > 100);
 }
 
+/* the moment that the mechanism knows is the one about the pin, which stands at the true centre: an
+   arc whose centre is d off the drawn one feels what one without d does under M + dx Fy - dy Fx */
+static void moments_are_about_the_true_centre(void **state) {
+    (void)state;
+    fw_flexure f = arc();
+    fw_device device = {.flexure = &f, .nflexure = 1};
+    fw_variant variant = {.thickness_m = 50e-6};
+    variant.material.youngs.value = 147.08e9;
+    fw_pin pin = {.id = "A", .body_a = FW_GROUND, .body_b = 0, .hinge = 0};
+    fw_hinge hinge[2] = {{0}, {0}};
+    const fw_flexure_input in = input_of(&f);
+    fw_flexure_closed_form(&in, &hinge[0].closed_form);
+    hinge[1] = hinge[0];
+    const double d[2] = {6e-6, -4e-6}, K = hinge[0].closed_form.stiffness_Nm_per_rad;
+    hinge[1].closed_form.offset_m[0] = d[0], hinge[1].closed_form.offset_m[1] = d[1];
+    fw_mechanism m = {.device = &device,
+                      .variant = &variant,
+                      .pin = &pin,
+                      .npin = 1,
+                      .hinge = hinge,
+                      .nhinge = 2};
+    fw_hinge_layout drawn = {.drawn = true, .axis_rad = 1.0, .lower = FW_GROUND, .upper = 0};
+    for (int i = 0; i < 360; i++) {
+        fw_hinge_load load = {0.1, 2e-4 * cos(i / 57.3), 2e-4 * sin(i / 57.3), 0.3};
+        fw_hinge_load moved = load;
+        double Fx = -(cos(1.3) * load.fx_N + sin(1.3) * load.fy_N);
+        double Fy = -(-sin(1.3) * load.fx_N + cos(1.3) * load.fy_N), off[2], plain[2];
+        moved.angle_rad += (d[0] * Fy - d[1] * Fx) / K;
+        assert_relative(fw_hinge_strain(&m, &hinge[1], &drawn, &load),
+                        fw_hinge_strain(&m, &hinge[0], &drawn, &moved), 1e-12);
+        fw_hinge_root_strains(&m, &hinge[1], &drawn, &load, off);
+        fw_hinge_root_strains(&m, &hinge[0], &drawn, &moved, plain);
+        for (int side = 0; side < 2; side++)
+            assert_near(off[side], plain[side], 1e-15);
+        /* without a drawing no direction is known: not below any */
+        assert_true(fw_hinge_strain(&m, &hinge[1], NULL, &load) >=
+                    fw_hinge_strain(&m, &hinge[1], &drawn, &load));
+    }
+}
+
 /* a leaf along y: a force along it bends nothing, one across bends its ends to opposite sides, and
    a rotation with a force that reverse together reverse both roots */
 static void root_strains_of_a_leaf(void **state) {
@@ -296,6 +336,7 @@ int main(void) {
         cmocka_unit_test(pure_rotation_and_bound),
         cmocka_unit_test(root_strains_have_signs),
         cmocka_unit_test(root_strains_of_a_leaf),
+        cmocka_unit_test(moments_are_about_the_true_centre),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
