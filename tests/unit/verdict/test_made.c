@@ -266,6 +266,34 @@ static void what_must_be_held_is_enough(void **state) {
     fw_arena_free(s.arena);
 }
 
+/* of the inputs that would do alone, the one that makes the most of the governing utilisation is
+   named: here the edges, whose low end is the bad one */
+static void what_counts_most_is_held(void **state) {
+    (void)state;
+    const char *const load[] = {"138 uN", "141 uN", "144 uN", "147 uN"};
+    int held = 0;
+    for (size_t n = 0; n < sizeof load / sizeof load[0]; n++) {
+        set_up s;
+        begin(&s, load[n]);
+        fw_verdict v = judge(&s, FW_CORNERS_AUTO);
+        const fw_made_verdict *made = v.variant[0].made;
+        if (v.decision == FW_INCONCLUSIVE && made->held != FW_NONE) {
+            const double *share = made->hinge[made->governing].share;
+            double most = 0;
+            int first = FW_NONE;
+            for (int i = 0; i < 3; i++) {
+                double w = fabs(share[i]) / s.input[i].sigma * (s.input[i].high - s.input[i].low);
+                if (w > most) most = w, first = i;
+            }
+            assert_int_equal(made->held, first);
+            assert_true(share[first] < 0 && made->held_low > s.input[first].low);
+            held++;
+        }
+        fw_arena_free(s.arena);
+    }
+    assert_true(held > 1);
+}
+
 /* where the flow makes at its nominal point what is drawn, both have one verdict: that of a run */
 static void made_as_drawn(void **state) {
     (void)state;
@@ -335,6 +363,7 @@ int main(void) {
         cmocka_unit_test(no_corner_is_worse),
         cmocka_unit_test(sigma_is_first_order),
         cmocka_unit_test(what_must_be_held_is_enough),
+        cmocka_unit_test(what_counts_most_is_held),
         cmocka_unit_test(made_as_drawn),
         cmocka_unit_test(first_look_decides_alike),
         cmocka_unit_test(drawn_only_when_asked),
