@@ -72,20 +72,34 @@ static long most_steps(const survey_row row[SURVEY_ACCURACIES]) {
     return 2000 + 10 * most;
 }
 
+/* the same by what a step costs at least, once there is a cheapest one for every accuracy: a run
+   that takes more cannot be cheaper than any */
+static long steps_worth_it(const device *d, const survey_row row[SURVEY_ACCURACIES], int stages,
+                           long most) {
+    double dearest = 0;
+    for (int i = 0; i < SURVEY_ACCURACIES; i++)
+        if (row[i].moved) dearest = fmax(dearest, row[i].cost_cheapest);
+    double steps = dearest / (stages * survey_cost_rhs(d->truth, d->d->r.m.nbody));
+    return steps < (double)most ? (long)steps + 1 : most;
+}
+
 /* the cheapest of the grid for every accuracy */
 static void search_grid(const device *d, survey_row row[SURVEY_ACCURACIES]) {
-    const long most = most_steps(row);
+    static const int stages[INTEGRATORS] = {11, 6, 3}; /* evaluations of a step, at least */
+    const long far = most_steps(row);
     const int bodies = d->d->r.m.nbody;
     for (int g = 0; g < INTEGRATORS; g++) {
         double paid[13] = {0}; /* by decade */
         for (int e = 1; e <= 12; e++) {
             fw_mark mark = fw_arena_mark(d->arena);
+            const long most = steps_worth_it(d, row, stages[g], far);
             const fw_motion *m = alone(d, survey_integrators[g], pow(10, -e), most);
             double error = m ? apart(m, d->truth) / d->size : HUGE_VAL;
             double cost = m ? survey_cost(m, bodies) : HUGE_VAL;
             bool needed = false;
             paid[e] = cost;
             for (int i = 0; i < SURVEY_ACCURACIES; i++) {
+                if (!row[i].moved) continue; /* says nothing */
                 if (error < survey_accuracy[i] && cost < row[i].cost_cheapest) {
                     row[i].cost_cheapest = cost;
                     row[i].cost_call = cost + paid[e > 3 ? e - 2 : 1];
