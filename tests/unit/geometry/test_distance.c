@@ -69,6 +69,45 @@ static void clearance_of_a_comb(void **state) {
     assert_near(fw_contour_clearance(&round, true, NULL, NULL), 10e-6, 1e-17);
 }
 
+/* combs of many unlike teeth: the narrowest tooth and the narrowest gap, wherever the outline
+ * begins */
+static void clearance_of_many_teeth(void **state) {
+    enum { MOST = 60 };
+    for (int trial = 0; trial < 60; trial++) {
+        fw_mark mark = fw_arena_mark(*state);
+        int n = whole(2, MOST);
+        double tooth[MOST], gap[MOST], x = 0, least_tooth = 1, least_gap = 1;
+        for (int k = 0; k < n; k++) {
+            tooth[k] = uniform(5e-6, 15e-6), gap[k] = uniform(5e-6, 15e-6);
+            least_tooth = fmin(least_tooth, tooth[k]), x += tooth[k];
+            if (k + 1 < n) least_gap = fmin(least_gap, gap[k]), x += gap[k];
+        }
+        fw_outline o = fw_outline_start(*state, (fw_vec2){0, 0});
+        fw_outline_line(&o, (fw_vec2){x, 0}, 0);
+        for (int k = n - 1; k >= 0; k--) {
+            fw_outline_line(&o, (fw_vec2){x, 90e-6}, 0);
+            x -= tooth[k];
+            fw_outline_line(&o, (fw_vec2){k ? x : 0, 90e-6}, 0);
+            if (k == 0) break;
+            fw_outline_line(&o, (fw_vec2){x, 20e-6}, 0);
+            x -= gap[k - 1];
+            fw_outline_line(&o, (fw_vec2){x, 20e-6}, 0);
+        }
+        fw_contour c, turned;
+        assert_int_equal(fw_outline_close(&o, &c), FW_OK);
+        assert_int_equal(c.count, 4 * n);
+        turned = c;
+        turned.segment = fw_arena_array(*state, fw_segment, (size_t)c.count);
+        for (int first = 0; first < c.count; first++) {
+            for (int k = 0; k < c.count; k++)
+                turned.segment[k] = c.segment[(first + k) % c.count];
+            assert_near(fw_contour_clearance(&turned, true, NULL, NULL), least_tooth, 1e-17);
+            assert_near(fw_contour_clearance(&turned, false, NULL, NULL), least_gap, 1e-17);
+        }
+        fw_arena_rewind(*state, mark);
+    }
+}
+
 static void clearance_of_rounds(void **state) {
     fw_contour c;
     int i, j;
@@ -221,6 +260,7 @@ int main(void) {
         geo_test(known_distances),
         geo_test(touching_neighbours_have_no_chord),
         geo_test(clearance_of_a_comb),
+        geo_test(clearance_of_many_teeth),
         geo_test(clearance_of_rounds),
         geo_test(joints_are_no_edges),
         geo_test(contains_matches_closed_forms),

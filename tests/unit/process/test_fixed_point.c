@@ -392,6 +392,29 @@ static void perturb_one_and_look(void **state) {
     assert_near(now.bias_m, base.bias_m, 0);
 }
 
+/* the run sheet's widths of the narrowest flexure are the drawn one and twice either edge */
+static void widths_that_are_said(void **state) {
+    (void)state;
+    fw_flow *f = with_known_anisotropy();
+    const char *at = NULL, *words = "the narrowest flexure is ";
+    look(f);
+    for (int i = 0; i < f->nreason && !at; i++)
+        at = strstr(f->reason[i], words);
+    double top, bottom, ratio, w = 1e6 * plain_facts.deepest_hinge_width_m;
+    assert_non_null(at);
+    assert_int_equal(sscanf(at + strlen(words),
+                            "%lf um wide at the top and %lf um at the bottom: its stiffness is %lf",
+                            &top, &bottom, &ratio),
+                     3);
+    const fw_edge e = f->edges.cls[f->edges.field].edge;
+    assert_near(top, w + 2e6 * e.top_m, 6e-3);
+    assert_near(bottom, w + 2e6 * e.bottom_m, 6e-3);
+    assert_true(fabs(top - bottom) > 0.5);
+    /* I of a trapezium about its own centroid, over that of the rectangle */
+    double I = (top + bottom) * (top * top + bottom * bottom) / 4;
+    assert_relative(ratio, I / (w * w * w), 5e-3);
+}
+
 /* ---- refusals ---- */
 
 static void no_solution_names_the_gap_and_a_change(void **state) {
@@ -568,6 +591,7 @@ int main(void) {
                                        TEST(what_is_known_of_printing_is_taken_back),
                                        TEST(copper_copies_its_mould),
                                        TEST(perturb_one_and_look),
+                                       TEST(widths_that_are_said),
                                        TEST(no_solution_names_the_gap_and_a_change),
                                        TEST(lithography_cannot_open_what_is_left),
                                        TEST(a_time_for_wide_openings_leaves_slots_closed),
