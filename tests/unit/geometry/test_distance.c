@@ -76,11 +76,13 @@ static void clearance_of_many_teeth(void **state) {
     for (int trial = 0; trial < 60; trial++) {
         fw_mark mark = fw_arena_mark(*state);
         int n = whole(2, MOST);
-        double tooth[MOST], gap[MOST], x = 0, least_tooth = 1, least_gap = 1;
+        double tooth[MOST], gap[MOST], floor[MOST], x = 0, least = 1, least_gap = 1;
         for (int k = 0; k < n; k++) {
             tooth[k] = uniform(5e-6, 15e-6), gap[k] = uniform(5e-6, 15e-6);
-            least_tooth = fmin(least_tooth, tooth[k]), x += tooth[k];
-            if (k + 1 < n) least_gap = fmin(least_gap, gap[k]), x += gap[k];
+            floor[k] = uniform(2e-6, 20e-6);
+            least = fmin(least, tooth[k]), x += tooth[k];
+            if (k + 1 == n) break;
+            least = fmin(least, floor[k]), least_gap = fmin(least_gap, gap[k]), x += gap[k];
         }
         fw_outline o = fw_outline_start(*state, (fw_vec2){0, 0});
         fw_outline_line(&o, (fw_vec2){x, 0}, 0);
@@ -89,9 +91,9 @@ static void clearance_of_many_teeth(void **state) {
             x -= tooth[k];
             fw_outline_line(&o, (fw_vec2){k ? x : 0, 90e-6}, 0);
             if (k == 0) break;
-            fw_outline_line(&o, (fw_vec2){x, 20e-6}, 0);
+            fw_outline_line(&o, (fw_vec2){x, floor[k - 1]}, 0);
             x -= gap[k - 1];
-            fw_outline_line(&o, (fw_vec2){x, 20e-6}, 0);
+            fw_outline_line(&o, (fw_vec2){x, floor[k - 1]}, 0);
         }
         fw_contour c, turned;
         assert_int_equal(fw_outline_close(&o, &c), FW_OK);
@@ -101,7 +103,7 @@ static void clearance_of_many_teeth(void **state) {
         for (int first = 0; first < c.count; first++) {
             for (int k = 0; k < c.count; k++)
                 turned.segment[k] = c.segment[(first + k) % c.count];
-            assert_near(fw_contour_clearance(&turned, true, NULL, NULL), least_tooth, 1e-17);
+            assert_near(fw_contour_clearance(&turned, true, NULL, NULL), least, 1e-17);
             assert_near(fw_contour_clearance(&turned, false, NULL, NULL), least_gap, 1e-17);
         }
         fw_arena_rewind(*state, mark);
