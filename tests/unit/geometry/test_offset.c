@@ -109,6 +109,19 @@ static void what_would_change_topology_is_refused(void **state) {
     assert_int_equal(fw_contour_offset(*state, &c, -5.01e-6, &out, &i, &j), FW_GEOMETRY);
     assert_int_equal(i, 5);
     assert_int_equal(j, 7);
+    /* a chamfer of 1 um is gone when its neighbours have moved in by 1 um/(2 tan 22.5 deg): they
+       are named */
+    o = fw_outline_start(*state, (fw_vec2){0, 0});
+    fw_outline_line(&o, (fw_vec2){1e-4, 0}, 0);
+    fw_outline_line(&o, (fw_vec2){1e-4, 0.9e-4}, 0);
+    fw_outline_line(&o, (fw_vec2){1e-4 - 1e-6 * sqrt(0.5), 0.9e-4 + 1e-6 * sqrt(0.5)}, 0);
+    fw_outline_line(&o, (fw_vec2){0, 0.9e-4 + 1e-6 * sqrt(0.5)}, 0);
+    fw_contour cut;
+    assert_int_equal(fw_outline_close(&o, &cut), FW_OK);
+    assert_int_equal(fw_contour_offset(*state, &cut, -1.19e-6, &out, &i, &j), FW_OK);
+    assert_int_equal(fw_contour_offset(*state, &cut, -1.23e-6, &out, &i, &j), FW_GEOMETRY);
+    assert_int_equal(i, 1);
+    assert_int_equal(j, 3);
     assert_int_equal(fw_contour_disc(*state, (fw_vec2){0, 0}, 3e-6, &disc), 0);
     assert_int_equal(fw_contour_reverse(*state, &disc, &hollow), 0);
     assert_int_equal(fw_contour_offset(*state, &hollow, 2.9e-6, &out, &i, &j), FW_OK);

@@ -375,6 +375,14 @@ static void lab_table(void **state) {
     later[0].value = 0.3;
     later[3].value = 0.05; /* does not rise */
     assert_false(answer_of("table", "", "", later, 9, NULL).computable);
+    /* a pair without its second number ends the table */
+    const double pairs[] = {0.1, 1, 0.2, 3, 0.4, (double)NAN, 0.5, 6};
+    const char *why;
+    double y;
+    assert_true(fw_table_between(pairs, 4, 0.15, &y, &why));
+    assert_relative(y, 2, 1e-12);
+    assert_false(fw_table_between(pairs, 4, 0.3, &y, &why));
+    assert_non_null(strstr(why, "outside the table"));
 }
 
 static void expr(void **state) {
