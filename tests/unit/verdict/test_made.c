@@ -211,6 +211,44 @@ static void no_corner_is_worse(void **state) {
     assert_true(decisions[FW_ACCEPT] > 0 && decisions[FW_INCONCLUSIVE] > 0);
 }
 
+/* Pushed, A bends the more the thinner it is; drawn round by a stiff tendon, B is strained the more
+   the wider it is: each has a worst corner of its own, and both are run. The loads are such that
+   neither hinge is far from its limit. */
+static void each_hinge_has_its_own_corner(void **state) {
+    (void)state;
+    set_up s;
+    begin(&s, "120 uN\"/></scene><scene name=\"pull\" duration=\"6 ms\">"
+              "<tendon id=\"T\" stiffness=\"4000 N/m\" damping=\"1e-3 N s/m\" draw=\"27 um\" "
+              "law=\"ramp\" "
+              "rise=\"4 ms\"><eyelet on=\"a\" x=\"0.2 mm\" y=\"0.1 mm\"/>"
+              "<eyelet on=\"b\" x=\"-0.2 mm\" y=\"0.1 mm\"/></tendon>"
+              "<force on=\"b\" fx=\"0 mN\" fy=\"0 uN");
+    fw_verdict v = judge(&s, FW_CORNERS_AUTO);
+    const fw_made_verdict *made = v.variant[0].made;
+    assert_non_null(made);
+    double worst[2] = {0};
+    unsigned where[2] = {0};
+    for (unsigned bits = 0; bits < 8; bits++) {
+        double x[3];
+        corner(&s, bits, x);
+        fw_variant_verdict now = at(&s, x);
+        for (int k = 0; k < 2; k++) {
+            if (now.hinge[k].utilisation > worst[k])
+                worst[k] = now.hinge[k].utilisation, where[k] = bits;
+        }
+    }
+    assert_true(where[0] != where[1]);
+    assert_false(made->all); /* found by their slopes */
+    for (int k = 0; k < 2; k++) {
+        const fw_hinge_verdict *tightest = &made->corner[made->hinge[k].corner].hinge[k];
+        /* of B's the thickness makes so little that first order may take the other end */
+        assert_near(tightest->utilisation, worst[k], 2e-3 * worst[k]);
+        assert_true(worst[k] <= made->hinge[k].most * (1 + 1e-6));
+        assert_true(worst[k] > 0.9);
+    }
+    fw_arena_free(s.arena);
+}
+
 /* sigma against central differences of full runs */
 static void sigma_is_first_order(void **state) {
     (void)state;
@@ -361,6 +399,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_made_follows_the_edges),
         cmocka_unit_test(no_corner_is_worse),
+        cmocka_unit_test(each_hinge_has_its_own_corner),
         cmocka_unit_test(sigma_is_first_order),
         cmocka_unit_test(what_must_be_held_is_enough),
         cmocka_unit_test(what_counts_most_is_held),
