@@ -84,53 +84,6 @@ static void no_section_carries_more(void **state) {
     }
 }
 
-/* without force the strain is strain per radian times angle; a bound without drawing is never lower
- */
-static void pure_rotation_and_bound(void **state) {
-    (void)state;
-    fw_flexure f = arc();
-    fw_device device = {.flexure = &f, .nflexure = 1};
-    fw_variant variant = {.thickness_m = 50e-6};
-    variant.material.youngs.value = 147.08e9;
-    fw_pin pin = {.id = "A", .body_a = FW_GROUND, .body_b = 0, .hinge = 0};
-    fw_hinge hinge = {0};
-    fw_flexure_input in = {.kind = FW_FLEXURE_CSFH,
-                           .length_m = f.length_m,
-                           .angle_rad = f.angle_rad,
-                           .radius_m = f.radius_m,
-                           .width_m = f.width_m,
-                           .fillet_m = 4e-6,
-                           .depth_m = 50e-6,
-                           .youngs_Pa = 147.08e9,
-                           .poisson = 0.22,
-                           .strength_Pa = 500e6,
-                           .safety_factor = 1.0};
-    fw_flexure_closed_form(&in, &hinge.closed_form);
-    fw_mechanism m = {.device = &device,
-                      .variant = &variant,
-                      .pin = &pin,
-                      .npin = 1,
-                      .hinge = &hinge,
-                      .nhinge = 1};
-    fw_hinge_layout drawn = {.drawn = true, .axis_rad = 1.0, .lower = FW_GROUND, .upper = 0};
-    fw_hinge_load load = {0.1, 0, 0, 0};
-    assert_relative(fw_hinge_strain(&m, &hinge, &drawn, &load),
-                    0.1 * hinge.closed_form.strain_per_rad, 1e-12);
-    for (int i = 0; i < 360; i++) {
-        load.fx_N = 2e-4 * cos(i / 57.3);
-        load.fy_N = 2e-4 * sin(i / 57.3);
-        assert_true(fw_hinge_strain(&m, &hinge, NULL, &load) >=
-                    fw_hinge_strain(&m, &hinge, &drawn, &load));
-        /* which of the two bodies is called b does not matter */
-        fw_pin swapped = {.id = "A", .body_a = 0, .body_b = FW_GROUND, .hinge = 0};
-        fw_mechanism n = m;
-        n.pin = &swapped;
-        fw_hinge_load back = {-load.angle_rad, -load.fx_N, -load.fy_N, 0};
-        assert_relative(fw_hinge_strain(&n, &hinge, &drawn, &back),
-                        fw_hinge_strain(&m, &hinge, &drawn, &load), 1e-12);
-    }
-}
-
 static fw_flexure_input input_of(const fw_flexure *f) {
     return (fw_flexure_input){.kind = f->kind,
                               .length_m = f->length_m,
@@ -145,29 +98,70 @@ static fw_flexure_input input_of(const fw_flexure *f) {
                               .safety_factor = 1.0};
 }
 
+/* one flexure between the ground and body 0, which is the upper one; two hinges of it */
+typedef struct one_flexure {
+    fw_flexure f;
+    fw_device device;
+    fw_variant variant;
+    fw_pin pin;
+    fw_hinge hinge[2];
+    fw_mechanism m;
+    fw_hinge_layout drawn;
+} one_flexure;
+
+static void set_up(one_flexure *o, fw_flexure f, double axis_rad) {
+    *o = (one_flexure){
+        .f = f,
+        .variant = {.thickness_m = 50e-6},
+        .pin = {.id = "A", .body_a = FW_GROUND, .body_b = 0, .hinge = 0},
+        .drawn = {.drawn = true, .axis_rad = axis_rad, .lower = FW_GROUND, .upper = 0}};
+    const fw_flexure_input in = input_of(&o->f);
+    o->variant.material.youngs.value = 147.08e9;
+    fw_flexure_closed_form(&in, &o->hinge[0].closed_form);
+    o->hinge[1] = o->hinge[0];
+    o->device = (fw_device){.flexure = &o->f, .nflexure = 1};
+    o->m = (fw_mechanism){.device = &o->device,
+                          .variant = &o->variant,
+                          .pin = &o->pin,
+                          .npin = 1,
+                          .hinge = o->hinge,
+                          .nhinge = 2};
+}
+
+/* without force the strain is strain per radian times angle; a bound without drawing is never lower
+ */
+static void pure_rotation_and_bound(void **state) {
+    (void)state;
+    one_flexure o;
+    set_up(&o, arc(), 1.0);
+    fw_hinge_load load = {0.1, 0, 0, 0};
+    assert_relative(fw_hinge_strain(&o.m, &o.hinge[0], &o.drawn, &load),
+                    0.1 * o.hinge[0].closed_form.strain_per_rad, 1e-12);
+    for (int i = 0; i < 360; i++) {
+        load.fx_N = 2e-4 * cos(i / 57.3);
+        load.fy_N = 2e-4 * sin(i / 57.3);
+        assert_true(fw_hinge_strain(&o.m, &o.hinge[0], NULL, &load) >=
+                    fw_hinge_strain(&o.m, &o.hinge[0], &o.drawn, &load));
+        /* which of the two bodies is called b does not matter */
+        fw_pin swapped = {.id = "A", .body_a = 0, .body_b = FW_GROUND, .hinge = 0};
+        fw_mechanism n = o.m;
+        n.pin = &swapped;
+        fw_hinge_load back = {-load.angle_rad, -load.fx_N, -load.fy_N, 0};
+        assert_relative(fw_hinge_strain(&n, &o.hinge[0], &o.drawn, &back),
+                        fw_hinge_strain(&o.m, &o.hinge[0], &o.drawn, &load), 1e-12);
+    }
+}
+
 /* under rotation alone both roots have the rotation's sign; with a force the larger of both is what
    the peak strain has of bending at the roots, and turning everything round turns their signs */
 static void root_strains_have_signs(void **state) {
     (void)state;
-    fw_flexure f = arc();
-    fw_device device = {.flexure = &f, .nflexure = 1};
-    fw_variant variant = {.thickness_m = 50e-6};
-    variant.material.youngs.value = 147.08e9;
-    fw_pin pin = {.id = "A", .body_a = FW_GROUND, .body_b = 0, .hinge = 0};
-    fw_hinge hinge = {0};
-    const fw_flexure_input in = input_of(&f);
-    fw_flexure_closed_form(&in, &hinge.closed_form);
-    const fw_flexure_result *c = &hinge.closed_form;
-    fw_mechanism m = {.device = &device,
-                      .variant = &variant,
-                      .pin = &pin,
-                      .npin = 1,
-                      .hinge = &hinge,
-                      .nhinge = 1};
-    fw_hinge_layout drawn = {.drawn = true, .axis_rad = 1.0, .lower = FW_GROUND, .upper = 0};
+    one_flexure o;
+    set_up(&o, arc(), 1.0);
+    const fw_flexure_result *c = &o.hinge[0].closed_form;
     fw_hinge_load load = {-0.1, 0, 0, 0};
     double s[2], back[2];
-    fw_hinge_root_strains(&m, &hinge, &drawn, &load, s);
+    fw_hinge_root_strains(&o.m, &o.hinge[0], &o.drawn, &load, s);
     assert_relative(s[0], -0.1 * c->strain_per_rad, 1e-12);
     assert_relative(s[1], -0.1 * c->strain_per_rad, 1e-12);
     int governed = 0;
@@ -175,30 +169,31 @@ static void root_strains_have_signs(void **state) {
         load = (fw_hinge_load){0.1, 2e-4 * cos(i / 57.3), 2e-4 * sin(i / 57.3), 0.3};
         const fw_hinge_load other = {-0.1, -load.fx_N, -load.fy_N, 0.3};
         double axial = 2e-4 / (147.08e9 * 8e-6 * 50e-6), root, inside;
-        fw_hinge_root_strains(&m, &hinge, &drawn, &load, s);
-        fw_hinge_root_strains(&m, &hinge, &drawn, &other, back);
+        fw_hinge_root_strains(&o.m, &o.hinge[0], &o.drawn, &load, s);
+        fw_hinge_root_strains(&o.m, &o.hinge[0], &o.drawn, &other, back);
         assert_relative(s[0], -back[0], 1e-12);
         assert_relative(s[1], -back[1], 1e-12);
         double along = -(cos(1.3) * load.fx_N + sin(1.3) * load.fy_N);
         double across = -(-sin(1.3) * load.fx_N + cos(1.3) * load.fy_N);
-        fw_arc_moments(&f, c->centre_m, 0.1 * c->stiffness_Nm_per_rad, along, across, &root,
+        fw_arc_moments(&o.f, c->centre_m, 0.1 * c->stiffness_Nm_per_rad, along, across, &root,
                        &inside);
         double most = fmax(fabs(s[0]), fabs(s[1]));
         assert_relative(most, root * c->strain_per_rad / c->stiffness_Nm_per_rad, 1e-12);
         if (root > inside / c->concentration) {
             governed++;
-            assert_relative(fw_hinge_strain(&m, &hinge, &drawn, &load), most + axial, 1e-12);
+            assert_relative(fw_hinge_strain(&o.m, &o.hinge[0], &o.drawn, &load), most + axial,
+                            1e-12);
         }
         /* which of the two bodies is called b does not matter */
         fw_pin swapped = {.id = "A", .body_a = 0, .body_b = FW_GROUND, .hinge = 0};
-        fw_mechanism n = m;
+        fw_mechanism n = o.m;
         n.pin = &swapped;
-        fw_hinge_root_strains(&n, &hinge, &drawn, &other, back);
+        fw_hinge_root_strains(&n, &o.hinge[0], &o.drawn, &other, back);
         assert_relative(s[0], back[0], 1e-12);
         assert_relative(s[1], back[1], 1e-12);
         /* without a drawing: with the rotation's sign, as much as the peak has */
-        fw_hinge_root_strains(&m, &hinge, NULL, &other, s);
-        assert_relative(s[0] - axial, -fw_hinge_strain(&m, &hinge, NULL, &load), 1e-12);
+        fw_hinge_root_strains(&o.m, &o.hinge[0], NULL, &other, s);
+        assert_relative(s[0] - axial, -fw_hinge_strain(&o.m, &o.hinge[0], NULL, &load), 1e-12);
         assert_near(s[1], s[0], 0);
     }
     assert_true(governed > 100);
@@ -208,39 +203,25 @@ static void root_strains_have_signs(void **state) {
    arc whose centre is d off the drawn one feels what one without d does under M + dx Fy - dy Fx */
 static void moments_are_about_the_true_centre(void **state) {
     (void)state;
-    fw_flexure f = arc();
-    fw_device device = {.flexure = &f, .nflexure = 1};
-    fw_variant variant = {.thickness_m = 50e-6};
-    variant.material.youngs.value = 147.08e9;
-    fw_pin pin = {.id = "A", .body_a = FW_GROUND, .body_b = 0, .hinge = 0};
-    fw_hinge hinge[2] = {{0}, {0}};
-    const fw_flexure_input in = input_of(&f);
-    fw_flexure_closed_form(&in, &hinge[0].closed_form);
-    hinge[1] = hinge[0];
-    const double d[2] = {6e-6, -4e-6}, K = hinge[0].closed_form.stiffness_Nm_per_rad;
-    hinge[1].closed_form.offset_m[0] = d[0], hinge[1].closed_form.offset_m[1] = d[1];
-    fw_mechanism m = {.device = &device,
-                      .variant = &variant,
-                      .pin = &pin,
-                      .npin = 1,
-                      .hinge = hinge,
-                      .nhinge = 2};
-    fw_hinge_layout drawn = {.drawn = true, .axis_rad = 1.0, .lower = FW_GROUND, .upper = 0};
+    one_flexure o;
+    set_up(&o, arc(), 1.0);
+    const double d[2] = {6e-6, -4e-6}, K = o.hinge[0].closed_form.stiffness_Nm_per_rad;
+    o.hinge[1].closed_form.offset_m[0] = d[0], o.hinge[1].closed_form.offset_m[1] = d[1];
     for (int i = 0; i < 360; i++) {
         fw_hinge_load load = {0.1, 2e-4 * cos(i / 57.3), 2e-4 * sin(i / 57.3), 0.3};
         fw_hinge_load moved = load;
         double Fx = -(cos(1.3) * load.fx_N + sin(1.3) * load.fy_N);
         double Fy = -(-sin(1.3) * load.fx_N + cos(1.3) * load.fy_N), off[2], plain[2];
         moved.angle_rad += (d[0] * Fy - d[1] * Fx) / K;
-        assert_relative(fw_hinge_strain(&m, &hinge[1], &drawn, &load),
-                        fw_hinge_strain(&m, &hinge[0], &drawn, &moved), 1e-12);
-        fw_hinge_root_strains(&m, &hinge[1], &drawn, &load, off);
-        fw_hinge_root_strains(&m, &hinge[0], &drawn, &moved, plain);
+        assert_relative(fw_hinge_strain(&o.m, &o.hinge[1], &o.drawn, &load),
+                        fw_hinge_strain(&o.m, &o.hinge[0], &o.drawn, &moved), 1e-12);
+        fw_hinge_root_strains(&o.m, &o.hinge[1], &o.drawn, &load, off);
+        fw_hinge_root_strains(&o.m, &o.hinge[0], &o.drawn, &moved, plain);
         for (int side = 0; side < 2; side++)
             assert_near(off[side], plain[side], 1e-15);
         /* without a drawing no direction is known: not below any */
-        assert_true(fw_hinge_strain(&m, &hinge[1], NULL, &load) >=
-                    fw_hinge_strain(&m, &hinge[1], &drawn, &load));
+        assert_true(fw_hinge_strain(&o.m, &o.hinge[1], NULL, &load) >=
+                    fw_hinge_strain(&o.m, &o.hinge[1], &o.drawn, &load));
     }
 }
 
@@ -248,38 +229,28 @@ static void moments_are_about_the_true_centre(void **state) {
    a rotation with a force that reverse together reverse both roots */
 static void root_strains_of_a_leaf(void **state) {
     (void)state;
-    fw_flexure f = {.id = "L", .kind = FW_FLEXURE_LEAF, .length_m = 400e-6, .width_m = 8e-6};
-    fw_device device = {.flexure = &f, .nflexure = 1};
-    fw_variant variant = {.thickness_m = 50e-6};
-    variant.material.youngs.value = 147.08e9;
-    fw_pin pin = {.id = "A", .body_a = FW_GROUND, .body_b = 0, .hinge = 0};
-    fw_hinge hinge = {0};
-    const fw_flexure_input in = input_of(&f);
-    fw_flexure_closed_form(&in, &hinge.closed_form);
-    const fw_flexure_result *c = &hinge.closed_form;
-    fw_mechanism m = {.device = &device,
-                      .variant = &variant,
-                      .pin = &pin,
-                      .npin = 1,
-                      .hinge = &hinge,
-                      .nhinge = 1};
-    fw_hinge_layout drawn = {.drawn = true, .axis_rad = 0, .lower = FW_GROUND, .upper = 0};
+    one_flexure o;
+    set_up(&o,
+           (fw_flexure){.id = "L", .kind = FW_FLEXURE_LEAF, .length_m = 400e-6, .width_m = 8e-6},
+           0);
+    const fw_flexure_result *c = &o.hinge[0].closed_form;
     double turned = 0.05 * c->strain_per_rad, s[2], back[2];
     double bent = 1e-4 * 200e-6 * c->strain_per_rad / c->stiffness_Nm_per_rad;
     fw_hinge_load load = {0.05, 0, 1e-4, 0};
-    fw_hinge_root_strains(&m, &hinge, &drawn, &load, s);
+    fw_hinge_root_strains(&o.m, &o.hinge[0], &o.drawn, &load, s);
     assert_relative(s[0], turned, 1e-12);
     assert_relative(s[1], turned, 1e-12);
     load = (fw_hinge_load){0.05, 1e-4, 0, 0};
-    fw_hinge_root_strains(&m, &hinge, &drawn, &load, s);
+    fw_hinge_root_strains(&o.m, &o.hinge[0], &o.drawn, &load, s);
     assert_relative(fmax(s[0], s[1]), turned + bent, 1e-12);
     assert_relative(fmin(s[0], s[1]), turned - bent, 1e-10);
     load = (fw_hinge_load){-0.05, -1e-4, 0, 0};
-    fw_hinge_root_strains(&m, &hinge, &drawn, &load, back);
+    fw_hinge_root_strains(&o.m, &o.hinge[0], &o.drawn, &load, back);
     for (int side = 0; side < 2; side++)
         assert_relative(back[side], -s[side], 1e-12);
     double axial = 1e-4 / (147.08e9 * 8e-6 * 50e-6);
-    assert_relative(fw_hinge_strain(&m, &hinge, &drawn, &load), turned + bent + axial, 1e-12);
+    assert_relative(fw_hinge_strain(&o.m, &o.hinge[0], &o.drawn, &load), turned + bent + axial,
+                    1e-12);
 }
 
 /* a path of one arc under any load: at the roots as the arc, inside never less (the arc's formula
