@@ -61,14 +61,18 @@ static const char *take_effects(fw_cli_options *o, const char *v) {
     return *v ? NULL : "needs auto, all, none or a list of effects";
 }
 
+static const char *auto_or_none(const char *v) {
+    return strcmp(v, "auto") == 0 || strcmp(v, "none") == 0 ? NULL : "needs auto or none";
+}
+
 static const char *take_corners(fw_cli_options *o, const char *v) {
     o->design.corners = v;
-    return strcmp(v, "auto") == 0 || strcmp(v, "none") == 0 ? NULL : "needs auto or none";
+    return auto_or_none(v);
 }
 
 static const char *take_advice(fw_cli_options *o, const char *v) {
     o->design.advice = v;
-    return strcmp(v, "auto") == 0 || strcmp(v, "none") == 0 ? NULL : "needs auto or none";
+    return auto_or_none(v);
 }
 
 static const char *take_quiet(fw_cli_options *o, const char *v) {

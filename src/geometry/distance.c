@@ -60,6 +60,7 @@ static int square_chords(const fw_segment *p, const fw_segment *q, fw_chord *cho
     return n;
 }
 
+/* fw_segment_foot, lines without a call */
 static inline fw_vec2 foot_on(const fw_segment *s, fw_vec2 from, double *t) {
     return s->kind == FW_LINE ? vec_line_foot(s->a, s->b, from, t) : fw_segment_foot(s, from, t);
 }

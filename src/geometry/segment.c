@@ -49,15 +49,13 @@ static double run_angle(const fw_segment *arc, fw_vec2 direction) {
 double fw_segment_parameter(const fw_segment *s, fw_vec2 on) {
     double t;
     if (s->kind == FW_LINE) {
-        fw_vec2 along = vec_sub(s->b, s->a);
-        double square = vec_dot(along, along);
-        t = square > 0 ? vec_dot(vec_sub(on, s->a), along) / square : 0;
-    } else {
-        t = run_angle(s, vec_sub(on, s->centre)) / fabs(s->sweep_rad);
-        if (t > 1) /* outside: the nearer end */
-            t = vec_distance(on, s->a) < vec_distance(on, s->b) ? 0 : 1;
+        vec_line_foot(s->a, s->b, on, &t);
+        return t;
     }
-    return t < 0 ? 0 : t > 1 ? 1 : t;
+    t = run_angle(s, vec_sub(on, s->centre)) / fabs(s->sweep_rad);
+    if (t > 1) /* outside: the nearer end */
+        t = vec_distance(on, s->a) < vec_distance(on, s->b) ? 0 : 1;
+    return t < 0 ? 0 : t;
 }
 
 /* clearly outside of the arc, by two cross products: of the sector when it is less than half a

@@ -188,11 +188,11 @@ fw_status fw_rule_edges(fw_rule_search *in, int nshape, double tolerance_m) {
 
 bool fw_rule_parts(fw_rule_search *in, fw_rule_edge *e) {
     if (e->part) return true;
-    int n = (int)ceil(fabs(e->s.sweep_rad) / PART_RAD);
     if (e->s.kind == FW_LINE) { /* itself */
         e->part = &e->s, e->part_box = &e->box, e->nparts = 1;
         return true;
     }
+    int n = (int)ceil(fabs(e->s.sweep_rad) / PART_RAD);
     fw_segment *part = fw_arena_raw(in->arena, (size_t)n * sizeof *part);
     fw_box *box = fw_arena_raw(in->arena, (size_t)n * sizeof *box);
     if (!part || !box) {

@@ -66,6 +66,14 @@ static int hinge_model_of(const char *text) {
     return -1;
 }
 
+static bool is_none(const char *text) {
+    return text && strcmp(text, "none") == 0;
+}
+
+static bool auto_or_none(const char *text) {
+    return !text || strcmp(text, "auto") == 0 || is_none(text);
+}
+
 /* what is wrong, or NULL; 0 and NULL are defaults. Comparisons are written so that NaN fails. */
 static const char *wrong_option(const fw_design_options *o) {
     if (o->accuracy != 0.0 &&
@@ -99,10 +107,8 @@ static const char *wrong_option(const fw_design_options *o) {
     if (!known(o->method, fw_method_at)) return "method is not known in this version";
     if (!known(o->integrator, fw_integrator_at)) return "integrator is not known in this version";
     if (!known(o->stabilise, fw_stabilisation_at)) return "there is no such stabilisation";
-    if (o->corners && strcmp(o->corners, "auto") != 0 && strcmp(o->corners, "none") != 0)
-        return "corners must be auto or none";
-    if (o->advice && strcmp(o->advice, "auto") != 0 && strcmp(o->advice, "none") != 0)
-        return "advice must be auto or none";
+    if (!auto_or_none(o->corners)) return "corners must be auto or none";
+    if (!auto_or_none(o->advice)) return "advice must be auto or none";
     if (o->at && strcmp(o->at, "rest") != 0 && strcmp(o->at, "equilibrium") != 0)
         return "at must be \"rest\" or \"equilibrium\"";
     return NULL;
@@ -167,8 +173,8 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     p->independent = o.independent;
     p->rates = o.rates;
     p->accelerations = o.accelerations;
-    if (o.corners && strcmp(o.corners, "none") == 0) p->verdict.corners = FW_CORNERS_NONE;
-    if (o.advice && strcmp(o.advice, "none") == 0) p->verdict.with_advice = false;
+    if (is_none(o.corners)) p->verdict.corners = FW_CORNERS_NONE;
+    if (is_none(o.advice)) p->verdict.with_advice = false;
     m->effects = effects_of(o.effects);
     if (!d->wrong_option) m->effects.hinge = (fw_hinge_model)hinge_model_of(o.hinge_model);
     m->method = o.method;
