@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* <mechanism>: turning, sliding and rigid joints, rods, springs and drivers. */
 #include "device/reader.h"
+#include "quantity/law_kind.h"
 #include <math.h>
 #include <string.h>
 
@@ -138,7 +139,7 @@ static fw_status add_driver(fw_reader *r, const fw_record *record, int *driven) 
     *driver = (fw_driver){.id = id ? id : joint,
                           .joint = FW_NONE,
                           .tie = FW_NONE,
-                          .law = {.kind = FW_LAW_EXPRESSION},
+                          .law = {.kind = &fw_quantity_law_expression},
                           .place = record->element->place,
                           .value_place = fw_place_of(record, "value")};
     if (k < 0) return FW_OK;

@@ -9,8 +9,8 @@
 
 const fw_cell *fw_cell_of(const fw_record *record, const char *name) {
     static const fw_cell none = {0};
-    for (int i = 0; i < record->row->nattribute; i++)
-        if (strcmp(record->row->attribute[i].name, name) == 0) return &record->cell[i];
+    for (int i = 0; i < record->nattribute; i++)
+        if (strcmp(record->attribute[i].name, name) == 0) return &record->cell[i];
     return &none;
 }
 
@@ -252,7 +252,7 @@ static void read_id(fw_reader *r, const fw_attribute_row *row, fw_cell *cell) {
 }
 
 static fw_status read_cell(fw_reader *r, const fw_record *record, int i) {
-    const fw_attribute_row *row = &record->row->attribute[i];
+    const fw_attribute_row *row = &record->attribute[i];
     fw_cell *cell = &record->cell[i];
     if (!cell->given) return FW_OK;
     switch (row->kind) {
@@ -280,8 +280,8 @@ static fw_status read_cell(fw_reader *r, const fw_record *record, int i) {
 static fw_status read_cells(fw_reader *r, bool numbers) {
     for (int k = 0; k < r->nrecord; k++) {
         const fw_record *record = &r->record[k];
-        for (int i = 0; i < record->row->nattribute; i++)
-            if ((record->row->attribute[i].kind == FW_KIND_NUMBER) == numbers)
+        for (int i = 0; i < record->nattribute; i++)
+            if ((record->attribute[i].kind == FW_KIND_NUMBER) == numbers)
                 FW_TRY(read_cell(r, record, i));
         if (!numbers && record->row->key && fw_failed(record, record->row->key))
             r->broken[record->row->space] = true;

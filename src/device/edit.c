@@ -223,9 +223,11 @@ static fw_status check_attribute(const editor *e, const fw_element *element, con
     size_t n = 0;
     const fw_element_row *row = fw_element_row_find(element->name);
     if (!name_valid(name)) return refuse(e, "no attribute can be called", name);
-    for (int i = 0; row && i < row->nattribute && n < FW_ATTRIBUTES_MOST; i++) {
-        if (strcmp(row->attribute[i].name, name) == 0) return FW_OK;
-        names[n++] = row->attribute[i].name;
+    fw_device_attributes all = {0};
+    if (row) FW_TRY(fw_device_attributes_of(e->arena, row, &all));
+    for (int i = 0; i < all.count && n < FW_ATTRIBUTES_MOST; i++) {
+        if (strcmp(all.item[i].name, name) == 0) return FW_OK;
+        names[n++] = all.item[i].name;
     }
     const char *better = row && n > 0 ? fw_did_you_mean(name, names, n) : NULL;
     if (!row) return FW_OK;

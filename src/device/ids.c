@@ -114,7 +114,7 @@ int fw_reference(fw_reader *r, const fw_record *record, const char *name) {
     const fw_cell *cell = fw_cell_of(record, name);
     if (cell->missing || (cell->given && !cell->ok)) return FW_NOWHERE;
     if (!cell->given) return FW_NONE;
-    const fw_attribute_row *row = record->row->attribute;
+    const fw_attribute_row *row = record->attribute;
     while (strcmp(row->name, name) != 0)
         row++;
     const char *id = cell->given->value;

@@ -18,7 +18,9 @@ typedef struct fw_cell {
 typedef struct fw_record {
     fw_element *element;
     const fw_element_row *row;
-    fw_cell *cell; /* (row->nattribute) */
+    const fw_attribute_row *attribute; /* (nattribute) of the row, those of laws included */
+    int nattribute;
+    fw_cell *cell; /* (nattribute) */
     int parent;    /* index, -1 for the root */
 } fw_record;
 
@@ -49,6 +51,8 @@ typedef struct fw_reader {
     bool broken[FW_SPACE_COUNT]; /* an id of this space could not be read: do not miss it again */
     bool unknown_element;        /* something is there that could not be read */
     fw_id_index index[FW_SPACE_COUNT];
+    fw_device_attributes
+        attributes[FW_ELEMENTS_MOST]; /* per row of the table; item NULL: not met yet */
     fw_device *device;
 } fw_reader;
 

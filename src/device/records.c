@@ -35,8 +35,8 @@ static void unknown_attribute(fw_reader *r, fw_record *record, const fw_attribut
     char list[512] = "it has none";
     size_t used = 0;
     int best = -1, least = 3;
-    for (int i = 0; i < row->nattribute; i++) {
-        const char *name = row->attribute[i].name;
+    for (int i = 0; i < record->nattribute; i++) {
+        const char *name = record->attribute[i].name;
         int distance = fw_full(r) ? 3 : fw_edit_distance(a->name, name, 2);
         if (distance < least && (size_t)distance < strlen(name)) {
             least = distance;
@@ -48,7 +48,7 @@ static void unknown_attribute(fw_reader *r, fw_record *record, const fw_attribut
     if (best >= 0) {
         record->cell[best].missing = true;
         fw_diag_error(r->diags, 42, a->name_place, "<%s> has no attribute '%s'; did you mean '%s'?",
-                      row->name, a->name, row->attribute[best].name);
+                      row->name, a->name, record->attribute[best].name);
     } else
         fw_diag_error(r->diags, 42, a->name_place, "<%s> has no attribute '%.64s'; known are: %s",
                       row->name, a->name, list);
@@ -59,16 +59,16 @@ static void read_attributes(fw_reader *r, fw_record *record) {
     for (int i = 0; i < record->element->nattribute; i++) {
         const fw_attribute *a = &record->element->attribute[i];
         int k = 0;
-        while (k < row->nattribute && strcmp(row->attribute[k].name, a->name) != 0)
+        while (k < record->nattribute && strcmp(record->attribute[k].name, a->name) != 0)
             k++;
-        if (k < row->nattribute)
+        if (k < record->nattribute)
             record->cell[k].given = a;
         else
             unknown_attribute(r, record, a);
     }
-    for (int k = 0; k < row->nattribute; k++) {
+    for (int k = 0; k < record->nattribute; k++) {
         fw_cell *cell = &record->cell[k];
-        const fw_attribute_row *attribute = &row->attribute[k];
+        const fw_attribute_row *attribute = &record->attribute[k];
         if (cell->given) {
             cell->missing = false;
             continue;
@@ -126,8 +126,14 @@ static fw_status add_record(walk *w, fw_element *e, const fw_element_row *row, i
                                           sizeof *r->record));
         w->capacity = more;
     }
-    fw_record record = {.element = e, .row = row, .parent = parent};
-    FW_NEED(record.cell = fw_arena_array(r->arena, fw_cell, (size_t)row->nattribute));
+    fw_device_attributes *all = &r->attributes[fw_element_index(row->name)];
+    if (!all->item) FW_TRY(fw_device_attributes_of(r->arena, row, all));
+    fw_record record = {.element = e,
+                        .row = row,
+                        .attribute = all->item,
+                        .nattribute = all->count,
+                        .parent = parent};
+    FW_NEED(record.cell = fw_arena_array(r->arena, fw_cell, (size_t)record.nattribute));
     read_attributes(r, &record);
     r->record[r->nrecord++] = record;
     return FW_OK;

@@ -2,6 +2,7 @@
 /* docs/reference/device.md */
 #include "base/text.h"
 #include "device/reader.h"
+#include "quantity/law_kind.h"
 #include <string.h>
 
 static void add_number(fw_text *out, double value, const char *unit) {
@@ -69,19 +70,23 @@ static void add_attribute(fw_text *out, const fw_attribute_row *a) {
 
 #define TABLE_HEAD "\n| attribute | value | when absent | meaning |\n|---|---|---|---|\n"
 
-/* the attributes of laws are the same everywhere and come last: written once, under Time */
-static bool begins_law(const fw_attribute_row *a) {
-    return strcmp(a->name, "law") == 0;
-}
-
-static void add_law(fw_text *out) {
-    const fw_element_row *e = fw_element_row_find("force");
-    bool law = false;
-    fw_text_add(out, TABLE_HEAD);
-    for (int i = 0; i < e->nattribute; i++) {
-        law = law || begins_law(&e->attribute[i]);
-        if (law) add_attribute(out, &e->attribute[i]);
+/* the laws, and their attributes, which are the same for every element that goes with time */
+static fw_status add_laws(fw_text *out) {
+    fw_device_attributes all;
+    fw_text_add(out, "| law | attributes | factor |\n|---|---|---|\n");
+    for (const fw_quantity_law_kind *const *kind = fw_quantity_law_kinds; *kind; kind++) {
+        fw_text_printf(out, "| `%s` |", (*kind)->name);
+        for (int i = 0; i < (*kind)->attributes; i++) {
+            const fw_quantity_law_attribute *a = &(*kind)->attribute[i];
+            fw_text_printf(out, a->needed ? "%s **`%s`**" : "%s `%s`", i ? "," : "", a->name);
+        }
+        fw_text_printf(out, " | %s |\n", (*kind)->factor);
     }
+    FW_TRY(fw_device_law_attributes(out->arena, &all));
+    fw_text_add(out, TABLE_HEAD);
+    for (int i = 0; i < all.count; i++)
+        add_attribute(out, &all.item[i]);
+    return FW_OK;
 }
 
 static void add_element(fw_text *out, const fw_element_row *e) {
@@ -89,15 +94,13 @@ static void add_element(fw_text *out, const fw_element_row *e) {
     if (e->parent[0])
         fw_text_printf(out, " Inside `<%s>`%s.", e->parent, e->once ? ", at most once" : "");
     fw_text_add(out, "\n");
-    if (e->nattribute > 0) fw_text_add(out, TABLE_HEAD);
-    for (int i = 0; i < e->nattribute; i++) {
-        if (begins_law(&e->attribute[i])) {
-            fw_text_add(out, "| `law` and its attributes | see [Time](#time) | step | How it goes "
-                             "with time. |\n");
-            break;
-        }
+    if (e->nattribute > 0 || e->timed) fw_text_add(out, TABLE_HEAD);
+    for (int i = 0; i < e->nattribute; i++)
         add_attribute(out, &e->attribute[i]);
-    }
+    if (e->timed)
+        fw_text_printf(
+            out, "| `law` and its attributes | see [Time](#time) | %s | How it goes with time. |\n",
+            fw_quantity_law_kinds[0]->name);
 }
 
 static void add_units(fw_text *out) {
@@ -115,41 +118,26 @@ static void add_units(fw_text *out) {
 
 fw_status fw_device_reference_markdown(fw_text *out) {
     const fw_element_row *row;
-    fw_text_add(
-        out, "<!-- generated from src/device/table_*.c; do not edit -->\n"
-             "# Device files\n\n"
-             "A device file is XML in UTF-8, at most 8 MiB, without DOCTYPE, entities of its "
-             "own or processing instructions. The schema for editors is "
-             "[device.rng](device.rng).\n\n"
-             "## Values\n\n"
-             "A physical value is a number with its unit or an expression: `10 um`, `2*t + 5 "
-             "um`, `1.711e-6 N m/rad`. A unit binds tighter than `*` and `/`; names are "
-             "parameters; `sqrt exp ln sin cos tan asin acos atan atan2 min max abs` and `pi` "
-             "are known. Both sides of `+` and `-` need the same kind of unit, and the result "
-             "the kind of the attribute. The angle is a kind of its own; only a product or "
-             "quotient may lack or carry an extra `rad` (length / angle is a radius).\n\n"
-             "`--set NAME=VALUE` changes a parameter, `--set ELEMENT[ID]/@ATTRIBUTE=VALUE` an "
-             "attribute (`flexure[A]/@length=312 um`); `[ID]` may be left out where there is "
-             "one such element.\n\n"
-             "## Time\n\n"
-             "Loads are constant from the start, or go with time by their `law`, a factor that "
-             "multiplies them:\n\n"
-             "| law | attributes | factor |\n|---|---|---|\n"
-             "| `step` | `start`, `end` | 0, from `start` on 1, from `end` on 0 |\n"
-             "| `ramp` | `start`, **`rise`** | 0, rising from `start` on in the time `rise` to 1 "
-             "|\n"
-             "| `sine` | `start`, `end`, **`frequency`**, `phase` | sin(2 pi `frequency` (t - "
-             "`start`) + `phase`) between `start` and `end`, else 0 |\n"
-             "| `table` | **`table`** | `0 ms: 0; 1 ms: 0.5; 2 ms: 1`, linear between the points, "
-             "constant outside |\n"
-             "| `expression` | **`factor`** | an expression in time, a pure number |\n"
-             "| `half-sine` | `start`, **`rise`** | sin(pi (t - `start`) / `rise`) for the time "
-             "`rise` from `start` on, else 0: a shock |\n"
-             "| `random` | **`frequency`**, **`frequency-most`**, `lines`, `seed` | noise from the "
-             "start on, of root mean square 1: the sum of `lines` cosines of equal size at "
-             "frequencies from `frequency` to `frequency-most`, with phases from `seed`; its peaks "
-             "are some 3 to 4 times as high |\n");
-    add_law(out);
+    fw_text_add(out,
+                "<!-- generated from src/device/table_*.c; do not edit -->\n"
+                "# Device files\n\n"
+                "A device file is XML in UTF-8, at most 8 MiB, without DOCTYPE, entities of its "
+                "own or processing instructions. The schema for editors is "
+                "[device.rng](device.rng).\n\n"
+                "## Values\n\n"
+                "A physical value is a number with its unit or an expression: `10 um`, `2*t + 5 "
+                "um`, `1.711e-6 N m/rad`. A unit binds tighter than `*` and `/`; names are "
+                "parameters; `sqrt exp ln sin cos tan asin acos atan atan2 min max abs` and `pi` "
+                "are known. Both sides of `+` and `-` need the same kind of unit, and the result "
+                "the kind of the attribute. The angle is a kind of its own; only a product or "
+                "quotient may lack or carry an extra `rad` (length / angle is a radius).\n\n"
+                "`--set NAME=VALUE` changes a parameter, `--set ELEMENT[ID]/@ATTRIBUTE=VALUE` an "
+                "attribute (`flexure[A]/@length=312 um`); `[ID]` may be left out where there is "
+                "one such element.\n\n"
+                "## Time\n\n"
+                "Loads are constant from the start, or go with time by their `law`, a factor that "
+                "multiplies them:\n\n");
+    FW_TRY(add_laws(out));
     fw_text_add(
         out, "\nIn an expression in time `t` or `time` is the time in s, to be used with its unit: "
              "`sin(2*pi*t/(10 ms))`, `3 rad/s * t`, `min(1, t/(5 ms))`. Where a parameter is "

@@ -53,11 +53,13 @@ fw_status fw_device_relax_ng(fw_text *out) {
     for (int i = 0; (e = fw_element_row_at(i)) != NULL; i++) {
         fw_text_printf(out, "  <define name=\"%s\">\n    <element name=\"%s\">\n", e->name,
                        e->name);
-        for (int k = 0; k < e->nattribute; k++)
-            add_attribute(out, &e->attribute[k]);
+        fw_device_attributes all;
+        FW_TRY(fw_device_attributes_of(out->arena, e, &all));
+        for (int k = 0; k < all.count; k++)
+            add_attribute(out, &all.item[k]);
         int before = (int)out->length;
         add_children(out, e->name);
-        if ((int)out->length == before && e->nattribute == 0) fw_text_add(out, "      <empty/>\n");
+        if ((int)out->length == before && all.count == 0) fw_text_add(out, "      <empty/>\n");
         fw_text_add(out, "    </element>\n  </define>\n");
     }
     fw_text_add(out, "</grammar>\n");

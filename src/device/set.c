@@ -69,8 +69,10 @@ static fw_status replace(fw_reader *r, const edit *set, fw_element *e, const fw_
                          const char *attribute) {
     const char *names[FW_ATTRIBUTES_MOST];
     size_t n = 0;
-    for (int i = 0; i < row->nattribute && n < FW_ATTRIBUTES_MOST; i++)
-        names[n++] = row->attribute[i].name;
+    fw_device_attributes all;
+    FW_TRY(fw_device_attributes_of(r->arena, row, &all));
+    for (int i = 0; i < all.count && n < FW_ATTRIBUTES_MOST; i++)
+        names[n++] = all.item[i].name;
     size_t k = 0;
     while (k < n && strcmp(names[k], attribute) != 0)
         k++;

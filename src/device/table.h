@@ -58,10 +58,17 @@ typedef struct fw_element_row {
     bool within;                       /* ... among those of its parent only */
     bool once;                         /* at most one in its parent */
     int most;                          /* of them in a file; 0: no limit of its own */
-    const fw_attribute_row *attribute; /* (nattribute) */
+    const fw_attribute_row *attribute; /* (nattribute) its own */
     int nattribute;
+    bool timed; /* it goes with time: behind its own it has the attributes of all laws
+                   (quantity/laws.def) */
     const char *sentence;
 } fw_element_row;
+
+typedef struct fw_device_attributes { /* all that an element may have */
+    const fw_attribute_row *item;     /* (count) */
+    int count;
+} fw_device_attributes;
 
 /* a new element is one row in one of the parts, table_*.c */
 extern const fw_element_row fw_table_device[], fw_table_mechanism[], fw_table_scene[],
@@ -72,7 +79,13 @@ enum { FW_ELEMENTS_MOST = 64, FW_ATTRIBUTES_MOST = 32 };     /* in the table; of
 const fw_element_row *fw_element_row_at(int i);              /* NULL behind the last */
 int fw_element_index(const char *name);                      /* or -1 */
 const fw_element_row *fw_element_row_find(const char *name); /* or NULL */
-const char *fw_space_text(fw_space space);                   /* "flexure" */
+/* law_attributes.c: of the element's row, those of laws included; in the arena where there are
+ * such. FW_NOMEM */
+fw_status fw_device_attributes_of(fw_arena *arena, const fw_element_row *row,
+                                  fw_device_attributes *all);
+/* `law` and the attributes of all laws, each once */
+fw_status fw_device_law_attributes(fw_arena *arena, fw_device_attributes *all);
+const char *fw_space_text(fw_space space); /* "flexure" */
 bool fw_kind_is_expression(fw_kind kind);
 
 #endif

@@ -33,7 +33,6 @@ static const fw_attribute_row tendon_rows[] = {
     {"slack", PLACE, .fallback = "0 mm",
      .sentence = "Length that the cable has to spare as drawn; negative: it is stretched by that "
                  "much. Only with draw."},
-    LAW,
 };
 static const fw_attribute_row eyelet_rows[] = {
     {"on", REF(FW_SPACE_BODY), .ground = true, REQUIRED,
@@ -89,14 +88,12 @@ static const fw_attribute_row comb_rows[] = {
      .sentence = "Of the electrodes, across the wafer."},
     {"voltage", D_VOLTAGE, RANGE(-1e4, 1e4, "gaps of micrometres break down far below 10 kV"),
      .sentence = "Between rotor and stator, times the law; the force goes with its square."},
-    LAW,
 };
 static const fw_attribute_row base_rows[] = {
     {"ax", D_GRAVITY, .fallback = "0 m/s^2",
      .sentence = "Acceleration of the base along the world's x axis, times the law."},
     {"ay", D_GRAVITY, .fallback = "0 m/s^2",
      .sentence = "Acceleration of the base along the world's y axis, times the law."},
-    LAW,
 };
 
 /* ---- surfaces ---- */
@@ -172,7 +169,6 @@ static const fw_attribute_row temperature_rows[] = {
     {"modulus-change", D_PER_K, RANGE(-0.01, 0.01, "no solid softens by 1 % per kelvin"),
      .fallback = "the material's",
      .sentence = "Of Young's modulus, relative, per kelvin; negative: it softens when warm."},
-    LAW,
 };
 static const fw_attribute_row stress_rows[] = {
     {"mean", D_STRESS, RANGE(-2e10, 2e10, "no film bears more than 20 GPa"), .fallback = "0 MPa",
@@ -219,16 +215,16 @@ static const fw_attribute_row air_rows[] = {
 
 #define OF_SCENE(space_) .space = (space_), .within = true
 const fw_element_row fw_table_effects[] = {
-    {"tendon", "scene", "id", OF_SCENE(FW_SPACE_TENDON), .most = 2000, ROWS(tendon_rows),
+    {"tendon", "scene", "id", OF_SCENE(FW_SPACE_TENDON), .most = 2000, .timed = true, ROWS(tendon_rows),
      .sentence = "A cable without mass and friction, from its first <eyelet>, where it is fixed, "
                  "through the others to an actuator behind the last. pull: the actuator keeps a "
                  "tension. draw: it takes cable in, and the cable stretches; it never pushes."},
     {"eyelet", "tendon", .most = 20000, ROWS(eyelet_rows),
      .sentence = "A point that the cable is fixed to, or runs through; at least two, in order."},
-    {"comb-drive", "scene", "id", OF_SCENE(FW_SPACE_COMB), .most = 2000, ROWS(comb_rows),
+    {"comb-drive", "scene", "id", OF_SCENE(FW_SPACE_COMB), .most = 2000, .timed = true, ROWS(comb_rows),
      .sentence = "Electrodes that attract each other: a comb, or two faces. What is not joined in "
                  "the layer is insulated only where the flow has carrier=\"insulating\"."},
-    {"base-motion", "scene", .most = 2000, ROWS(base_rows),
+    {"base-motion", "scene", .most = 2000, .timed = true, ROWS(base_rows),
      .sentence = "The ground is shaken: everything that moves is seen from it. Several add up."},
     {"friction", "scene", "on", .within = true, .most = 10000, ROWS(friction_rows),
      .sentence = "Dry friction of a joint: it sticks, and slides where the force is large enough."},
@@ -238,7 +234,7 @@ const fw_element_row fw_table_effects[] = {
     {"material-damping", "scene", .once = true, ROWS(damping_rows),
      .sentence = "The material of the flexures takes energy out of an oscillation, where the "
                  "hinges state no damping of their own."},
-    {"temperature", "scene", .once = true, ROWS(temperature_rows),
+    {"temperature", "scene", .once = true, .timed = true, ROWS(temperature_rows),
      .sentence = "Device and substrate are warmer or colder than when the device was made: lengths "
                  "and stiffnesses change."},
     {"residual-stress", "scene", .once = true, ROWS(stress_rows),

@@ -46,7 +46,9 @@ static void attribute(fw_text *out, const fw_attribute_row *a) {
     fw_text_add(out, "}");
 }
 
-static void element(fw_text *out, const fw_element_row *row) {
+static fw_status element(fw_text *out, const fw_element_row *row) {
+    fw_device_attributes all;
+    FW_TRY(fw_device_attributes_of(out->arena, row, &all));
     fw_put_open(out, NULL, '{');
     fw_put_text(out, "name", row->name);
     fw_put_text(out, "parent", row->parent[0] ? row->parent : NULL);
@@ -59,12 +61,13 @@ static void element(fw_text *out, const fw_element_row *row) {
         fw_put_null(out, "most");
     fw_put_text(out, "sentence", row->sentence);
     fw_put_open(out, "attributes", '[');
-    for (int k = 0; k < row->nattribute; k++) {
+    for (int k = 0; k < all.count; k++) {
         fw_put_line(out);
         fw_text_add(out, "  ");
-        attribute(out, &row->attribute[k]);
+        attribute(out, &all.item[k]);
     }
     fw_text_add(out, "]}");
+    return FW_OK;
 }
 
 fw_status fw_device_table_json(fw_text *out) {
@@ -72,7 +75,7 @@ fw_status fw_device_table_json(fw_text *out) {
     fw_put_open(out, NULL, '[');
     for (int i = 0; (row = fw_element_row_at(i)) != NULL; i++) {
         fw_put_line(out);
-        element(out, row);
+        FW_TRY(element(out, row));
     }
     fw_text_add(out, "]");
     return fw_text_end(out);

@@ -83,42 +83,4 @@
 #define REF(to)  .kind = FW_KIND_REF, .space = (to)
 #define ROWS(a)  .attribute = (a), .nattribute = sizeof(a) / sizeof((a)[0])
 
-/* how a load goes with time; which attribute belongs to which law: time_law.c */
-extern const char *const fw_law_words[];
-#define LAW                                                                                        \
-    {"law", .kind = FW_KIND_WORD, .words = fw_law_words, .fallback = "step",                       \
-     .sentence = "How it goes with time: one of those above."},                                    \
-        {"start", D_TIME, WITHIN_TIME, .fallback = "0 ms",                                         \
-         .sentence = "step, ramp, sine, half-sine: nothing before."},                              \
-        {"end", D_TIME, WITHIN_TIME, .fallback = "never",                                          \
-         .sentence = "step, sine: nothing from then on."},                                         \
-        {"rise", D_TIME,                                                                           \
-         ABOVE(0, 1e9, "a ramp that takes no time is a step; no scene takes longer than 1e9 s"),   \
-         .sentence = "ramp: time that it takes from nothing to the full size; half-sine: how "     \
-                     "long the pulse lasts."},                                                     \
-        {"frequency", D_RATE, ABOVE(0, 1e15, "without frequency nothing swings; beyond is light"), \
-         .sentence = "sine: periods per second; random: the lowest of its lines."},                \
-        {"phase", TURNS, .fallback = "0 deg",                                                      \
-         .sentence =                                                                               \
-             "sine: angle at the start; 0 deg begins with nothing, 90 deg with all of it."},       \
-        {"table", .kind = FW_KIND_TABLE, .unit = "ms",                                             \
-         .sentence = "table: the factor at rising times; linear between them, constant before "    \
-                     "and behind."},                                                               \
-        {"factor", .kind = FW_KIND_TIMED, .unit = "1",                                             \
-         .sentence = "expression: the factor at the time t."},                                     \
-        {"frequency-most", D_RATE,                                                                 \
-         ABOVE(0, 1e15, "without frequency nothing swings; beyond is light"),                      \
-         .sentence = "random: the highest of its lines."},                                         \
-        {"lines",                                                                                  \
-         D_PURE,                                                                                   \
-         WHOLE,                                                                                    \
-         RANGE(1, 128, "there is at least one; more cost time and sound no different"),            \
-         .fallback = "32",                                                                         \
-         .sentence = "random: how many frequencies, evenly spread. The noise begins to repeat "    \
-                     "itself after (lines - 1)/(frequency-most - frequency)."},                    \
-    {                                                                                              \
-        "seed", D_PURE, WHOLE, RANGE(0, 4294967295.0, "it has 32 bits"),                           \
-            .fallback = "1", .sentence = "random: another number is other noise."                  \
-    }
-
 #endif

@@ -2,9 +2,6 @@
 /* Rows of the table: <scene> with its loads. */
 #include "device/table_rows.h"
 
-const char *const fw_law_words[] = {"step",       "ramp",      "sine",   "table",
-                                    "expression", "half-sine", "random", NULL};
-
 static const fw_attribute_row scene_rows[] = {
     {"name", ID, REQUIRED, .sentence = "Name of the scene."},
     {"duration", D_TIME, REQUIRED,
@@ -22,12 +19,10 @@ static const fw_attribute_row force_rows[] = {
      .sentence = "Point in the body's frame, from its centre of mass."},
     {"fx", D_FORCE, .fallback = "0 uN", .sentence = "Along the world's x axis."},
     {"fy", D_FORCE, .fallback = "0 uN", .sentence = "Along the world's y axis."},
-    LAW,
 };
 static const fw_attribute_row torque_rows[] = {
     {"on", REF(FW_SPACE_BODY), REQUIRED, .sentence = "Body that it turns."},
     {"value", D_TORQUE, REQUIRED, .sentence = "Positive counter-clockwise, from x to y."},
-    LAW,
 };
 static const fw_attribute_row gravity_rows[] = {
     {"gx", D_GRAVITY, .fallback = "0 m/s^2", .sentence = "Along the world's x axis."},
@@ -44,9 +39,9 @@ static const fw_attribute_row initial_rows[] = {
 const fw_element_row fw_table_scene[] = {
     {"scene", "device", "name", FW_SPACE_SCENE, .most = 200, ROWS(scene_rows),
      .sentence = "What acts on the mechanism, and for how long; the verdict holds for all scenes."},
-    {"force", "scene", ROWS(force_rows),
+    {"force", "scene", .timed = true, ROWS(force_rows),
      .sentence = "A force on a point of a body; the point moves with it, the direction stays."},
-    {"torque", "scene", ROWS(torque_rows), .sentence = "A torque on a body."},
+    {"torque", "scene", .timed = true, ROWS(torque_rows), .sentence = "A torque on a body."},
     {"gravity", "scene", .once = true, ROWS(gravity_rows), .sentence = "Weight of all bodies."},
     {"initial", "scene", ROWS(initial_rows),
      .sentence = "Velocity of a body at the start. What is not given, of this body or of others, "

@@ -1,57 +1,45 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How loads and drivers go with time: which law, and which attributes it has. */
+/* How loads and drivers go with time: the attributes of a law, read as its row says
+ * (quantity/law_kind.h). */
 #include "device/reader.h"
+#include "quantity/law_kind.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 static const fw_dimension seconds = {.s = 1}, pure = {0};
 
-/* which attributes a law has; `needed` must be there */
-typedef struct law_row {
-    fw_law_kind kind;
-    const char *needed[2], *own[4];
-} law_row;
-static const law_row laws[] = {
-    {FW_LAW_STEP, {NULL}, {"start", "end"}},
-    {FW_LAW_RAMP, {"rise"}, {"start", "rise"}},
-    {FW_LAW_SINE, {"frequency"}, {"start", "end", "frequency", "phase"}},
-    {FW_LAW_TABLE, {"table"}, {"table"}},
-    {FW_LAW_EXPRESSION, {"factor"}, {"factor"}},
-    {FW_LAW_HALF_SINE, {"rise"}, {"start", "rise"}},
-    {FW_LAW_RANDOM,
-     {"frequency", "frequency-most"},
-     {"frequency", "frequency-most", "lines", "seed"}},
-};
-enum { LAWS = sizeof laws / sizeof laws[0] };
-static const char *const all[] = {"start", "end",    "rise",           "frequency", "phase",
-                                  "table", "factor", "frequency-most", "lines",     "seed"};
-
-static bool owns(const law_row *law, const char *attribute) {
-    for (int i = 0; i < 4 && law->own[i]; i++)
-        if (strcmp(law->own[i], attribute) == 0) return true;
+static bool owns(const fw_quantity_law_kind *kind, const char *attribute) {
+    for (int i = 0; i < kind->attributes; i++)
+        if (strcmp(kind->attribute[i].name, attribute) == 0) return true;
     return false;
 }
 
+/* an attribute that belongs to other laws */
+static void check_foreign(fw_reader *r, const fw_record *record, const fw_quantity_law_kind *kind,
+                          const char *name) {
+    char owners[FW_LABEL] = "";
+    if (!fw_cell_of(record, name)->given || owns(kind, name)) return;
+    for (const fw_quantity_law_kind *const *k = fw_quantity_law_kinds; *k; k++)
+        if (owns(*k, name) && strlen(owners) + strlen((*k)->name) + 8 < sizeof owners)
+            snprintf(owners + strlen(owners), sizeof owners - strlen(owners), "%s\"%s\"",
+                     owners[0] ? " or " : "", (*k)->name);
+    fw_diag_error(r->diags, 67, fw_place_of(record, name),
+                  "<%s>: %s does not belong to law=\"%s\"; remove it, or write law=%s",
+                  record->row->name, name, kind->name, owners);
+}
+
 /* every attribute of the law's own; false after a mistake */
-static bool check_attributes(fw_reader *r, const fw_record *record, const law_row *law) {
+static bool check_attributes(fw_reader *r, const fw_record *record,
+                             const fw_quantity_law_kind *kind) {
     size_t before = r->diags->errors;
-    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
-        if (!fw_cell_of(record, all[i])->given || owns(law, all[i])) continue;
-        char owners[FW_LABEL] = "";
-        for (int k = 0; k < LAWS; k++)
-            if (owns(&laws[k], all[i]))
-                snprintf(owners + strlen(owners), sizeof owners - strlen(owners), "%s\"%s\"",
-                         owners[0] ? " or " : "", fw_law_kind_text(laws[k].kind));
-        fw_diag_error(r->diags, 67, fw_place_of(record, all[i]),
-                      "<%s>: %s does not belong to law=\"%s\"; remove it, or write law=%s",
-                      record->row->name, all[i], fw_law_kind_text(law->kind), owners);
-    }
-    for (int i = 0; i < 2 && law->needed[i]; i++)
-        if (!fw_given(record, law->needed[i]))
+    for (int i = record->row->nattribute + 1; i < record->nattribute; i++)
+        check_foreign(r, record, kind, record->attribute[i].name); /* behind `law` itself */
+    for (int i = 0; i < kind->attributes; i++)
+        if (kind->attribute[i].needed && !fw_given(record, kind->attribute[i].name))
             fw_diag_error(r->diags, 67, fw_place_of(record, "law"),
-                          "<%s>: law=\"%s\" needs %s=\"...\"", record->row->name,
-                          fw_law_kind_text(law->kind), law->needed[i]);
+                          "<%s>: law=\"%s\" needs %s=\"...\"", record->row->name, kind->name,
+                          kind->attribute[i].name);
     return r->diags->errors == before;
 }
 
@@ -108,8 +96,9 @@ static fw_status read_point(fw_reader *r, const fw_attribute *a, size_t from, si
     return FW_OK;
 }
 
-static fw_status read_table(fw_reader *r, const fw_record *record, fw_law *law, bool *ok) {
-    const fw_attribute *a = fw_cell_of(record, "table")->given;
+static fw_status read_table(fw_reader *r, const fw_record *record, const char *name, fw_law *law,
+                            bool *ok) {
+    const fw_attribute *a = fw_cell_of(record, name)->given;
     size_t n = strlen(a->value), most = 1;
     *ok = !fw_full(r) && !fw_expression_uses(a->value, n, r->lost, r->nlost);
     for (size_t i = 0; i < n; i++)
@@ -173,48 +162,51 @@ void fw_finite_check(fw_reader *r, const fw_record *record, const char *name, co
 
 /* ---- laws ---- */
 
-/* lines and seed are whole numbers in their ranges (table_rows.h) */
-static bool read_noise(fw_reader *r, const fw_record *record, fw_law *law) {
-    char low[FW_LABEL], high[FW_LABEL];
-    law->lines = (int)fw_number_or(record, "lines", 32.0);
-    law->seed = (unsigned)fw_number_or(record, "seed", 1.0);
-    if (law->lines > 1 && !(law->frequency_Hz < law->frequency_most_Hz)) {
-        fw_diag_error(r->diags, 95, fw_place_of(record, "frequency-most"),
-                      "<%s>: frequency-most %s is not above frequency %s; exchange them, or make "
-                      "them differ: the lines lie between",
-                      record->row->name, fw_in_unit(high, law->frequency_most_Hz, "Hz"),
-                      fw_in_unit(low, law->frequency_Hz, "Hz"));
-        return false;
-    }
-    return true;
-}
-
-static fw_status read_law(fw_reader *r, const fw_record *record, const law_row *row, fw_law *law,
-                          bool *ok) {
-    *law = (fw_law){.kind = row->kind,
-                    .start_s = fw_number_or(record, "start", 0.0),
-                    .end_s = fw_number_or(record, "end", (double)INFINITY),
-                    .rise_s = fw_number_of(record, "rise"),
-                    .frequency_Hz = fw_number_of(record, "frequency"),
-                    .phase_rad = fw_number_or(record, "phase", 0.0),
-                    .frequency_most_Hz = fw_number_of(record, "frequency-most")};
-    for (int i = 0; i < 4 && row->own[i]; i++)
-        if (fw_failed(record, row->own[i])) *ok = false;
-    char start[FW_LABEL], end[FW_LABEL];
-    if (*ok && !(law->start_s < law->end_s)) {
-        *ok = false;
-        fw_diag_error(r->diags, 63, fw_place_of(record, "end"),
-                      "<%s>: end %s is not behind start %s; exchange them", record->row->name,
-                      fw_in_unit(end, law->end_s, "ms"), fw_in_unit(start, law->start_s, "ms"));
-    }
-    if (*ok && row->kind == FW_LAW_RANDOM) *ok = read_noise(r, record, law);
-    if (*ok && row->kind == FW_LAW_TABLE) FW_TRY(read_table(r, record, law, ok));
-    if (*ok && row->kind == FW_LAW_EXPRESSION) {
-        FW_TRY(fw_time_program(r, record, "factor", pure, &law->program));
+static fw_status read_attribute(fw_reader *r, const fw_record *record,
+                                const fw_quantity_law_attribute *a, fw_law *law, bool *ok) {
+    const double number = fw_number_or(record, a->name, a->absent);
+    switch (a->form) {
+    case FW_QUANTITY_LAW_NUMBER:
+        memcpy((char *)law + a->offset, &number, sizeof number);
+        return FW_OK;
+    case FW_QUANTITY_LAW_POINTS:
+        return read_table(r, record, a->name, law, ok);
+    case FW_QUANTITY_LAW_EXPRESSION:
+        FW_TRY(fw_time_program(r, record, a->name, pure, &law->program));
         *ok = law->program != NULL;
         if (*ok)
-            fw_finite_check(r, record, "factor", law,
+            fw_finite_check(r, record, a->name, law,
                             fw_number_of(&r->record[record->parent], "duration"));
+        return FW_OK;
+    }
+    return FW_OK;
+}
+
+static void report_mistake(fw_reader *r, const fw_record *record, const fw_law *law,
+                           const fw_quantity_law_mistake *m) {
+    char first[FW_LABEL], second[FW_LABEL];
+    const fw_quantity_law_attribute *a = law->kind->attribute, *b = a;
+    while (strcmp(a->name, m->attribute) != 0)
+        a++;
+    while (strcmp(b->name, m->other) != 0)
+        b++;
+    fw_diag_error(r->diags, m->number, fw_place_of(record, a->name), "<%s>: %s %s %s %s %s; %s",
+                  record->row->name, a->name,
+                  fw_in_unit(first, fw_quantity_law_number(law, a), a->unit), m->relation, b->name,
+                  fw_in_unit(second, fw_quantity_law_number(law, b), b->unit), m->advice);
+}
+
+static fw_status read_law(fw_reader *r, const fw_record *record, const fw_quantity_law_kind *kind,
+                          fw_law *law, bool *ok) {
+    fw_quantity_law_mistake mistake;
+    *law = (fw_law){.kind = kind, .end_s = (double)INFINITY};
+    for (int i = 0; i < kind->attributes; i++)
+        if (fw_failed(record, kind->attribute[i].name)) *ok = false;
+    for (int i = 0; *ok && i < kind->attributes; i++)
+        FW_TRY(read_attribute(r, record, &kind->attribute[i], law, ok));
+    if (*ok && kind->is_wrong && kind->is_wrong(law, &mistake)) {
+        report_mistake(r, record, law, &mistake);
+        *ok = false;
     }
     return r->diags->failed ? FW_NOMEM : FW_OK;
 }
@@ -223,10 +215,10 @@ static fw_status read_law(fw_reader *r, const fw_record *record, const law_row *
 static void check_start(fw_reader *r, const fw_record *record, const fw_law *law) {
     double end_s = fw_number_of(&r->record[record->parent], "duration");
     bool late = law->start_s >= end_s;
-    bool empty = law->kind == FW_LAW_TABLE && !(fw_law_largest(law, end_s) > 0);
+    bool empty = law->kind->may_be_nothing && !(fw_law_largest(law, end_s) > 0);
     char label[FW_LABEL], end[FW_LABEL];
     if (!(late || empty) || isnan(end_s)) return;
-    fw_diag_warning(r->diags, 99, fw_place_of(record, late ? "start" : "table"),
+    fw_diag_warning(r->diags, 99, fw_place_of(record, late ? "start" : law->kind->may_be_nothing),
                     "%s: its law is 0 until the scene ends at %s, so it never acts",
                     fw_label(record, label), fw_in_unit(end, end_s, "ms"));
 }
@@ -236,20 +228,18 @@ static void check_start(fw_reader *r, const fw_record *record, const fw_law *law
 static const double fw_most_periods = 1e6;
 
 static void check_periods(fw_reader *r, const fw_record *record, const fw_law *law) {
-    const bool noise = law->kind == FW_LAW_RANDOM;
-    const char *name = noise ? "frequency-most" : "frequency";
+    const fw_quantity_law_wave wave = fw_quantity_law_wave_of(law);
     double duration_s = fw_number_of(&r->record[record->parent], "duration");
-    bool swings = noise || law->kind == FW_LAW_SINE;
-    double rate_Hz = noise ? law->frequency_most_Hz : law->frequency_Hz;
-    double periods = rate_Hz * (fmin(law->end_s, duration_s) - law->start_s);
+    double rate_Hz = wave.fastest_Hz;
+    double periods = rate_Hz * (fmin(wave.to_s, duration_s) - wave.from_s);
     char label[FW_LABEL], rate[FW_LABEL], end[FW_LABEL];
-    if (!(swings && isfinite(duration_s) && periods > fw_most_periods)) return;
+    if (!(wave.repeats && isfinite(duration_s) && periods > fw_most_periods)) return;
     fw_diag_error(
-        r->diags, 250, fw_place_of(record, name),
+        r->diags, 250, fw_place_of(record, wave.attribute),
         "%s: %s %s makes more than a million periods in this scene, and each of them would be "
         "followed; make the scene no longer than %s, or, where the mechanism cannot follow, give "
         "the mean of the load without a law and judge what that leaves out",
-        fw_label(record, label), name, fw_in_unit(rate, rate_Hz, "Hz"),
+        fw_label(record, label), wave.attribute, fw_in_unit(rate, rate_Hz, "Hz"),
         fw_in_unit(end, fw_most_periods / rate_Hz, "ms"));
 }
 
@@ -258,15 +248,11 @@ fw_status fw_time_law(fw_reader *r, const fw_record *record, const fw_law **law)
     bool ok = true;
     *law = NULL;
     if (!name && fw_given(record, "law")) return FW_OK; /* misspelt: reported */
-    const law_row *row = laws;
-    while (name && strcmp(fw_law_kind_text(row->kind), name) != 0)
-        row++;
-    if (!check_attributes(r, record, row)) return r->diags->failed ? FW_NOMEM : FW_OK;
-    if (row->kind == FW_LAW_STEP && !fw_given(record, "start") && !fw_given(record, "end"))
-        return FW_OK;
+    const fw_quantity_law_kind *kind = name ? fw_quantity_law_find(name) : fw_quantity_law_kinds[0];
+    if (!check_attributes(r, record, kind)) return r->diags->failed ? FW_NOMEM : FW_OK;
     fw_law *own = fw_arena_one(r->arena, fw_law);
     FW_NEED(own);
-    FW_TRY(read_law(r, record, row, own, &ok));
+    FW_TRY(read_law(r, record, kind, own, &ok));
     if (ok && !fw_law_is_constant(own)) *law = own;
     if (ok) check_start(r, record, own);
     if (ok) check_periods(r, record, own);

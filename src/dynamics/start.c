@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What must be known before the first step. */
 #include "dynamics/run.h"
+#include "quantity/law_kind.h"
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -55,7 +56,7 @@ static fw_status look_at_laws(fw_run *r, const fw_terms *terms, double *at, int 
         bool limits = false;
         for (int k = 0; k < own->n; k++)
             if (isfinite(own->most_s[k])) limits = true;
-        if (limits && law->kind == FW_LAW_EXPRESSION) r->sudden = true;
+        if (limits && !(fw_quantity_law_wave_of(law).fastest_Hz > 0)) r->sudden = true;
         if (limits) r->nstride++;
     }
     return FW_OK;

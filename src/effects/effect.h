@@ -52,12 +52,6 @@ bool fw_material_damped(const fw_effect_case *c, int pin);
 /* N/m: conforming cylinders, convex radius and gap, pressed by `force`: contact.c */
 double fw_line_contact(double youngs_Pa, double poisson, double depth_m, double radius_m,
                        double gap_m, double force_N);
-/* of a law over (0, end_s): largest |value|, largest |slope| (1/s), total variation from 0 before
-   the start on; of a constant 1, 0, 1. Upper bounds, infinite where there is none (law_size.c) */
-typedef struct fw_law_size {
-    double most, slope, variation;
-} fw_law_size;
-fw_law_size fw_law_measure(const fw_law *law, double end_s);
 /* something in the scene or the mechanism answers out of proportion to a load: its response to a
    part of the loads says nothing about the whole (loads that go with time, drivers, stops, cables)
  */

@@ -22,6 +22,7 @@
 #include "effects/effect.h"
 #include "effects/envelope.h"
 #include "effects/hinge_source.h"
+#include "quantity/law_kind.h"
 #include <math.h>
 
 typedef struct work {
@@ -77,12 +78,18 @@ static double alone(const work *w, int j) {
     return r > 0 ? fmax(2 * s, 1.54 * r) / (s + r) : 2;
 }
 
+/* rad/s of a law that is a single wave, over and over; else 0 */
+static double lasting_wave(const fw_law *law) {
+    const fw_quantity_law_wave wave = fw_quantity_law_wave_of(law);
+    return wave.repeats ? wave.rad_per_s : 0;
+}
+
 /* of a course that is no wave: by its variation */
 static double restless(const fw_pushes *p, int modes) {
     double most = 0;
     for (int i = 0; i < p->count; i++) {
         const fw_push *f = &p->item[i];
-        if (!f->element && (fw_law_is_constant(f->law) || f->law->kind == FW_LAW_SINE)) continue;
+        if (!f->element && (fw_law_is_constant(f->law) || lasting_wave(f->law) > 0)) continue;
         for (int j = 0; j < modes; j++)
             if (f->sup[j] > 0) most = fmax(most, f->sway[j] / f->sup[j]);
     }
@@ -104,11 +111,10 @@ static fw_status overshoots(work *w, const fw_pushes *p) {
     }
     for (int j = 0; j < w->slow; j++)
         share[j] /= sum;
-    for (int i = 0; i < p->count; i++)
-        if (p->item[i].law && p->item[i].law->kind == FW_LAW_SINE) {
-            pace[count] = 2 * M_PI * p->item[i].law->frequency_Hz;
-            share[count++] = 1;
-        }
+    for (int i = 0; i < p->count; i++) {
+        pace[count] = lasting_wave(p->item[i].law);
+        if (pace[count] > 0) share[count++] = 1;
+    }
     const bool constant = other == 0 && count == w->slow;
     for (int l = 0; l < w->slow; l++) {
         double cap = fmax(2, 0.5 * e->omega[l] * e->duration_s);

@@ -3,12 +3,11 @@
 #include "effects/effect.h"
 #include "effects/envelope.h"
 #include "effects/modal.h"
+#include "quantity/law_kind.h"
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define PI 3.14159265358979323846
 
 static bool called_for(const fw_effect_case *c) {
     return c->mechanism->nbody > 0;
@@ -23,14 +22,6 @@ typedef struct unrest { /* over the scene */
     int ends;
 } unrest;
 
-/* int |f''| of f = sin(a) over phases a of length `turned` from `from`, per angular frequency */
-static double sine_variation(double from, double turned) {
-    double whole = floor(turned / PI), rest = turned - whole * PI;
-    double start = from - PI * floor(from / PI), end = start + rest; /* |sin| has the period pi */
-    double part = end <= PI ? cos(start) - cos(end) : cos(start) + 2 + cos(end);
-    return 2 * whole + part;
-}
-
 /* total variation of f' inside (a, b), where f is smooth, by sampling every `step`: the midpoint
    rule of |f''|. A sign change of f'' inside a cell hides less than its share of one cell. */
 static double sampled_variation(const fw_law *law, double a, double b, double piece, double step) {
@@ -42,7 +33,7 @@ static double sampled_variation(const fw_law *law, double a, double b, double pi
     return 1.01 * sum * (b - a) / count;
 }
 
-/* shortest step that sees all of an expression between a and b */
+/* shortest step that sees all of a law between a and b */
 static double finest(const fw_law_strides *strides, double a, double b) {
     double most = (double)INFINITY;
     for (int i = 0; i < strides->n; i++) {
@@ -53,8 +44,8 @@ static double finest(const fw_law_strides *strides, double a, double b) {
 }
 
 /* inside the piece (a, b), for every row of strides with the step that it asks for */
-static double expression_variation(const fw_law *law, const fw_law_strides *strides, double a,
-                                   double b, double end_s) {
+static double looked_variation(const fw_law *law, const fw_law_strides *strides, double a, double b,
+                               double end_s) {
     double sum = 0, piece = 0.5 * (a + b);
     double from = a;
     for (int i = 0; i <= strides->n; i++) {
@@ -69,26 +60,12 @@ static double expression_variation(const fw_law *law, const fw_law_strides *stri
 
 static double smooth_variation(const fw_law *law, const fw_law_strides *strides, double a, double b,
                                double end_s) {
-    double w = 2 * PI * law->frequency_Hz, piece = 0.5 * (a + b);
-    switch (law->kind) {
-    case FW_LAW_STEP:
-    case FW_LAW_RAMP:
-    case FW_LAW_TABLE:
-        return 0;
-    case FW_LAW_SINE:
-        if (piece < law->start_s || piece >= law->end_s) return 0;
-        return w * sine_variation(w * (a - law->start_s) + law->phase_rad, w * (b - a));
-    case FW_LAW_HALF_SINE:
-        if (piece < law->start_s || piece >= law->start_s + law->rise_s) return 0;
-        w = PI / law->rise_s;
-        return w * sine_variation(w * (a - law->start_s), w * (b - a));
-    case FW_LAW_RANDOM:
-        return sampled_variation(law, a, b, piece,
-                                 1 / (64 * fmax(law->frequency_Hz, law->frequency_most_Hz)));
-    case FW_LAW_EXPRESSION:
-    default:
-        return expression_variation(law, strides, a, b, end_s);
-    }
+    const fw_quantity_law_wave wave = fw_quantity_law_wave_of(law);
+    if (fw_quantity_law_is_straight(law)) return 0;
+    if (law->kind->slope_variation) return law->kind->slope_variation(law, a, b);
+    if (wave.fastest_Hz > 0)
+        return sampled_variation(law, a, b, 0.5 * (a + b), 1 / (64 * wave.fastest_Hz));
+    return looked_variation(law, strides, a, b, end_s);
 }
 
 static int by_size(const void *a, const void *b) {
@@ -97,7 +74,7 @@ static int by_size(const void *a, const void *b) {
 }
 
 /* Jumps and the variation of the slope of a law over (0, end_s). Exact for steps, ramps, tables,
-   sines and half sines; random and expressions by midpoint sums with a hundredth on top. */
+   sines and half sines; any other law by midpoint sums with a hundredth on top. */
 static fw_status look_at_law(fw_arena *arena, const fw_law *law, double end_s, unrest *out) {
     *out = (unrest){0};
     if (fw_law_is_constant(law)) return FW_OK;
@@ -107,8 +84,8 @@ static fw_status look_at_law(fw_arena *arena, const fw_law *law, double end_s, u
     FW_NEED(at = fw_arena_array(arena, double, (size_t)count + 1));
     count = fw_law_breaks(law, end_s, at, count);
     if (count > 1) qsort(at, (size_t)count, sizeof *at, by_size);
-    if (law->kind == FW_LAW_EXPRESSION)
-        FW_TRY(fw_law_look(arena, law, false, end_s, at, count, &strides));
+    const fw_quantity_law_wave wave = fw_quantity_law_wave_of(law);
+    if (!(wave.fastest_Hz > 0)) FW_TRY(fw_law_look(arena, law, false, end_s, at, count, &strides));
     at[count] = end_s;
     double from = 0;
     for (int i = 0; i <= count; i++) {
@@ -123,10 +100,8 @@ static fw_status look_at_law(fw_arena *arena, const fw_law *law, double end_s, u
     }
     if (!isfinite(out->jumps) || !isfinite(out->slope))
         *out = (unrest){.jumps = (double)INFINITY, .slope = (double)INFINITY};
-    if (law->kind == FW_LAW_SINE) out->wave = 2 * PI * law->frequency_Hz;
-    if (law->kind == FW_LAW_HALF_SINE) out->wave = PI / law->rise_s;
-    double end = law->kind == FW_LAW_SINE ? law->end_s : law->start_s + law->rise_s;
-    out->ends = 1 + (end < end_s);
+    out->wave = wave.rad_per_s;
+    out->ends = 1 + (wave.to_s < end_s);
     return FW_OK;
 }
 

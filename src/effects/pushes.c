@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What pushes the modes over a scene, and how much of it there is. */
 #include "effects/modal.h"
+#include "quantity/law_kind.h"
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -91,14 +92,6 @@ static void count_sample(tally *t, double value, double h, bool new_piece) {
     }
 }
 
-/* a sine varies by 2/pi per radian, over part of a period by up to 0.43 more, and jumps where it
-   begins and ends: exact where samples may be too few */
-static double sine_sway(const fw_law *law, double end_s) {
-    double time = fmin(end_s, law->end_s) - fmax(0, law->start_s);
-    double jumps = (law->start_s > 0) + (law->end_s < end_s);
-    return time > 0 ? 4 * law->frequency_Hz * time + 0.43 + jumps : 0;
-}
-
 /* Total variation by samples is too small by what lies between them; where half as many samples say
    nearly the same the difference is added, and where they do not the variation is not known. The
    integral of the size is off by at most variation times the cell. */
@@ -111,7 +104,8 @@ static void conclude(const fw_modal *o, const fw_push *push, const tally *t, int
     if (push->law) {
         double size = fabs(push->mode[j]);
         push->sup[j] = fmax(t->sup, size * fw_law_largest(push->law, end));
-        if (push->law->kind == FW_LAW_SINE) push->sway[j] = size * sine_sway(push->law, end);
+        if (push->law->kind->variation)
+            push->sway[j] = size * push->law->kind->variation(push->law, end);
         if (!isfinite(push->sway[j])) push->sup[j] *= 1.1;
     }
     push->full[j] = fmin(push->sup[j] * end, t->full + push->sway[j] * end / CELLS * 2);

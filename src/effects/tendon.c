@@ -20,6 +20,7 @@
    Test: test_tendon.c. */
 #include "effects/effect.h"
 #include "effects/envelope.h"
+#include "quantity/law_kind.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -254,12 +255,7 @@ static double path_as_drawn(const fw_mechanism *m, const fw_tendon *t) {
 
 /* a pull that its law only ever makes smaller never lets go, so that nothing has to be switched */
 static bool always_pulls(const fw_tendon *t) {
-    if (!(t->pull_N >= 0)) return false;
-    if (fw_law_is_constant(t->law)) return true;
-    for (int i = 0; t->law->kind == FW_LAW_TABLE && i < t->law->ntable; i++)
-        if (!(t->law->table_value[i] >= 0)) return false;
-    return t->law->kind == FW_LAW_STEP || t->law->kind == FW_LAW_RAMP ||
-           t->law->kind == FW_LAW_HALF_SINE || t->law->kind == FW_LAW_TABLE;
+    return t->pull_N >= 0 && fw_quantity_law_never_negative(t->law);
 }
 
 static fw_status add_one(const fw_effect_case *c, const fw_tendon *t, fw_terms *terms) {

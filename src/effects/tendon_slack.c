@@ -18,6 +18,7 @@
 #include "effects/tendon_slack.h"
 #include "effects/modal.h"
 #include "maths/lu.h"
+#include "quantity/law_kind.h"
 #include <math.h>
 
 typedef struct stretch { /* of one tendon, over the scene */
@@ -30,8 +31,7 @@ static void range_of(const fw_law *law, double end_s, double *least, double *mos
     if (fw_law_is_constant(law)) return;
     *most = fw_law_largest(law, end_s);
     *least = -*most;
-    if (law->kind == FW_LAW_STEP || law->kind == FW_LAW_RAMP || law->kind == FW_LAW_HALF_SINE)
-        *least = 0;
+    if (fw_quantity_law_never_negative(law)) *least = 0;
 }
 
 /* of the eyelet i in mode l, along the two directions */

@@ -2,6 +2,7 @@
 /* What joins bodies beside pins: point-to-point springs, ties and drivers. Values that the file
    leaves open are those of the drawn pose. */
 #include "mechanism/builder.h"
+#include "quantity/law_kind.h"
 #include <float.h>
 #include <math.h>
 
@@ -140,7 +141,7 @@ fw_status fw_build_driver(const fw_builder *b, int i) {
         return fw_diag_error(b->diags, 92, from->place,
                              "driver %s must drive one revolute, prismatic or distance joint",
                              fw_name_or_none(from->id));
-    if (from->law.kind != FW_LAW_EXPRESSION || from->law.program)
+    if (fw_quantity_law_is_ready(&from->law))
         fw_law_value(&from->law, 0, DBL_MIN, value); /* the piece that begins at 0 */
     if (!fw_all_finite(value, 3))
         return fw_diag_error(

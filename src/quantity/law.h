@@ -3,7 +3,9 @@
 
    Laws may jump or bend at known times (fw_law_breaks); integration stops there and goes on in the
    next piece. Inside a piece a law and its first two derivatives are continuous. `piece` is a time
-   inside the piece that is meant, so that the value at a break is the limit from that side. */
+   inside the piece that is meant, so that the value at a break is the limit from that side.
+
+   What a law is, its row says (law_kind.h); laws.def lists them. */
 #ifndef FW_QUANTITY_LAW_H
 #define FW_QUANTITY_LAW_H
 #include "quantity/expression.h"
@@ -26,29 +28,20 @@ bool fw_program_smooth(const fw_program *program);
 
 /* ---- laws ---- */
 
-typedef enum fw_law_kind {
-    FW_LAW_STEP,  /* 0 before start, 1 from start on, 0 again from end on (end: may be infinite) */
-    FW_LAW_RAMP,  /* 0 before start, rises linearly over `rise`, then 1 */
-    FW_LAW_SINE,  /* 0 before start, then sin(2 pi frequency (t - start) + phase), 0 from end on */
-    FW_LAW_TABLE, /* linear between points, constant outside */
-    FW_LAW_EXPRESSION,
-    FW_LAW_HALF_SINE, /* sin(pi (t - start) / rise) for start < t < start + rise, else 0: a shock */
-    FW_LAW_RANDOM     /* sqrt(2/n) sum over n lines of cos(2 pi f_k t + phase_k), f_k evenly from
-                         frequency to frequency_most, phases from the seed: rms 1 */
-} fw_law_kind;
+typedef struct fw_quantity_law_kind fw_quantity_law_kind;
+enum { FW_QUANTITY_LAW_OWN = 4 };
 
-typedef struct fw_law {
-    fw_law_kind kind;
+typedef struct fw_law { /* which of the numbers it has, and what they mean, its kind says */
+    const fw_quantity_law_kind *kind;
     double start_s, end_s, rise_s, frequency_Hz, phase_rad;
     const double *table_t_s, *table_value; /* (ntable) times rise strictly */
     int ntable;
     const fw_program *program;
-    double frequency_most_Hz; /* random */
-    int lines;
-    unsigned seed;
+    double frequency_most_Hz, lines, seed; /* random; the last two are whole */
+    double own[FW_QUANTITY_LAW_OWN];       /* of laws to which none of the numbers above belongs */
 } fw_law;
 
-const char *fw_law_kind_text(fw_law_kind kind); /* "ramp" */
+const char *fw_law_name(const fw_law *law); /* "ramp" */
 /* value[0..2]: the factor or coordinate, d/dt, d2/dt2 */
 void fw_law_value(const fw_law *law, double t_s, double piece_s, double value[3]);
 /* times in (0, end_s) where the law or its slope jumps, ascending; at most `most` are stored.
@@ -61,6 +54,12 @@ bool fw_law_is_constant(const fw_law *law);
    the top of the envelope in long ones) and for expressions the largest of 2001 samples; infinite
    where a sample is not finite. 1 without a law (NULL). */
 double fw_law_largest(const fw_law *law, double end_s);
+/* of a law over (0, end_s): largest |value|, largest |slope| (1/s), total variation from 0 before
+   the start on; of a constant 1, 0, 1. Upper bounds, infinite where there is none */
+typedef struct fw_law_size {
+    double most, slope, variation;
+} fw_law_size;
+fw_law_size fw_law_measure(const fw_law *law, double end_s);
 
 /* ---- steps that see all of it (stride.c) ---- */
 

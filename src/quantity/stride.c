@@ -16,7 +16,7 @@
    a bell exp(-(t/w)^2) about 1.1 w. Cost LOOKS evaluations and at most as many again where halving
    is needed. Source: error of cubic Hermite interpolation h^4 f''''/384, for instance Stoer and
    Bulirsch, 2.1. Test: test_stride.c */
-#include "quantity/program.h"
+#include "quantity/law_kind.h"
 #include <math.h>
 
 #define PI 3.14159265358979323846
@@ -263,8 +263,8 @@ static fw_status scan_pieces(fw_arena *arena, scan *s, piece *list, int count) {
     return FW_OK;
 }
 
-static fw_status scan_expression(fw_arena *arena, scan *s, double end_s, const double *break_s,
-                                 int breaks) {
+static fw_status scan_any(fw_arena *arena, scan *s, double end_s, const double *break_s,
+                          int breaks) {
     fw_mark mark = fw_arena_mark(arena);
     piece *list;
     int count = 0;
@@ -281,36 +281,19 @@ static fw_status scan_expression(fw_arena *arena, scan *s, double end_s, const d
     return status;
 }
 
-static bool varies(const fw_program *program) {
-    for (int i = 0; i < program->count; i++)
-        if (program->step[i].op == FW_OP_TIME) return true;
-    return false;
-}
-
-/* of a law that is made of sines */
-static double fastest_Hz(const fw_law *law) {
-    if (law->kind == FW_LAW_HALF_SINE) return 0.5 / law->rise_s;
-    return law->kind == FW_LAW_RANDOM ? fmax(law->frequency_Hz, law->frequency_most_Hz)
-                                      : law->frequency_Hz;
-}
-
 fw_status fw_law_look(fw_arena *arena, const fw_law *law, bool coordinate, double end_s,
                       const double *break_s, int breaks, fw_law_strides *out) {
     *out = (fw_law_strides){0};
-    bool expression = law && law->kind == FW_LAW_EXPRESSION;
-    if (!law || !(end_s > 0) || !isfinite(end_s)) return FW_OK;
-    if (law->kind <= FW_LAW_TABLE && law->kind != FW_LAW_SINE)
-        return FW_OK; /* straight between its breaks */
-    if (expression && !varies(law->program)) return FW_OK;
-    size_t rows = expression ? STRIDES_MOST : 2;
+    if (!(end_s > 0) || !isfinite(end_s) || fw_quantity_law_is_straight(law)) return FW_OK;
+    const fw_quantity_law_wave wave = fw_quantity_law_wave_of(law);
+    const bool waves = wave.fastest_Hz > 0;
+    size_t rows = waves ? 2 : STRIDES_MOST;
     FW_NEED(out->t_s = fw_arena_array(arena, double, rows));
     FW_NEED(out->most_s = fw_arena_array(arena, double, rows));
     scan s = {.law = law, .coordinate = coordinate, .out = out};
-    if (expression) return scan_expression(arena, &s, end_s, break_s, breaks);
-    bool pulse = law->kind == FW_LAW_HALF_SINE;
-    double stop_s = pulse ? law->start_s + law->rise_s : law->end_s;
-    emit(&s, law->kind == FW_LAW_RANDOM ? 0 : law->start_s, phase_rad / (2 * PI * fastest_Hz(law)));
-    if (law->kind != FW_LAW_RANDOM && stop_s < end_s) emit(&s, stop_s, (double)INFINITY);
+    if (!waves) return scan_any(arena, &s, end_s, break_s, breaks);
+    emit(&s, wave.from_s, phase_rad / (2 * PI * wave.fastest_Hz));
+    if (wave.to_s < end_s) emit(&s, wave.to_s, (double)INFINITY);
     return FW_OK;
 }
 

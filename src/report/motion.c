@@ -1,23 +1,52 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/page.h"
+#include "quantity/law_kind.h"
 #include <math.h>
+#include <string.h>
 
 enum { CURVES = 90 }; /* at full resolution in the whole page */
 
+/* the value of an attribute in the words of a law; false: as it is when it is not given */
+static bool attribute(fw_text *out, const fw_law *law, const char *name, size_t n) {
+    const fw_quantity_law_attribute *a = law->kind->attribute, *end = a + law->kind->attributes;
+    while (a < end && !(strlen(a->name) == n && memcmp(a->name, name, n) == 0))
+        a++;
+    if (a == end) return false;
+    double value = fw_quantity_law_number(law, a);
+    if (a->whole)
+        fw_text_fixed(out, value, 0);
+    else
+        fw_report_markup(out, "{u}", value, a->si_unit);
+    return value != a->absent;
+}
+
+/* the words of a law's row (quantity/law_kind.h) from `words` up to the character `stop`; *given:
+   some attribute among them has a value of its own */
+static const char *words(fw_text *out, const fw_law *law, const char *words_, char stop,
+                         bool *given) {
+    const char *at = words_;
+    for (; *at && *at != stop; at++) {
+        if (*at == '[') {
+            bool own = false;
+            fw_text part = fw_text_new(out->arena);
+            at = words(&part, law, at + 1, ']', &own);
+            if (fw_text_end(&part) != FW_OK) out->failed = 1;
+            if (own) fw_text_bytes(out, part.data, part.length);
+        } else if (*at == '{') {
+            size_t n = strcspn(at + 1, "}");
+            *given = attribute(out, law, at + 1, n) || *given;
+            at += n + 1;
+        } else
+            fw_text_bytes(out, at, 1);
+    }
+    return at;
+}
+
 static void law(fw_text *out, const fw_law *law) {
+    bool given = false;
     if (!law) return;
-    fw_report_markup(out, " times a {s}", fw_law_kind_text(law->kind));
-    if (law->kind == FW_LAW_SINE) fw_report_markup(out, " of {u}", law->frequency_Hz, "Hz");
-    if (law->kind == FW_LAW_RAMP || law->kind == FW_LAW_HALF_SINE)
-        fw_report_markup(out, " over {u}", law->rise_s, "s");
-    if (law->kind == FW_LAW_RANDOM)
-        fw_report_markup(out, " of {i} lines from {u} to {u} (seed {n})", law->lines,
-                         law->frequency_Hz, "Hz", law->frequency_most_Hz, "Hz", (double)law->seed);
-    bool starts = law->kind <= FW_LAW_SINE || law->kind == FW_LAW_HALF_SINE;
-    if (starts && law->start_s > 0) fw_report_markup(out, " from {u} on", law->start_s, "s");
-    if (law->kind <= FW_LAW_SINE && isfinite(law->end_s))
-        fw_report_markup(out, " until {u}", law->end_s, "s");
-    if (law->kind == FW_LAW_TABLE || law->kind == FW_LAW_EXPRESSION) fw_text_add(out, " in time");
+    fw_report_markup(out, " times a {s}", law->kind->name);
+    words(out, law, law->kind->words, '\0', &given);
 }
 
 static const char *body_text(const fw_device *device, int body) {

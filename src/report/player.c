@@ -105,7 +105,7 @@ static void force_arrows(const fw_motion *motion, const fw_scene *scene, double 
             i, fw_report_x(view, x), fw_report_y(view, y), -44.0 * dx, -44.0 * dy,
             -9.0 * dx - 4.0 * dy, -9.0 * dy + 4.0 * dx, -9.0 * dx + 4.0 * dy, -9.0 * dy - 4.0 * dx,
             -58.0 * dx, -54.0 * dy + 4.0, size, "N", f->law ? " \u00d7 " : "",
-            f->law ? fw_law_kind_text(f->law->kind) : "");
+            f->law ? fw_law_name(f->law) : "");
     }
 }
 

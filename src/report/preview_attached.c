@@ -56,7 +56,7 @@ static void begin(fw_text *out, const char *kind) {
 }
 
 static void end(fw_text *out, const fw_law *law) {
-    fw_put_text(out, "law", law ? fw_law_kind_text(law->kind) : NULL);
+    fw_put_text(out, "law", law ? fw_law_name(law) : NULL);
     fw_text_add(out, "}");
 }
 

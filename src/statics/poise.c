@@ -14,6 +14,7 @@
    Theory of Elastic Stability 1973. Test: test_poise.c. */
 #include "statics/poise.h"
 #include "base/cancel.h"
+#include "quantity/law_kind.h"
 #include "statics/rest.h"
 #include <math.h>
 #include <stdlib.h>
@@ -67,7 +68,7 @@ static fw_status find_pieces(looker *k, const fw_terms *terms) {
     for (int i = 0; i < laws; i++) {
         const fw_law *law = law_at(terms, k->w.mechanism, i);
         have += fw_law_breaks(law, end, NULL, 0);
-        k->vary = k->vary || !(fw_law_is_constant(law) || law->kind == FW_LAW_STEP);
+        k->vary = k->vary || !(fw_law_is_constant(law) || law->kind->stepwise);
     }
     if (have > FW_MOST_BREAKS) have = FW_MOST_BREAKS;
     FW_NEED(k->at = fw_arena_array(k->w.arena, double, (size_t)have + 2));

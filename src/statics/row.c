@@ -6,6 +6,7 @@
    Test: test_quasi.c. */
 #include "statics/row.h"
 #include "base/cancel.h"
+#include "quantity/law_kind.h"
 #include "statics/quasi.h"
 #include <math.h>
 #include <stdlib.h>
@@ -120,11 +121,8 @@ static const fw_law *law_at(const fw_row *r, const fw_terms *terms, int i) {
 
 /* an eighth of a period: no step can take one wave for another */
 static double own_step(const fw_law *law) {
-    if (law->kind == FW_LAW_SINE && law->frequency_Hz > 0) return 1 / (8 * law->frequency_Hz);
-    if (law->kind == FW_LAW_HALF_SINE) return law->rise_s / 8;
-    if (law->kind == FW_LAW_RANDOM)
-        return 1 / (8 * fmax(law->frequency_Hz, law->frequency_most_Hz));
-    return (double)INFINITY;
+    const fw_quantity_law_wave wave = fw_quantity_law_wave_of(law);
+    return wave.fastest_Hz > 0 ? wave.shortest_s / 8 : (double)INFINITY;
 }
 
 /* smooth pieces between the breaks of all laws, and how long steps may be */
@@ -141,7 +139,7 @@ static fw_status look_at_laws(fw_row *r, const fw_terms *terms) {
         const fw_law *law = law_at(r, terms, i);
         int count = fw_law_breaks(law, end, at + first, have - first);
         if (count > 1) qsort(at + first, (size_t)count, sizeof *at, by_size);
-        if (law->kind == FW_LAW_EXPRESSION)
+        if (!isfinite(own_step(law)) && !fw_quantity_law_is_straight(law))
             FW_TRY(fw_law_look(r->w.arena, law, i >= terms->ntimed, end, at + first, count,
                                &r->look[r->nlook++]));
         first += count;

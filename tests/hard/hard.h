@@ -4,6 +4,7 @@
    judges. FW_HARD_QUICK=1 leaves out what takes long, for sanitizers and valgrind. */
 #ifndef FW_TEST_HARD_H
 #define FW_TEST_HARD_H
+#include "quantity/law_kind.h"
 #include "multibody/model.h"
 #include "assembly/assembly.h"
 #include "dynamics/models.h"
@@ -101,7 +102,7 @@ static inline fw_law hard_law(fw_arena *arena, const char *text, fw_dimension of
     fw_program *program = NULL;
     if (fw_program_compile(arena, text, strlen(text), &none, of, &program, &error) != FW_OK)
         fail_msg("%s: %s", text, error.message);
-    return (fw_law){.kind = FW_LAW_EXPRESSION, .program = program};
+    return (fw_law){.kind = &fw_quantity_law_expression, .program = program};
 }
 
 static inline fw_spring *hard_spring(rig *r, const char *id, int a, double ax, double ay, int b,

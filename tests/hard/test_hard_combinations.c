@@ -3,6 +3,7 @@
    method, integrator and tolerance by lot. Each must end, or say why not; nothing may be without a
    number; and the energies must close: what is stored, lost and fed in by whatever acts, through
    all events and jumps of laws. A seed alone: FW_HARD_CASE=n. */
+#include "quantity/law_kind.h"
 #include "hard.h"
 
 static const double NOT = (double)NAN;
@@ -30,7 +31,7 @@ static const fw_law *any_law(fw_arena *arena, double end_s, bool jumps) {
     switch ((int)lot(0, jumps ? 5 : 3)) {
     case 0:
         *law = (fw_law){
-            .kind = FW_LAW_SINE, .frequency_Hz = lot(0.5, 8) / end_s, .end_s = (double)INFINITY};
+            .kind = &fw_quantity_law_sine, .frequency_Hz = lot(0.5, 8) / end_s, .end_s = (double)INFINITY};
         break;
     case 1:
         *law = hard_law(arena, "1 - cos(2000 rad/s * t)", (fw_dimension){0});
@@ -38,13 +39,13 @@ static const fw_law *any_law(fw_arena *arena, double end_s, bool jumps) {
     case 2: /* corners */
         for (int i = 0; i < 6; i++)
             t[i] = i * end_s / 5, v[i] = i ? lot(-1, 1) : 0;
-        *law = (fw_law){.kind = FW_LAW_TABLE, .table_t_s = t, .table_value = v, .ntable = 6};
+        *law = (fw_law){.kind = &fw_quantity_law_table, .table_t_s = t, .table_value = v, .ntable = 6};
         break;
     case 3:
-        *law = (fw_law){.kind = FW_LAW_STEP, .start_s = lot(0, end_s), .end_s = (double)INFINITY};
+        *law = (fw_law){.kind = &fw_quantity_law_step, .start_s = lot(0, end_s), .end_s = (double)INFINITY};
         break;
     default:
-        *law = (fw_law){.kind = FW_LAW_STEP, .start_s = lot(0, end_s / 2)};
+        *law = (fw_law){.kind = &fw_quantity_law_step, .start_s = lot(0, end_s / 2)};
         law->end_s = lot(law->start_s + 0.1 * end_s, end_s);
     }
     return law;

@@ -2,6 +2,7 @@
 /* Stops hit hard and often, cables that snap taut, drivers with kinks. Hard because the forces have
    a corner at every touch, which an integrator of order 8 must meet exactly, and because a thousand
    touches located a little late would show in the energy: the books must close over all of them. */
+#include "quantity/law_kind.h"
 #include "hard.h"
 
 /* a rotor between two elastic stops: 2 (gap/w + pi/w0) per round */
@@ -152,7 +153,7 @@ static void test_driver_with_kinks(void **state) {
         r.m.pin[3].free_angle_rad = r.m.body[0].phi_rad;
         hard_driver(
             arena, &r, "motor", 3, FW_NONE,
-            (fw_law){.kind = FW_LAW_TABLE, .table_t_s = t, .table_value = v, .ntable = KINKS + 1});
+            (fw_law){.kind = &fw_quantity_law_table, .table_t_s = t, .table_value = v, .ntable = KINKS + 1});
         r.scene.duration_s = 2;
         const fw_motion *m =
             hard_run(arena, &r, (fw_motion_options){.rtol = pow(10, -e), .samples = 101});

@@ -4,6 +4,7 @@
    passage; a pendulum that is thrown over the top just fast enough to be weightless there, whose
    friction comes from its own reaction, against an integration of its own with such steps. The
    error stated is never below the true one, and the true one goes with the tolerance. */
+#include "quantity/law_kind.h"
 #include "hard.h"
 #include <float.h>
 
@@ -106,7 +107,7 @@ static long double twice_integrated(const load *l, double end) {
 
 static const fw_law *swinging(fw_arena *arena, const load *l) {
     fw_law *law = fw_arena_one(arena, fw_law);
-    *law = (fw_law){.kind = FW_LAW_SINE,
+    *law = (fw_law){.kind = &fw_quantity_law_sine,
                     .end_s = (double)INFINITY,
                     .frequency_Hz = l->w / (2 * HARD_PI),
                     .phase_rad = l->p};

@@ -6,6 +6,7 @@
    A place is kept to rtol of the scene's length L, however small the motion (size) is beside it; at
    an event that becomes an error of time, which the next phase turns into a place again, so many
    times larger: `passed`. What rtol explains is thus rtol L/size passed, for every event anew. */
+#include "quantity/law_kind.h"
 #include "bounce.h"
 #include "hard.h"
 
@@ -192,7 +193,7 @@ static void rub(fw_arena *arena, rig *r, int pin, int tie, double mu_s, double m
 static fw_law rising(fw_arena *arena, double from, double rate, double end_s) {
     double *t = fw_arena_array(arena, double, 2), *x = fw_arena_array(arena, double, 2);
     t[1] = 2 * end_s, x[0] = from, x[1] = from + rate * t[1];
-    return (fw_law){.kind = FW_LAW_TABLE, .table_t_s = t, .table_value = x, .ntable = 2};
+    return (fw_law){.kind = &fw_quantity_law_table, .table_t_s = t, .table_value = x, .ntable = 2};
 }
 
 static void draw_belt(fw_arena *arena, int c, trial *t) {

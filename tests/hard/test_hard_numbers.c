@@ -3,6 +3,7 @@
    tiny. Hard because one such number reaches everything within a few steps, and a comparison with a
    NaN is false whichever way a guard was written: what leaves a room is an error with a diagnostic,
    or finite throughout. */
+#include "quantity/law_kind.h"
 #include "hard.h"
 #include "statics/modes.h"
 
@@ -51,14 +52,14 @@ static bench *everything(fw_arena *arena) {
     hard_tie_at(arena, r, "weld", FW_TIE_WELD, 1, 4, 0.8, 0.75);
     hard_spring(r, "spring", FW_GROUND, 2, 1, 2, 0.1, 0, 3, 0.4)->damping_Ns_per_m = 0.05;
     hard_spring(r, "cable", FW_GROUND, -1, 1, 0, 0, 0, 4, 1)->cable = true;
-    b->motor = (fw_law){.kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 1};
+    b->motor = (fw_law){.kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 1};
     hard_driver(arena, r, "motor", 4, FW_NONE, b->motor);
     b->table_t[1] = 0.1, b->table_t[2] = 0.3, b->table_v[1] = 1, b->table_v[2] = 0.5;
     b->table = (fw_law){
-        .kind = FW_LAW_TABLE, .table_t_s = b->table_t, .table_value = b->table_v, .ntable = 3};
-    b->ramp = (fw_law){.kind = FW_LAW_RAMP, .start_s = 0.05, .rise_s = 0.1};
+        .kind = &fw_quantity_law_table, .table_t_s = b->table_t, .table_value = b->table_v, .ntable = 3};
+    b->ramp = (fw_law){.kind = &fw_quantity_law_ramp, .start_s = 0.05, .rise_s = 0.1};
     b->sine = (fw_law){
-        .kind = FW_LAW_SINE, .start_s = 0.02, .end_s = 0.4, .frequency_Hz = 3, .phase_rad = 0.1};
+        .kind = &fw_quantity_law_sine, .start_s = 0.02, .end_s = 0.4, .frequency_Hz = 3, .phase_rad = 0.1};
     for (int i = 0; i < 3; i++) {
         rig_force(r, i, 1 + i, -2);
         r->scene.force[i].x_m = 0.1 * i;
@@ -272,7 +273,7 @@ static void test_blows_up(void **state) {
                 fw_arena_free(arena);
                 break;
             }
-            fw_law l = {.kind = FW_LAW_EXPRESSION, .program = program};
+            fw_law l = {.kind = &fw_quantity_law_expression, .program = program};
             r.scene.force[0].law = &l;
             r.scene.duration_s = 0.1;
             outcome out = hard_try(arena, &r,

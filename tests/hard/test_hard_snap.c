@@ -2,6 +2,7 @@
 /* Loads that snap through. Hard because a bistable toggle has no equilibrium near its fold:
    whatever follows the load step by step falls off there, and what integrates meets a fast jump
    after a slow creep, with stops that are hit at full speed. */
+#include "quantity/law_kind.h"
 #include "hard.h"
 #include "statics/statics.h"
 
@@ -47,7 +48,7 @@ static void test_pushed_over(void **state) {
     for (int share = 80; share <= 120; share += 40) {
         fw_arena *arena = fw_arena_new(0);
         rig r = toggle(arena, rise, 0.3);
-        fw_law ramp = {.kind = FW_LAW_RAMP, .start_s = 0, .rise_s = 20};
+        fw_law ramp = {.kind = &fw_quantity_law_ramp, .start_s = 0, .rise_s = 20};
         const fw_mass *left = &r.m.body[0];
         rig_force(&r, 0, 0, -fold * share / 100);
         hard_local(&r, 0, 2 * left->x_m, 2 * left->y_m, &r.scene.force[0].x_m,

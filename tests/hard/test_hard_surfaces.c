@@ -3,6 +3,7 @@
    that surfaces hit, rub, hold and part again; friction that holds the mechanism bent; electrodes
    that pull in up to a stop, with a tendon that goes slack. Through the readers of the description,
    layout and mechanism; the answers of tighter and tighter tolerances must become one. */
+#include "quantity/law_kind.h"
 #include "surfaces.h"
 
 /* forces at the hinges' own points close their gaps and bend nothing else */
@@ -162,7 +163,7 @@ static void press(fw_arena *arena, rig *r, int pin, double times, double gap_m, 
     double f = times * gap_m * fmax(at.kx_N_per_m.value, at.ky_N_per_m.value);
     if (h->convex_is_a) f = -f;
     fw_law *law = fw_arena_one(arena, fw_law);
-    *law = (fw_law){.kind = FW_LAW_RAMP, .rise_s = rise_s, .end_s = (double)INFINITY};
+    *law = (fw_law){.kind = &fw_quantity_law_ramp, .rise_s = rise_s, .end_s = (double)INFINITY};
     fw_force *to = fw_arena_array(arena, fw_force, (size_t)r->scene.nforce + 2);
     memcpy(to, r->scene.force, (size_t)r->scene.nforce * sizeof *to);
     r->scene.force = to;

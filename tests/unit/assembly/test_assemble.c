@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "quantity/law_kind.h"
 #include "assembly/assembly.h"
 #include "dynamics/models.h"
 
@@ -335,7 +336,7 @@ static void test_four_bar_branches(void **state) {
     fw_driver driver = {.id = "hold",
                         .joint = 0,
                         .tie = FW_NONE,
-                        .law = {.kind = FW_LAW_STEP, .end_s = (double)INFINITY}};
+                        .law = {.kind = &fw_quantity_law_step, .end_s = (double)INFINITY}};
     r.m.pin[0].free_angle_rad = 0.2; /* the step gives 1 rad: the crank stands at 1.2 rad */
     r.m.driver = &driver, r.m.ndriver = 1;
     double q[9];
@@ -497,7 +498,7 @@ static void test_impossible_driver(void **state) {
         fw_driver driver = {.id = "motor",
                             .joint = 3,
                             .tie = FW_NONE,
-                            .law = {.kind = FW_LAW_STEP, .end_s = (double)INFINITY}};
+                            .law = {.kind = &fw_quantity_law_step, .end_s = (double)INFINITY}};
         r.m.pin[3].free_angle_rad = ask[i] - 1;
         r.m.driver = &driver, r.m.ndriver = 1;
         double q[9];

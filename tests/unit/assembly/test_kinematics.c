@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "quantity/law_kind.h"
 #include "assembly/kinematics.h"
 #include "dynamics/models.h"
 
@@ -296,7 +297,7 @@ static fw_driver sine(const char *id, int pin, double frequency, double phase) {
     return (fw_driver){.id = id,
                        .joint = pin,
                        .tie = FW_NONE,
-                       .law = {.kind = FW_LAW_SINE,
+                       .law = {.kind = &fw_quantity_law_sine,
                                .end_s = (double)INFINITY,
                                .frequency_Hz = frequency,
                                .phase_rad = phase}};
@@ -391,7 +392,7 @@ static void test_ramp(void **state) {
     fw_driver driver = {.id = "motor",
                         .joint = 0,
                         .tie = FW_NONE,
-                        .law = {.kind = FW_LAW_RAMP, .start_s = 0.25, .rise_s = 0.5}};
+                        .law = {.kind = &fw_quantity_law_ramp, .start_s = 0.25, .rise_s = 0.5}};
     r.m.driver = &driver, r.m.ndriver = 1;
     double q[9];
     pose(&r, q);

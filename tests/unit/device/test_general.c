@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sliding and rigid joints, rods, drivers, stops, cables, loads with laws, and sizes from
    nanometres to kilometres. */
+#include "quantity/law_kind.h"
 #include "files.h"
 
 static const double pi = 3.14159265358979323846;
@@ -99,19 +100,19 @@ static void laws(void **state) {
     assert_null(law_of(arena, "law=\"step\""));
     assert_null(law_of(arena, "law=\"step\" start=\"0 ms\""));
     const fw_law *l = law_of(arena, "start=\"late\""); /* step is the default */
-    assert_int_equal(l->kind, FW_LAW_STEP);
+    assert_int_equal(l->kind == &fw_quantity_law_step, 1);
     assert_relative(l->start_s, 2e-3, 1e-15);
     assert_true(isinf(l->end_s));
     l = law_of(arena, "law=\"step\" end=\"3*late\"");
     assert_true(l->start_s == 0 && fabs(l->end_s - 6e-3) < 1e-17);
     l = law_of(arena, "law=\"ramp\" rise=\"late\" start=\"1 ms\"");
-    assert_true(l->kind == FW_LAW_RAMP && fabs(l->rise_s - 2e-3) < 1e-18 &&
+    assert_true(l->kind == &fw_quantity_law_ramp && fabs(l->rise_s - 2e-3) < 1e-18 &&
                 fabs(l->start_s - 1e-3) < 1e-18);
     l = law_of(arena, "law=\"sine\" frequency=\"2 kHz\" phase=\"90 deg\"");
-    assert_true(l->kind == FW_LAW_SINE && l->frequency_Hz == 2000 && isinf(l->end_s));
+    assert_true(l->kind == &fw_quantity_law_sine && l->frequency_Hz == 2000 && isinf(l->end_s));
     assert_relative(l->phase_rad, pi / 2, 1e-15);
     l = law_of(arena, "law=\"table\" table=\" 0 ms : 0 ;late: 1/4;\n 2*late:-1 ; \"");
-    assert_int_equal(l->kind, FW_LAW_TABLE);
+    assert_int_equal(l->kind == &fw_quantity_law_table, 1);
     assert_int_equal(l->ntable, 3);
     assert_relative(l->table_t_s[2], 4e-3, 1e-15);
     assert_true(l->table_value[1] == 0.25 && l->table_value[2] == -1);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What else acts in scenes: the values read, their defaults, and the descriptions in
    tests/data/effects, which use every element. Mistakes are in tests/bad. */
+#include "quantity/law_kind.h"
 #include "files.h"
 
 static const double pi = 3.14159265358979323846;
@@ -44,7 +45,7 @@ static void tendons(void **state) {
     assert_string_equal(t[0].id, "a");
     assert_relative(t[0].pull_N, 3e-3, 1e-15);
     assert_true(isnan(t[0].draw_m));
-    assert_int_equal(t[0].law->kind, FW_LAW_RAMP);
+    assert_int_equal(t[0].law->kind == &fw_quantity_law_ramp, 1);
     assert_int_equal(t[0].neyelet, 3);
     assert_int_equal(t[0].eyelet[0].body, 0);
     assert_relative(t[0].eyelet[0].x_m, 1e-3, 1e-15);
@@ -108,11 +109,11 @@ static void shaking(void **state) {
     const fw_base_motion *b = s->base;
     assert_relative(b[0].ax_m_per_s2, 3, 1e-15);
     assert_near(b[0].ay_m_per_s2, 0, 0);
-    assert_int_equal(b[0].law->kind, FW_LAW_HALF_SINE);
+    assert_int_equal(b[0].law->kind == &fw_quantity_law_half_sine, 1);
     assert_relative(b[0].law->start_s, 1e-3, 1e-15);
     assert_relative(b[0].law->rise_s, 2e-3, 1e-15);
     assert_relative(b[1].ay_m_per_s2, -4e3, 1e-14);
-    assert_int_equal(b[1].law->kind, FW_LAW_RANDOM);
+    assert_int_equal(b[1].law->kind == &fw_quantity_law_random, 1);
     assert_relative(b[1].law->frequency_Hz, 20, 1e-15);
     assert_relative(b[1].law->frequency_most_Hz, 2000, 1e-15);
     assert_true(b[1].law->lines == 64 && b[1].law->seed == 4294967295u);

@@ -2,6 +2,7 @@
 /* Random devices and loads for the test of the bounds (bounds.h). */
 #ifndef FW_TESTS_BOUNDS_DEVICE_H
 #define FW_TESTS_BOUNDS_DEVICE_H
+#include "quantity/law_kind.h"
 #include "models.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -106,7 +107,7 @@ static rig (*const bounds_devices[])(fw_arena *, uint64_t *) = {bounds_six_bar, 
 
 static inline void bounds_table_law(bounds_device *d, uint64_t *seed, fw_law *l) {
     double *at = d->table_t[d->laws - 1], *value = d->table_v[d->laws - 1];
-    l->kind = FW_LAW_TABLE;
+    l->kind = &fw_quantity_law_table;
     l->ntable = 4;
     l->table_t_s = at, l->table_value = value;
     for (int i = 0; i < 4; i++) {
@@ -117,7 +118,7 @@ static inline void bounds_table_law(bounds_device *d, uint64_t *seed, fw_law *l)
 
 static inline fw_law *bounds_new_law(bounds_device *d) {
     fw_law *l = &d->law[d->laws++];
-    *l = (fw_law){.kind = FW_LAW_STEP, .end_s = (double)INFINITY};
+    *l = (fw_law){.kind = &fw_quantity_law_step, .end_s = (double)INFINITY};
     return l;
 }
 
@@ -128,13 +129,13 @@ static inline const fw_law *bounds_slow_law(bounds_device *d, uint64_t *seed) {
     fw_law *l = bounds_new_law(d);
     l->start_s = rig_random(seed) < 0.5 ? 0 : 0.3 * t * rig_random(seed);
     if (kind < 0.4) {
-        l->kind = FW_LAW_RAMP;
+        l->kind = &fw_quantity_law_ramp;
         l->rise_s = bounds_log(seed, 0.1, 1.5) * t;
     } else if (kind < 0.65) {
-        l->kind = FW_LAW_SINE;
+        l->kind = &fw_quantity_law_sine;
         l->frequency_Hz = bounds_log(seed, 0.2, 3) / t;
     } else if (kind < 0.8) {
-        l->kind = FW_LAW_HALF_SINE;
+        l->kind = &fw_quantity_law_half_sine;
         l->rise_s = bounds_log(seed, 0.2, 1) * t;
     } else {
         bounds_table_law(d, seed, l);
@@ -153,10 +154,10 @@ static inline const fw_law *bounds_law(bounds_device *d, uint64_t *seed) {
     if (kind < 0.55) {
         if (rig_random(seed) < 0.5) l->end_s = l->start_s + 0.5 * t * rig_random(seed);
     } else if (kind < 0.7) {
-        l->kind = FW_LAW_RAMP;
+        l->kind = &fw_quantity_law_ramp;
         l->rise_s = bounds_log(seed, 0.01, 2) * t;
     } else if (kind < 0.85) {
-        l->kind = FW_LAW_SINE;
+        l->kind = &fw_quantity_law_sine;
         l->frequency_Hz = bounds_log(seed, 0.1, 3) * d->omega / 6.28;
         l->phase_rad = 3 * rig_random(seed);
     } else

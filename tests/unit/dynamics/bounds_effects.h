@@ -4,6 +4,7 @@
    every effect is once much and once next to nothing. */
 #ifndef FW_TESTS_BOUNDS_EFFECTS_H
 #define FW_TESTS_BOUNDS_EFFECTS_H
+#include "quantity/law_kind.h"
 #include "bounds_device.h"
 
 static const double bounds_length_m = 1e-3, bounds_mass_kg = 1e-8, bounds_stiffness_Nm = 1e-6;
@@ -37,11 +38,11 @@ static inline const fw_law *bounds_shake(bounds_device *d, uint64_t *seed) {
     fw_law *l = bounds_new_law(d);
     l->start_s = 0.4 * t * rig_random(seed);
     if (kind < 0.75) {
-        l->kind = FW_LAW_HALF_SINE;
+        l->kind = &fw_quantity_law_half_sine;
         l->rise_s = bounds_log(seed, 0.1, 10) / d->omega;
         return l;
     }
-    l->kind = FW_LAW_RANDOM;
+    l->kind = &fw_quantity_law_random;
     l->start_s = 0;
     l->lines = 2 + (int)(20 * rig_random(seed));
     l->frequency_Hz = bounds_log(seed, 0.05, 1) * d->omega / 6.28;
@@ -103,7 +104,7 @@ static inline const fw_law *bounds_warming(bounds_device *d, uint64_t *seed) {
     if (rig_random(seed) < 0.5 || d->laws == BOUNDS_LOADS) return NULL;
     if (rig_random(seed) < 0.5) return bounds_slow_law(d, seed);
     fw_law *l = bounds_new_law(d);
-    l->kind = rig_random(seed) < 0.5 ? FW_LAW_RAMP : FW_LAW_SINE;
+    l->kind = rig_random(seed) < 0.5 ? &fw_quantity_law_ramp : &fw_quantity_law_sine;
     l->start_s = rig_random(seed) < 0.5 ? 0 : 0.4 * t * rig_random(seed);
     l->rise_s = bounds_log(seed, 0.01, 1) * t;
     l->frequency_Hz = bounds_log(seed, 0.05, 3) * d->omega / 6.28;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tendons and electrodes in motion, against closed forms. */
+#include "quantity/law_kind.h"
 #include "models.h"
 
 static const double PI = 3.14159265358979323846, eps0 = 8.8541878128e-12;
@@ -140,7 +141,7 @@ static void test_pulled_by_a_sine(void **state) {
     static const fw_eyelet line[] = {
         {.body = 0}, {.body = FW_GROUND, .x_m = 5e-3}, {.body = FW_GROUND, .x_m = 5e-3, .y_m = -1}};
     static const fw_law sine = {
-        .kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 1000};
+        .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 1000};
     const double m = 1e-6, pull = 1e-4, w = 2 * PI * 1000;
     fixture f = begin();
     rig r = rig_new(f.arena, 1, 0, 0);
@@ -220,7 +221,7 @@ static void test_sudden_voltage(void **state) {
 static void test_energy_of_a_law(void **state) {
     (void)state;
     static const fw_law sine = {
-        .kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 3000};
+        .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 3000};
     fixture f = begin();
     fw_comb c;
     rig r = plate(&f, &c, 5);

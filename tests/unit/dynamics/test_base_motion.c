@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Shaken devices with one degree of freedom against closed forms: a half-sine shock (shock
    spectrum) and a sine. Poses are in the frame of the base. */
+#include "quantity/law_kind.h"
 #include "models.h"
 
 static const double pi = 3.14159265358979323846;
@@ -40,7 +41,7 @@ static void shock_spectrum(void **state) {
         fw_arena *arena = fw_arena_new(0);
         double b = ratio[i], tau = pi / (b * omega), axis = 0.4 + i;
         rig r = slider(arena, omega, axis);
-        const fw_law shock = {.kind = FW_LAW_SINE, .end_s = tau, .frequency_Hz = 1 / (2 * tau)};
+        const fw_law shock = {.kind = &fw_quantity_law_sine, .end_s = tau, .frequency_Hz = 1 / (2 * tau)};
         r.scene.base[r.scene.nbase++] = (fw_base_motion){
             .ax_m_per_s2 = 5 * cos(axis), .ay_m_per_s2 = 5 * sin(axis), .law = &shock};
         r.scene.duration_s = tau + 4 * pi / omega;
@@ -60,7 +61,7 @@ static void sine_and_constant(void **state) {
     const double w = 12, p = 19.5, axis = -0.7, c = cos(axis), s = sin(axis);
     rig r = slider(arena, w, axis);
     const fw_law sine = {
-        .kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = p / (2 * pi)};
+        .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = p / (2 * pi)};
     r.scene.base[r.scene.nbase++] =
         (fw_base_motion){.ax_m_per_s2 = 3 * c - 8 * s, .ay_m_per_s2 = 3 * s + 8 * c, .law = &sine};
     r.scene.base[r.scene.nbase++] = (fw_base_motion){.ax_m_per_s2 = 2 * c, .ay_m_per_s2 = 2 * s};

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* `auto`: which integrator, for loads that act at once, that come later, and for starting
    velocities; the choice is never far from the cheaper of the two. */
+#include "quantity/law_kind.h"
 #include "models.h"
 
 static const fw_motion *run_to(fw_arena *arena, const rig *r, const char *integrator,
@@ -32,7 +33,7 @@ static rig two_bars(fw_arena *arena, double stiff) {
 static void test_stiff_scenes(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    static fw_law ramp = {.kind = FW_LAW_RAMP, .rise_s = 5e-3};
+    static fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 5e-3};
     for (int kind = 0; kind < 3; kind++) {
         rig r = two_bars(arena, 1e6);
         if (kind < 2) rig_torque(&r, 0, 2e-7);

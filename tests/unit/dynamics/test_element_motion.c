@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Motion under force elements: against the same forces as plain springs and cables, against pins,
    and the balance of energy. */
+#include "quantity/law_kind.h"
 #include "element_rigs.h"
 #include "effects/element_check.h"
 
@@ -258,7 +259,7 @@ static void stiff_bush_is_a_pin(void **state) {
         r.scene.initial[0] = (fw_initial){.body = 0};
         r.scene.gravity = false;
         /* 1 - cos(2 pi t): begins without a slope, so that nothing rings above 1/k */
-        const fw_law slow = {.kind = FW_LAW_SINE,
+        const fw_law slow = {.kind = &fw_quantity_law_sine,
                              .frequency_Hz = 1,
                              .phase_rad = -asin(1.0),
                              .end_s = (double)INFINITY};
@@ -305,17 +306,17 @@ static const fw_law *law_any(fw_arena *arena, uint64_t *seed, double duration) {
     fw_law *law = fw_arena_one(arena, fw_law);
     switch ((int)(4 * rig_random(seed))) {
     case 0:
-        *law = (fw_law){.kind = FW_LAW_RAMP,
+        *law = (fw_law){.kind = &fw_quantity_law_ramp,
                         .start_s = 0.3 * duration * rig_random(seed),
                         .rise_s = 0.5 * duration};
         break;
     case 1:
-        *law = (fw_law){.kind = FW_LAW_SINE,
+        *law = (fw_law){.kind = &fw_quantity_law_sine,
                         .frequency_Hz = (1 + 3 * rig_random(seed)) / duration,
                         .end_s = (double)INFINITY};
         break;
     case 2: /* jumps */
-        *law = (fw_law){.kind = FW_LAW_STEP,
+        *law = (fw_law){.kind = &fw_quantity_law_step,
                         .start_s = 0.4 * duration * rig_random(seed),
                         .end_s = duration * (0.5 + 0.3 * rig_random(seed))};
         break;
@@ -323,7 +324,7 @@ static const fw_law *law_any(fw_arena *arena, uint64_t *seed, double duration) {
         double *t = fw_arena_array(arena, double, 4), *f = fw_arena_array(arena, double, 4);
         for (int i = 0; i < 4; i++)
             t[i] = duration * (0.1 + 0.25 * i), f[i] = 2 * rig_random(seed) - 1;
-        *law = (fw_law){.kind = FW_LAW_TABLE, .table_t_s = t, .table_value = f, .ntable = 4};
+        *law = (fw_law){.kind = &fw_quantity_law_table, .table_t_s = t, .table_value = f, .ntable = 4};
     }
     }
     return law;
@@ -340,7 +341,7 @@ static void laws_are_followed(void **state) {
         r.scene.duration_s = 1;
         fw_terms t = rig_terms(arena, &r);
         const line d = {.k = 800, .draw = 0.1, .length = 5};
-        const fw_law law = {.kind = ramp ? FW_LAW_RAMP : FW_LAW_STEP,
+        const fw_law law = {.kind = ramp ? &fw_quantity_law_ramp : &fw_quantity_law_step,
                             .start_s = 0.3,
                             .rise_s = 0.4,
                             .end_s = (double)INFINITY};
@@ -379,7 +380,7 @@ static void energies_add_up(void **state) {
             e->switches = i != 1;
             if (i == 2) continue;
             e->law[e->laws++] = law_any(arena, &pick, r.scene.duration_s);
-            jumps += i == 0 && e->law[0]->kind == FW_LAW_STEP;
+            jumps += i == 0 && e->law[0]->kind == &fw_quantity_law_step;
         }
         if (seed % 3 == 0) bush_release(arena, &r.m, &t, 1, &b);
         const fw_motion *m = rig_run(arena, &r, &t, NULL, 1e-10, 2);
@@ -500,7 +501,7 @@ static void classes_are_sound(void **state) {
         fw_terms t = {0};
         double p[6], w[6];
         bool on = true;
-        fw_law sine = {.kind = FW_LAW_SINE, .frequency_Hz = 0.3, .end_s = (double)INFINITY};
+        fw_law sine = {.kind = &fw_quantity_law_sine, .frequency_Hz = 0.3, .end_s = (double)INFINITY};
         for (int k = 0; k < 6; k++)
             p[k] = rig_random(&seed) + (k == 3), w[k] = rig_random(&seed) - 0.5;
         fw_seen s = {.t_s = rig_random(&seed), .load = 0.8, .p = p, .w = w, .on = &on};

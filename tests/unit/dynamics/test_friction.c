@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Coulomb friction along whole motions: closed forms of sliding, stopping, sticking and stick-slip;
    a pendulum with pin friction against an integration of its own; all methods; energy. */
+#include "quantity/law_kind.h"
 #include "models.h"
 #include <stdlib.h>
 
@@ -180,7 +181,7 @@ static void belt_new(fw_arena *arena, belt *b, double mu_s, double mu_k, double 
         .id = "motor",
         .joint = FW_NONE,
         .tie = 0,
-        .law = {.kind = FW_LAW_TABLE, .table_t_s = b->t, .table_value = b->x, .ntable = 2}};
+        .law = {.kind = &fw_quantity_law_table, .table_t_s = b->t, .table_value = b->x, .ntable = 2}};
 }
 
 /* 20 cycles: after each the mass lets go at x_s with the belt's speed */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Motions with joints other than pins, with drivers and with laws, against closed forms. */
+#include "quantity/law_kind.h"
 #include "models.h"
 
 static const fw_motion *run(fw_arena *arena, const rig *r, double rtol) {
@@ -109,7 +110,7 @@ static void test_driven_slider_crank(void **state) {
     assert_int_equal(fw_program_compile(arena, text, strlen(text), &none, (fw_dimension){.rad = 1},
                                         &program, &error),
                      FW_OK);
-    rig_driver(arena, &r, 0, FW_NONE, (fw_law){.kind = FW_LAW_EXPRESSION, .program = program});
+    rig_driver(arena, &r, 0, FW_NONE, (fw_law){.kind = &fw_quantity_law_expression, .program = program});
     r.scene.duration_s = 2e-2;
     rig_velocity(&r, 0, 0, w * radius / 2, w); /* fits: no warning needed */
     const fw_motion *m = run(arena, &r, 1e-12);
@@ -142,7 +143,7 @@ static void test_table_law(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     static const double t[4] = {0, 1e-3, 1.5e-3, 4e-3}, g[4] = {0, 2, -1, 0.5};
-    fw_law law = {.kind = FW_LAW_TABLE, .table_t_s = t, .table_value = g, .ntable = 4};
+    fw_law law = {.kind = &fw_quantity_law_table, .table_t_s = t, .table_value = g, .ntable = 4};
     rig r = rig_new(arena, 1, 0, 0);
     rig_body(&r, "cart", 1e-8, 1e-14, 0, 0, 0);
     rig_tie(arena, &r, FW_TIE_PRISMATIC, FW_GROUND, 0)->axis_rad = 0.3;
@@ -168,7 +169,7 @@ static void test_ramped_driver(void **state) {
     rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 0, 0);
     rig_pin(&r, "K", 0, 1, 1e-3, 0, 1e-6, 0);
     rig_driver(arena, &r, 0, FW_NONE,
-               (fw_law){.kind = FW_LAW_TABLE, .table_t_s = t, .table_value = g, .ntable = 3});
+               (fw_law){.kind = &fw_quantity_law_table, .table_t_s = t, .table_value = g, .ntable = 3});
     r.scene.duration_s = 3e-3;
     const fw_motion *m = run(arena, &r, 1e-11);
     const double *q = m->q + 6 * (m->nsample - 1);
@@ -270,7 +271,7 @@ static void test_peaks_of_ties(void **state) {
     rig_tie(arena, &r, FW_TIE_PRISMATIC, FW_GROUND, 0);
     rig_tie(arena, &r, FW_TIE_WELD, 0, 1)->by_m = -0.25;
     r.m.body[1].y_m = 0.25;
-    const fw_law sine = {.kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 2};
+    const fw_law sine = {.kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 2};
     rig_driver(arena, &r, FW_NONE, 0, sine);
     rig_driver(arena, &r, 0, FW_NONE, sine);
     rig_velocity(&r, 0, 4 * acos(-1.0), 0, 0); /* as fast as the laws start */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every method on the same motions: against each other and against the reference values of the
    benchmarks. */
+#include "quantity/law_kind.h"
 #include "models.h"
 #include <stdlib.h>
 
@@ -117,7 +118,7 @@ static void methods_agree_on_other_joints(void **state) {
                                    .ay_m = 3e-4,
                                    .angle_rad = 0.2};
     r.scene.duration_s = 2e-3;
-    fw_law law = {.kind = FW_LAW_TABLE, .table_t_s = t, .table_value = g, .ntable = 3};
+    fw_law law = {.kind = &fw_quantity_law_table, .table_t_s = t, .table_value = g, .ntable = 3};
     rig_force(&r, 2, 2e-5, 1e-5);
     r.scene.force[0].law = &law;
     assert_int_equal(compare_all(arena, &r, "ties", 1e-12, 1e-3, true, 1e-10), 7);
@@ -126,7 +127,7 @@ static void methods_agree_on_other_joints(void **state) {
         .id = "motor",
         .joint = 0,
         .tie = FW_NONE,
-        .law = {.kind = FW_LAW_TABLE, .table_t_s = t, .table_value = angle, .ntable = 3}};
+        .law = {.kind = &fw_quantity_law_table, .table_t_s = t, .table_value = angle, .ntable = 3}};
     assert_int_equal(compare_all(arena, &r, "driven", 1e-12, 1e-3, true, 1e-10), 7);
     /* a driver whose speed jumps strikes the mechanism, and velocities that contradict the joints
        are changed: both by the least change in the mass metric, whatever a method corrects by */

@@ -3,6 +3,7 @@
    with I = k = 2 and T = 1 in SI swings with T/I w sqrt(pi) exp(-(w/2)^2) after a bell of width w,
    exactly when the bell is over. Every integrator must be right within the error that it states,
    and state an error that is worth something. */
+#include "quantity/law_kind.h"
 #include "models.h"
 
 static const double pi = 3.14159265358979323846;
@@ -15,7 +16,7 @@ static fw_law bell(fw_arena *arena, double height, double centre_s, double w_s) 
         fw_arena_printf(arena, "%.17g*exp(-((t - %.17g s)/(%.17g s))^2)", height, centre_s, w_s);
     assert_int_equal(
         fw_program_compile(arena, text, strlen(text), &none, (fw_dimension){0}, &p, &error), FW_OK);
-    return (fw_law){.kind = FW_LAW_EXPRESSION, .program = p};
+    return (fw_law){.kind = &fw_quantity_law_expression, .program = p};
 }
 
 static rig oscillator(fw_arena *arena, const fw_law *law) {

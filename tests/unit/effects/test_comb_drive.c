@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "quantity/law_kind.h"
 #include "drive_rig.h"
 #include "effects/comb.h"
 
@@ -182,7 +183,7 @@ static void test_closed_forms(void **state) {
 static void test_laws(void **state) {
     (void)state;
     static const fw_law sine = {
-        .kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 700, .phase_rad = 0.9};
+        .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 700, .phase_rad = 0.9};
     for (int kind = 0; kind < 8; kind++) {
         fw_comb c = kind & 1 ? plate_of() : comb;
         if (kind & 2) c.body_a = 1;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the effect `friction` makes of a scene. */
+#include "quantity/law_kind.h"
 #include "effects/effect.h"
 #include "test.h"
 
@@ -182,7 +183,7 @@ static void test_bound(void **state) {
         /* the peak comes with the first swing; under a load with a law it may come late, and
            friction in step with the motion counts every swing: four */
         assert_near(bound_of(arena, mu, r, preload, 4, NULL), bound / (1 - bound), 1e-2 * share);
-        const fw_law step = {.kind = FW_LAW_STEP, .end_s = 1}; /* behind the scene */
+        const fw_law step = {.kind = &fw_quantity_law_step, .end_s = 1}; /* behind the scene */
         double late = bound_of(arena, mu, r, preload, 4, &step);
         late /= 1 + late;
         if (share < 0.02) assert_true(late >= 4 * share && late <= 4.1 * share);

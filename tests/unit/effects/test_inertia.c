@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The bound on what a row of equilibria misses, against the motion of one mode integrated in small
    steps; the envelope is filled by hand. */
+#include "quantity/law_kind.h"
 #include "effects/effect.h"
 #include "effects/envelope.h"
 #include "effects/modal.h"
@@ -116,7 +117,7 @@ static void closed_forms(void **state) {
     assert_near(largest_difference(&s, 200), load / stiffness, 1e-6 * load / stiffness);
     for (int k = 1; k < 8;
          k++) { /* odd half periods: the second bend adds to what the first left */
-        const fw_law ramp = {.kind = FW_LAW_RAMP, .start_s = 0, .rise_s = (2 * k + 1) * pi / w};
+        const fw_law ramp = {.kind = &fw_quantity_law_ramp, .start_s = 0, .rise_s = (2 * k + 1) * pi / w};
         s.scene.ntorque = 0;
         set_torque(&s, &ramp, load);
         s.scene.duration_s = 2 * ramp.rise_s;
@@ -126,7 +127,7 @@ static void closed_forms(void **state) {
     }
     /* a sine: what it settles to and what rings, however many waves there are */
     for (int n = 1; n < 60; n += 7) {
-        const fw_law sine = {.kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 100};
+        const fw_law sine = {.kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 100};
         s.scene.ntorque = 0;
         set_torque(&s, &sine, load);
         s.scene.duration_s = n / 200.0;
@@ -151,20 +152,20 @@ static fw_law any_law(double period, double *t, double *value) {
     fw_law law = {.end_s = (double)INFINITY};
     switch ((int)(4 * any())) {
     case 0:
-        law.kind = FW_LAW_STEP, law.start_s = period * 8 * (any() - 0.3);
+        law.kind = &fw_quantity_law_step, law.start_s = period * 8 * (any() - 0.3);
         law.end_s = law.start_s + (any() < 0.5 ? (double)INFINITY : 6 * period * any());
         return law;
     case 1:
-        law.kind = FW_LAW_RAMP, law.start_s = period * 5 * (any() - 0.3);
+        law.kind = &fw_quantity_law_ramp, law.start_s = period * 5 * (any() - 0.3);
         law.rise_s = period * (0.1 + 10 * any());
         return law;
     case 2:
-        law.kind = FW_LAW_SINE, law.start_s = period * 4 * (any() - 0.5);
+        law.kind = &fw_quantity_law_sine, law.start_s = period * 4 * (any() - 0.5);
         law.phase_rad = 7 * any() - 3, law.frequency_Hz = (0.02 + 0.5 * any()) / period;
         if (any() < 0.3) law.end_s = law.start_s + 9 * period * any();
         return law;
     default:
-        law.kind = FW_LAW_TABLE, law.table_t_s = t, law.table_value = value;
+        law.kind = &fw_quantity_law_table, law.table_t_s = t, law.table_value = value;
         law.ntable = 2 + (int)(4 * any());
         for (int i = 0; i < law.ntable; i++) {
             t[i] = (i ? t[i - 1] : -period) + period * (0.1 + 4 * any());
@@ -210,7 +211,7 @@ static void slow_loads_leave_it_out(void **state) {
     lever s;
     const char *reason;
     lever_new(&s, 0);
-    const fw_law ramp = {.kind = FW_LAW_RAMP, .rise_s = 1};
+    const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 1};
     set_torque(&s, &ramp, load);
     s.floor = load / stiffness;
     s.scene.duration_s = 2;
@@ -238,7 +239,7 @@ static void expressions(void **state) {
     assert_int_equal(fw_program_compile(s.arena, text, strlen(text), &names, (fw_dimension){0},
                                         &program, &error),
                      FW_OK);
-    const fw_law law = {.kind = FW_LAW_EXPRESSION, .program = program};
+    const fw_law law = {.kind = &fw_quantity_law_expression, .program = program};
     set_torque(&s, &law, load);
     s.scene.duration_s = 0.1; /* f' = 500 sin(1000 t): 100/pi half waves of 2 * 500 */
     double waves = 100 / pi, whole = floor(waves);

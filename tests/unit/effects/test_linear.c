@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Elements and released pins in the linear system, the forces and the envelope: an element that is
    a spring must do what a spring does, and one that stands for a pin what a stiff pin does. */
+#include "quantity/law_kind.h"
 #include "effects/envelope.h"
 #include "effects/linear.h"
 #include "test.h"
@@ -117,7 +118,7 @@ static void element_for_a_pin(void **state) {
 /* the force of an element at the start and at its largest, against a load of the same size */
 static void forces_of_elements(void **state) {
     (void)state;
-    static const fw_law ramp = {.kind = FW_LAW_RAMP, .start_s = 0.5, .rise_s = 1};
+    static const fw_law ramp = {.kind = &fw_quantity_law_ramp, .start_s = 0.5, .rise_s = 1};
     pair p;
     double start[6], most[6];
     pair_new(&p);
@@ -140,9 +141,9 @@ static void envelope_of_an_element(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     static const fw_law laws[] = {
-        {.kind = FW_LAW_RAMP, .start_s = 0.5, .rise_s = 1},
-        {.kind = FW_LAW_STEP, .start_s = 0.5, .end_s = 1.5},
-        {.kind = FW_LAW_SINE, .frequency_Hz = 0.7, .end_s = (double)INFINITY, .phase_rad = 1},
+        {.kind = &fw_quantity_law_ramp, .start_s = 0.5, .rise_s = 1},
+        {.kind = &fw_quantity_law_step, .start_s = 0.5, .end_s = 1.5},
+        {.kind = &fw_quantity_law_sine, .frequency_Hz = 0.7, .end_s = (double)INFINITY, .phase_rad = 1},
     };
     for (int i = 0; i < 3; i++) {
         pair p;

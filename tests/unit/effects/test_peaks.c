@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Peaks of linear motions against closed forms of one mode, and against a fine leap-frog of two
    that dampers tie together. */
+#include "quantity/law_kind.h"
 #include "effects/peaks.h"
 #include "hinge_rigs.h"
 
@@ -84,7 +85,7 @@ static void ramp(void **state) {
         row x;
         row_new(&x, 1, 0);
         double omega = sqrt(k_Nm / (inertia + mass * arm * arm)), rise = 1.3 * i, s = 1e-8 / k_Nm;
-        fw_law law = {.kind = FW_LAW_RAMP, .rise_s = rise / omega, .end_s = (double)INFINITY};
+        fw_law law = {.kind = &fw_quantity_law_ramp, .rise_s = rise / omega, .end_s = (double)INFINITY};
         x.torque[0] = (fw_torque){.body = 0, .value_Nm = 1e-8, .law = &law};
         x.r.scene.ntorque = 1;
         row_find(&x, 20 / omega);

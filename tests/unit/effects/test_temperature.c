@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a temperature leaves in the terms; flexures that soften with a law. Motions and equilibria
    are in tests/unit/statics/test_thermal.c. */
+#include "quantity/law_kind.h"
 #include "effects/effects.h"
 #include "element_check.h"
 
@@ -114,7 +115,7 @@ static void what_it_stands_on(void **state) {
 static void with_a_law(void **state) {
     (void)state;
     static const fw_law sine = {
-        .kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 3, .phase_rad = 0.4};
+        .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 3, .phase_rad = 0.4};
     stand s;
     stand_new(&s);
     s.scene.ntemperature = 2; /* and 40 K less all the time */

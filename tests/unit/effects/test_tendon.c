@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "quantity/law_kind.h"
 #include "drive_rig.h"
 
 /* from the ground over both bodies, back to the ground and to the first body again */
@@ -9,7 +10,7 @@ static const fw_eyelet eyelets[] = {
 enum { EYELETS = sizeof eyelets / sizeof eyelets[0] };
 
 static const fw_law sine = {
-    .kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 900, .phase_rad = 0.4};
+    .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 900, .phase_rad = 0.4};
 
 static fw_tendon drawn_of(int n, double slack) {
     return (fw_tendon){.id = "cable",

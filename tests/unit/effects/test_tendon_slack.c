@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Drawn tendons in the envelope, by closed forms: a lever about the ground with torsion K under a
    torque F from rest, and a cable from its end, at r, straight up to the ground. */
+#include "quantity/law_kind.h"
 #include "effects/envelope.h"
 #include "test.h"
 
@@ -129,7 +130,7 @@ static void others(void **state) {
         lever_new(&s, -F);
         fw_diags diags = fw_diags_new(s.arena);
         const fw_law sine = {
-            .kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 3 / s.scene.duration_s};
+            .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 3 / s.scene.duration_s};
         s.scene.gravity = true, s.scene.gy_m_per_s2 = 1e-9;
         s.tendon[0].draw_m = 0;
         s.tendon[0].slack_m = 0;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Effects of general mechanisms: loads with laws, stops, sliding joints, cables; and the static
    response of mechanisms with ties and drivers. */
+#include "quantity/law_kind.h"
 #include "effects/effects.h"
 #include "test.h"
 
@@ -63,10 +64,10 @@ static const fw_effect_entry *entry(const bench *b, const char *id) {
 
 static void loads_with_laws(void **state) {
     (void)state;
-    static const fw_law always = {.kind = FW_LAW_STEP, .end_s = (double)INFINITY};
-    static const fw_law late = {.kind = FW_LAW_STEP, .start_s = 0.5, .end_s = (double)INFINITY};
+    static const fw_law always = {.kind = &fw_quantity_law_step, .end_s = (double)INFINITY};
+    static const fw_law late = {.kind = &fw_quantity_law_step, .start_s = 0.5, .end_s = (double)INFINITY};
     static const fw_law cosine = {
-        .kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 3, .phase_rad = 0.5};
+        .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 3, .phase_rad = 0.5};
     bench b;
     bench_new(&b);
     b.force[0] = (fw_force){.body = 0, .fx_N = 5, .fy_N = 7, .law = &always};
@@ -266,7 +267,7 @@ static void damping_bound(void **state) {
    reach, a cable. A load that comes late is no reason. */
 static void gravity_is_kept(void **state) {
     (void)state;
-    static const fw_law late = {.kind = FW_LAW_STEP, .start_s = 0.5, .end_s = (double)INFINITY};
+    static const fw_law late = {.kind = &fw_quantity_law_step, .start_s = 0.5, .end_s = (double)INFINITY};
     for (int i = 0; i < 6; i++) {
         bench b;
         bench_new(&b);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Hinges that give, at another temperature: all that they store goes with Young's modulus. */
+#include "quantity/law_kind.h"
 #include "element_check.h"
 #include "hinge_rigs.h"
 
@@ -27,7 +28,7 @@ static void warm(rig *r) {
 static void follows_the_modulus(void **state) {
     (void)state;
     static const fw_law sine = {
-        .kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 3e3, .phase_rad = 0.4};
+        .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 3e3, .phase_rad = 0.4};
     unsigned seed = 3;
     for (int i = 0; i < 40; i++) {
         rig cold, now;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "quantity/law_kind.h"
 #include "mechanism/mechanism.h"
 #include "test.h"
 
@@ -308,7 +309,7 @@ static fw_law law_of(fw_arena *arena, const char *text, fw_dimension wanted) {
     fw_program *program;
     if (fw_program_compile(arena, text, strlen(text), NULL, wanted, &program, &error) != FW_OK)
         fail_msg("%s: %s", text, error.message);
-    return (fw_law){.kind = FW_LAW_EXPRESSION, .program = program};
+    return (fw_law){.kind = &fw_quantity_law_expression, .program = program};
 }
 
 static void ties_new(desk *d, ties *t) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every kind of constraint and force against differences: Jacobian and gamma along motions, forces
    against the derivative of the energy, S against G M^-1 G^T. */
+#include "quantity/law_kind.h"
 #include "multibody/model.h"
 #include "dynamics/models.h"
 
@@ -48,7 +49,7 @@ static void add_ties(fw_arena *arena, zoo *z, int n) {
                       .free_length_m = about(z, 1e-3)};
         two_bodies(z, n, &t->body_a, &t->body_b);
     }
-    z->law[0] = (fw_law){.kind = FW_LAW_SINE, .frequency_Hz = 700, .phase_rad = 0.4, .end_s = 1};
+    z->law[0] = (fw_law){.kind = &fw_quantity_law_sine, .frequency_Hz = 700, .phase_rad = 0.4, .end_s = 1};
     m->driver[0] = (fw_driver){.id = "turns", .joint = 0, .tie = FW_NONE, .law = z->law[0]};
     m->driver[1] = (fw_driver){.id = "slides", .joint = FW_NONE, .tie = 0, .law = z->law[0]};
     m->driver[2] = (fw_driver){.id = "stretches", .joint = FW_NONE, .tie = 1, .law = z->law[0]};

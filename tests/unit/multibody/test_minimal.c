@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* minimal: which mechanisms it can place body by body, and that what it computes solves the
    equations of motion at every pose. */
+#include "quantity/law_kind.h"
 #include "multibody/methods.h"
 #include "multibody/minimal.h"
 #include "dynamics/models.h"
@@ -137,7 +138,7 @@ static void equations_are_solved(void **state) {
                 .id = "motor",
                 .joint = pin,
                 .tie = FW_NONE,
-                .law = {.kind = FW_LAW_TABLE, .table_t_s = t, .table_value = g, .ntable = 2}};
+                .law = {.kind = &fw_quantity_law_table, .table_t_s = t, .table_value = g, .ntable = 2}};
             fw_pin *driven = &r.m.pin[pin]; /* the law starts at the pose that is there */
             double a = driven->body_a == FW_GROUND ? 0 : r.m.body[driven->body_a].phi_rad;
             double b = driven->body_b == FW_GROUND ? 0 : r.m.body[driven->body_b].phi_rad;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Strides of laws: whatever step sequence they allow must see a pulse wherever it lies, and must
    not be held up by laws that change slowly. */
+#include "quantity/law_kind.h"
 #include "quantity/law.h"
 #include "test.h"
 
@@ -25,7 +26,7 @@ static fw_law expression(const char *text) {
     if (fw_program_compile(arena, text, strlen(text), &none, (fw_dimension){0}, &p, &error) !=
         FW_OK)
         fail_msg("%s: %s", text, error.message);
-    return (fw_law){.kind = FW_LAW_EXPRESSION, .program = p};
+    return (fw_law){.kind = &fw_quantity_law_expression, .program = p};
 }
 
 static fw_law_strides look_at(const fw_law *law, bool coordinate) {
@@ -139,7 +140,7 @@ static void waves(void **state) {
     const double frequency[] = {0.3, 1, 7, 90, 204.8, 1000, 20480, 33333};
     for (size_t i = 0; i < sizeof frequency / sizeof frequency[0]; i++) {
         const fw_law own = {
-            .kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = frequency[i]};
+            .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = frequency[i]};
         const fw_law written =
             expression(fw_arena_printf(arena, "sin(2*pi*t*%.17g Hz)", frequency[i]));
         double periods = frequency[i] * scene_s;
@@ -152,7 +153,7 @@ static void waves(void **state) {
         }
     }
     const fw_law part = {
-        .kind = FW_LAW_SINE, .start_s = 2, .end_s = 3, .frequency_Hz = 100, .phase_rad = pi / 3};
+        .kind = &fw_quantity_law_sine, .start_s = 2, .end_s = 3, .frequency_Hz = 100, .phase_rad = pi / 3};
     const fw_law_strides strides = look_at(&part, false);
     int row = 0;
     double h = 2.1 / (2 * pi * 100);
@@ -166,14 +167,14 @@ static void waves(void **state) {
    fastest line */
 static void shocks_and_noise(void **state) {
     (void)state;
-    const fw_law shock = {.kind = FW_LAW_HALF_SINE, .start_s = 2, .rise_s = 1e-3};
+    const fw_law shock = {.kind = &fw_quantity_law_half_sine, .start_s = 2, .rise_s = 1e-3};
     const fw_law_strides strides = look_at(&shock, false);
     int row = 0;
     double h = 2.1 / pi * 1e-3;
     assert_near(fw_law_stride(&strides, 1, 0, &row), 2 + h, 1e-12);
     assert_near(fw_law_stride(&strides, 1, 2, &row), h, 1e-12);
     assert_true(isinf(fw_law_stride(&strides, 1, 2.001, &row)));
-    const fw_law noise = {.kind = FW_LAW_RANDOM,
+    const fw_law noise = {.kind = &fw_quantity_law_random,
                           .frequency_Hz = 20,
                           .frequency_most_Hz = 200,
                           .lines = 32,
@@ -189,9 +190,9 @@ static void straight_laws(void **state) {
     (void)state;
     const double t[] = {0, 1, 1.001}, value[] = {0, 1, 0};
     const fw_law laws[] = {
-        {.kind = FW_LAW_STEP, .start_s = 1, .end_s = 1.001},
-        {.kind = FW_LAW_RAMP, .start_s = 1, .rise_s = 1e-3},
-        {.kind = FW_LAW_TABLE, .table_t_s = t, .table_value = value, .ntable = 3},
+        {.kind = &fw_quantity_law_step, .start_s = 1, .end_s = 1.001},
+        {.kind = &fw_quantity_law_ramp, .start_s = 1, .rise_s = 1e-3},
+        {.kind = &fw_quantity_law_table, .table_t_s = t, .table_value = value, .ntable = 3},
     };
     for (int i = 0; i < 3; i++)
         assert_int_equal(look_at(&laws[i], false).n, 0);

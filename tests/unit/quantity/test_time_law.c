@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Laws: values on both sides of every break, the breaks themselves, the largest value. */
+#include "quantity/law_kind.h"
 #include "quantity/law.h"
 #include "test.h"
 
@@ -21,7 +22,7 @@ static fw_law expression(const char *text) {
     fw_program *p;
     if (fw_program_compile(arena, text, strlen(text), NULL, (fw_dimension){0}, &p, &error) != FW_OK)
         fail_msg("%s: %s", text, error.message);
-    return (fw_law){.kind = FW_LAW_EXPRESSION, .program = p};
+    return (fw_law){.kind = &fw_quantity_law_expression, .program = p};
 }
 
 static void expect(const fw_law *law, double t, double piece, double f, double d, double dd) {
@@ -41,8 +42,8 @@ static void expect_breaks(const fw_law *law, double end, int n, const double *wa
 
 static void step(void **state) {
     (void)state;
-    const fw_law law = {.kind = FW_LAW_STEP, .start_s = 1, .end_s = 3};
-    const fw_law always = {.kind = FW_LAW_STEP, .end_s = (double)INFINITY};
+    const fw_law law = {.kind = &fw_quantity_law_step, .start_s = 1, .end_s = 3};
+    const fw_law always = {.kind = &fw_quantity_law_step, .end_s = (double)INFINITY};
     expect(&law, 1, 0.5, 0, 0, 0);
     expect(&law, 1, 1, 1, 0, 0);
     expect(&law, 1, 1.5, 1, 0, 0);
@@ -59,7 +60,7 @@ static void step(void **state) {
 
 static void ramp(void **state) {
     (void)state;
-    const fw_law law = {.kind = FW_LAW_RAMP, .start_s = 1, .rise_s = 4};
+    const fw_law law = {.kind = &fw_quantity_law_ramp, .start_s = 1, .rise_s = 4};
     expect(&law, 1, 0.5, 0, 0, 0);
     expect(&law, 1, 1.5, 0, 0.25, 0);
     expect(&law, 2, 2, 0.25, 0.25, 0);
@@ -73,7 +74,7 @@ static void ramp(void **state) {
 static void sine(void **state) {
     (void)state;
     const fw_law law = {
-        .kind = FW_LAW_SINE, .start_s = 1, .end_s = 2, .frequency_Hz = 3, .phase_rad = 0.5};
+        .kind = &fw_quantity_law_sine, .start_s = 1, .end_s = 2, .frequency_Hz = 3, .phase_rad = 0.5};
     double w = 6 * pi;
     expect(&law, 1, 0.9, 0, 0, 0);
     expect(&law, 1, 1.1, sin(0.5), w * cos(0.5), -w * w * sin(0.5));
@@ -83,15 +84,15 @@ static void sine(void **state) {
     expect_breaks(&law, 10, 2, (const double[]){1, 2}, 0);
     assert_near(fw_law_largest(&law, 10), 1, 0);
     assert_near(fw_law_largest(&law, 1 + 0.1 / w), sin(0.6), 1e-12); /* no crest reached yet */
-    const fw_law early = {.kind = FW_LAW_SINE, .start_s = -1, .end_s = 9, .frequency_Hz = 0.125};
+    const fw_law early = {.kind = &fw_quantity_law_sine, .start_s = -1, .end_s = 9, .frequency_Hz = 0.125};
     assert_near(fw_law_largest(&early, 0.5), sin(2 * pi * 0.125 * 1.5), 1e-12);
 }
 
 static void half_sine(void **state) {
     (void)state;
-    const fw_law law = {.kind = FW_LAW_HALF_SINE, .start_s = 1, .rise_s = 0.5};
+    const fw_law law = {.kind = &fw_quantity_law_half_sine, .start_s = 1, .rise_s = 0.5};
     double w = pi / 0.5;
-    assert_string_equal(fw_law_kind_text(law.kind), "half-sine");
+    assert_string_equal(fw_law_name(&law), "half-sine");
     expect(&law, 0.5, 0.5, 0, 0, 0);
     expect(&law, 1, 0.9, 0, 0, 0);
     expect(&law, 1, 1.1, 0, w, 0);
@@ -119,7 +120,7 @@ static void half_sine(void **state) {
 static void table(void **state) {
     (void)state;
     static const double t[] = {0, 1, 2, 4}, v[] = {0, 0.5, -2, -2};
-    const fw_law law = {.kind = FW_LAW_TABLE, .table_t_s = t, .table_value = v, .ntable = 4};
+    const fw_law law = {.kind = &fw_quantity_law_table, .table_t_s = t, .table_value = v, .ntable = 4};
     expect(&law, -1, -1, 0, 0, 0);
     expect(&law, 0, -1, 0, 0, 0);
     expect(&law, 0, 0.5, 0, 0.5, 0);

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "quantity/law_kind.h"
 #include "test.h"
 #include "report/fixture.h"
 #include <ctype.h>
@@ -154,8 +155,8 @@ static void mechanics_are_shown(void **state) {
 /* how a load goes with time is said where the load is, and at its arrow */
 static void laws_are_said(void **state) {
     (void)state;
-    static const fw_law ramp = {.kind = FW_LAW_RAMP, .rise_s = 2e-3, .end_s = (double)INFINITY};
-    static const fw_law pulse = {.kind = FW_LAW_STEP, .start_s = 1e-3, .end_s = 3e-3};
+    static const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 2e-3, .end_s = (double)INFINITY};
+    static const fw_law pulse = {.kind = &fw_quantity_law_step, .start_s = 1e-3, .end_s = 3e-3};
     fw_arena *arena = fw_arena_new(0);
     fixture *f = fixture_new(arena, 0.3);
     fw_driver driver = {.id = "motor", .joint = 0, .tie = FW_NONE};

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Is the bound on what a row of equilibria misses honest? Random devices and loads as for the other
    effects, most of them slow, with inertia and without. */
+#include "quantity/law_kind.h"
 #include "statics/quasi.h"
 #include "dynamics/bounds.h"
 #include "test.h"
@@ -22,8 +23,8 @@ static void slow_down(bounds_device *d, uint64_t seed) {
             l->phase_rad = 0, d->table_v[i][0] = 0;
         for (int k = 0; k < l->ntable; k++)
             d->table_t[i][k] *= factor;
-        if (l->kind != FW_LAW_STEP) continue;
-        l->kind = FW_LAW_RAMP; /* a jump is never slow */
+        if (l->kind != &fw_quantity_law_step) continue;
+        l->kind = &fw_quantity_law_ramp; /* a jump is never slow */
         l->rise_s = d->r.scene.duration_s * (0.1 + rig_random(&seed));
     }
     fw_scene *s = &d->r.scene; /* what acts from the start on comes in the same way */

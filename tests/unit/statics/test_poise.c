@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Motions that stay on an unstable equilibrium: rates, growth, bearable load and the equilibrium
    behind in closed form; what falls, swings or ends in time is not reported. */
+#include "quantity/law_kind.h"
 #include "statics/poise.h"
 #include "rest_rigs.h"
 #include "statics/quasi.h"
@@ -84,7 +85,7 @@ static void too_short_to_grow(void **state) {
         r.scene.duration_s = (i ? 2.1 : 1.9) / rate;
         assert_int_equal(find(&f, &r, 101) != NULL, i);
         fw_arena_free(f.arena);
-        const fw_law law = {.kind = FW_LAW_STEP, .end_s = (i ? 2.1 : 1.9) / rate};
+        const fw_law law = {.kind = &fw_quantity_law_step, .end_s = (i ? 2.1 : 1.9) / rate};
         f = begin();
         r = rig_mast(&f, 1, 40, 80);
         r.scene.force[0].law = &law;
@@ -97,7 +98,7 @@ static void too_short_to_grow(void **state) {
 /* P = 3 k/l t/T: unstable from T/3 on; integral of sqrt(3 t/T - 1) is 2/9 2^(3/2) T */
 static void rising_load(void **state) {
     (void)state;
-    const fw_law law = {.kind = FW_LAW_RAMP, .rise_s = 2};
+    const fw_law law = {.kind = &fw_quantity_law_ramp, .rise_s = 2};
     fixture f = begin();
     rig r = rig_mast(&f, 1, 40, 120);
     r.scene.force[0].law = &law;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pull-in voltages against closed forms and scalar equations that are solved here. */
+#include "quantity/law_kind.h"
 #include "rest_rigs.h"
 #include "effects/comb.h"
 #include "statics/pull_in.h"
@@ -293,7 +294,7 @@ static void test_end_of_the_formula(void **state) {
 static void test_around_it(void **state) {
     (void)state;
     static const fw_law sine = {
-        .kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 1e4};
+        .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 1e4};
     double k = 2, g = 3e-6, area = 250e-6 * 20e-6;
     double volt = sqrt(8 * k * g * g * g / (27 * eps0 * area));
     fixture f = begin();

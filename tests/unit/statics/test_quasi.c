@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Motions as rows of equilibria: closed forms, the load path of statics, the full motion under slow
    loads, and where the row ends. */
+#include "quantity/law_kind.h"
 #include "statics/quasi.h"
 #include "rest_rigs.h"
 #include "statics/statics.h"
@@ -45,7 +46,7 @@ static void lever(void **state) {
     rig_body(&r, "lever", 2, 0.3, 0.7, 0, 0);
     rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 5, 0);
     rig_torque(&r, 0, 2);
-    const fw_law law = {.kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 0.6};
+    const fw_law law = {.kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 0.6};
     double w = 2 * pi * 0.6;
     put_law(&r, &law);
     r.scene.duration_s = 3;
@@ -73,7 +74,7 @@ static void ramp_is_the_load_path(void **state) {
     (void)state;
     fixture f = begin();
     rig r = rig_six_bar(f.arena, false);
-    const fw_law ramp = {.kind = FW_LAW_RAMP, .rise_s = 2};
+    const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 2};
     put_law(&r, &ramp);
     r.scene.duration_s = 2;
     const fw_motion_options o = {.samples = 5, .reactions = true};
@@ -107,7 +108,7 @@ static void rates(void **state) {
     for (uint64_t seed = 1; seed < 12; seed++) {
         rig r = rig_any(f.arena, seed);
         const fw_law law = {
-            .kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 1, .phase_rad = 0.3};
+            .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 1, .phase_rad = 0.3};
         put_law(&r, &law);
         r.scene.duration_s = 0.7;
         const fw_motion_options o = {.samples = 701, .accuracy = 1e-5};
@@ -146,9 +147,9 @@ static void agrees_with_the_full_motion(void **state) {
             rig_torque(&r, 0, 12);
         }
         double slow = which % 2 ? 60 : 0.2;
-        const fw_law ramp = {.kind = FW_LAW_RAMP, .rise_s = 0.8 * slow};
+        const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 0.8 * slow};
         const fw_law sine = {
-            .kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 1.2 / slow};
+            .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 1.2 / slow};
         put_law(&r, which < 2 ? &ramp : &sine);
         r.scene.duration_s = slow;
         const fw_motion_options o = {.samples = 0};
@@ -191,7 +192,7 @@ static void jumps_and_watching(void **state) {
     (void)state;
     fixture f = begin();
     rig r = rig_six_bar(f.arena, false);
-    const fw_law step = {.kind = FW_LAW_STEP, .start_s = 0.3, .end_s = 0.6};
+    const fw_law step = {.kind = &fw_quantity_law_step, .start_s = 0.3, .end_s = 0.6};
     put_law(&r, &step);
     r.scene.duration_s = 1;
     seen s = {0};
@@ -205,7 +206,7 @@ static void jumps_and_watching(void **state) {
     assert_near(m->angle_rad[6 * 5], m->peak[0].angle_rad, 1e-9);
     assert_true(m->peak[0].t_s >= 0.3 && m->peak[0].t_s <= 0.6);
     assert_true(m->force_peak[0].force_N > 0 && m->force_peak[0].t_s <= 0.6);
-    const fw_law ramp = {.kind = FW_LAW_RAMP, .rise_s = 1};
+    const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 1};
     put_law(&r, &ramp);
     o.most_angle_rad = 0.5 * s.largest;
     m = row_of(&f, &r, &o, NULL);
@@ -227,7 +228,7 @@ static void driven(void **state) {
     r.m.driver = fw_arena_array(f.arena, fw_driver, 1);
     r.m.ndriver = 1;
     r.m.driver[0] = (fw_driver){.id = "turn", .joint = 0, .tie = FW_NONE};
-    r.m.driver[0].law = (fw_law){.kind = FW_LAW_RAMP, .rise_s = 2};
+    r.m.driver[0].law = (fw_law){.kind = &fw_quantity_law_ramp, .rise_s = 2};
     r.scene.duration_s = 2;
     const fw_motion_options o = {.samples = 9, .reactions = true};
     const fw_motion *m = row_of(&f, &r, &o, NULL);
@@ -251,7 +252,7 @@ static void where_it_ends(void **state) {
     fixture f = begin();
     double fold = truss_load(1, 0.3, 100, truss_fold(1, 0.3));
     rig r = rig_truss(&f, 1, 0.3, 100, 1.2 * fold);
-    const fw_law ramp = {.kind = FW_LAW_RAMP, .rise_s = 50};
+    const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 50};
     put_law(&r, &ramp);
     r.scene.duration_s = 50;
     const char *why = NULL;
@@ -302,7 +303,7 @@ static void left_out_by_itself(void **state) {
     (void)state;
     fixture f = begin();
     rig r = rig_six_bar(f.arena, false);
-    const fw_law ramp = {.kind = FW_LAW_RAMP, .rise_s = 0.5};
+    const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 0.5};
     put_law(&r, &ramp);
     r.scene.force[0].fx_N *= 0.1, r.scene.force[0].fy_N *= 0.1, r.scene.ntorque = 0;
     r.scene.duration_s = 0.7;
@@ -351,7 +352,7 @@ static void left_out_by_hand(void **state) {
     f.diags = quiet;
     double fold = truss_load(1, 0.3, 100, truss_fold(1, 0.3));
     rig truss = rig_truss(&f, 1, 0.3, 100, 1.2 * fold);
-    const fw_law ramp = {.kind = FW_LAW_RAMP, .rise_s = 5};
+    const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 5};
     put_law(&truss, &ramp);
     truss.scene.duration_s = 5;
     const fw_motion *m = move(&f, &truss, &none);
@@ -372,7 +373,7 @@ static void out_of_memory(void **state) {
     for (long n = 1; n < 4000; n++) {
         fixture f = begin();
         rig r = rig_six_bar(f.arena, false);
-        const fw_law ramp = {.kind = FW_LAW_RAMP, .rise_s = 2};
+        const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 2};
         put_law(&r, &ramp);
         r.scene.duration_s = 2;
         fw_effect_ledger ledger;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Force elements at rest: the tangent against differences, equilibria and load paths against closed
    forms, modes of a bar on a released pin. */
+#include "quantity/law_kind.h"
 #include "rest_rigs.h"
 #include "dynamics/element_rigs.h"
 #include "statics/rest.h"
@@ -100,7 +101,7 @@ static void pulled_bar(void **state) {
     (void)state;
     static const double time[3] = {0, 1, 2}, factor[3] = {0, 5, 0.6};
     const fw_law law = {
-        .kind = FW_LAW_TABLE, .table_t_s = time, .table_value = factor, .ntable = 3};
+        .kind = &fw_quantity_law_table, .table_t_s = time, .table_value = factor, .ntable = 3};
     const line cases[] = {{.pull = 3},
                           {.k = 5, .draw = 0.5, .length = hypot(0.6, 1.3)},
                           {.k = 2, .draw = 0.3, .pull = 2, .length = 1}};

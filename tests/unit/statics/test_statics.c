@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "quantity/law_kind.h"
 #include "statics/statics.h"
 #include "base/cancel.h"
 #include "rest_rigs.h"
@@ -288,11 +289,11 @@ static void laws_at_the_end_of_the_scene(void **state) {
     r.m.driver = fw_arena_array(f.arena, fw_driver, 1);
     r.m.ndriver = 1;
     r.m.driver[0] = (fw_driver){
-        .id = "turn", .joint = 0, .tie = FW_NONE, .law = {.kind = FW_LAW_TABLE, .ntable = 2}};
+        .id = "turn", .joint = 0, .tie = FW_NONE, .law = {.kind = &fw_quantity_law_table, .ntable = 2}};
     const double t[2] = {0, 2}, angle[2] = {0, 7};
     r.m.driver[0].law.table_t_s = t;
     r.m.driver[0].law.table_value = angle;
-    const fw_law ramp = {.kind = FW_LAW_RAMP, .rise_s = 4, .end_s = (double)INFINITY};
+    const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 4, .end_s = (double)INFINITY};
     rig_torque(&r, 1, 2);
     r.scene.torque[0].law = &ramp;
     r.scene.duration_s = 1;
@@ -313,7 +314,7 @@ static fw_driver *rig_drive(fixture *f, rig *r, const char *id, int joint, doubl
     double *table = fw_arena_array(f->arena, double, 4);
     table[1] = r->scene.duration_s, table[3] = way;
     fw_driver *d = &r->m.driver[r->m.ndriver++];
-    *d = (fw_driver){.id = id, .joint = joint, .tie = FW_NONE, .law = {.kind = FW_LAW_TABLE}};
+    *d = (fw_driver){.id = id, .joint = joint, .tie = FW_NONE, .law = {.kind = &fw_quantity_law_table}};
     d->law.ntable = 2, d->law.table_t_s = table, d->law.table_value = table + 2;
     return d;
 }

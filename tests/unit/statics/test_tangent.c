@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The tangent is the derivative of G^T lambda - Q, which other files compute. */
+#include "quantity/law_kind.h"
 #include "statics/tangent.h"
 #include "dynamics/models.h"
 
@@ -42,7 +43,7 @@ static void random_ties(fw_arena *arena, plant *p, uint64_t *seed) {
                              .length_m = 1 + pick(seed),
                              .free_length_m = pick(seed)};
     }
-    p->drive = (fw_law){.kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 0.1};
+    p->drive = (fw_law){.kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 0.1};
     m->driver = fw_arena_array(arena, fw_driver, 2);
     m->ndriver = 2;
     m->driver[0] = (fw_driver){.id = "turn", .joint = 0, .tie = FW_NONE, .law = p->drive};
@@ -63,7 +64,7 @@ static void random_terms(fw_arena *arena, plant *p, uint64_t *seed) {
     t->slide = fw_arena_array(arena, fw_slide, 1);
     for (int i = 0; i < N; i++)
         t->constant[i] = pick(seed);
-    p->ramp = (fw_law){.kind = FW_LAW_RAMP, .end_s = (double)INFINITY, .rise_s = 3};
+    p->ramp = (fw_law){.kind = &fw_quantity_law_ramp, .end_s = (double)INFINITY, .rise_s = 3};
     for (int i = 0; i < 3; i++) {
         const fw_pin *pin = &m->pin[i];
         t->torsion[t->ntorsion++] = (fw_torsion){

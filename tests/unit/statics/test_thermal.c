@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Devices whose substrate expands otherwise than they do: equilibria, motions and given motions
    against elementary geometry, and a temperature with a law against a constant one. */
+#include "quantity/law_kind.h"
 #include "assembly/kinematics.h"
 #include "rest_rigs.h"
 #include "statics/statics.h"
@@ -69,7 +70,7 @@ static void ramp_ends_like_a_constant(void **state) {
     (void)state;
     fixture f = begin();
     rig steady = portal(&f, 8e-3, 0), ramped = portal(&f, 8e-3, 4);
-    const fw_law ramp = {.kind = FW_LAW_RAMP, .rise_s = 60};
+    const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 60};
     ramped.scene.temperature[0].law = &ramp;
     ramped.scene.duration_s = 100;
     const fw_statics *a = rest(&f, &steady), *b = rest(&f, &ramped);
@@ -95,7 +96,7 @@ static void from_the_start(void **state) {
     fixture f = begin();
     rig constant = portal(&f, 5e-3, 0.1), always = portal(&f, 5e-3, 0.1);
     const fw_law cosine = {
-        .kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 1e-12, .phase_rad = pi / 2};
+        .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 1e-12, .phase_rad = pi / 2};
     always.scene.temperature[0].law = &cosine;
     const fw_motion *a = run(&f, &constant, NULL, 1e-11, 3), *b = run(&f, &always, NULL, 1e-11, 3);
     for (int i = 0; i < 12; i++)
@@ -140,7 +141,7 @@ static void moved_by_the_ground_alone(void **state) {
     fixture f = begin();
     const double w = 2.7, strain = 0.05;
     const fw_law sine = {
-        .kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = w / (2 * pi)};
+        .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = w / (2 * pi)};
     rig r = roof(&f, &sine, strain);
     double q[6], y[3];
     for (int b = 0; b < 2; b++)
@@ -211,8 +212,8 @@ static rig mixed(fixture *f) {
 static void methods_agree(void **state) {
     (void)state;
     const fw_law swings = {
-        .kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 0.9, .phase_rad = 0.3};
-    const fw_law fast = {.kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 700};
+        .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 0.9, .phase_rad = 0.3};
+    const fw_law fast = {.kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 700};
     for (int kind = 0; kind < 2; kind++) {
         fixture f = begin();
         rig r = kind ? mixed(&f) : rig_six_bar(f.arena, false);
@@ -262,7 +263,7 @@ static void ends_of_ramps(void **state) {
                          .depth_m = 1,
                          .voltage_V = 4e5};
         r.scene.comb = &plate, r.scene.ncomb = 1;
-        const fw_law ramp = {.kind = FW_LAW_RAMP, .rise_s = 1.003 + 0.1 * i};
+        const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 1.003 + 0.1 * i};
         fw_temperature warm = {.change_K = 100,
                                .expansion_per_K = 2e-5,
                                .substrate_expansion_per_K = 5e-4,
@@ -284,7 +285,7 @@ static void dampers_rest(void **state) {
     (void)state;
     static const fw_eyelet line[] = {{.body = 0}, {.body = FW_GROUND, .x_m = 1}};
     const fw_law swings = {
-        .kind = FW_LAW_SINE, .end_s = (double)INFINITY, .frequency_Hz = 0.6, .phase_rad = 1};
+        .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 0.6, .phase_rad = 1};
     double q[2][2];
     for (int i = 0; i < 2; i++) {
         fixture f = begin();
@@ -342,8 +343,8 @@ static void softer_flexure(void **state) {
 
 static void mistakes(void **state) {
     (void)state;
-    static const fw_law late = {.kind = FW_LAW_STEP, .start_s = 0.5, .end_s = (double)INFINITY};
-    static const fw_law ramp = {.kind = FW_LAW_RAMP, .rise_s = 1};
+    static const fw_law late = {.kind = &fw_quantity_law_step, .start_s = 0.5, .end_s = (double)INFINITY};
+    static const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 1};
     for (int i = 0; i < 5; i++) {
         fixture f = begin();
         rig r = portal(&f, 1e-3, 0);
