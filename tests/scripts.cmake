@@ -16,6 +16,7 @@ function(fw_script_test name)
 endfunction()
 
 fw_script_test(arch.rooms LABEL quick COMMAND ${Python3_EXECUTABLE} tests/arch/rooms.py)
+fw_script_test(arch.constants LABEL quick COMMAND ${Python3_EXECUTABLE} tests/arch/constants.py)
 fw_script_test(library.symbols LABEL quick COMMAND ${Python3_EXECUTABLE} tests/build/symbols.py
                $<TARGET_FILE:flexwright_library>)
 fw_script_test(cli.program COMMAND ${Python3_EXECUTABLE} tests/cli/test_program.py ${FW_PROGRAM})

@@ -2,6 +2,7 @@
 /* The position problem from any guess: descent, restarts, the pose nearest to the guess, a polish
    to round-off. */
 #include "base/cancel.h"
+#include "base/constants.h"
 #include "assembly/closure.h"
 #include "assembly/solved.h"
 #include <float.h>
@@ -35,7 +36,7 @@ static void part_rods(fw_closure *c) {
             hypot(r[2] - r[0] - offset[0], r[3] - r[1] - offset[1]) > 1e-9)
             continue;
         int body = b->b < m->nbody ? b->b : b->a;
-        double angle = 2 * acos(-1.0) * fw_spread(7, (unsigned)i);
+        double angle = 2 * FW_PI * fw_spread(7, (unsigned)i);
         c->u[3 * body] += 1e-4 * cos(angle);
         c->u[3 * body + 1] += 1e-4 * sin(angle);
     }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The position problem with everything that is known about its result. */
 #include "assembly/assembly.h"
+#include "base/constants.h"
 #include "assembly/branch.h"
 #include "assembly/solved.h"
 #include <float.h>
@@ -144,7 +145,7 @@ static char *amount(char *to, size_t n, double metres, double radian, double siz
     bool turns = radian * size > 1e-6 * metres, shifts = metres > 1e-6 * radian * size;
     fw_length_text(to, n, metres, unit);
     if (!turns) return to;
-    fw_number_text(number, sizeof number, radian * 180 / acos(-1.0), 4);
+    fw_number_text(number, sizeof number, radian * 180 / FW_PI, 4);
     size_t at = shifts ? strlen(to) : 0;
     snprintf(to + at, n - at, "%s%s deg", shifts ? " and " : "", number);
     return to;

@@ -2,6 +2,7 @@
 /* On which side the elbows of a mechanism stand, and its other assemblies: every elbow mirrored in
    turn, breadth first. */
 #include "assembly/branch.h"
+#include "base/constants.h"
 #include <math.h>
 #include <string.h>
 
@@ -174,7 +175,7 @@ static void sides_of(const hunt *h, const double *q, int *side) {
 static bool same(const hunt *h, const double *q, const int *side, const double *other_q,
                  const int *other_side) {
     const fw_assembly *f = h->found;
-    double apart = 0, turn = 2 * acos(-1.0);
+    double apart = 0, turn = 2 * FW_PI;
     for (int i = 0; i < f->nelbow; i++)
         if (side[i] != other_side[i] && side[i] != 0 && other_side[i] != 0) return false;
     if (!f->rank.known || f->rank.dof > 0) return true;

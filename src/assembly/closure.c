@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Descent onto Psi(q) = 0, and along it to the pose nearest to the guess. */
 #include "assembly/closure.h"
+#include "base/constants.h"
 #include "base/cancel.h"
 #include <float.h>
 #include <math.h>
@@ -233,8 +234,8 @@ void fw_closure_unwind(const fw_closure *c, int *group) {
         for (int b = 0; b < m->nbody; b++)
             if (group[b] == g) sum += c->u[3 * b + 2], count++;
         if (count == 0 || group[m->nbody] == g) continue;
-        double turns = round(sum / count / (2 * acos(-1.0)));
+        double turns = round(sum / count / (2 * FW_PI));
         for (int b = 0; b < m->nbody && turns != 0; b++)
-            if (group[b] == g) c->u[3 * b + 2] -= turns * 2 * acos(-1.0);
+            if (group[b] == g) c->u[3 * b + 2] -= turns * 2 * FW_PI;
     }
 }

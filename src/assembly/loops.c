@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Why a mechanism does not close, in words. */
 #include "assembly/closure.h"
+#include "base/constants.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -45,7 +46,7 @@ char *fw_length_text(char *to, size_t n, double metres, fw_length_unit unit) {
 
 static char *angle_text(char *to, size_t n, double radian) {
     char number[32];
-    snprintf(to, n, "%s deg", fw_number_text(number, sizeof number, radian * 180 / acos(-1.0), 4));
+    snprintf(to, n, "%s deg", fw_number_text(number, sizeof number, radian * 180 / FW_PI, 4));
     return to;
 }
 

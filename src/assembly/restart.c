@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Other starts for a mechanism that the descent from its guess does not close. */
 #include "assembly/closure.h"
+#include "base/constants.h"
 #include <math.h>
 #include <string.h>
 
-static const double PI = 3.14159265358979323846;
 enum { LOOP_TRIES = 40, WHOLE_TRIES = 6, LOOP_STEPS = 80, WHOLE_STEPS = 200 };
 
 /* splitmix64 of both arguments (Steele, Lea and Flood 2014): no state, so a start does not depend
@@ -66,7 +66,7 @@ static bool close_loop(fw_restart *r, fw_closure *c, int count, unsigned stream)
     for (int i = 0; i < LOOP_TRIES && c->left > 0; i++) {
         if (i > 0) {
             bool all = i % 3 == 0; /* else only the bodies placed last */
-            double radius = fmin(PI, 0.4 * (1 + i / 4));
+            double radius = fmin(FW_PI, 0.4 * (1 + i / 4));
             memcpy(c->u, r->saved, (size_t)m->nq * sizeof(double));
             for (int k = all || count < 2 ? 0 : count - 2; k < count; k++)
                 if (r->loop[r->tree.order[k]])
@@ -113,7 +113,7 @@ bool fw_restart_close(fw_restart *r, fw_closure *c) {
         memset(c->u, 0, (size_t)m->nq * sizeof(double));
         unsigned stream = 100000u * (unsigned)i;
         for (int b = 0; b < m->nbody && i > 0; b++)
-            disturb(c, b, PI * i / (WHOLE_TRIES - 1), stream);
+            disturb(c, b, FW_PI * i / (WHOLE_TRIES - 1), stream);
         r->restarts++;
         bool good = build_up(r, c, stream + 1);
         memcpy(c->active, r->wanted, (size_t)m->nblock * sizeof(bool));

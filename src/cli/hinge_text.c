@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/hinge_text.h"
+#include "base/constants.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-static const double degrees = 180 / M_PI;
+static const double degrees = 180 / FW_PI;
 
 static void column(fw_text *out, const char *conversion, double value, double scale) {
     if (isfinite(value))

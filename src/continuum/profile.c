@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "continuum/profile.h"
+#include "base/constants.h"
 #include <math.h>
-
-static const double half_turn = 3.14159265358979323846;
 
 fw_profile_frame fw_profile_at(const fw_profile *p, double s_m) {
     int i = 0;
@@ -55,7 +54,7 @@ static bool fillet_at(const fw_profile *p, int end, int side, fw_profile_fillet 
     fw_profile_frame f = fw_profile_out(p, end, fillet->before_m);
     fillet->centre = fw_profile_offset(f, nc);
     fillet->from_rad = atan2(-sign * f.tx, sign * f.ty);
-    fillet->sweep_rad = sign * 0.5 * half_turn + k * fillet->before_m;
+    fillet->sweep_rad = sign * 0.5 * FW_PI + k * fillet->before_m;
     return true;
 }
 
@@ -99,7 +98,7 @@ fw_status fw_profile_build(const fw_continuum_shape *shape, fw_profile *profile,
     double least = 0.5 * shape->width_m + shape->fillet_m;
     double k = fmax(fabs(end_curvature(profile, 0)), fabs(end_curvature(profile, 1)));
     if (!(shape->block_half_m > 1.2 * least && shape->block_length_m > 1.2 * least &&
-          k * shape->block_half_m < 0.95 && k * shape->block_length_m < half_turn))
+          k * shape->block_half_m < 0.95 && k * shape->block_length_m < FW_PI))
         return FW_GEOMETRY;
     return FW_OK;
 }

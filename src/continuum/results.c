@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "continuum/results.h"
+#include "base/constants.h"
 #include "base/text.h"
 #include <math.h>
 #include <string.h>
@@ -85,7 +86,7 @@ void fw_results_principal(const double a[6], double value[3]) {
     double r = p > 0.0 ? 0.5 * det / (p * p * p) : 0.0;
     double phi = acos(fmax(-1.0, fmin(1.0, r))) / 3.0;
     value[2] = m + 2.0 * p * cos(phi);
-    value[0] = m + 2.0 * p * cos(phi + 2.0 * M_PI / 3.0);
+    value[0] = m + 2.0 * p * cos(phi + 2.0 * FW_PI / 3.0);
     value[1] = 3.0 * m - value[0] - value[2];
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "continuum/continuum.h"
+#include "base/constants.h"
 #include <math.h>
 
 /* blocks as in the finite elements that the closed form's root law was fitted to */
@@ -24,13 +25,13 @@ void fw_continuum_shape_of(const fw_flexure_input *in, fw_continuum_shape *shape
         /* along y, as in flexure.h */
         shape->piece[0] = (fw_continuum_piece){in->length_m, 0.0};
         shape->y_m = -0.5 * in->length_m;
-        shape->direction_rad = 1.57079632679489662;
+        shape->direction_rad = 0.5 * FW_PI;
         block_of(shape, 0.0);
         return;
     }
     double r = in->radius_m, a = 0.5 * in->angle_rad;
     shape->piece[0] = (fw_continuum_piece){2.0 * a * r, 1.0 / r};
     shape->x_m = r * cos(a), shape->y_m = -r * sin(a);
-    shape->direction_rad = 1.57079632679489662 - a;
+    shape->direction_rad = 0.5 * FW_PI - a;
     block_of(shape, 1.0 / r);
 }

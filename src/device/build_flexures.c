@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* <flexure>, and what a path is made of: <line> and <arc>. */
 #include "device/reader.h"
+#include "base/constants.h"
 #include <math.h>
 #include <string.h>
-
-#define PI 3.14159265358979323846
 
 /* exactly two of length, radius, angle; the third follows from length = radius angle */
 static bool complete_arc(fw_reader *r, const fw_record *record, fw_flexure *f) {
@@ -30,7 +29,7 @@ static bool complete_arc(fw_reader *r, const fw_record *record, fw_flexure *f) {
 
 static void check_arc(fw_reader *r, const fw_record *record, const fw_flexure *f) {
     char label[FW_LABEL], a[FW_LABEL], b[FW_LABEL];
-    if (f->angle_rad > 330 * PI / 180 * (1 + 1e-12))
+    if (f->angle_rad > 330 * FW_PI / 180 * (1 + 1e-12))
         fw_diag_error(r->diags, 59, f->length_place,
                       "%s: length over radius is an angle of %s; it must be at most 330 deg, else "
                       "the ends of the arc meet; shorten it or take a greater radius",

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* <material-damping>, <temperature>, <residual-stress>, <air>. */
 #include "device/scene_parts.h"
+#include "base/constants.h"
 #include <math.h>
 #include <string.h>
 
@@ -121,7 +122,7 @@ fw_status fw_build_air(fw_scene_reader *s, int at) {
                   .direction_rad = fw_number_or(record, "direction", 0.0),
                   .length_m = fw_number_of(record, "length"),
                   .depth_m = fw_number_of(record, "depth"),
-                  .pressure_Pa = fw_number_or(record, "pressure", 101325.0),
+                  .pressure_Pa = fw_number_or(record, "pressure", FW_STANDARD_ATMOSPHERE_Pa),
                   .temperature_K = fw_number_or(record, "temperature", 293.15),
                   .viscosity_Pas = fw_number_of(record, "viscosity"),
                   .place = record->element->place};

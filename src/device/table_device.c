@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rows of the table: what a device is made of and what is asked of it. */
 #include "device/table_rows.h"
+#include "base/constants.h"
 
 static const char *const flexure_kinds[] = {"csfh", "leaf", "path", NULL};
 static const char *const carriers[] = {"none", "insulating", NULL};
@@ -114,7 +115,7 @@ static const fw_attribute_row flexure_rows[] = {
                  "length, radius and angle."},
     {"radius", SIZE, .sentence = "Of the arc's centre line (csfh only)."},
     {"angle", D_ANGLE, .unit = "deg",
-     ABOVE(0, 330 * PI / 180, "beyond 330 deg the ends of the arc meet"),
+     ABOVE(0, 330 * FW_PI / 180, "beyond 330 deg the ends of the arc meet"),
      .sentence = "Subtended by the arc (csfh only)."},
     {"width", THIN, REQUIRED,
      .sentence = "Of the thin part, in the wafer plane; with width-middle at its two ends, of a "
@@ -141,8 +142,8 @@ static const fw_attribute_row line_rows[] = {
 static const fw_attribute_row arc_rows[] = {
     {"radius", SIZE, REQUIRED, .sentence = "Of the centre line."},
     {"angle", D_ANGLE, .unit = "deg",
-     RANGE(-330 * PI / 180, 330 * PI / 180, "beyond 330 deg the ends of an arc meet"), REQUIRED,
-     .sentence = "By which it turns: to the left above 0, to the right below."},
+     RANGE(-330 * FW_PI / 180, 330 * FW_PI / 180, "beyond 330 deg the ends of an arc meet"),
+     REQUIRED, .sentence = "By which it turns: to the left above 0, to the right below."},
     PIECE_WIDTHS,
 };
 static const fw_attribute_row workspace_rows[] = {
@@ -171,7 +172,8 @@ static const fw_attribute_row die_rows[] = {
     {"release-pitch", GAP, .fallback = "no holes",
      .sentence = "Pitch of round release holes in bodies that are wider than the release reaches "
                  "between them; mass and inertia are without them."},
-    {"release-hole", GAP, .fallback = "0.3 release-pitch", .sentence = "Diameter of a release hole."},
+    {"release-hole", GAP, .fallback = "0.3 release-pitch",
+     .sentence = "Diameter of a release hole."},
 };
 
 static const fw_attribute_row wafer_rows[] = {

@@ -3,9 +3,9 @@
    attributes that several elements share. Included by table_*.c only. */
 #ifndef FW_DEVICE_TABLE_ROWS_H
 #define FW_DEVICE_TABLE_ROWS_H
+#include "base/constants.h"
 #include "device/table.h"
 
-#define PI 3.14159265358979323846
 /* dimensions */
 #define D_LENGTH   .kind = FW_KIND_NUMBER, .dimension = {.m = 1}
 #define D_ANGLE    .kind = FW_KIND_NUMBER, .dimension = {.rad = 1}
@@ -43,14 +43,15 @@
         .unit = "um",                                                                              \
         RANGE(1e-7, 0.3, "the data of materials do not hold for strips below 0.1 um, and " WAFER)
 #define GAP  D_LENGTH, .unit = "um", RANGE(0, 0.3, WAFER)
-#define TURN D_ANGLE, .unit = "deg", RANGE(-2 * PI, 2 * PI, "one full turn")
+#define TURN D_ANGLE, .unit = "deg", RANGE(-2 * FW_PI, 2 * FW_PI, "one full turn")
 /* <mechanism> and <scene> serve any size; what is drawn keeps to the wafer (build_mechanism.c) */
 #define FAR    "beyond 1e7 m a number resolves no better than a nanometre"
 #define PLACE  D_LENGTH, .unit = "mm", RANGE(-1e7, 1e7, FAR)
 #define LENGTH D_LENGTH, .unit = "mm", RANGE(0, 1e7, FAR)
 #define TURNS                                                                                      \
-    D_ANGLE, .unit = "deg",                                                                        \
-             RANGE(-2e4 * PI, 2e4 * PI, "10000 turns, behind which an angle loses four digits")
+    D_ANGLE,                                                                                       \
+        .unit = "deg",                                                                             \
+        RANGE(-2e4 * FW_PI, 2e4 * FW_PI, "10000 turns, behind which an angle loses four digits")
 #define ANY_MASS                                                                                   \
     D_MASS, RANGE(1e-30, 1e15,                                                                     \
                   "without mass the equations of motion are singular; an electron weighs 1e-30 "   \

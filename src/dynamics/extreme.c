@@ -3,6 +3,7 @@
    output. Each is one channel: forces of pins, then forces, torques and travels of ties, then
    drivers. */
 #include "dynamics/run.h"
+#include "base/constants.h"
 #include "multibody/reactions.h"
 #include <float.h>
 #include <math.h>
@@ -63,13 +64,12 @@ static void offer(fw_extreme *extreme, double value, double t) {
    swing. Where a method's interpolated states would be multiplied with large stiffnesses, its own
    ones: the polynomial is then one of forces, which are smooth. */
 void fw_run_places(const fw_stepper *s, double theta_end, fw_grid *g) {
-    static const double PI = 3.14159265358979323846;
     double own[FW_ODE_OWN];
     int count = s->row->own ? s->row->own(s, own) : 0;
     g->last = count > 0 ? 0 : GRID;
     g->at[0] = 0;
     for (int k = 0; k <= GRID && count == 0; k++) {
-        g->at[k] = 0.5 - 0.5 * cos(PI * k / GRID);
+        g->at[k] = 0.5 - 0.5 * cos(FW_PI * k / GRID);
         g->weight[k] = (k % 2 ? -1.0 : 1.0) * (k % GRID ? 1 : 0.5);
     }
     if (count == 0) return;

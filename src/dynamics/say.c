@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Is a motion good enough, and what is said of that. */
 #include "dynamics/steer.h"
+#include "base/constants.h"
 #include "multibody/reactions.h"
 #include <float.h>
 #include <math.h>
@@ -38,7 +39,7 @@ static const double nothing = 1e-10;
 
 static void warn_inaccurate(const fw_run *r) {
     const reached x = what_is_reached(r);
-    double wanted = fw_pace_wanted(r), degree = 57.29577951308232;
+    double wanted = fw_pace_wanted(r), degree = FW_DEG_PER_RAD;
     double accuracy = r->motion->accuracy;
     char a[32], b[32], c[32];
     if (x.error_rad > fmax(nothing, wanted * x.angle_rad))

@@ -3,11 +3,9 @@
    damper; air_slide.c, air_squeeze.c and air_drag.c have the physics. Theory:
    docs/theory/effects/air.md. */
 #include "effects/air.h"
+#include "base/constants.h"
 #include "effects/envelope.h"
 #include <math.h>
-
-static const double pi = 3.14159265358979323846;
-static const double gas_constant = 287.05; /* J/(kg K), dry air */
 
 double fw_air_viscosity(double temperature_K) {
     return 1.458e-6 * pow(temperature_K, 1.5) / (temperature_K + 110.4);
@@ -15,12 +13,14 @@ double fw_air_viscosity(double temperature_K) {
 
 /* mean free path mu/p sqrt(pi R T/2), the one that Kn of the slip formulas is made of */
 fw_gas fw_gas_of(const fw_air *air) {
-    fw_gas g = {.pressure_Pa = isnan(air->pressure_Pa) ? 101325 : air->pressure_Pa,
+    fw_gas g = {.pressure_Pa =
+                    isnan(air->pressure_Pa) ? FW_STANDARD_ATMOSPHERE_Pa : air->pressure_Pa,
                 .temperature_K = isnan(air->temperature_K) ? 293.15 : air->temperature_K};
     g.viscosity_Pas =
         isnan(air->viscosity_Pas) ? fw_air_viscosity(g.temperature_K) : air->viscosity_Pas;
-    g.density_kg_per_m3 = g.pressure_Pa / (gas_constant * g.temperature_K);
-    g.path_m = g.viscosity_Pas / g.pressure_Pa * sqrt(pi * gas_constant * g.temperature_K / 2);
+    g.density_kg_per_m3 = g.pressure_Pa / (FW_DRY_AIR_J_PER_kg_K * g.temperature_K);
+    g.path_m =
+        g.viscosity_Pas / g.pressure_Pa * sqrt(FW_PI * FW_DRY_AIR_J_PER_kg_K * g.temperature_K / 2);
     return g;
 }
 
@@ -31,7 +31,7 @@ fw_face fw_air_face(const fw_mechanism *m, const fw_air *air, int body) {
     bool known = drawn && drawn->area_m2 > 0;
     double area = air->area_m2;
     if (known && isnan(area)) return (fw_face){drawn->area_m2, drawn->polar_m4, drawn->perimeter_m};
-    if (!known) return (fw_face){area, area * area / (2 * pi), 2 * sqrt(pi * area)};
+    if (!known) return (fw_face){area, area * area / (2 * FW_PI), 2 * sqrt(FW_PI * area)};
     double scale = area / drawn->area_m2;
     return (fw_face){area, scale * scale * drawn->polar_m4, sqrt(scale) * drawn->perimeter_m};
 }
@@ -164,7 +164,7 @@ static void validity(const fw_effect_case *c, const fw_air *a, fw_text *out) {
     bodies_of(c, a, &first, &last);
     double largest = 0, fastest = 0;
     for (int b = first; b <= last; b++) {
-        double size = sqrt(fw_air_face(c->mechanism, a, b).area_m2 / pi);
+        double size = sqrt(fw_air_face(c->mechanism, a, b).area_m2 / FW_PI);
         largest = fmax(largest, size);
         fastest = fmax(fastest, size * point_most(e->speed, b, size));
     }

@@ -14,13 +14,12 @@
    disc is a stand-in, some 20 % for bars up to 10:1. Valid for Reynolds numbers below 1 and bodies
    smaller than the penetration depth sqrt(2 nu/omega). Test: test_air.c. */
 #include "effects/air.h"
+#include "base/constants.h"
 #include <math.h>
 
-static const double pi = 3.14159265358979323846;
-
 fw_damper fw_air_drag(const fw_gas *gas, const fw_face *face) {
-    double mu = gas->viscosity_Pas, radius = face->perimeter_m / (2 * pi);
-    double turning = pow(2 * face->polar_m4 / pi, 0.25);
+    double mu = gas->viscosity_Pas, radius = face->perimeter_m / (2 * FW_PI);
+    double turning = pow(2 * face->polar_m4 / FW_PI, 0.25);
     double force = 32 * mu * radius / 3, couple = 32 * mu * turning * turning * turning / 3;
     return (fw_damper){1 / (1 / force + gas->path_m / (mu * face->area_m2)),
                        1 / (1 / couple + gas->path_m / (mu * face->polar_m4))};

@@ -14,9 +14,9 @@
    rho omega g^2/mu below 1, and g small against both sides. Test: test_air.c (I against a solution
    by differences). */
 #include "effects/air.h"
+#include "base/constants.h"
 #include <math.h>
 
-static const double pi = 3.14159265358979323846;
 static const double slip = 9.638, slip_power = 1.159;
 
 /* the series converges like exp only in its first term; 40 terms leave 1e-9 of what it subtracts.
@@ -24,8 +24,8 @@ static const double slip = 9.638, slip_power = 1.159;
 double fw_rectangle_integral(double a_m, double b_m) {
     double a = fmax(a_m, b_m), b = fmin(a_m, b_m), sum = 0;
     for (int k = 79; k > 0; k -= 2)
-        sum += tanh(k * pi * a / (2 * b)) / ((double)k * k * k * k * k);
-    return a * b * b * b / 12 * (1 - 192 * b / (pi * pi * pi * pi * pi * a) * sum);
+        sum += tanh(k * FW_PI * a / (2 * b)) / ((double)k * k * k * k * k);
+    return a * b * b * b / 12 * (1 - 192 * b / (FW_PI * FW_PI * FW_PI * FW_PI * FW_PI * a) * sum);
 }
 
 fw_squeeze fw_air_squeeze(const fw_gas *gas, double length_m, double depth_m, double gap_m) {

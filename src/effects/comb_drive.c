@@ -22,13 +22,12 @@
    Sens. Actuators A 21 (1990) 328; R. Legtenberg et al., J. Micromech. Microeng. 6 (1996) 320 (side
    instability). Test: test_comb_drive.c. */
 #include "effects/comb.h"
+#include "base/constants.h"
 #include "effects/effect.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-static const double fw_eps0_F_per_m = 8.8541878128e-12; /* CODATA 2018 */
-static const double fw_pi_comb = 3.141592653589793;
 static const double fw_nearest = 0.05; /* of the gap: nearer is called a touch */
 
 /* ---- one strip ---- */
@@ -116,8 +115,8 @@ double fw_comb_capacitance(const fw_comb_element *c, const double place[3], doub
 }
 
 double fw_comb_fringe(const fw_comb_element *c) {
-    double share = c->gap_m / (fw_pi_comb * c->depth_m);
-    return share * (1 + log(2 * fw_pi_comb * c->depth_m / c->gap_m));
+    double share = c->gap_m / (FW_PI * c->depth_m);
+    return share * (1 + log(2 * FW_PI * c->depth_m / c->gap_m));
 }
 
 /* ---- where the rotor is ---- */
@@ -317,8 +316,8 @@ static fw_comb_element electrodes(const fw_effect_case *c, const fw_comb *from) 
                          .voltage_V = from->voltage_V};
     if (isnan(d.depth_m) && m->variant) d.depth_m = m->variant->thickness_m;
     if (d.kind == FW_ELECTRODES_COMB && isnan(d.length_m)) d.length_m = 2 * d.overlap_m;
-    d.face_Fm =
-        fw_eps0_F_per_m * d.depth_m * (d.kind == FW_ELECTRODES_COMB ? (double)from->fingers : 1);
+    d.face_Fm = FW_VACUUM_PERMITTIVITY_F_PER_m * d.depth_m *
+                (d.kind == FW_ELECTRODES_COMB ? (double)from->fingers : 1);
     return d;
 }
 

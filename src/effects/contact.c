@@ -19,6 +19,7 @@
    Inputs SI. Source: K. L. Johnson, Contact Mechanics, Cambridge 1985, sections 4.2 and 5.6;
    docs/theory/effects/contact.md. Test: test_contact.c. */
 #include "effects/effect.h"
+#include "base/constants.h"
 #include "effects/envelope.h"
 #include <math.h>
 #include <string.h>
@@ -73,8 +74,8 @@ static void look(const fw_force_element *e, const fw_seen *s, bool second, overl
     const double *p = s->p;
     double ux = t->sense * (p[3] - p[0]), uy = t->sense * (p[4] - p[1]);
     double from = t->from_rad + p[3 * t->from_port + 2], to = t->to_rad + p[3 * t->to_port + 2];
-    double behind = fmod(atan2(uy, ux) - from, 2 * M_PI); /* from where they begin to u */
-    if (behind < 0) behind += 2 * M_PI;
+    double behind = fmod(atan2(uy, ux) - from, 2 * FW_PI); /* from where they begin to u */
+    if (behind < 0) behind += 2 * FW_PI;
     if (!t->partial || behind <= to - from)
         radial(p, t->side, t->distance_m, second, g);
     else if (cos(from) * ux + sin(from) * uy > cos(to) * ux + sin(to) * uy)
@@ -171,8 +172,8 @@ double fw_line_contact(double youngs_Pa, double poisson, double depth_m, double 
                        double gap_m, double force_N) {
     double modulus = youngs_Pa / (2 * (1 - poisson * poisson));
     double relative = radius_m * (radius_m + gap_m) / gap_m;
-    double half = sqrt(4 * force_N * relative / (M_PI * depth_m * modulus));
-    return M_PI * depth_m * modulus / (2 * log(4 * radius_m / fmin(half, radius_m)) - 1);
+    double half = sqrt(4 * force_N * relative / (FW_PI * depth_m * modulus));
+    return FW_PI * depth_m * modulus / (2 * log(4 * radius_m / fmin(half, radius_m)) - 1);
 }
 
 static double surface_stiffness(const fw_effect_case *c, const fw_hinge *h, double gap) {

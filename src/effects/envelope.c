@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "effects/envelope.h"
+#include "base/constants.h"
 #include "effects/modal.h"
 #include <float.h>
 #include <math.h>
-
-#define PI 3.14159265358979323846
 
 /* Linear theory says nothing beyond; and how much wider its bounds are made per unit of `unsure`.
    None of 16 400 random bounds was too small with these; with 1.5 and 0 one of a stop was
@@ -36,8 +35,8 @@ static fw_status arrays(fw_arena *arena, const fw_modal *o, fw_envelope *e) {
 /* integral of |e^(-zeta w t) sin(v t)/v| over the scene at most, v = w sqrt(1 - zeta^2): without
    the decay, whole arches have 2 / v^2 */
 static double undamped(double w, double zeta, double end) {
-    double v = w * sqrt(fmax(0, 1 - zeta * zeta)), arches = floor(v * end / PI);
-    double whole = (2 * arches + 1 - cos(v * end - PI * arches)) / (v * v);
+    double v = w * sqrt(fmax(0, 1 - zeta * zeta)), arches = floor(v * end / FW_PI);
+    double whole = (2 * arches + 1 - cos(v * end - FW_PI * arches)) / (v * v);
     return v > 0.5 * w ? fmin(end / w, whole) : end / w;
 }
 
@@ -57,7 +56,7 @@ static void size_of_modes(const fw_modal *o, const fw_pushes *p, fw_envelope *e)
         }
         e->amplitude[j] = q, e->pace[j] = v;
         double zeta = 0.5 * o->damping[j * m + j] / w;
-        e->yield[j] = fmin(undamped(w, zeta, end), (1 + 2 / (PI * fmax(zeta, 1e-12))) / (w * w));
+        e->yield[j] = fmin(undamped(w, zeta, end), (1 + 2 / (FW_PI * fmax(zeta, 1e-12))) / (w * w));
     }
     for (size_t j = 0; j < m; j++) { /* to first order in their damping */
         double more = 0;

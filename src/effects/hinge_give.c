@@ -20,6 +20,7 @@
    proved. Source: docs/theory/effects/nonlinear-hinge.md. Test: test_hinge_give.c,
    test_hinge_bounds.c. */
 #include "effects/effect.h"
+#include "base/constants.h"
 #include "effects/envelope.h"
 #include "effects/hinge_source.h"
 #include "quantity/law_kind.h"
@@ -263,7 +264,7 @@ static fw_status compare(work *w, const char **why) {
     FW_TRY(overshoots(w, &pushes));
     for (int j = 0; j < w->slow; j++) {
         double zeta = 0.5 * e->modal->damping[j * e->modes + j] / e->omega[j];
-        w->phase[j] = fmin(e->omega[j] * e->duration_s, 1 / (M_E * fmax(zeta, 1e-12)));
+        w->phase[j] = fmin(e->omega[j] * e->duration_s, 1 / (FW_E * fmax(zeta, 1e-12)));
         w->swing[j] = w->sources.force[j] / (e->omega[j] * e->omega[j]);
         w->overshoot[j] = fmax(2, w->overshoot[j]);
     }

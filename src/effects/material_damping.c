@@ -12,6 +12,7 @@
    material's hardly does. Source: loss factor and equivalent viscous damping as in any text on
    vibration; docs/theory/effects/material-damping.md. Test: test_material_damping.c. */
 #include "effects/effect.h"
+#include "base/constants.h"
 #include "effects/envelope.h"
 #include <math.h>
 
@@ -29,7 +30,7 @@ static double inertia_about(const fw_mechanism *m, int body, double x, double y)
 /* rad/s at which the loss factor holds, for this pin; the scene's last word counts */
 static double frequency_of(const fw_effect_case *c, const fw_pin *p) {
     double stated = c->scene->damping[c->scene->ndamping - 1].frequency_Hz;
-    if (!isnan(stated)) return 2 * M_PI * stated;
+    if (!isnan(stated)) return 2 * FW_PI * stated;
     const fw_envelope *e = c->envelope && c->envelope->pinned ? c->envelope->pinned : c->envelope;
     if (e && e->valid && e->modes > 0 && e->omega[0] > 0) return e->omega[0];
     double a = inertia_about(c->mechanism, p->body_a, p->ax_m, p->ay_m);

@@ -10,6 +10,7 @@
    looked at. Inputs SI; output dimensionless. Cost some 80 n^2 modes per element. Test:
    test_envelope.c, test_bounds.c. */
 #include "effects/modal.h"
+#include "base/constants.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -116,7 +117,7 @@ static fw_status everywhere(bend *w, const double *amplitude) {
     double t = fw_terms_element_busiest(w->o->mechanism, w->e, w->o->scene->duration_s);
     for (int port = 0; port + 1 < w->e->ports; port++)
         for (int i = 0; i < 10; i++) {
-            double angle = 0.25 * 3.14159265358979323846 * i;
+            double angle = 0.25 * FW_PI * i;
             bool turn = i >= 8;
             FW_TRY(farthest(w, port, turn ? 0 : cos(angle), turn ? 0 : sin(angle), amplitude, t,
                             i == 9 ? -1 : 1));

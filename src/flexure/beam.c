@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flexure/beam.h"
+#include "base/constants.h"
 #include "flexure/gauss.h"
 #include "flexure/kinds.h"
 #include "flexure/section_core.h"
@@ -187,7 +188,7 @@ void fw_beam_compliance(const fw_beam *b, fw_beam_linear *out) {
 static void crystal_of(const fw_flexure_input *in, const fw_flexure_result *closed_form,
                        fw_beam *out) {
     const fw_crystal *k = &in->crystal;
-    double turn = 0.5 * M_PI - out->psi_rad; /* from the middle to either end */
+    double turn = 0.5 * FW_PI - out->psi_rad; /* from the middle to either end */
     fw_flexure_shape shape;
     fw_flexure_shape_of(in, &shape);
     out->cubic = true;
@@ -224,7 +225,7 @@ void fw_beam_of_flexure(const fw_flexure_input *in, const fw_flexure_result *clo
                      .npiece = 1,
                      .x_m = r * cos(a),
                      .y_m = arc ? -r * sin(a) : -0.5 * L,
-                     .psi_rad = 0.5 * M_PI - a,
+                     .psi_rad = 0.5 * FW_PI - a,
                      .depth_m = in->depth_m,
                      .youngs_Pa = in->youngs_Pa,
                      .shear_Pa = in->youngs_Pa / (2 * (1 + in->poisson)),

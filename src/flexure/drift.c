@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flexure/drift.h"
+#include "base/constants.h"
 #include <math.h>
 
 enum { STEPS = 256, HALVINGS = 60 };
@@ -69,7 +70,7 @@ void fw_drift_curve(const fw_hinge_law *law, const fw_surfaces *surfaces, double
    source: docs/theory/flexure.md eq. 16; test_drift.c surfaces_meet */
 double fw_drift_contact_rad(const fw_hinge_law *law, const fw_surfaces *s, const double F[2],
                             int sense) {
-    double low = 0, step = (sense < 0 ? -M_PI : M_PI) / STEPS;
+    double low = 0, step = (sense < 0 ? -FW_PI : FW_PI) / STEPS;
     if (!(left_at(law, s, 0, F) > 0)) return 0;
     for (int i = 1; i < STEPS; i++) {
         double high = i * step;

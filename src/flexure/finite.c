@@ -20,6 +20,7 @@
    values and slopes 35 ns (tests/bench/bench_hinge_closed.c). Source:
    derived in docs/theory/effects/nonlinear-hinge.md. Test: test_finite.c. */
 #include "flexure/finite.h"
+#include "base/constants.h"
 #include "flexure/path.h"
 #include <math.h>
 
@@ -169,13 +170,13 @@ INLINE turned turn(const fw_hinge_rest *rest, double x, double part, double half
    error 1e-14 of the largest coefficient. Cost 70 ns. Source: Clenshaw 1955. Test: test_path_law.c
  */
 static fw_hinge_jet series(const double *c, double th) {
-    double x = 0.5 * M_1_PI * th, b1 = 0, b2 = 0, d1 = 0, d2 = 0, e1 = 0, e2 = 0;
+    double x = 0.5 * (1 / FW_PI) * th, b1 = 0, b2 = 0, d1 = 0, d2 = 0, e1 = 0, e2 = 0;
     for (int n = FW_PATH_TERMS - 1; n > 0; n--) {
         double e = 4 * d1 + 2 * x * e1 - e2, d = 2 * b1 + 2 * x * d1 - d2;
         double b = c[n] + 2 * x * b1 - b2;
         e2 = e1, e1 = e, d2 = d1, d1 = d, b2 = b1, b1 = b;
     }
-    double per = 0.5 * M_1_PI;
+    double per = 0.5 * (1 / FW_PI);
     return (fw_hinge_jet){c[0] + x * b1 - b2, per * (b1 + x * d1 - d2),
                           per * per * (2 * d1 + x * e1 - e2)};
 }
@@ -299,8 +300,8 @@ void fw_hinge_law_of(const fw_flexure_input *in, const fw_flexure_result *closed
 }
 
 bool fw_hinge_law_holds(const fw_hinge_law *law, double th) {
-    bool within = fabs(law->half_angle_rad + 0.5 * law->share * th) < M_PI;
-    return within && (!law->table || fabs(th) < 2 * M_PI);
+    bool within = fabs(law->half_angle_rad + 0.5 * law->share * th) < FW_PI;
+    return within && (!law->table || fabs(th) < 2 * FW_PI);
 }
 
 static double drift_at(const fw_hinge_law *law, double th) {
@@ -313,10 +314,10 @@ static double drift_at(const fw_hinge_law *law, double th) {
 double fw_hinge_drift_reaches(const fw_hinge_law *law, double gap_m) {
     double best = (double)NAN;
     for (int side = -1; side <= 1; side += 2) {
-        double low = 0, high = 0, step = M_PI / 64;
-        while (high < M_PI && drift_at(law, side * high) < gap_m)
+        double low = 0, high = 0, step = FW_PI / 64;
+        while (high < FW_PI && drift_at(law, side * high) < gap_m)
             low = high, high += step;
-        if (high >= M_PI) continue;
+        if (high >= FW_PI) continue;
         for (int i = 0; i < 60; i++) {
             double middle = 0.5 * (low + high);
             if (drift_at(law, side * middle) < gap_m)

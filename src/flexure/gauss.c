@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flexure/gauss.h"
+#include "base/constants.h"
 #include <math.h>
 
 /* P_0 .. P_n at x by their recurrence */
@@ -18,7 +19,7 @@ static void legendre(int n, long double x, long double *p) {
 void fw_gauss_rule(int n, double *node, double *weight) {
     long double p[FW_GAUSS_MOST + 1];
     for (int i = 0; i < (n + 1) / 2; i++) {
-        long double x = cosl((long double)M_PI * (i + 0.75L) / (n + 0.5L));
+        long double x = cosl((long double)FW_PI * (i + 0.75L) / (n + 0.5L));
         for (int k = 0; k < 5; k++) {
             legendre(n, x, p);
             x -= p[n] * (x * x - 1) / (n * (x * p[n] - p[n - 1]));

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Closed form of a strip of lines and arcs whose width varies. */
 #include "flexure/gauss.h"
+#include "base/constants.h"
 #include "flexure/kinds.h"
 #include "flexure/path_sections.h"
 #include <math.h>
@@ -128,7 +129,7 @@ static void outline_centre(const fw_course *p, double W[2]) {
 /* the chord up the y axis, W on the x axis */
 static void lay_on_chord(fw_course *p, const fw_strip_piece *piece, int n, double fillet_m) {
     fw_pose end = fw_strip_end(piece, n, (fw_pose){0});
-    double up = 0.5 * M_PI - atan2(end.y_m, end.x_m), W[2];
+    double up = 0.5 * FW_PI - atan2(end.y_m, end.x_m), W[2];
     lay(p, piece, n, (fw_pose){0, 0, up});
     give_roots(p, fillet_m);
     outline_centre(p, W);
@@ -154,8 +155,8 @@ void fw_path_of(const fw_flexure_input *in, fw_course *p) {
     double middle = in->width_middle_m > 0 ? in->width_middle_m : t;
     const fw_strip_piece one = {in->length_m, arc ? 1 / r : 0, {t, middle, t}};
     lay(p, &one, 1,
-        arc ? (fw_pose){r * cos(a), -r * sin(a), 0.5 * M_PI - a}
-            : (fw_pose){0, -0.5 * in->length_m, 0.5 * M_PI});
+        arc ? (fw_pose){r * cos(a), -r * sin(a), 0.5 * FW_PI - a}
+            : (fw_pose){0, -0.5 * in->length_m, 0.5 * FW_PI});
     give_roots(p, in->fillet_m);
 }
 

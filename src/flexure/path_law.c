@@ -15,6 +15,7 @@
    as in finite.c. Quadrature and series to 1e-12. Cost: 0.2 ms for the table of one hinge.
    Source: docs/theory/flexure.md, "Any centre line, varying width". Test: test_path_law.c. */
 #include "flexure/gauss.h"
+#include "base/constants.h"
 #include "flexure/path_sections.h"
 #include <math.h>
 
@@ -187,10 +188,10 @@ fw_status fw_path_law(fw_arena *arena, const fw_flexure_input *in,
     FW_TRY(fw_path_way_new(arena, in, &way));
     FW_NEED(t = fw_arena_one(arena, struct fw_hinge_table));
     for (int i = 0; i < N; i++)
-        fw_path_pose_at(way, 2 * M_PI * cos(M_PI * (i + 0.5) / N), &at[i]);
+        fw_path_pose_at(way, 2 * FW_PI * cos(FW_PI * (i + 0.5) / N), &at[i]);
     for (int n = 0; n < N; n++)
         for (int i = 0; i < N; i++) {
-            double by = (n ? 2.0 : 1.0) / N * cos(M_PI * n * (i + 0.5) / N);
+            double by = (n ? 2.0 : 1.0) / N * cos(FW_PI * n * (i + 0.5) / N);
             t->along_m_per_N[n] += by * at[i].c[0][0];
             t->across_m_per_N[n] += by * at[i].c[1][1];
             t->drift_m[n] += by * at[i].drift_m[1];

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flexure/weibull.h"
+#include "base/constants.h"
 #include "flexure/section.h"
 #include <math.h>
 
@@ -17,7 +18,7 @@
 double fw_weibull_area_m2(const fw_flexure_input *f, double m) {
     double t = f->width_m, h = f->depth_m, rho = fmax(f->fillet_m, 0.0);
     double kt = fw_fillet_concentration(t, f->fillet_m), faces = t / (m + 1.0);
-    return f->length_m * (h + faces) * pow(kt, -m) + 2.0 * rho * (0.5 * acos(-1.0) * h + faces);
+    return f->length_m * (h + faces) * pow(kt, -m) + 2.0 * rho * (0.5 * FW_PI * h + faces);
 }
 
 /* P = 1 - exp(-(A_eff/A0) (sigma/sigma0)^m); in: Pa, tension or compression of the same size on the

@@ -2,11 +2,12 @@
 /* Private to the room: one arc as chords (flatten_arc.c), for tessellate.c. */
 #ifndef FW_GEOMETRY_FLATTEN_H
 #define FW_GEOMETRY_FLATTEN_H
+#include "base/constants.h"
 #include "geometry/segment.h"
 #include "geometry/tessellate.h"
 
-#define FW_GRID_PER_M 1e9                    /* 1 dbu = 1 nm */
-#define FW_SNAP_M     0.70710678118654752e-9 /* what rounding moves a vertex at most */
+#define FW_GRID_PER_M 1e9                  /* 1 dbu = 1 nm */
+#define FW_SNAP_M     (FW_SQRT_HALF / 1e9) /* what rounding moves a vertex at most */
 
 /* floor(x + 1/2) for |x| < 2^30, without a call */
 static inline int32_t fw_round_half_up(double x) {

@@ -3,13 +3,12 @@
    exact rule checks of mask/. */
 #ifndef FW_GEOMETRY_SEGMENT_H
 #define FW_GEOMETRY_SEGMENT_H
+#include "base/constants.h"
 #include "geometry/contour.h"
 #include <math.h>
 
 #define FW_COINCIDENT_M 1e-12 /* points nearer than this are one point */
 #define FW_SMOOTH_RAD   1e-6  /* a smaller turn is no corner */
-#define FW_PI           3.14159265358979323846
-#define FW_TURN         6.28318530717958647693
 
 static inline fw_vec2 vec_add(fw_vec2 p, fw_vec2 q) {
     return (fw_vec2){p.x + q.x, p.y + q.y};

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One outline per body: bars and plate, cut free of the hinges, united with its own hinge heads. */
 #include "geometry/segment.h"
+#include "base/constants.h"
 #include "layout/draw.h"
 #include <math.h>
 
@@ -259,7 +260,7 @@ static double arc_limit(const fw_contour *c, int i) {
     int n = c->count;
     unsigned beside = c->segment[(i + 1) % n].flags | c->segment[(i + n - 1) % n].flags;
     bool hollow = s->sweep_rad < 0.0;
-    bool tight = fabs(s->sweep_rad) > 0.25 * M_PI;
+    bool tight = fabs(s->sweep_rad) > 0.25 * FW_PI;
     if (tight && !(beside & FW_SEGMENT_JOINT)) return hollow ? FW_OWN_BEND_M : FW_OWN_TIP_M;
     return hollow ? FW_OWN_HOLLOW_M : 1e-9;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "geometry/segment.h"
+#include "base/constants.h"
 #include "layout/draw.h"
 #include <math.h>
 
@@ -30,8 +31,8 @@ static bool on_arc(const fw_segment *s, fw_vec2 p) {
         if (from < -margin && to < -margin) return false;
     }
     double turn = atan2(a.x * b.y - a.y * b.x, fw_dot(a, b));
-    if (s->sweep_rad > 0.0 && turn < 0.0) turn += 2.0 * M_PI;
-    if (s->sweep_rad < 0.0 && turn > 0.0) turn -= 2.0 * M_PI;
+    if (s->sweep_rad > 0.0 && turn < 0.0) turn += 2.0 * FW_PI;
+    if (s->sweep_rad < 0.0 && turn > 0.0) turn -= 2.0 * FW_PI;
     return fabs(turn) <= fabs(s->sweep_rad);
 }
 
@@ -76,7 +77,7 @@ static reach reach_of(const fw_segment *s, fw_vec2 w, double least, double most)
 static void see(reach *r, fw_vec2 w) {
     const fw_segment *s = r->segment;
     r->middle_rad = 0.0;
-    r->half_rad = M_PI;
+    r->half_rad = FW_PI;
     if (s->kind == FW_LINE) {
         fw_vec2 a = fw_sub(s->a, w), b = fw_sub(s->b, w);
         double turn = atan2(a.x * b.y - a.y * b.x, fw_dot(a, b));
@@ -152,7 +153,7 @@ static int crossings(const active *now, fw_vec2 w, double q, crossing *list) {
 /* |angle| less whole turns, of an angle between -2 pi and 2 pi; the subtraction is exact */
 static double turned_least(double angle) {
     double size = fabs(angle);
-    return size <= M_PI ? size : 2.0 * M_PI - size;
+    return size <= FW_PI ? size : 2.0 * FW_PI - size;
 }
 
 static double angle_of(crossing *c) {
@@ -166,7 +167,7 @@ static double least_rotation(const near_part *p, const near_part *q, fw_vec2 w, 
                              int step) {
     crossing a[MOST_CROSSINGS], b[MOST_CROSSINGS];
     active of_p = {.count = 0}, of_q = {.count = 0};
-    double least = M_PI, cosine = -2.0;
+    double least = FW_PI, cosine = -2.0;
     for (int k = step; k <= RADII; k += step) {
         double circle = radius_m * k / RADII;
         advance(&of_p, p, circle);
@@ -189,8 +190,8 @@ static double least_rotation(const near_part *p, const near_part *q, fw_vec2 w, 
 static bool may_be_near(const reach *a, const reach *b, double angle) {
     if (a->least > b->most || b->least > a->most) return false;
     double between = fabs(a->middle_rad - b->middle_rad); /* below 5 pi */
-    while (between > M_PI)
-        between = fabs(between - 2.0 * M_PI);
+    while (between > FW_PI)
+        between = fabs(between - 2.0 * FW_PI);
     return between - a->half_rad - b->half_rad <= angle;
 }
 
@@ -227,7 +228,7 @@ static void leave_far_out(near_part *p, near_part *q, fw_vec2 w, double least) {
 double fw_layout_free_rotation(fw_vec2 w, const fw_contour *p, const fw_contour *q,
                                double radius_m) {
     near_part of_p, of_q;
-    double least = M_PI;
+    double least = FW_PI;
     for (int i = 0, next = p->count; i < p->count; i = next) {
         for (int j = 0; j < q->count;) {
             next = find_near(p, i, w, radius_m, &of_p);

@@ -2,6 +2,7 @@
 /* Electrodes of comb drives and plates: outlines that have exactly the scene's fingers, gap,
    overlap and length, and a stator with lead and bond pad that stands on the carrier by itself. */
 #include "geometry/segment.h"
+#include "base/constants.h"
 #include "layout/draw.h"
 #include "layout/text.h"
 #include <math.h>
@@ -32,9 +33,9 @@ static fw_status draw_fingers(fw_arena *arena, const fw_local *local, const fw_c
         double low = (i - 0.5 * (n - 1)) * pitch - 0.5 * w, high = low + w;
         if (i > 0) fw_sketch_line(&k, fw_v(root, low), 0);
         fw_sketch_line(&k, fw_v(tip - r, low), 0);
-        fw_sketch_arc(&k, fw_v(tip - r, low + r), 0.5 * M_PI, fw_v(tip, low + r));
+        fw_sketch_arc(&k, fw_v(tip - r, low + r), 0.5 * FW_PI, fw_v(tip, low + r));
         fw_sketch_line(&k, fw_v(tip, high - r), 0);
-        fw_sketch_arc(&k, fw_v(tip - r, high - r), 0.5 * M_PI, fw_v(tip - r, high));
+        fw_sketch_arc(&k, fw_v(tip - r, high - r), 0.5 * FW_PI, fw_v(tip - r, high));
         if (i < n - 1) fw_sketch_line(&k, fw_v(root, high), 0);
     }
     fw_sketch_line(&k, fw_v(root - BACK_M, half), 0);

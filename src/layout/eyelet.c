@@ -2,6 +2,7 @@
 /* Eyelets of tendons: a closed ring that is part of its body, and how its hole is opened without
    an outline that has a hole. */
 #include "geometry/segment.h"
+#include "base/constants.h"
 #include "layout/draw.h"
 #include <math.h>
 
@@ -170,7 +171,7 @@ static fw_status splice(fw_arena *arena, const fw_contour *c, const fw_eyelet_pl
         out->segment[count++] = cut_line(p1, q1);
         out->segment[count] = hole;
         out->segment[count].a = q1, out->segment[count].b = q2;
-        out->segment[count++].sweep_rad = -(2.0 * M_PI - 2.0 * half);
+        out->segment[count++].sweep_rad = -(2.0 * FW_PI - 2.0 * half);
         out->segment[count++] = cut_line(q2, p2);
         out->segment[count++] = fw_segment_cut(edge, t2, p2, 1.0, edge->b);
     }
@@ -198,7 +199,7 @@ fw_status fw_eyelet_hole(fw_drawing *d, const fw_eyelet_plan *e, const fw_contou
         return FW_OK;
     }
     for (int k = 0; k < DIRECTIONS; k++) {
-        fw_vec2 u = fw_polar(2.0 * M_PI * k / DIRECTIONS);
+        fw_vec2 u = fw_polar(2.0 * FW_PI * k / DIRECTIONS);
         if (!leaves(raw, e->at, u, side)) continue;
         double length = fmax(side[0].far_m, side[1].far_m);
         if (length >= shortest - 1e-9) continue;

@@ -2,6 +2,7 @@
 /* Hinges: where the bulge points, the two rings about W, root blocks. docs/theory/layout.md, 2-3.
  */
 #include "layout/draw.h"
+#include "base/constants.h"
 #include <math.h>
 
 static const fw_hinge_drawer drawers[] = {
@@ -192,7 +193,7 @@ static fw_status draw_head(fw_arena *arena, const fw_hinge_shape *s, fw_side *si
     fw_sketch_line(&k, fw_add(fw_add(w, side->far_m, v), side->neck_end_m, u), NECK_END);
     fw_sketch_line(&k, far.leave, 0);
     if (far.arc)
-        fw_sketch_arc(&k, w, remainder(angle_of(far.arrive) - angle_of(far.leave), 2.0 * M_PI),
+        fw_sketch_arc(&k, w, remainder(angle_of(far.arrive) - angle_of(far.leave), 2.0 * FW_PI),
                       far.arrive);
     if (far.turns) fw_sketch_line(&k, choose_far_side(s, q0).turn, 0);
     fw_sketch_line(&k, s->inner_corner, far.turns ? NOSE : 0);
@@ -298,7 +299,7 @@ static void choose_sides(fw_drawing *d, int joint, fw_hinge_plan *plan, double *
         side->local = (fw_local){w, n.x, n.y, i == 0};
         double up = cross(n, side->direction), along = fw_dot(n, side->direction);
         side->own_rad = atan2(i == 0 ? -up : up, along);
-        if (side->own_rad < -0.5 * M_PI) side->own_rad += 2.0 * M_PI;
+        if (side->own_rad < -0.5 * FW_PI) side->own_rad += 2.0 * FW_PI;
     }
     int low = fw_steps_to_ground(d->device, plan->side[0].body);
     int high = fw_steps_to_ground(d->device, plan->side[1].body);
@@ -312,7 +313,7 @@ static void choose_sides(fw_drawing *d, int joint, fw_hinge_plan *plan, double *
 static void widen_to_corner(fw_side *side, double disc) {
     double start = asin(side->neck_m / disc), sign = side->local.mirror ? -1.0 : 1.0;
     for (double turn = start; turn < start + 120e-6 / disc; turn += 1e-6 / disc) {
-        if (side->own_rad + turn > M_PI - 0.5 * FW_FREE_RAD || turn > 1.2) return;
+        if (side->own_rad + turn > FW_PI - 0.5 * FW_FREE_RAD || turn > 1.2) return;
         fw_vec2 e = fw_v(cos(turn) * side->direction.x - sign * sin(turn) * side->direction.y,
                          cos(turn) * side->direction.y + sign * sin(turn) * side->direction.x);
         if (plate_depth(side->plate, fw_add(side->local.origin, disc, e)) > 0.0) continue;
@@ -379,7 +380,7 @@ static fw_status refuse(fw_drawing *d, int joint, int number, const char *what) 
     fw_diag_error(d->diags, number, f->place, "hinge %s (length %s um, width %s um%s%s%s): %s",
                   j->id, fw_layout_um(length, f->length_m), fw_layout_um(width, f->width_m),
                   turns ? ", angle " : "",
-                  turns ? fw_number_text(angle, sizeof angle, f->angle_rad * 180.0 / M_PI, 5) : "",
+                  turns ? fw_number_text(angle, sizeof angle, f->angle_rad * 180.0 / FW_PI, 5) : "",
                   turns ? " deg" : "", what);
     return FW_GEOMETRY;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layout/draw.h"
+#include "base/constants.h"
 #include <math.h>
 
 double fw_hinge_centre(const fw_flexure *flexure, double fillet_m) {
@@ -52,10 +53,10 @@ bool fw_hinge_shape_csfh(const fw_flexure *flexure, fw_hinge_shape *shape) {
     shape->outer_start = fw_add(o, ro, fw_polar(a - outer));
     shape->outer_centre = fw_add(o, ro + rho, fw_polar(a - outer));
     shape->outer_end = fw_add(o, far_end, e);
-    shape->outer_sweep_rad = -(0.5 * M_PI - outer);
+    shape->outer_sweep_rad = -(0.5 * FW_PI - outer);
     shape->inner_start = fw_add(o, face_end, e);
     shape->inner_centre = fw_add(o, ri - rho, fw_polar(cut));
-    shape->inner_sweep_rad = -(0.5 * M_PI + inner);
+    shape->inner_sweep_rad = -(0.5 * FW_PI + inner);
     shape->root = fw_add(o, r, e);
     shape->face = e;
     shape->into = fw_left(e);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layout/draw.h"
+#include "base/constants.h"
 #include <math.h>
 
 /* straight leaf along y of the hinge frame, W in its middle: root faces at y = +-L/2, fillets of
@@ -24,10 +25,10 @@ bool fw_hinge_shape_leaf(const fw_flexure *flexure, fw_hinge_shape *shape) {
     shape->outer_start = shape->joint_out;
     shape->outer_centre = fw_v(x + rho, cut);
     shape->outer_end = fw_v(x + rho, y);
-    shape->outer_sweep_rad = -0.5 * M_PI;
+    shape->outer_sweep_rad = -0.5 * FW_PI;
     shape->inner_start = fw_v(-x - rho, y);
     shape->inner_centre = fw_v(-x - rho, cut);
-    shape->inner_sweep_rad = -0.5 * M_PI;
+    shape->inner_sweep_rad = -0.5 * FW_PI;
     shape->root = fw_v(0.0, y);
     shape->face = fw_v(1.0, 0.0);
     shape->into = fw_v(0.0, 1.0);

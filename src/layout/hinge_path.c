@@ -2,6 +2,7 @@
 /* Flexures whose centre line is any path or whose width varies: both roots, and the strip between
    the cuts. docs/theory/layout.md, section 2. */
 #include "flexure/path.h"
+#include "base/constants.h"
 #include "geometry/segment.h"
 #include "layout/draw.h"
 
@@ -23,8 +24,8 @@ static void turned(const fw_course *p, fw_course *out) {
     for (int i = 0; i < p->n; i++)
         piece[i] = p->shape[i].piece;
     fw_strip_turned(piece, p->n, back);
-    fw_pose start = p->start[p->n], at = {start.x_m, -start.y_m, M_PI - start.angle_rad};
-    at.angle_rad = fw_angle_near(-start.angle_rad + M_PI, 0.5 * M_PI);
+    fw_pose start = p->start[p->n], at = {start.x_m, -start.y_m, FW_PI - start.angle_rad};
+    at.angle_rad = fw_angle_near(-start.angle_rad + FW_PI, 0.5 * FW_PI);
     out->n = p->n;
     for (int i = 0; i < p->n; i++) {
         fw_strip_shape_of(&back[i], &out->shape[i]);
@@ -207,7 +208,7 @@ static void add_edge(fw_sketch *k, const fw_segment *e, bool forward, fw_vec2 fr
     }
     double way = forward ? e->sweep_rad : -e->sweep_rad;
     double sweep = sweep_between(e->centre, from, to);
-    if (sweep * way < 0) sweep += copysign(2 * M_PI, way);
+    if (sweep * way < 0) sweep += copysign(2 * FW_PI, way);
     fw_sketch_arc(k, e->centre, sweep, to);
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layout/draw.h"
+#include "base/constants.h"
 #include <math.h>
 
 /* Tendon eyelets: open rings on short stems at the platform's edge. A closed eye would be a hole in
@@ -10,16 +11,16 @@ static const double eye = 40e-6, outer = 70e-6, stem = 50e-6, height = 64e-6;
 /* local: origin on the edge, +y outwards, the eye opens towards +x */
 static fw_status draw_lug(fw_drawing *d, const fw_local *local, fw_contour *lug) {
     fw_vec2 c = fw_v(0.0, height);
-    double foot = -acos(stem / outer), from = -M_PI / 12.0, to = from + M_PI / 3.0;
+    double foot = -acos(stem / outer), from = -FW_PI / 12.0, to = from + FW_PI / 3.0;
     fw_vec2 right = fw_v(stem, height + outer * sin(foot)), left = fw_v(-stem, right.y);
     fw_sketch k = fw_sketch_start(d->arena, local, fw_v(-stem, -25e-6));
     fw_sketch_line(&k, fw_v(stem, -25e-6), 0);
     fw_sketch_line(&k, right, 0);
     fw_sketch_arc(&k, c, from - foot, fw_add(c, outer, fw_polar(from)));
     fw_sketch_line(&k, fw_add(c, eye, fw_polar(from)), 0);
-    fw_sketch_arc(&k, c, -(2.0 * M_PI - (to - from)), fw_add(c, eye, fw_polar(to)));
+    fw_sketch_arc(&k, c, -(2.0 * FW_PI - (to - from)), fw_add(c, eye, fw_polar(to)));
     fw_sketch_line(&k, fw_add(c, outer, fw_polar(to)), 0);
-    fw_sketch_arc(&k, c, M_PI - foot - to, left);
+    fw_sketch_arc(&k, c, FW_PI - foot - to, left);
     return fw_sketch_close(&k, lug);
 }
 

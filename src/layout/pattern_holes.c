@@ -11,12 +11,12 @@
    In: sizes (pitches), hole, round (1) or square (0), holes (along x and y), space, m. Out: per
    pitch the strips; area = strip - holes, exactly. Test: test_patterns.c. */
 #include "layout/pattern.h"
+#include "base/constants.h"
 #include "layout/text.h"
 #include <math.h>
 
 enum { HOLE, ROUND, COUNT, SPACE };
 static const double STEM_M = 20e-6, STEM_HIGH_M = 30e-6;
-static const double PI = 3.14159265358979323846;
 
 double fw_holes_reach_m(double pitch_m, double hole_m, bool round) {
     return round ? pitch_m / sqrt(2) - 0.5 * hole_m : (pitch_m - hole_m) / sqrt(2);
@@ -47,7 +47,7 @@ static void half_hole(const plate *p, fw_outline *o, int i, double y, bool up) {
     double from = up ? a : b, to = up ? b : a;
     if (p->round) {
         fw_vec2 centre = {0.5 * (a + b), y};
-        fw_outline_arc_to(o, centre, -PI, (fw_vec2){to, y}, 0);
+        fw_outline_arc_to(o, centre, -FW_PI, (fw_vec2){to, y}, 0);
         return;
     }
     double inner = fw_layout_to_grid(up ? y + h : y - h);

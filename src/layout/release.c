@@ -15,6 +15,7 @@
    Area, centroid and polar moment follow in closed form: less pi D^2/4 at each middle, with
    pi D^4/32 about its own. Tests: test_release.c. */
 #include "geometry/segment.h"
+#include "base/constants.h"
 #include "layout/draw.h"
 #include "layout/pattern.h"
 #include <math.h>
@@ -126,7 +127,8 @@ static fw_segment around(const grid *g, const column *c, int k, fw_vec2 a, fw_ve
 
 /* down the right side of the cut, around the holes, and back up the left side */
 static int trace(const grid *g, const column *c, fw_segment *out) {
-    const double third = M_PI / 3.0; /* a cut takes a third of half a turn out of the hole's edge */
+    const double third =
+        FW_PI / 3.0; /* a cut takes a third of half a turn out of the hole's edge */
     double w = half_cut(g), h = deep(g);
     int n = 0;
     fw_vec2 from = c->p[0];
@@ -151,7 +153,7 @@ static int trace(const grid *g, const column *c, fw_segment *out) {
 
 /* closes the cut above hole k */
 static fw_status add_cap(grid *g, const column *c, int k) {
-    const double third = M_PI / 3.0;
+    const double third = FW_PI / 3.0;
     double w = half_cut(g), h = deep(g);
     fw_vec2 a = k ? of_hole(g, c, k - 1, -h, -w) : c->p[0];
     fw_vec2 b = k ? of_hole(g, c, k - 1, -h, w) : c->p[1];
@@ -258,7 +260,7 @@ static bool is_wide(const grid *g, double reach) {
 
 static void take_out(grid *g) {
     fw_body_layout *b = &g->d->layout->body[g->body];
-    double r = 0.5 * g->hole_m, each = M_PI * r * r, area = b->area_m2 - g->nhole * each;
+    double r = 0.5 * g->hole_m, each = FW_PI * r * r, area = b->area_m2 - g->nhole * each;
     fw_vec2 sum = fw_v(b->area_m2 * b->centroid.x, b->area_m2 * b->centroid.y);
     for (int i = 0; i < g->nhole; i++)
         sum = fw_add(sum, -each, g->hole[i]);
@@ -268,7 +270,7 @@ static void take_out(grid *g) {
         fw_vec2 to = fw_sub(g->hole[i], centre);
         polar -= each * (0.5 * r * r + fw_dot(to, to));
     }
-    *b = (fw_body_layout){area, b->perimeter_m + 2.0 * M_PI * r * g->nhole, centre, polar};
+    *b = (fw_body_layout){area, b->perimeter_m + 2.0 * FW_PI * r * g->nhole, centre, polar};
 }
 
 static bool points_from_centre(const fw_drawing *d, int body) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What was proven about the file, as JSON; docs/theory/masks.md explains every member. */
 #include "mask/certificate.h"
+#include "base/constants.h"
 #include "mask/findings.h"
 #include "mask/json.h"
 #include "mask/notes.h"
@@ -37,7 +38,7 @@ static void layer(fw_text *out, const fw_mask_layer *y, const fw_mask_measure *m
     fw_text_add(out, ",\n     ");
     fw_mask_json_number(out, "shortest_edge_nm", m->shortest_edge_m * 1e9, 6);
     fw_text_add(out, ", ");
-    fw_mask_json_number(out, "sharpest_corner_deg", m->sharpest_rad * (180 / acos(-1.0)), 6);
+    fw_mask_json_number(out, "sharpest_corner_deg", m->sharpest_rad * (180 / FW_PI), 6);
     fw_certificate_layer(out, m);
     fw_text_add(out, "}");
 }
@@ -58,7 +59,7 @@ static void head(const fw_mask *mask, const char *gds_sha256, fw_text *out) {
     fw_text_add(out, ",\n  \"grid_nm\": 1, ");
     fw_mask_json_number(out, "tolerance_nm", mask->tolerance_m * 1e9, 9);
     fw_text_add(out, ", ");
-    fw_mask_json_number(out, "edge_error_nm", mask->tolerance_m * 1e9 + 0.70710678118654752, 9);
+    fw_mask_json_number(out, "edge_error_nm", mask->tolerance_m * 1e9 + FW_SQRT_HALF, 9);
     fw_text_add(out, ",\n  ");
     fw_mask_json_number(out, "bias_um_per_edge", mask->bias_m * 1e6, 9);
     fw_text_add(out, ", ");

@@ -2,12 +2,13 @@
 /* What was found of every polygon, so that another program can find it again in the file:
    tests/accept/check_mask.py does. */
 #include "mask/certificate.h"
+#include "base/constants.h"
 #include "mask/flatten.h"
 #include "mask/json.h"
 #include <math.h>
 
 static double degrees(double rad) {
-    return rad * (180 / acos(-1.0));
+    return rad * (180 / FW_PI);
 }
 
 static void box_nm(fw_text *out, const char *key, fw_box b) {

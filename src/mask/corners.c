@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mask/rules.h"
+#include "base/constants.h"
 #include <math.h>
 
 static const double GRID_M = 1e-9;
@@ -52,7 +53,7 @@ void fw_mask_check_corners(const fw_mask_shape *shape, int nshape, fw_diags *dia
                         "%s has %d corner(s) below 90 degrees on the grid, the sharpest %s at %s; "
                         "width checks report them; round the corner",
                         shape[k].piece->label, count,
-                        fw_number_text(degrees, sizeof degrees, acos(most) * 180 / acos(-1.0), 8),
+                        fw_number_text(degrees, sizeof degrees, acos(most) * 180 / FW_PI, 8),
                         fw_mask_place_text(at, sizeof at, place_of(p->vertex[worst])));
     }
 }

@@ -2,6 +2,7 @@
 /* As drawn, on the mask and as fabricated, over each other: one picture with true arcs, and two
    places of it enlarged, the narrowest line and the narrowest space. 1 user unit = 1 um. */
 #include "mask/outlines.h"
+#include "base/constants.h"
 #include <math.h>
 #include <string.h>
 
@@ -40,7 +41,7 @@ static void point(const page *p, char letter, fw_vec2 at) {
 
 /* in parts of at most a third of a turn, as in svg.c */
 static void arc(const page *p, const fw_segment *s) {
-    int parts = (int)ceil(fabs(s->sweep_rad) / (2 * acos(-1.0) / 3) - 1e-9);
+    int parts = (int)ceil(fabs(s->sweep_rad) / (2 * FW_PI / 3) - 1e-9);
     fw_vec2 r = {s->a.x - s->centre.x, s->a.y - s->centre.y};
     for (int i = 1; i <= parts; i++) {
         double c = cos(s->sweep_rad * i / parts), n = sin(s->sweep_rad * i / parts);

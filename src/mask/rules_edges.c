@@ -2,13 +2,14 @@
 /* The boundary of the union on one layer: every segment that is no joint, shape by shape, and where
    it turns. */
 #include "mask/rules_search.h"
+#include "base/constants.h"
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 static const double GRID_M = 1e-9;
-static const double ROUND_M = 0.70710678118654752e-9; /* a vertex moves by at most g/sqrt2 */
-static const double PART_RAD = FW_PI / 24;            /* 7.5 deg */
+static const double ROUND_M = FW_SQRT_HALF / 1e9; /* a vertex moves by at most g/sqrt2 */
+static const double PART_RAD = FW_PI / 24;        /* 7.5 deg */
 
 /* nearest whole number, as nearbyint finds it, without its call */
 static double nearest(double n) {

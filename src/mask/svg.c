@@ -2,6 +2,7 @@
 /* Exact outlines with true arcs: 1 user unit = 1 um, six decimals (1 pm). The y axis of SVG points
    down, so y is turned round here and not by a transform that importers may lose. */
 #include "mask/stream.h"
+#include "base/constants.h"
 #include <math.h>
 
 static const double MARGIN_UM = 150, LEGEND_UM = 150, BAR_UM = 10;
@@ -28,7 +29,7 @@ static void coordinate(const page *p, char letter, fw_vec2 at) {
    for equal points and loses half the digits near a half turn. The large-arc flag is then never
    set. */
 static void arc(const page *p, const fw_segment *s) {
-    const double third = 2 * acos(-1.0) / 3;
+    const double third = 2 * FW_PI / 3;
     int parts = (int)ceil(fabs(s->sweep_rad) / third - 1e-9);
     fw_vec2 r = {s->a.x - s->centre.x, s->a.y - s->centre.y};
     for (int i = 1; i <= parts; i++) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flexure/flare.h"
+#include "base/constants.h"
 #include "mechanism/builder.h"
 #include <math.h>
 
@@ -186,7 +187,7 @@ static void say_left_out(const fw_builder *b, const fw_flexure *f, const fw_join
         "hinge %s: its path is not its own mirror image; up to %s deg the law of hinges that "
         "give leaves out %s um of drift along its axis and a coupling of %s between "
         "the two directions of force; make the path symmetric if that matters",
-        fw_name_or_none(joint->id), fw_number_text(degrees, sizeof degrees, most * 180 / M_PI, 3),
+        fw_name_or_none(joint->id), fw_number_text(degrees, sizeof degrees, most * 180 / FW_PI, 3),
         fw_number_text(um, sizeof um, 1e6 * drift, 2),
         fw_number_text(share, sizeof share, coupling, 2));
 }

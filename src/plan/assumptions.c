@@ -2,6 +2,7 @@
 /* What the answer rests on, in sentences: every material number that is not measured, every
    scaling, every model with its error. */
 #include "plan/stages.h"
+#include "base/constants.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -43,7 +44,7 @@ static fw_status of_crystal(fw_plan *plan, const fw_variant_verdict *judged) {
         "finite "
         "element models of one arc, none held out: the band is 3 %% wider for it on either side.",
         v->flow ? v->flow : "", v->flow ? ": " : "", v->material.id,
-        fw_number_text(angle, sizeof angle, v->orientation_rad * 180.0 / acos(-1.0), 4),
+        fw_number_text(angle, sizeof angle, v->orientation_rad * 180.0 / FW_PI, 4),
         fw_number_text(off, sizeof off, most * 1e6, 2));
 }
 

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "plan/ladder.h"
+#include "base/constants.h"
 #include <math.h>
 
 static double turned(double angle_rad) { /* into (-pi, pi] */
-    return remainder(angle_rad, 2 * M_PI);
+    return remainder(angle_rad, 2 * FW_PI);
 }
 
 /* Least angle between where the convex surface is pushed by the drift and the sector in which both
@@ -14,7 +15,7 @@ static double aside(const fw_mechanism *m, const fw_hinge *h) {
     if (!isfinite(h->cover_from_rad) || !isfinite(h->axis_rad)) return 0;
     double drawn = pin->body_a == FW_GROUND ? 0 : m->body[pin->body_a].phi_rad;
     double push =
-        h->axis_rad - drawn + (h->first_is_a ? 0.5 : -0.5) * M_PI + (h->convex_is_a ? M_PI : 0);
+        h->axis_rad - drawn + (h->first_is_a ? 0.5 : -0.5) * FW_PI + (h->convex_is_a ? FW_PI : 0);
     double middle = 0.5 * (h->cover_from_rad + h->cover_to_rad);
     double half = 0.5 * (h->cover_to_rad - h->cover_from_rad);
     return fmax(0, fabs(turned(push - middle)) - half);
@@ -24,7 +25,7 @@ void fw_ladder_drift_of(const fw_mechanism *m, const fw_hinge *h, fw_ladder_drif
     const fw_hinge_law *law = &h->law;
     const fw_flexure *f = &m->device->flexure[h->flexure];
     double sense = h->first_is_a ? 1 : -1; /* of the pin's rotation against the law's */
-    double most = 1.9 * (M_PI - law->half_angle_rad) / law->share;
+    double most = 1.9 * (FW_PI - law->half_angle_rad) / law->share;
     *out = (fw_ladder_drift){
         .surfaces = {.gap_m = f->gap_m,
                      .aside_rad = aside(m, h),
@@ -40,7 +41,7 @@ void fw_ladder_drift_of(const fw_mechanism *m, const fw_hinge *h, fw_ladder_drif
     if (!(f->gap_m > 0)) return;
     out->closing_N[0] = f->gap_m * h->closed_form.kx_N_per_m;
     out->closing_N[1] = f->gap_m * h->closed_form.ky_N_per_m;
-    if (out->surfaces.aside_rad >= 0.5 * M_PI) return; /* pushed away from each other */
+    if (out->surfaces.aside_rad >= 0.5 * FW_PI) return; /* pushed away from each other */
     for (int side = 0; side < 2; side++)
         out->contact_rad[side] =
             sense * fw_drift_contact_rad(law, &out->surfaces, NULL, (side ? 1 : -1) * (int)sense);

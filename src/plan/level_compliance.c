@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "plan/ladder.h"
+#include "base/constants.h"
 #include <math.h>
 
 /* The hinge of three degrees of freedom at finite rotation (flexure/finite.c), as the mechanism
@@ -12,8 +13,8 @@ fw_status fw_ladder_compliance(const fw_ladder_case *c, fw_report_level *row) {
     const fw_flexure_result *r = &own;
     fw_ladder_printed(&c->hinge->input, &own);
     const fw_hinge_rest rest = fw_hinge_rest_of(law);
-    double limit = r->limit_angle_rad, most = 2 * (M_PI - law->half_angle_rad) / law->share;
-    if (!(limit < fmin(0.95 * most, M_PI))) {
+    double limit = r->limit_angle_rad, most = 2 * (FW_PI - law->half_angle_rad) / law->share;
+    if (!(limit < fmin(0.95 * most, FW_PI))) {
         *row = (fw_report_level){.state = FW_LEVEL_NONE,
                                  .why = "the arc would close before the limit angle"};
         return FW_OK;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flexure/elastica.h"
+#include "base/constants.h"
 #include "plan/ladder.h"
 #include <math.h>
 
@@ -33,7 +34,7 @@ static double limit_angle(turned *t, double guess_rad, double limit) {
         if (fabs(miss) <= 1e-10 * limit) return angle;
         double next = angle - miss * (angle - low) / (miss - miss_low);
         low = angle, miss_low = miss, angle = next;
-        if (!(angle > 0 && angle < M_PI)) return (double)NAN;
+        if (!(angle > 0 && angle < FW_PI)) return (double)NAN;
     }
     return (double)NAN;
 }
@@ -73,7 +74,7 @@ fw_status fw_ladder_elastica(const fw_ladder_case *c, fw_report_level *row) {
     FW_TRY(fw_elastica_new(c->arena, &beam, NULL, false, &t.e));
     double limit = in->strength_Pa / (in->safety_factor * in->youngs_Pa);
     double angle =
-        r->limit_angle_rad < M_PI ? limit_angle(&t, r->limit_angle_rad, limit) : (double)NAN;
+        r->limit_angle_rad < FW_PI ? limit_angle(&t, r->limit_angle_rad, limit) : (double)NAN;
     if (!isfinite(angle)) {
         *row = (fw_report_level){.state = FW_LEVEL_NONE,
                                  .why = "the beam has no equilibrium at the limit strain below "

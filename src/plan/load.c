@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/hash.h"
+#include "base/constants.h"
 #include "base/output.h"
 #include "plan/stages.h"
 #include <math.h>
@@ -98,7 +99,7 @@ static double thickness_of(const fw_device *d, const fw_flow_use *use, const fw_
 /* of a wafer as it is usually cut: the flat, along <110>, parallel to x */
 static double orientation_of(const fw_device *d, const fw_flow_use *use) {
     if (use && !isnan(use->orientation_rad)) return use->orientation_rad;
-    return isnan(d->orientation_rad) ? 0.25 * M_PI : d->orientation_rad;
+    return isnan(d->orientation_rad) ? 0.25 * FW_PI : d->orientation_rad;
 }
 
 /* an orientation that nothing goes by is worth a word */

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "process/coupon.h"
+#include "base/constants.h"
 #include <math.h>
-
-static const double F_C_per_mol = 96485.33212; /* CODATA 2018 */
 
 static fw_status need(fw_coupon_work *w, const char *id, double *value) {
     double u;
@@ -22,7 +21,8 @@ static fw_status by_mass(fw_coupon_work *w) {
             return fw_coupon_wrong(w, r,
                                    "plating-mass needs the charge in the columns at, u_at and "
                                    "at_unit");
-        y[i] = r->value * n * F_C_per_mol / M, sy[i] = r->uncertainty * n * F_C_per_mol / M;
+        y[i] = r->value * n * FW_FARADAY_C_PER_mol / M,
+        sy[i] = r->uncertainty * n * FW_FARADAY_C_PER_mol / M;
         x[i] = r->at, sx[i] = r->at_uncertainty;
     }
     fw_fit f = fw_fit_ratio(y, sy, x, sx, w->nrow);
@@ -59,7 +59,7 @@ static fw_status by_pads(fw_coupon_work *w) {
     for (int i = 0; i < w->nrow; i++)
         widest = fmax(widest, w->row[i]->drawn_m);
     fw_fit wide = fw_fit_mean(y, s, pads_of(w, true, widest * (1.0 - 1e-9), y, s));
-    double eta = wide.value[0] * n * F_C_per_mol * rho / (M * q);
+    double eta = wide.value[0] * n * FW_FARADAY_C_PER_mol * rho / (M * q);
     double u_wide = wide.uncertainty[0] / wide.value[0], u = eta * hypot(u_wide, u_q / q);
     if (eta > 1.0 + 3.0 * u)
         return fw_coupon_wrong(w, w->row[0],

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "process/fit.h"
+#include "base/constants.h"
 #include <math.h>
 #include <stdbool.h>
 
@@ -86,7 +87,7 @@ double fw_chi_square_above(double x, int n) {
     if (n <= 0) return 1.0;
     bool odd = n % 2 == 1;
     double h = 0.5 * x, sum = odd ? erfc(sqrt(h)) : 0.0;
-    double term = odd ? exp(-h) * sqrt(h) / (0.5 * sqrt(acos(-1.0))) : exp(-h);
+    double term = odd ? exp(-h) * sqrt(h) / (0.5 * sqrt(FW_PI)) : exp(-h);
     for (int k = 0; k < n / 2; k++) {
         sum += term;
         term *= h / (k + (odd ? 1.5 : 1.0));

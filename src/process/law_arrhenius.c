@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "process/law.h"
+#include "base/constants.h"
 #include <math.h>
 
 /* t = d/R(T), R(T) = R0 exp[(Ea/kB)(1/T0 - 1/T)].
    d m, R0 m/s, Ea J, T0 and T K; t s. Valid for one reaction mechanism, for aluminium in phosphoric
    and nitric acid 15 to 55 Cel (Ea 0.36 to 0.55 eV from three published pairs).
-   kB: CODATA 2018, exact. Test: test_law.c, arrhenius. */
+   Test: test_law.c, arrhenius. */
 static fw_status evaluate(fw_law_call *call, const double *x, double *result) {
-    const double kB_J_per_K = 1.380649e-23;
     if (x[3] <= 0.0 || x[4] <= 0.0) {
         call->why = "a temperature is not above absolute zero";
         return FW_INPUT;
     }
-    double rate = x[1] * exp(x[2] / kB_J_per_K * (1.0 / x[3] - 1.0 / x[4]));
+    double rate = x[1] * exp(x[2] / FW_BOLTZMANN_J_PER_K * (1.0 / x[3] - 1.0 / x[4]));
     *result = x[0] / rate;
     return FW_OK;
 }

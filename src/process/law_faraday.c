@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "process/law.h"
+#include "base/constants.h"
 #include <math.h>
 
 enum { THICKNESS, DENSITY, CURRENT_DENSITY, VALENCE, MOLAR_MASS, EFFICIENCY, POROSITY, AREA };
-static const double F_C_per_mol = 96485.33212; /* CODATA 2018 */
 
 static double or_one(double x) {
     return isnan(x) ? 1.0 : x;
@@ -19,7 +19,7 @@ static fw_status evaluate(fw_law_call *call, const double *x, double *result) {
         call->why = "current density, molar mass and efficiency must be above zero";
         return FW_INPUT;
     }
-    *result = x[THICKNESS] * x[DENSITY] * or_one(x[POROSITY]) * x[VALENCE] * F_C_per_mol /
+    *result = x[THICKNESS] * x[DENSITY] * or_one(x[POROSITY]) * x[VALENCE] * FW_FARADAY_C_PER_mol /
               (or_one(x[EFFICIENCY]) * x[CURRENT_DENSITY] * x[MOLAR_MASS]);
     return FW_OK;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The wafer's layers, step by step: what a step needs there, and what else it does to them. */
 #include "process/lint.h"
+#include "base/constants.h"
 #include "process/stack.h"
 #include <string.h>
 
@@ -102,8 +103,8 @@ static void lint_hot(fw_pack *pack, const fw_step *s, const fw_stack *stack,
             set->q->value <= m->highest_K->value || !on_wafer(stack, m->id))
             continue;
         char at[32], bears[32];
-        fw_number_text(at, sizeof at, set->q->value - 273.15, 5);
-        fw_number_text(bears, sizeof bears, m->highest_K->value - 273.15, 5);
+        fw_number_text(at, sizeof at, set->q->value - FW_ICE_POINT_K, 5);
+        fw_number_text(bears, sizeof bears, m->highest_K->value - FW_ICE_POINT_K, 5);
         fw_diag_error(pack->diags, 271, s->place,
                       "step %s: %s is %s Cel, and '%s' on the wafer bears %s Cel; remove it "
                       "before, or stay below",

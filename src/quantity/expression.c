@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Recursive descent: sum -> product -> signed -> power -> primary. */
 #include "base/text.h"
+#include "base/constants.h"
 #include "quantity/functions.h"
 #include "quantity/program.h"
 #include <math.h>
@@ -188,7 +189,7 @@ static bool parse_name(parser *p, fw_value *v) {
         return finite_at(p, name.start, v);
     }
     if (name.length == 2 && memcmp(text, "pi", 2) == 0) {
-        *v = (fw_value){.value = 3.14159265358979323846};
+        *v = (fw_value){.value = FW_PI};
         return true;
     }
     return unknown_name(p, &name);

@@ -14,9 +14,8 @@
    Appl. Mech. Rev. 44 (1991) 191; Steele, Lea, Flood, Fast splittable pseudorandom number
    generators, OOPSLA 2014 (SplitMix64). Test: test_law_lines.c */
 #include "quantity/law_kind.h"
+#include "base/constants.h"
 #include <math.h>
-
-#define PI 3.14159265358979323846
 
 static uint64_t mixed(uint64_t z) {
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -45,14 +44,14 @@ static double line_size(const fw_law *law) {
  */
 static double turned(double frequency, double t_s, double turns) {
     double all = frequency * t_s + turns;
-    return 2 * PI * (all - floor(all));
+    return 2 * FW_PI * (all - floor(all));
 }
 
 static void value_of(const fw_law *law, double t_s, double piece_s, double value[3]) {
     (void)piece_s;
     value[0] = value[1] = value[2] = 0;
     for (int k = 0; k < law->lines; k++) {
-        double f = frequency_Hz(law, k), w = 2 * PI * f;
+        double f = frequency_Hz(law, k), w = 2 * FW_PI * f;
         double angle = turned(f, t_s, phase_turns(law->seed, k)), c = cos(angle), s = sin(angle);
         value[0] += c;
         value[1] -= w * s;
@@ -76,7 +75,7 @@ static double sampled(const fw_law *law, double centre_Hz, bool envelope, double
                       int samples) {
     double most = 0, bend = 0, h_s = end_s / samples;
     for (int k = 0; k < law->lines; k++) {
-        double w = 2 * PI * (frequency_Hz(law, k) - centre_Hz);
+        double w = 2 * FW_PI * (frequency_Hz(law, k) - centre_Hz);
         bend += w * w;
     }
     for (int i = 0; i <= samples; i++) {
@@ -114,7 +113,7 @@ static double fastest_Hz(const fw_law *law) {
 /* sqrt(2/n) times the sum of n cosines; how far it goes to and fro has no bound */
 static void size_of(const fw_law *law, double end_s, fw_law_size *size) {
     (void)end_s;
-    size->slope = sqrt(2.0 * law->lines) * 2 * PI * fastest_Hz(law);
+    size->slope = sqrt(2.0 * law->lines) * 2 * FW_PI * fastest_Hz(law);
     size->variation = (double)INFINITY;
 }
 

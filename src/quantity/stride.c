@@ -17,9 +17,8 @@
    is needed. Source: error of cubic Hermite interpolation h^4 f''''/384, for instance Stoer and
    Bulirsch, 2.1. Test: test_stride.c */
 #include "quantity/law_kind.h"
+#include "base/constants.h"
 #include <math.h>
-
-#define PI 3.14159265358979323846
 
 enum {
     LOOKS = 2048,       /* cells over the scene */
@@ -292,7 +291,7 @@ fw_status fw_law_look(fw_arena *arena, const fw_law *law, bool coordinate, doubl
     FW_NEED(out->most_s = fw_arena_array(arena, double, rows));
     scan s = {.law = law, .coordinate = coordinate, .out = out};
     if (!waves) return scan_any(arena, &s, end_s, break_s, breaks);
-    emit(&s, wave.from_s, phase_rad / (2 * PI * wave.fastest_Hz));
+    emit(&s, wave.from_s, phase_rad / (2 * FW_PI * wave.fastest_Hz));
     if (wave.to_s < end_s) emit(&s, wave.to_s, (double)INFINITY);
     return FW_OK;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One row per unit symbol; prefixes are spelled out, so that what is accepted can be read here. */
 #include "quantity/lexer.h"
+#include "base/constants.h"
 #include "quantity/quantity.h"
 #include <math.h>
 #include <string.h>
@@ -92,17 +93,17 @@
     X("GPa", 1e9, 0.0, PRESSURE)                                                                   \
     X("bar", 1e5, 0.0, PRESSURE)                                                                   \
     X("mbar", 1e2, 0.0, PRESSURE)                                                                  \
-    X("atm", 101325.0, 0.0, PRESSURE)                                                              \
-    X("Torr", 101325.0 / 760.0, 0.0, PRESSURE)                                                     \
-    X("mTorr", 101.325 / 760.0, 0.0, PRESSURE)                                                     \
+    X("atm", FW_STANDARD_ATMOSPHERE_Pa, 0.0, PRESSURE)                                             \
+    X("Torr", FW_STANDARD_ATMOSPHERE_Pa / 760.0, 0.0, PRESSURE)                                    \
+    X("mTorr", FW_STANDARD_ATMOSPHERE_Pa / 1000.0 / 760.0, 0.0, PRESSURE)                          \
     X("J", 1.0, 0.0, ENERGY)                                                                       \
     X("kJ", 1e3, 0.0, ENERGY)                                                                      \
     X("mJ", 1e-3, 0.0, ENERGY)                                                                     \
     X("uJ", 1e-6, 0.0, ENERGY)                                                                     \
     X("nJ", 1e-9, 0.0, ENERGY)                                                                     \
-    X("eV", 1.602176634e-19, 0.0, ENERGY)                                                          \
-    X("keV", 1.602176634e-16, 0.0, ENERGY)                                                         \
-    X("meV", 1.602176634e-22, 0.0, ENERGY)                                                         \
+    X("eV", FW_ELECTRONVOLT_J, 0.0, ENERGY)                                                        \
+    X("keV", FW_KILOELECTRONVOLT_J, 0.0, ENERGY)                                                   \
+    X("meV", FW_MILLIELECTRONVOLT_J, 0.0, ENERGY)                                                  \
     X("W", 1.0, 0.0, POWER)                                                                        \
     X("kW", 1e3, 0.0, POWER)                                                                       \
     X("mW", 1e-3, 0.0, POWER)                                                                      \
@@ -129,7 +130,7 @@
     X("fF", 1e-15, 0.0, CAPACITANCE)                                                               \
     X("K", 1.0, 0.0, TEMPERATURE)                                                                  \
     X("mK", 1e-3, 0.0, TEMPERATURE)                                                                \
-    X("Cel", 1.0, 273.15, TEMPERATURE)                                                             \
+    X("Cel", 1.0, FW_ICE_POINT_K, TEMPERATURE)                                                     \
     X("mol", 1.0, 0.0, AMOUNT)                                                                     \
     X("mmol", 1e-3, 0.0, AMOUNT)                                                                   \
     X("umol", 1e-6, 0.0, AMOUNT)                                                                   \
@@ -145,10 +146,11 @@
     X("rad", 1.0, 0.0, ANGLE)                                                                      \
     X("mrad", 1e-3, 0.0, ANGLE)                                                                    \
     X("urad", 1e-6, 0.0, ANGLE)                                                                    \
-    X("deg", 3.14159265358979323846 / 180.0, 0.0, ANGLE)                                           \
-    X("rpm", 3.14159265358979323846 / 30.0, 0.0, SPIN)                                             \
-    /* cm3 per minute of ideal gas at 273.15 K and 101325 Pa, R = 8.31446261815324 J/(mol K) */    \
-    X("{sccm}", 101325.0e-6 / (60.0 * 8.31446261815324 * 273.15), 0.0, AMOUNT_RATE)
+    X("deg", FW_PI / 180.0, 0.0, ANGLE)                                                            \
+    X("rpm", FW_PI / 30.0, 0.0, SPIN)                                                              \
+    /* cm3 per minute of ideal gas at the ice point and one standard atmosphere */                 \
+    X("{sccm}", FW_STANDARD_ATMOSPHERE_Pa / 1e6 / (60.0 * FW_GAS_J_PER_mol_K * FW_ICE_POINT_K),    \
+      0.0, AMOUNT_RATE)
 
 #define X(symbol, factor, offset, ...) symbol,
 static const char *const names[] = {UNIT_TABLE(X)};

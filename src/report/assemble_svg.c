@@ -2,6 +2,7 @@
 /* Guess and assembled position side by side: every body in its own colour in both, open joints in
    red with their size. Bodies are their outlines where they are drawn, else as in figure.h. */
 #include "report/assembly.h"
+#include "base/constants.h"
 #include "report/figure.h"
 #include <math.h>
 #include <string.h>
@@ -39,7 +40,7 @@ static fw_vec2 place(const double *q, int body, double x, double y) {
 /* the outlines are those of the guess; they move as rigid bodies, in picture coordinates */
 static void outline(const panel *p, const double *q, int body, fw_text *out) {
     const double *drawn = p->in->assembly->before + 3 * body, *now = q + 3 * body;
-    double turn = -(now[2] - drawn[2]) * 180.0 / acos(-1.0); /* y points down */
+    double turn = -(now[2] - drawn[2]) * 180.0 / FW_PI; /* y points down */
     fw_report_markup(out, "<g transform=\"translate({c} {c})", fw_report_x(&p->view, now[0]),
                      fw_report_y(&p->view, now[1]));
     fw_text_add(out, " rotate(");

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/assembly.h"
+#include "base/constants.h"
 #include <math.h>
 #include <string.h>
 
 static double degrees(double rad) {
-    return rad * 180.0 / acos(-1.0);
+    return rad * 180.0 / FW_PI;
 }
 
 static const char *name_of(const char *id) {

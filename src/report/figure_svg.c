@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/figure.h"
+#include "base/constants.h"
 #include <math.h>
-
-static const double DEGREES = 57.29577951308232;
 
 enum { FEWEST_WAVES = 8, MOST_WAVES = 30 }; /* half waves of a spring */
 
@@ -144,7 +143,8 @@ static void line(const fw_figure_part *part, const pen_t *pen) {
 /* from the first angle to the second, counter-clockwise as seen */
 static void arc(const pen_t *pen, double r, double from, double to) {
     fw_report_markup(pen->out, "M{c} {c}A{c} {c} 0 {i} 0 {c} {c}", r * cos(from), -r * sin(from), r,
-                     r, to - from > 0.5 * 360.0 / DEGREES ? 1 : 0, r * cos(to), -r * sin(to));
+                     r, to - from > 0.5 * 360.0 / FW_DEG_PER_RAD ? 1 : 0, r * cos(to),
+                     -r * sin(to));
 }
 
 static void ray(const pen_t *pen, double angle, double from, double to) {
@@ -217,7 +217,7 @@ static void shape(const fw_figure_part *part, const pen_t *pen) {
 static void angle(const fw_figure_part *part, const pen_t *pen, const double *q) {
     double turn =
         part->angle_rad + (part->turns_with == FW_GROUND ? 0.0 : q[3 * part->turns_with + 2]);
-    fw_text_fixed(pen->out, isfinite(turn) ? -DEGREES * turn : 0.0, 2);
+    fw_text_fixed(pen->out, isfinite(turn) ? -FW_DEG_PER_RAD * turn : 0.0, 2);
 }
 
 static void turning(const fw_figure_part *part, const pen_t *pen) {

@@ -3,9 +3,8 @@
    inside <img>. Drawn bodies by nested transforms, flexures by their outline, everything else as in
    figure.h, all linear between key frames. With 0 frames: a still picture. */
 #include "report/figure.h"
+#include "base/constants.h"
 #include <math.h>
-
-static const double DEGREES = 57.29577951308232;
 
 enum { NUMBERS = 100000, MOST_FRAMES = 480, REACH = 200 };
 
@@ -20,7 +19,7 @@ static void timing(const film *f) {
 }
 
 static void rotation(fw_text *out, double rad) {
-    double turn = -DEGREES * rad;
+    double turn = -FW_DEG_PER_RAD * rad;
     fw_text_fixed(out, isfinite(turn) ? turn : 0.0, 3);
 }
 

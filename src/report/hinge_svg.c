@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One panel per hinge: the flexure with its surfaces, and drift and gap against the angle. */
 #include "report/page.h"
+#include "base/constants.h"
 #include <math.h>
 
 enum { WIDTH = 760, HIGH = 232, HEADING = 62, SKETCH = 200, LEFT = 262, RIGHT = 18, TOP = 30 };
 enum { BOTTOM = 40 };
 
-static const double DEGREES = 57.29577951308232, MICRO = 1e6;
+static const double MICRO = 1e6;
 static const char *const blue = "#0072B2", *const green = "#009E73", *const orange = "#D55E00";
 
 typedef struct panel {
@@ -32,8 +33,8 @@ static void range(panel *p) {
     for (int i = 0; i < p->of->npoint; i++) {
         const fw_drift_point *at = &p->of->point[i];
         double drift = at->drift_m * MICRO, left = at->left_m * MICRO;
-        p->x0 = fmin(p->x0, at->rotation_rad * DEGREES);
-        p->x1 = fmax(p->x1, at->rotation_rad * DEGREES);
+        p->x0 = fmin(p->x0, at->rotation_rad * FW_DEG_PER_RAD);
+        p->x1 = fmax(p->x1, at->rotation_rad * FW_DEG_PER_RAD);
         p->y0 = fmin(p->y0, drift), p->y1 = fmax(p->y1, drift);
         if (p->of->gap_m > 0) p->y0 = fmin(p->y0, left), p->y1 = fmax(p->y1, left);
     }
@@ -88,7 +89,7 @@ static void curve(const panel *p, const char *colour, bool gap) {
                          i == 0   ? "M"
                          : i == 1 ? "L"
                                   : " ",
-                         px(p, at->rotation_rad * DEGREES),
+                         px(p, at->rotation_rad * FW_DEG_PER_RAD),
                          py(p, MICRO * (gap ? at->left_m : at->drift_m)));
     }
     fw_text_add(p->out, "\"/>\n");
@@ -96,7 +97,7 @@ static void curve(const panel *p, const char *colour, bool gap) {
 
 static void contacts(const panel *p) {
     for (int side = 0; side < 2; side++) {
-        double at = p->of->contact_rad[side] * DEGREES;
+        double at = p->of->contact_rad[side] * FW_DEG_PER_RAD;
         if (!isfinite(at) || at < p->x0 || at > p->x1) continue;
         fw_report_markup(p->out,
                          "<path d=\"M{c} {c}V{c}\" stroke=\"{r}\" stroke-dasharray=\"5 3\"/>"

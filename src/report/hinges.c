@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/page.h"
+#include "base/constants.h"
 #include <math.h>
 
 enum { BAR = 150 };
@@ -47,7 +48,7 @@ static void row(fw_text *out, const fw_hinge_verdict *h, bool with_flow, double 
                      h->decision == FW_ACCEPT ? "" : " class=\"bad\"", h->id);
     if (with_flow) fw_report_markup(out, "<td>{s}</td>", h->flow ? h->flow : "\u2013");
     fw_report_markup(out, "<td class=\"n\">{D} \u00b1 ", h->peak_angle_rad);
-    fw_report_number(out, h->angle_error_rad * 57.29577951308232, 2);
+    fw_report_number(out, h->angle_error_rad * FW_DEG_PER_RAD, 2);
     fw_report_markup(out,
                      "</td><td class=\"n\">{D}</td><td class=\"n\">{p}</td>"
                      "<td class=\"n\">{p}</td><td>",

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Load factor against the coordinate that tells the path best. */
 #include "report/page.h"
+#include "base/constants.h"
 #include "report/rest.h"
 #include <math.h>
 
@@ -64,19 +65,9 @@ static fw_status choose(fw_arena *arena, const fw_device *device, const fw_mecha
             if (spread(path->angle_rad + i, pins, path->count) >
                 spread(path->angle_rad + widest, pins, path->count))
                 widest = i;
-        *p = (plot){p->statics,
-                    path,
-                    NULL,
-                    "\u00b0",
-                    path->angle_rad + widest,
-                    pins,
-                    0,
-                    180.0 / acos(-1.0),
-                    0,
-                    0,
-                    0,
-                    0,
-                    p->out};
+        *p = (plot){p->statics, path, NULL,          "\u00b0", path->angle_rad + widest,
+                    pins,       0,    180.0 / FW_PI, 0,        0,
+                    0,          0,    p->out};
         FW_NEED(p->what = fw_arena_printf(arena, "angle of %s from rest", m->pin[widest].id));
     }
     p->zero = p->value[0];

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/page.h"
+#include "base/constants.h"
 #include <math.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* "5.7e-05" as 5.7 times ten to a raised exponent */
 static void scientific(fw_text *out, const char *number) {
@@ -149,11 +148,11 @@ static void directive(fw_text *out, char kind, va_list *arguments) {
         break;
     }
     case 'd':
-        fw_report_number(out, va_arg(*arguments, double) * 180.0 / PI, 4);
+        fw_report_number(out, va_arg(*arguments, double) * 180.0 / FW_PI, 4);
         fw_text_add(out, "\u00b0");
         break;
     case 'D':
-        padded(out, va_arg(*arguments, double) * 180.0 / PI, 4);
+        padded(out, va_arg(*arguments, double) * 180.0 / FW_PI, 4);
         break;
     case 'p':
         percent(out, va_arg(*arguments, double));

@@ -2,9 +2,8 @@
 /* The moving picture of the page: a still at the worst instant, drawn here, and the numbers from
    which the script moves it. */
 #include "report/page.h"
+#include "base/constants.h"
 #include <math.h>
-
-static const double DEGREES = 57.29577951308232;
 
 enum { FRAMES = 400, FEWEST_FRAMES = 30, NUMBERS = 60000 }; /* NUMBERS: in the whole page */
 
@@ -17,7 +16,7 @@ static void body_transform(const fw_mechanism *mechanism, const fw_motion *motio
     fw_text_add(out, "translate(");
     fw_report_markup(out, "{c} {c}) rotate(", fw_report_x(view, pose[0]),
                      fw_report_y(view, pose[1]));
-    double turn = -DEGREES * (pose[2] - m->phi_rad);
+    double turn = -FW_DEG_PER_RAD * (pose[2] - m->phi_rad);
     fw_text_fixed(out, isfinite(turn) ? turn : 0.0, 4);
     fw_report_markup(out, ") translate({c} {c})", -fw_report_x(view, m->x_m),
                      -fw_report_y(view, m->y_m));
@@ -133,7 +132,7 @@ static void frames_data(const fw_page *page, const fw_motion *motion, int frames
             fw_text_add(out, ",");
             plain(out, fw_report_y(&page->view, pose[1]), 2);
             fw_text_add(out, ",");
-            plain(out, DEGREES * pose[2], 4);
+            plain(out, FW_DEG_PER_RAD * pose[2], 4);
         }
     fw_text_add(out, "],\n");
 }
@@ -146,16 +145,16 @@ static void model_data(const fw_page *page, const fw_mechanism *mechanism,
         const fw_mass *m = &mechanism->body[b];
         fw_report_markup(out, "{r}[{c},{c},", b ? "," : "", fw_report_x(&page->view, m->x_m),
                          fw_report_y(&page->view, m->y_m));
-        plain(out, DEGREES * m->phi_rad, 4);
+        plain(out, FW_DEG_PER_RAD * m->phi_rad, 4);
         fw_text_add(out, "]");
     }
     fw_text_add(out, "],\n\"p\":[");
     for (int k = 0; k < motion->npin; k++) {
         const fw_pin *p = &mechanism->pin[k];
         fw_report_markup(out, "{r}[{i},{i},", k ? "," : "", p->body_a, p->body_b);
-        plain(out, DEGREES * p->free_angle_rad, 6);
+        plain(out, FW_DEG_PER_RAD * p->free_angle_rad, 6);
         fw_text_add(out, ",");
-        plain(out, DEGREES * fw_report_pin_limit(mechanism, k), 6); /* 0: none */
+        plain(out, FW_DEG_PER_RAD * fw_report_pin_limit(mechanism, k), 6); /* 0: none */
         fw_text_add(out, "]");
     }
 }

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Hinge angles against time, one small panel per hinge, so that every curve has its own limit. */
 #include "report/page.h"
+#include "base/constants.h"
 #include <math.h>
-
-static const double DEGREES = 57.29577951308232;
 
 enum { PANEL_WIDTH = 344, PANEL_HEIGHT = 208, HEADING = 36 };
 enum { LEFT = 46, RIGHT = 10, TOP = 30, BOTTOM = 34 };
@@ -31,18 +30,18 @@ static double place_y(const panel *p, double degrees) {
 
 static double angle(const panel *p, int sample) {
     const fw_motion *m = p->motion;
-    return DEGREES * m->angle_rad[(size_t)sample * (size_t)m->npin + (size_t)p->pin];
+    return FW_DEG_PER_RAD * m->angle_rad[(size_t)sample * (size_t)m->npin + (size_t)p->pin];
 }
 
 static void range(panel *p) {
-    double peak = fabs(DEGREES * p->motion->peak[p->pin].angle_rad);
+    double peak = fabs(FW_DEG_PER_RAD * p->motion->peak[p->pin].angle_rad);
     double least = 0.0, most = 0.0;
     for (int i = 0; i < p->motion->nsample; i++) {
         least = fmin(least, angle(p, i));
         most = fmax(most, angle(p, i));
     }
     double size = fmax(isfinite(peak) ? peak : 0.0, fmax(-least, most));
-    p->limit = DEGREES * fw_report_pin_limit(p->mechanism, p->pin);
+    p->limit = FW_DEG_PER_RAD * fw_report_pin_limit(p->mechanism, p->pin);
     /* a limit far away would flatten the curve: said in words instead */
     p->limit_shown = isfinite(p->limit) && size > 0.12 * p->limit;
     if (p->limit_shown) size = fmax(size, p->limit);
@@ -127,7 +126,7 @@ static fw_status curve(fw_arena *arena, const panel *p, fw_text *out) {
 static void peak_mark(const panel *p, fw_text *out) {
     const fw_peak *peak = &p->motion->peak[p->pin];
     if (!isfinite(peak->angle_rad) || !isfinite(peak->t_s)) return;
-    double x = place_x(p, peak->t_s), y = place_y(p, DEGREES * peak->angle_rad);
+    double x = place_x(p, peak->t_s), y = place_y(p, FW_DEG_PER_RAD * peak->angle_rad);
     bool left = x > p->x + 0.55 * p->width;
     fw_report_markup(out,
                      "<circle cx=\"{c}\" cy=\"{c}\" r=\"3\" fill=\"#1f2328\"/><text x=\"{c}\" "
@@ -141,7 +140,7 @@ static void peak_mark(const panel *p, fw_text *out) {
 }
 
 static void heading(const panel *p, fw_text *out) {
-    double u = fabs(DEGREES * p->motion->peak[p->pin].angle_rad) / p->limit;
+    double u = fabs(FW_DEG_PER_RAD * p->motion->peak[p->pin].angle_rad) / p->limit;
     fw_report_markup(
         out,
         "<text x=\"{c}\" y=\"{c}\" font-size=\"13\" font-weight=\"600\" "
@@ -150,7 +149,7 @@ static void heading(const panel *p, fw_text *out) {
         "text-anchor=\"end\" fill=\"#57606a\">",
         p->x, p->y - 9.0, p->mechanism->pin[p->pin].id, p->x + p->width, p->y - 9.0);
     if (isfinite(u))
-        fw_report_markup(out, "{p} of limit \u00b1{D}\u00b0{r}", u, p->limit / DEGREES,
+        fw_report_markup(out, "{p} of limit \u00b1{D}\u00b0{r}", u, p->limit / FW_DEG_PER_RAD,
                          p->limit_shown ? "" : " (off scale)");
     else
         fw_text_add(out, "no limit");

@@ -3,6 +3,7 @@
    gives the same picture on two machines. Never geometry of record: cairo keeps 1/256 of a pixel.
  */
 #include "report/page.h"
+#include "base/constants.h"
 #include <cairo.h>
 #include <math.h>
 #include <stdlib.h>
@@ -88,7 +89,7 @@ static void points(cairo_t *c, const fw_device *device, const fw_layout *layout,
         if (!isfinite(p.x) || !isfinite(p.y)) continue;
         cairo_new_sub_path(c);
         cairo_arc(c, fw_report_x(view, p.x), fw_report_y(view, p.y), (flexure ? 2.2 : 5.0) * px,
-                  0.0, 6.283185307179586);
+                  0.0, FW_TURN);
         fill(c, fw_report_utilisation_colour(fw_report_joint_utilisation(verdict, j)), "#ffffff",
              px);
     }
@@ -120,7 +121,7 @@ static void png_circle(void *to, double x, double y, double r, const char *insid
                        double width) {
     cairo_t *c = to;
     cairo_new_sub_path(c);
-    cairo_arc(c, x, y, r, 0.0, 6.283185307179586);
+    cairo_arc(c, x, y, r, 0.0, FW_TURN);
     fill(c, inside, ink, width);
 }
 

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/page.h"
+#include "base/constants.h"
 #include "flexure/path.h"
 #include <math.h>
-
-static const double PI = 3.14159265358979323846;
 
 enum { CHORDS_PER_TURN = 36 };
 
@@ -22,7 +21,7 @@ static double weight(const fw_hinge_layout *h, const fw_flexure *f, const fw_cou
 
 static int chords(const fw_segment *s) {
     if (s->kind == FW_LINE) return 1;
-    return 1 + (int)(fmin(fabs(s->sweep_rad), 2.0 * PI) / (2.0 * PI) * CHORDS_PER_TURN);
+    return 1 + (int)(fmin(fabs(s->sweep_rad), 2.0 * FW_PI) / (2.0 * FW_PI) * CHORDS_PER_TURN);
 }
 
 static fw_vec2 along(const fw_segment *s, double u) {

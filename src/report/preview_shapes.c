@@ -2,12 +2,13 @@
 /* Shapes of a mechanism in um with y up: bodies in their own axes (origin in the centre of mass,
    turned back by the drawn angle), what stands still and flexures in the axes of the file. */
 #include "base/members.h"
+#include "base/constants.h"
 #include "flexure/path.h"
 #include "report/figure.h"
 #include "report/preview_parts.h"
 #include <math.h>
 
-static const double UM = 1e6, PI = 3.14159265358979323846;
+static const double UM = 1e6;
 
 typedef struct frame { /* world -> local: turn by -phi about (x, y), then that point is the origin
                         */
@@ -60,7 +61,7 @@ static void arc_to(fw_text *out, const frame *f, const fw_segment *s, double swe
     um(out, s->radius);
     fw_text_add(out, " ");
     um(out, s->radius);
-    fw_text_printf(out, " 0 %d %d", fabs(sweep) > PI ? 1 : 0, sweep > 0.0 ? 1 : 0);
+    fw_text_printf(out, " 0 %d %d", fabs(sweep) > FW_PI ? 1 : 0, sweep > 0.0 ? 1 : 0);
     point(out, " ", into(f, to));
 }
 
@@ -71,7 +72,7 @@ static void contour(fw_text *out, const frame *f, const fw_contour *c) {
         const fw_segment *s = &c->segment[i];
         if (s->kind == FW_LINE) {
             if (i + 1 < c->count) point(out, "L", into(f, s->b));
-        } else if (fabs(s->sweep_rad) < 1.8 * PI) {
+        } else if (fabs(s->sweep_rad) < 1.8 * FW_PI) {
             arc_to(out, f, s, s->sweep_rad, s->b);
         } else { /* an arc that ends where it starts has no direction: two halves */
             double cosine = cos(0.5 * s->sweep_rad), sine = sin(0.5 * s->sweep_rad);

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/rest.h"
+#include "base/constants.h"
 #include "report/hinge_model.h"
 #include "report/magnitude.h"
 #include "statics/pull_in.h"
 #include <math.h>
 
 static double degrees(double rad) {
-    return rad * 180.0 / acos(-1.0);
+    return rad * 180.0 / FW_PI;
 }
 
 const char *fw_report_path_mark(fw_path_mark mark) {

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/page.h"
+#include "base/constants.h"
 #include <math.h>
-
-static const double PI = 3.14159265358979323846;
 
 bool fw_report_drawn(const fw_layout *layout) {
     return layout && layout->drawn && layout->npiece;
@@ -51,7 +50,7 @@ static void arc_to(fw_text *out, const fw_report_view *view, const fw_segment *s
                    fw_vec2 to) {
     double r = s->radius * view->scale;
     /* y points down in the picture: counter-clockwise is SVG's negative sweep */
-    fw_report_markup(out, "A{c} {c} 0 {i} {i} {c} {c}", r, r, fabs(sweep) > PI ? 1 : 0,
+    fw_report_markup(out, "A{c} {c} 0 {i} {i} {c} {c}", r, r, fabs(sweep) > FW_PI ? 1 : 0,
                      sweep > 0.0 ? 0 : 1, fw_report_x(view, to.x), fw_report_y(view, to.y));
 }
 
@@ -60,7 +59,7 @@ static void segment(fw_text *out, const fw_report_view *view, const fw_segment *
         fw_report_markup(out, "L{c} {c}", fw_report_x(view, s->b.x), fw_report_y(view, s->b.y));
         return;
     }
-    if (fabs(s->sweep_rad) < 1.8 * PI) {
+    if (fabs(s->sweep_rad) < 1.8 * FW_PI) {
         arc_to(out, view, s, s->sweep_rad, s->b);
         return;
     }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/page.h"
+#include "base/constants.h"
 #include "report/workspace.h"
 #include <math.h>
 
@@ -37,7 +38,7 @@ static void judgement(fw_text *out, const fw_workspace_result *w) {
                          w->certified ? ", <strong>certified</strong> by interval arithmetic: the "
                                         "peaks below enclose every pose of the box"
                                       : "; peaks from samples, <strong>not certified</strong>",
-                         w->volume_m2_rad * 1e6 * 57.29577951308232);
+                         w->volume_m2_rad * 1e6 * FW_DEG_PER_RAD);
 }
 
 static void peaks(fw_page *page, const fw_variant_verdict *v) {
@@ -55,7 +56,7 @@ static void peaks(fw_page *page, const fw_variant_verdict *v) {
         double limit = fw_report_pin_limit(v->mechanism, k), u = fabs(p->angle_rad) / limit;
         fw_report_markup(out, "<tr{r}><th scope=\"row\">{s}</th><td class=\"n\">{D} \u00b1 ",
                          u > 1.0 ? " class=\"bad\"" : "", v->mechanism->pin[k].id, p->angle_rad);
-        fw_report_number(out, p->error_rad * 57.29577951308232, 2);
+        fw_report_number(out, p->error_rad * FW_DEG_PER_RAD, 2);
         fw_report_markup(
             out,
             "</td><td class=\"n\">{D}</td><td class=\"n\">{p}</td><td "
@@ -82,10 +83,9 @@ static fw_status reachable(fw_page *page, const fw_variant_verdict *v) {
         "<p>Reachable with every hinge inside its elastic limit: {n} to {n} "
         "mm\u00b2\u00b7\u00b0, <strong>certified</strong>; x from {u} to {u}, y from {u} "
         "to {u}, rotation {d} to {d}. It grows with all limits to the power ",
-        map->volume.value.lo * 1e6 * 57.29577951308232,
-        map->volume.value.hi * 1e6 * 57.29577951308232, map->survey.least[0].hi, "m",
-        map->survey.most[0].lo, "m", map->survey.least[1].hi, "m", map->survey.most[1].lo, "m",
-        map->survey.least[2].hi, map->survey.most[2].lo);
+        map->volume.value.lo * 1e6 * FW_DEG_PER_RAD, map->volume.value.hi * 1e6 * FW_DEG_PER_RAD,
+        map->survey.least[0].hi, "m", map->survey.most[0].lo, "m", map->survey.least[1].hi, "m",
+        map->survey.most[1].lo, "m", map->survey.least[2].hi, map->survey.most[2].lo);
     fw_report_number(page->out, map->survey.exponent, 3);
     fw_report_markup(page->out,
                      ".</p>\n<figure class=\"wide\"><svg role=\"img\" viewBox=\"0 0 {i} {c}\" "

@@ -2,6 +2,7 @@
 /* Slices of the workspace at constant rotation. Pictures are drawn from sampled poses; the figures
    beside them are certified. */
 #include "report/page.h"
+#include "base/constants.h"
 #include "report/workspace.h"
 #include <math.h>
 
@@ -213,7 +214,7 @@ static void caption(const slice *s, const fw_workspace_slice *at) {
                      "<text x=\"{c}\" y=\"{c}\" font-size=\"12\" font-weight=\"600\" "
                      "fill=\"#1f2328\">rotation ",
                      s->x0, s->y0 - 20.0);
-    number(s->out, fabs(at->phi_rad) < 1e-12 ? 0.0 : at->phi_rad * 57.29577951308232, 3);
+    number(s->out, fabs(at->phi_rad) < 1e-12 ? 0.0 : at->phi_rad * FW_DEG_PER_RAD, 3);
     fw_report_markup(s->out,
                      "\u00b0</text><text x=\"{c}\" y=\"{c}\" font-size=\"11\" fill=\"#57606a\">"
                      "area ",

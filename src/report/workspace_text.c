@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/workspace.h"
+#include "base/constants.h"
 #include <math.h>
-
-static const double degrees = 57.29577951308232;
 
 static void range(fw_text *out, fw_interval a, double factor, int digits) {
     fw_text_number(out, a.lo * factor, digits);
@@ -24,7 +23,7 @@ static void pose(fw_text *out, const double at[3]) {
     fw_text_add(out, " um, ");
     fw_text_number(out, at[1] * 1e6, 4);
     fw_text_add(out, " um, ");
-    fw_text_number(out, at[2] * degrees, 4);
+    fw_text_number(out, at[2] * FW_DEG_PER_RAD, 4);
     fw_text_add(out, " deg)");
 }
 
@@ -65,10 +64,10 @@ static void reachable(fw_text *out, const fw_report_workspace_flow *f) {
     fw_text_add(out, "  volume ");
     bracket(out, map->volume.value, 1e12, 8);
     fw_text_add(out, " um2 rad = ");
-    bracket(out, map->volume.value, 1e12 * degrees, 8);
+    bracket(out, map->volume.value, 1e12 * FW_DEG_PER_RAD, 8);
     fw_text_printf(out, " um2 deg, %ld boxes\n", map->volume.boxes);
     for (int c = 0; c < 3; c++) {
-        double factor = c < 2 ? 1e6 : degrees;
+        double factor = c < 2 ? 1e6 : FW_DEG_PER_RAD;
         fw_text_printf(out, "  %-15s from ", unit[c]);
         bracket(out, map->survey.least[c], factor, 6);
         fw_text_add(out, " to ");
@@ -77,7 +76,7 @@ static void reachable(fw_text *out, const fw_report_workspace_flow *f) {
     }
     for (int i = 0; i < FW_SLICES; i++) {
         fw_text_add(out, "  area at ");
-        fw_text_real(out, "%8.4f", map->slice[i].phi_rad * degrees);
+        fw_text_real(out, "%8.4f", map->slice[i].phi_rad * FW_DEG_PER_RAD);
         fw_text_add(out, " deg  ");
         bracket(out, map->slice[i].area.value, 1e12, 6);
         fw_text_add(out, " um2\n");
@@ -101,7 +100,7 @@ static void required(fw_text *out, const fw_device *d, const fw_report_workspace
     fw_text_add(out, " um, y ");
     range(out, (fw_interval){b->y_min_m, b->y_max_m}, 1e6, 6);
     fw_text_add(out, " um, rotation ");
-    range(out, (fw_interval){b->phi_min_rad, b->phi_max_rad}, degrees, 6);
+    range(out, (fw_interval){b->phi_min_rad, b->phi_max_rad}, FW_DEG_PER_RAD, 6);
     fw_text_add(out, " deg\n");
     if (!f->required->box_reachable[k]) {
         fw_text_add(out, "  NOT REACHABLE: the mechanism cannot be assembled at ");
@@ -123,12 +122,12 @@ static void required(fw_text *out, const fw_device *d, const fw_report_workspace
     for (int i = 0; i < FW_SIX; i++) {
         fw_interval a = p->angle_rad[i];
         fw_text_printf(out, "  %-6s", f->mechanism->pin[i].id);
-        fw_text_real(out, " %9.4f to", a.lo * degrees);
-        fw_text_real(out, " %9.4f deg", a.hi * degrees);
+        fw_text_real(out, " %9.4f to", a.lo * FW_DEG_PER_RAD);
+        fw_text_real(out, " %9.4f deg", a.hi * FW_DEG_PER_RAD);
         if (!f->map->none) {
             double limit = f->map->limit_rad[i], most = fmax(fabs(a.lo), fabs(a.hi));
             bool beyond = p->most[i].angle_rad.lo > limit || p->least[i].angle_rad.hi < -limit;
-            fw_text_real(out, ", limit %.4f deg: ", limit * degrees);
+            fw_text_real(out, ", limit %.4f deg: ", limit * FW_DEG_PER_RAD);
             fw_text_real(out, "%.1f %%, ", 100.0 * most / limit);
             fw_text_add(out, most <= limit ? "within (proved)"
                              : beyond      ? "BEYOND (proved)"

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "statics/level.h"
+#include "base/constants.h"
 #include "statics/modes.h"
 #include "statics/rest.h"
 #include "statics/tangent.h"
@@ -261,7 +262,7 @@ static void take_values(const fw_rest *w, const damped *d, const int *owner, int
     double mu = modal_stiffness(&w->reduced, k);
     mode->stiffness_per_s2 = mu * per_s * per_s;
     mode->omega_rad_per_s = mu > 0 ? sqrt(mu) * per_s : 0;
-    mode->f_Hz = mode->omega_rad_per_s / (2 * acos(-1.0));
+    mode->f_Hz = mode->omega_rad_per_s / (2 * FW_PI);
     double largest = 0;
     for (int i = 0; i < 2 * w->reduced.dof; i++)
         largest = fmax(largest, hypot(d->re[i], d->im[i]) * per_s);
@@ -283,7 +284,7 @@ static fw_status frames(fw_rest *w, fw_mode *mode) {
     FW_NEED(mode->frame = fw_arena_array(w->arena, double, FW_MODE_FRAMES *n));
     FW_NEED(u = fw_arena_array(w->arena, double, n));
     for (int i = 0; i < FW_MODE_FRAMES; i++) {
-        double phase = sin(2 * acos(-1.0) * i / (FW_MODE_FRAMES - 1));
+        double phase = sin(2 * FW_PI * i / (FW_MODE_FRAMES - 1));
         if (i == FW_MODE_FRAMES - 1) phase = 0;
         for (size_t k = 0; k < n; k++)
             u[k] = w->y[k] + fw_visible * phase * mode->shape[k] / (k % 3 == 2 ? 1 : length);

@@ -13,6 +13,7 @@
    where something is found. Source: Lagrange and Dirichlet's theorem; Thompson and Hunt, A General
    Theory of Elastic Stability 1973. Test: test_poise.c. */
 #include "statics/poise.h"
+#include "base/constants.h"
 #include "base/cancel.h"
 #include "quantity/law_kind.h"
 #include "statics/rest.h"
@@ -232,7 +233,7 @@ static fw_status share(looker *k) {
 static fw_status say(looker *k, fw_diags *diags) {
     fw_poise *out = k->out;
     const fw_rest *w = &k->w;
-    const double degree = 57.29577951308232;
+    const double degree = FW_DEG_PER_RAD;
     char at[32], fold[32], turned[32];
     fw_text text = fw_text_new(w->arena);
     fw_text_printf(&text,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "verdict/compare.h"
+#include "base/constants.h"
 #include <math.h>
 
 /* the mask is drawn where the bodies are, so both must put a pin at the same place */
@@ -60,7 +61,7 @@ fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *
                 "joint %s does not close in the drawn position: its bodies are turned against "
                 "each other by %s deg more than its angle; correct the angle or the bodies, since "
                 "masks are drawn there",
-                id, fw_number_text(text, sizeof text, tilt * 180 / acos(-1.0), 4));
+                id, fw_number_text(text, sizeof text, tilt * 180 / FW_PI, 4));
     }
     return status;
 }

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "verdict/compare.h"
+#include "base/constants.h"
 #include <math.h>
 #include <string.h>
 
 static void unreachable(const fw_device *device, const fw_variant_verdict *v, fw_diags *diags) {
     char x[32], y[32], phi[32];
-    fw_diag_warning(
-        diags, 201, device->workspace[v->workspace.fail_box].place,
-        "the required workspace holds a pose out of reach: dx = %s um, dy = %s um, "
-        "turned by %s deg; the design is rejected",
-        fw_number_text(x, sizeof x, v->workspace.fail_x_m * 1e6, 4),
-        fw_number_text(y, sizeof y, v->workspace.fail_y_m * 1e6, 4),
-        fw_number_text(phi, sizeof phi, v->workspace.fail_phi_rad * 180 / acos(-1.0), 3));
+    fw_diag_warning(diags, 201, device->workspace[v->workspace.fail_box].place,
+                    "the required workspace holds a pose out of reach: dx = %s um, dy = %s um, "
+                    "turned by %s deg; the design is rejected",
+                    fw_number_text(x, sizeof x, v->workspace.fail_x_m * 1e6, 4),
+                    fw_number_text(y, sizeof y, v->workspace.fail_y_m * 1e6, 4),
+                    fw_number_text(phi, sizeof phi, v->workspace.fail_phi_rad * 180 / FW_PI, 3));
 }
 
 static bool judged(const fw_variant_verdict *v, const fw_device *device) {

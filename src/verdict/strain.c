@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "verdict/strain.h"
+#include "base/constants.h"
 #include <math.h>
 
 /* Wrench on the upper body at W, in the flexure's half-rotated frame:
@@ -12,7 +13,7 @@
  */
 void fw_arc_moments(const fw_flexure *f, double centre_m, double M, double Fx, double Fy,
                     double *root_Nm, double *inside_Nm) {
-    double r = f->radius_m, a = 0.5 * f->angle_rad, pi = acos(-1.0);
+    double r = f->radius_m, a = 0.5 * f->angle_rad, pi = FW_PI;
     *root_Nm = *inside_Nm = 0.0;
     for (int side = -1; side <= 1; side += 2) {
         double b = side * a;

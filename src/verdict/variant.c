@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "verdict/compare.h"
+#include "base/constants.h"
 #include "verdict/fatigue.h"
 #include "verdict/scene.h"
 #include "verdict/watch.h"
@@ -189,7 +190,6 @@ static void judge_workspace(const judged *by, const fw_workspace_result *workspa
 }
 
 /* a hinge that has turned once is past every limit: the rest of the scene is not needed */
-static const double whole_turn = 6.283185307179586;
 
 static void warn_ended(const fw_scene *scene, const fw_motion *motion, fw_diags *diags) {
     char t[32];
@@ -219,7 +219,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     size_t n = (size_t)device->nscene;
     fw_motion_options motion = options->motion;
     motion.within_limits = true;
-    if (motion.most_angle_rad <= 0) motion.most_angle_rad = whole_turn;
+    if (motion.most_angle_rad <= 0) motion.most_angle_rad = FW_TURN;
     motion.most_beams = fw_most_beams;
     if (motion.hinge_accuracy <= 0)
         motion.hinge_accuracy = fmax(motion.accuracy, fw_hinges_good_enough);
@@ -248,7 +248,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
 static void warn_touching(const fw_device *device, const fw_hinge_layout *drawn,
                           const fw_hinge_verdict *h, fw_diags *diags) {
     char peak[32], free_turn[32];
-    double degrees = 180.0 / acos(-1.0);
+    double degrees = 180.0 / FW_PI;
     fw_diag_warning(diags, 204, device->joint[h->joint].place,
                     "hinge %s turns by %s deg in %s (%s), but its drawn solids touch at %s deg: "
                     "use a smaller subtended angle, a longer arc or a smaller load",

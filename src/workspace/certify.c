@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "workspace/certify.h"
+#include "base/constants.h"
 #include "base/cancel.h"
 #include "base/text.h"
 
@@ -13,8 +14,6 @@ typedef struct proving {
     double bound[ENDS]; /* largest over the leaves */
 } proving;
 
-static const double half_turn = 3.141592653589793; /* below pi */
-
 /* the joint angle of hinge e % 6, or its negative for the ends from below */
 static double towards(int e, fw_interval angle, bool far) {
     if (e < FW_SIX) return far ? -angle.lo : -angle.hi;
@@ -23,7 +22,7 @@ static double towards(int e, fw_interval angle, bool far) {
 
 /* rotations beyond +-180 deg would be others by a turn */
 static bool unambiguous(fw_interval psi) {
-    return psi.lo > -half_turn && psi.hi < half_turn;
+    return psi.lo > -FW_PI && psi.hi < FW_PI;
 }
 
 static fw_interval angle_over(const proving *p, const fw_loop_box *known, int hinge,

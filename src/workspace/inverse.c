@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "workspace/inverse.h"
+#include "base/constants.h"
 #include <math.h>
 
 static double wrapped(double angle_rad) {
-    return remainder(angle_rad, 2.0 * acos(-1.0));
+    return remainder(angle_rad, 2.0 * FW_PI);
 }
 
 static fw_dyad dyad(fw_vec2 o, fw_vec2 elbow, fw_vec2 q) {

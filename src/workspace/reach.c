@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "workspace/reach.h"
+#include "base/constants.h"
 #include "base/cancel.h"
 #include "workspace/cut.h"
 
 enum { MOST_LEVEL = 14, FIRST_CELLS = 64, FIRST_SUM = 1024 };
 
-static const int judged[] = {4, 2, 3, 5};     /* hinges, the one that costs least first */
-static const double turn = 6.283185307179586; /* below 2 pi */
+static const int judged[] = {4, 2, 3, 5}; /* hinges, the one that costs least first */
 
 fw_reach_limits fw_limits_symmetric(const double limit_rad[FW_SIX]) {
     fw_reach_limits l;
@@ -21,7 +21,7 @@ fw_reach_limits fw_limits_symmetric(const double limit_rad[FW_SIX]) {
 static fw_bound on_branch(const fw_leg *leg, fw_bound psi) {
     double along = leg->a.x * leg->b.x + leg->a.y * leg->b.y;
     double side = leg->a.x * leg->b.y - leg->a.y * leg->b.x, elbow = atan2(side, along);
-    double half = 0.5 * turn, slack = 1e-14;
+    double half = 0.5 * FW_TURN, slack = 1e-14;
     double lo = leg->sign > 0.0 ? -elbow : -half - elbow;
     double hi = leg->sign > 0.0 ? half - elbow : -elbow;
     if (psi.low.lo < lo) psi.low = (fw_interval){lo - slack, lo + slack};
@@ -148,7 +148,7 @@ fw_inside fw_reach_judge(const fw_loop *k, const fw_allowed *allowed, int dimens
         if (elbow)
             one = one_hinge(&known->d2[1], &allowed->d2, (double)INFINITY, half, slack, share);
         else if (known->reached == FW_REACHED)
-            one = one_hinge(&known->psi[i], &allowed->psi[i], turn, half, slack, share);
+            one = one_hinge(&known->psi[i], &allowed->psi[i], FW_TURN, half, slack, share);
         else
             share->lo = 0.0, *open |= FW_WANT_BRANCH;
         if (one == FW_OUTSIDE) return FW_OUTSIDE;
@@ -203,7 +203,7 @@ void fw_reach_parts(const fw_allowed *allowed, int dimensions, const fw_box3 *bo
             decide_parts(&known->d2[1], &allowed->d2, (double)INFINITY, parts, half, off, &in,
                          &out);
         else if (known->reached == FW_REACHED)
-            decide_parts(&known->psi[i], &allowed->psi[i], turn, parts, half, off, &in, &out);
+            decide_parts(&known->psi[i], &allowed->psi[i], FW_TURN, parts, half, off, &in, &out);
         *inside &= in;
         *outside |= out;
     }
