@@ -152,7 +152,7 @@ static void describe(const fw_beam *b, fw_beam_linear *out) {
    in: beam; SI. out: W, C and the shape of the centre line; error: difference of two divisions of
    the pieces, the finer one of which is returned (16 nodes a panel: a uniform arc below half a turn
    a panel is exact to rounding, hence no closed form for it).
-   Valid for any shape; cost 12 us for a uniform arc. Source: Castigliano; docs/theory/flexure.md.
+   Valid for any shape; cost 12 us for a uniform arc. Source: Castigliano; docs/theory/beams.md.
    Test: test_beam.c */
 void fw_beam_compliance(const fw_beam *b, fw_beam_linear *out) {
     enum { FINEST = 1024 };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A beam of any shape: centre line of straight pieces and arcs, width that varies along it, a
    modulus that may depend on direction, two roots that give. Its centre of elastic weights and
-   compliance here; what it does at large rotation in elastica.h. Theory: docs/theory/flexure.md. */
+   compliance here; what it does at large rotation in elastica.h. Theory: docs/theory/beams.md. */
 #ifndef FW_FLEXURE_BEAM_H
 #define FW_FLEXURE_BEAM_H
 #include "flexure/flexure.h"

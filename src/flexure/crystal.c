@@ -7,7 +7,8 @@
      S0 = S11 - S12 - S44/2,  1/E = S11 - S0/2 sin^2(2 psi),  1/G = S44 + 2 S0 sin^2(2 psi)
    in: Pa, rad; out: 1/Pa. Valid for a stable crystal, C44 > 0, C11 > |C12|, C11 + 2 C12 > 0;
    exact. Cost 60 ns. Source: Nye, Physical Properties of Crystals, ch. VIII (rotation of the
-   compliance tensor); docs/theory/flexure.md eq. 12. Test: test_crystal.c moduli_by_direction */
+   compliance tensor); docs/theory/flexure-silicon.md eq. 12.
+   Test: test_crystal.c moduli_by_direction */
 fw_crystal fw_crystal_cubic(double c11_Pa, double c12_Pa, double c44_Pa, double axis_rad) {
     double d = (c11_Pa - c12_Pa) * (c11_Pa + 2 * c12_Pa);
     double s11 = (c11_Pa + c12_Pa) / d, s12 = -c12_Pa / d, s44 = 1 / c44_Pa;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cubic crystal in a (100) wafer: Young's modulus by direction. Theory: docs/theory/flexure.md. */
+/* Cubic crystal in a (100) wafer: Young's modulus by direction. Theory:
+   docs/theory/flexure-silicon.md. */
 #ifndef FW_FLEXURE_CRYSTAL_H
 #define FW_FLEXURE_CRYSTAL_H
 #include <stdbool.h>

@@ -66,7 +66,7 @@ FW_INLINE soft soft_of(const fw_crystal *k, fw_real a, fw_real s, fw_real c) {
    arcs only, with all that roots are at their ends; it takes the shares by which C_xx and C_yy
    differ. C = (bend/D + slide)/(h t). in: shape, h m, 1/E and 1/G 1/Pa, f; out: W m, C h t in
    m^2/Pa. Valid t/r <= 0.3. Error against 3-D finite elements, real roots: 0.3 % in C_th, W 0.1 um.
-   Cost 12 ns. source: docs/theory/flexure.md eq. 1-4, 13; test_ladder.c, test_crystal.c
+   Cost 12 ns. source: docs/theory/flexure-silicon.md eq. 1-4, 13; test_ladder.c, test_crystal.c
    crystals_beside_plain_sums */
 typedef struct flat_sum {
     fw_real xx, yy; /* C_xx, C_yy */
@@ -143,7 +143,7 @@ FW_INLINE ends ends_of(const fw_flexure_shape *f, const fw_crystal *k, const sof
 /* the arc of a crystal: K = 1/C_th, kx = 1/C_xx, ky = 1/C_yy of the above,
      sigma/rad = t/(2 int ds/E) max(Kt G, inside), G of the worse root, eps = sigma/E
    the integral without d, with which G was found
-   docs/theory/flexure.md eq. 12-14; test_crystal.c, test_root_strain.c */
+   docs/theory/flexure-silicon.md eq. 12-14; test_crystal.c, test_root_strain.c */
 FW_INLINE void crystal_arc(const fw_flexure_shape *f, const fw_flexure_input *in, const soft *m,
                            const flat *o, const ends *e, const fw_depth *depth, fw_real per_A,
                            fw_flexure_result *out) {

@@ -10,7 +10,7 @@ enum { STEPS = 256, HALVINGS = 60 };
    To first order in th it is -drift''(0) th/2: what is called the shift of the rotation centre in
    the literature (Verotti 2016); the error of a pin at W is the drift itself, second order.
    in: rad, m; out: m. Valid |th| < pi. Exact for the law. Cost 50 ns.
-   source: docs/theory/flexure.md eq. 15; test_drift.c pole_stands_still */
+   source: docs/theory/axis-drift.md eq. 15; test_drift.c pole_stands_still */
 static double pole(const fw_hinge_at *at, double th) {
     double s = 2 * sin(0.5 * th);
     return fabs(th) < 1e-5 ? 0.5 * at->drift_m.curve * th - at->drift_m.slope
@@ -67,7 +67,7 @@ void fw_drift_curve(const fw_hinge_law *law, const fw_surfaces *surfaces, double
    In: rad, m, N; out rad, to 1e-15. Sought from 0 in steps of 0.7 deg, then halved: a touch that
    ends within one step is missed. After it the hinge is a pin joint of that clearance, which this
    does not follow (contact.c does). Cost 10 to 20 us.
-   source: docs/theory/flexure.md eq. 16; test_drift.c surfaces_meet */
+   source: docs/theory/axis-drift.md eq. 16; test_drift.c surfaces_meet */
 double fw_drift_contact_rad(const fw_hinge_law *law, const fw_surfaces *s, const double F[2],
                             int sense) {
     double low = 0, step = (sense < 0 ? -FW_PI : FW_PI) / STEPS;
@@ -99,7 +99,7 @@ double fw_drift_contact_small_rad(const fw_hinge_law *law, const fw_surfaces *s)
 /* The drift has one sign for both senses of rotation, 0 at rest: surfaces that are concentric half
    way of it need half the gap. A pin at (p, 0) from W is off by drift + 2 p sin(th/2): none at th
    where p is the pole of th.
-   source: docs/theory/flexure.md eq. 17; test_drift.c advice_halves_the_gap */
+   source: docs/theory/axis-drift.md eq. 17; test_drift.c advice_halves_the_gap */
 fw_drift_advice fw_drift_advise(const fw_hinge_law *law, double low_rad, double high_rad) {
     double most = 0, least = 0;
     fw_hinge_at at;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How a hinge's axis drifts, and where its conjugate surfaces meet: by a pure moment and under a
-   given force. Theory: docs/theory/flexure.md, section "Axis drift". */
+   given force. Theory: docs/theory/axis-drift.md. */
 #ifndef FW_FLEXURE_DRIFT_H
 #define FW_FLEXURE_DRIFT_H
 #include "base/arena.h"

@@ -171,7 +171,7 @@ static bool sensible(const fw_elastica_task *task, fw_goal *g, const fw_elastica
    piece). Error: that of the coarser of two meshes, given with the result of the finer, plus
    rounding; the true one is smaller by orders. Cost: tests/bench/bench_hinge.c. Source: Reissner,
    ZAMP 23 (1972) 795; Hairer, Lubich and Wanner, Geometric Numerical Integration, II.1 and VI.4;
-   docs/theory/flexure.md. Test: test_elastica.c, test_elastica_bench.c */
+   docs/theory/beams.md. Test: test_elastica.c, test_elastica_bench.c */
 void fw_elastica_solve(fw_elastica *e, const fw_elastica_task *task, double tolerance, bool warm,
                        fw_elastica_result *out) {
     fw_goal g = {0}, part = {0};

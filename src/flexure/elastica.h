@@ -6,7 +6,7 @@
    the second body, W as the beam was made unless told otherwise: twist (theta, ux, uy) is the
    rotation of the second body and the displacement of that point, wrench (M, Fx, Fy) acts on the
    second body at that point where it now is; work is M dtheta + Fx dux + Fy duy.
-   Theory: docs/theory/flexure.md. */
+   Theory: docs/theory/beams.md. */
 #ifndef FW_FLEXURE_ELASTICA_H
 #define FW_FLEXURE_ELASTICA_H
 #include "base/arena.h"

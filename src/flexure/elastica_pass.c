@@ -106,7 +106,7 @@ static inline void carry(fw_element *el, const slopes *at, fw_carried *c) {
 /* in: rotations at the nodes, force, phi, M, x, y and their derivatives by p at the start; without
    units. out: the same at the end, the change of the rotations. Error of a smooth element
    (8!)^4/(17 (16!)^3) h^17 times the 16th derivative, 1.7e-23 h^17 for sine and cosine of h; cost
-   0.5 us, half of it the 8 x 8 system. Source: docs/theory/flexure.md (20), (21).
+   0.5 us, half of it the 8 x 8 system. Source: docs/theory/beams.md (23), (24).
    Test: test_elastica.c another_method_agrees, tangents_are_derivatives */
 void fw_element_pass(fw_element *el, const double force[2], fw_carried *c) {
     slopes at;

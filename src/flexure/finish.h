@@ -30,7 +30,7 @@ FW_INLINE fw_root_lever fw_root_lever_of(const fw_flexure_shape *f) {
    solid whose strains are extrapolated to nodes they scatter by 1 to 2 % with its mesh.
 
    in: shape, result with D, C, Kt (SI); out: relative errors, of W in m. Cost 15 ns.
-   source: docs/theory/flexure.md "Errors"; test_error.c, test_ladder.c */
+   source: docs/theory/flexure-errors.md; test_error.c, test_ladder.c */
 FW_INLINE void fw_isotropic_errors(const fw_flexure_shape *f, const fw_flexure_input *in,
                                    const fw_flexure_result *r, fw_real per_EI, fw_real wide,
                                    fw_flexure_error *out) {
@@ -59,7 +59,7 @@ FW_INLINE void fw_isotropic_errors(const fw_flexure_shape *f, const fw_flexure_i
 /* A crystal: K 1.4 %, kx 1 %, ky 1.6 % more (linear finite elements of two arcs, three directions
    each, ideal ends, beside a closed form that did not know what ends lose: three times what is left
    since), W twice, strain 3 % more; where its direction is not known the spread over
-   all of them. source: docs/theory/flexure.md; test_crystal.c */
+   all of them. source: docs/theory/flexure-silicon.md; test_crystal.c */
 FW_INLINE void fw_crystal_errors(const fw_flexure_shape *f, const fw_crystal *k, fw_real wide,
                                  fw_flexure_error *e) {
     bool arc = f->kind == FW_FLEXURE_CSFH;

@@ -344,7 +344,7 @@ static double crystal_root(const fw_course *p, const fw_path_stuff *m) {
    once. Strain: M t/2/(E I D g) max((1 + t/3R) F_inner, (1 - t/3R) F_outer), the largest of the
    whole strip, with Kt and a crystal's q at the roots.
    in: outline, m, Pa, rad; out: SI. Error: fw_path_errors. Cost 140 us for one piece.
-   source: docs/theory/flexure.md, "Any centre line, varying width"; test_path.c */
+   source: docs/theory/flexure-path.md; test_path.c */
 void fw_flexure_path(const fw_flexure_shape *f, const fw_flexure_input *in,
                      fw_flexure_result *out) {
     fw_course p;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Flexures of any centre line and varying width: path, and csfh and leaf with a width-middle. Their
    place in the flexure's frame, section by section strain, law at finite rotation, beam.
-   Theory: docs/theory/flexure.md, "Any centre line, varying width". */
+   Theory: docs/theory/flexure-path.md. */
 #ifndef FW_FLEXURE_PATH_H
 #define FW_FLEXURE_PATH_H
 #include "base/arena.h"

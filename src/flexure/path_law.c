@@ -13,7 +13,7 @@
    drift along y; of a strip that is its own mirror image the rest is 0.
    In: outline, m, Pa, rad; out: m, m/N. Valid |th| < 2 pi; the forces' error goes with their square
    as in finite.c. Quadrature and series to 1e-12. Cost: 0.2 ms for the table of one hinge.
-   Source: docs/theory/flexure.md, "Any centre line, varying width". Test: test_path_law.c. */
+   Source: docs/theory/flexure-path.md. Test: test_path_law.c. */
 #include "flexure/gauss.h"
 #include "base/constants.h"
 #include "flexure/path_sections.h"

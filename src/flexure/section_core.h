@@ -23,7 +23,7 @@ FW_INLINE fw_real fw_root_law(fw_real x) {
 
 /* Kt = 0.944 + 0.2113 (t/rho)^(2/3), without the curved-beam factor 1 + t/3r
    valid as above; within 1 % of the finite elements it was fitted to, -0.2..+2.9 % on held-out ones
-   docs/theory/flexure.md eq. 7; test_flexure.c concentration_matches_finite_elements */
+   docs/theory/root-strain.md eq. 7; test_flexure.c concentration_matches_finite_elements */
 FW_INLINE fw_real fw_concentration_law(fw_real x) {
     return 0.944 + 0.2113 * fw_quick_two_thirds(x);
 }
@@ -70,7 +70,8 @@ FW_INLINE fw_real fw_golovin_law(fw_real u) {
    in: square
    = h^2/(r t), nu, per = 1/(1 - nu^2); out: both factors; x -> 0 plane stress, x -> infinity plane
    strain; error below 0.3 % against 3-D finite elements (rigid ends), 0.5 % with real roots. Cost 8
-   ns docs/theory/flexure.md eq. 8-10; test_flexure.c depth_factor_limits_and_reference,
+   ns docs/theory/flexure.md eq. 8, docs/theory/root-strain.md eq. 9-10;
+   test_flexure.c depth_factor_limits_and_reference,
    test_quick.c depth_factors */
 typedef struct fw_depth_start {
     fw_real z, poisson, nu2, rest, per, lift; /* x^4, nu, nu^2, 1 - nu^2, 1 over that, k */
@@ -120,7 +121,7 @@ FW_INLINE fw_depth_start fw_depth_start_crystal(fw_real square, const fw_crystal
    L/3, where both ends would meet (outside of what was compared). Cost 2 ns. Error: K of 144 solids
    of silicon arcs (x 0.1 to 1.25, h/t 0.5 to 30, t/r to 0.15) is then -0.27 to 0.26 % off, 0.08 %
    rms (without: 0.42 %, 1.25 % at most), W of others 0.1 um.
-   source: docs/theory/flexure.md eq. 13a; test_crystal.c ends_of_silicon */
+   source: docs/theory/flexure-silicon.md eq. 13a; test_crystal.c ends_of_silicon */
 typedef struct fw_end_loss {
     fw_real reach_m, length_m; /* l; f l^2/(l + 0.4192 t) */
 } fw_end_loss;
@@ -190,7 +191,7 @@ FW_INLINE fw_depth fw_depth_law(const fw_depth_start *from) {
    (Chebyshev) to 262 solids, arcs and leaves: x 0.1 to 2, h/t 0.5 to 30, t/r 0.025 to 0.15, nu 0.1
    to 0.36, so that it is above all of them: by 0.3 to 3.5 %, deeper than 10 t by 0.1 to 4.3 %; the
    solids' own error is 0.3 %.
-   source: docs/theory/flexure.md "Peak strain of a root"; solids and fit: tools/solids;
+   source: docs/theory/root-strain.md eq. 11a; solids and fit: tools/solids;
    test_root_strain.c */
 FW_INLINE fw_real fw_root_rise(fw_real x, fw_real q, fw_real p, fw_real nu, fw_real n, fw_real u) {
     fw_real p2 = p * p;
@@ -214,7 +215,7 @@ FW_INLINE fw_real fw_root_rise(fw_real x, fw_real q, fw_real p, fw_real nu, fw_r
    (Chebyshev) to 285 solids of silicon, x 0.1 to 2, h/t 0.5 to 30: above all of them by 0.3 to
    3.6 %, deeper than 10 t by 0.1 to 4.4 %; fitted to 70 % of them it is -1.3 to 4.9 % above the
    others.
-   source: docs/theory/flexure.md eq. 14; tools/solids; test_root_strain.c, test_crystal.c
+   source: docs/theory/flexure-silicon.md eq. 14; tools/solids; test_root_strain.c, test_crystal.c
    peak_stress_of_silicon
  */
 typedef struct fw_root_crystal {

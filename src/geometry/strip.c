@@ -43,7 +43,7 @@ static fw_vec2 place(fw_pose p, double left_m) {
      centre = b + (|c-b|^2 (a-b) - |a-b|^2 (c-b)) rotated a quarter turn / (2 (a-b) x (c-b))
    or the line through a and c where b is nearer to it than 1e-13 m. In, out: m. Exact; the centre
    loses R/t digits of 16, the distance of the edge from b none.
-   Source: elementary; docs/theory/flexure.md, "Varying width". Test: test_strip.c. */
+   Source: elementary; docs/theory/flexure-path.md. Test: test_strip.c. */
 static void through(fw_vec2 a, fw_vec2 b, fw_vec2 c, fw_strip_side *out) {
     fw_vec2 u = vec_sub(a, b), v = vec_sub(c, b), ac = vec_sub(c, a);
     double cross = vec_cross(u, v), uu = vec_dot(u, u), vv = vec_dot(v, v);

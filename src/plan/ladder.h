@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The ladder of `flexwright hinge`: one hinge by models of growing fidelity and cost. A level is a
-   file with one function and a row in ladder.c. docs/theory/flexure.md, "The
-   ladder". */
+   file with one function and a row in ladder.c. docs/theory/flexure-errors.md. */
 #ifndef FW_PLAN_LADDER_H
 #define FW_PLAN_LADDER_H
 #include "flexure/drift.h"

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The solids behind the peak strain, without solving any: the table of errors in docs/theory/flexure.md is what the closed form gives beside
+"""The solids behind the peak strain, without solving any: the table of errors in docs/theory/flexure-errors.md is what the closed form gives beside
 them, and the meshes of rows of every sort in tests/data/hinge/root_strain.csv still have the table's bricks (tools/solids/solve would
 solve something else than the table has).
 
@@ -16,10 +16,10 @@ LINES = {2: (1, 1), 9: (1, 1), 184: (2, 2), 185: (2, 2), 430: (1, 1), 490: (1, 3
 
 programs = pathlib.Path(sys.argv[1])
 problems = []
-page = (ROOT / "docs/theory/flexure.md").read_text(encoding="utf-8").splitlines()
+page = (ROOT / "docs/theory/flexure-errors.md").read_text(encoding="utf-8").splitlines()
 for row in subprocess.run([programs / "solid_errors"], capture_output=True, text=True, check=True).stdout.splitlines():
     if row not in page:
-        problems.append("docs/theory/flexure.md lacks " + row)
+        problems.append("docs/theory/flexure-errors.md lacks " + row)
 table = (ROOT / "tests/data/hinge/root_strain.csv").read_text(encoding="ascii").splitlines()
 with tempfile.TemporaryDirectory() as room:
     for line, (mesh, layers) in LINES.items():

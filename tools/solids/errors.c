@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The rows of the table in docs/theory/flexure.md "Errors": solid over closed form less 1 in per
+/* The rows of the table in docs/theory/flexure-errors.md: solid over closed form less 1 in per
    cent, in brackets what the closed form says of its own error; W in um. Last columns: the bound,
    and (5). */
 #include "../../tests/unit/flexure/error_solids.h"

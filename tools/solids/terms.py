@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The formulas that are fitted, docs/theory/flexure.md (11a) and (14), and Chebyshev fits of their constants.
+"""The formulas that are fitted, docs/theory/root-strain.md (11a) and docs/theory/flexure-silicon.md (14), and Chebyshev fits of their constants.
 
 What is fitted is G, the solid's strain per radian over bending strain times Kt (isotropic: times 1 + u): no row may come out below
 `floor`, and the highest above its own `slack` be as low as it can be. floor: the margin (what a solid may be off by itself, 0.003; for those

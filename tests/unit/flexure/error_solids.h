@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* 23 flexures with fillets and root blocks, solved by the continuum level (fw_continuum_shape_of, E
    150 GPa; refinement 1); their strains as in tests/data/hinge/root_strain.csv, where they stand,
-   too (test_root_strain.c). For test_error.c and the table of docs/theory/flexure.md "Errors"
+   too (test_root_strain.c). For test_error.c and the table of docs/theory/flexure-errors.md
    (tools/solids/errors.c). */
 #ifndef FW_TEST_ERROR_SOLIDS_H
 #define FW_TEST_ERROR_SOLIDS_H
