@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The last rung for a whole mechanism: every flexure a solid at finite rotation, every body rigid.
-   docs/theory/continuum.md, section 6. */
+   docs/theory/continuum.md. */
 #ifndef FW_CONTINUUM_DEVICE_DECK_H
 #define FW_CONTINUUM_DEVICE_DECK_H
 #include "continuum/continuum.h"

@@ -12,7 +12,7 @@
    The curved-beam and depth factors are those of the mean width: p^2 of their small departure from
    1 is left out (below 0.1 % for |p| < 0.1). Translation stiffnesses of an arc are taken to be
    bending alone (their shear part times p^2 is left out). Source: elementary integral, the same as
-   k/k0 in docs/theory/process.md; test_flare.c against quadrature. */
+   k/k0 in docs/theory/etching.md; test_flare.c against quadrature. */
 void fw_flexure_flare(const fw_flexure_input *in, double flare_m, fw_flexure_result *out) {
     if (flare_m == 0.0) return;
     double p = fabs(flare_m) / in->width_m, stiffer = 1.0 + p * p;

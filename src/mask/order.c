@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a mask shop asks for beside the data: which layers make the plate, tone, reading, sizes, and
-   where to measure. docs/theory/masks.md says where the terms come from. */
+   where to measure. docs/theory/mask-files.md says where the terms come from. */
 #include "mask/order.h"
 #include "mask/flatten.h"
 #include <string.h>

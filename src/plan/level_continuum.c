@@ -28,7 +28,7 @@ static const char *unfit(const fw_ladder_case *c) {
 /* The solid with fillets and root blocks (src/continuum), linear, two meshes. Its own error is what
    the meshes differ by and what the model leaves open: whether the blocks' sides are held (2.7e-4
    of K of H2, 0.028 um of W), of which kx and ky feel up to five times as much; peak strains
-   scatter by 1 % with the mesh. docs/theory/continuum.md, sections 2 and 4 */
+   scatter by 1 % with the mesh. docs/theory/continuum.md */
 fw_status fw_ladder_continuum(const fw_ladder_case *c, fw_report_level *row) {
     const fw_flexure_input *in = &c->hinge->input;
     const fw_flexure_result *r = &c->hinge->closed_form;

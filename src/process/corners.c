@@ -83,7 +83,7 @@ static void scale_range(fw_made_input *in, double by) {
    2 (1 - A)(D + lag) wider than the other; lag beside the open field, where flexures stand. E, D,
    lag and m are those of the fixed point, so that mask, time and corner cannot differ. A masking
    layer counts with its foot, E - D - lag. D, E m; A 1. Edges are even where (1 - A) edge_m = m.
-   Source: docs/theory/process.md; test_corners.c against fw_undercut_widths, test_fixed_point.c. */
+   Source: docs/theory/etching.md; test_corners.c against fw_undercut_widths, test_fixed_point.c. */
 static bool anisotropy(const fw_fixed_point *p, const fw_corner *c, fw_made_input *in) {
     const fw_cut *cut = fw_fixed_point_cut(p, c->q);
     if (!cut || isnan(cut->etched_m)) return false;

@@ -40,7 +40,8 @@ static fw_status losses(fw_coupon_work *w, double *y, double *s, int *n) {
 /* Lines of width w on the mask, not compensated; the mask layer lost L at every edge (what the flow
    plans less made.al-edge), the plasma u at the top: w - m = 2 L + 2 u, u = (1 - A) E, A = 1 - u/E.
    E: the depth that wide openings have reached, or rate times the time, over-etch included. All m;
-   A 1. u(A)^2 = (u_u/E)^2 + (u u_E/E^2)^2. Source: docs/theory/process.md. Test: test_calibrate.c.
+   A 1. u(A)^2 = (u_u/E)^2 + (u u_E/E^2)^2. Source: docs/theory/calibrate.md.
+   Test: test_calibrate.c.
  */
 static fw_status fit(fw_coupon_work *w) {
     double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], E, u_E, edge = 0.0, u_edge = 0.0;

@@ -14,9 +14,9 @@ static double depth_of(double width, double travelled, double S) {
     return D;
 }
 
-/* Slots of widths w, the same time t: D_i = R0 t - S J(w_i, D_i) (docs/theory/process.md). With two
-   slots that is S = (D2 - D1)/(J1 - J2), R0 = (D1 + S J1)/t; with more, the start of Gauss and
-   Newton on D_i(R0 t, S), weighted with 1/u^2: dD/d(R0 t) = 1/(1 + S J'), dD/dS = -J/(1 + S J').
+/* Slots of widths w, the same time t: D_i = R0 t - S J(w_i, D_i)
+   (docs/theory/calibrate.md). With two slots that is S = (D2 - D1)/(J1 - J2), R0 = (D1 + S J1)/t;
+   with more, the start of Gauss and Newton on D_i(R0 t, S), weighted with 1/u^2: dD/d(R0 t) = 1/(1 + S J'), dD/dS = -J/(1 + S J').
    The time is common to all: its uncertainty comes on top of R0's. w, D m, t s; S 1. Lag above
    twice its uncertainty below zero is refused. Test: test_calibrate.c, two_slots, coverage. */
 static fw_status fit(fw_coupon_work *w) {

@@ -4,7 +4,7 @@
 
 /* Resist of thickness d at speed w: ln d = ln d0 - a ln(w/w0), w0 the reference speed of the pack.
    Two parameters in closed form; the error of the speed counts with a, which is iterated. d, d0 m;
-   w rad/s; a 1. Source: docs/theory/process.md. Test: test_calibrate.c. */
+   w rad/s; a 1. Source: docs/theory/calibrate.md. Test: test_calibrate.c. */
 static fw_status fit(fw_coupon_work *w) {
     double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], one[FW_COUPON_ROWS], x[FW_COUPON_ROWS], w0, u0;
     if (!fw_coupon_value(w, "resist.w0", &w0, &u0))

@@ -5,7 +5,7 @@
 
    A film lies in one of two columns, or in both: the structure, which is what the plate draws, and
    the field around it. Where it is in one only, its wall stands beside the drawn edge by a known
-   amount, at its bottom and at its top. Theory: docs/theory/process.md, "The wafer, step by step".
+   amount, at its bottom and at its top. Theory: docs/theory/films.md.
  */
 #ifndef FW_PROCESS_FILMS_H
 #define FW_PROCESS_FILMS_H

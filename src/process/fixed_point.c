@@ -222,7 +222,7 @@ static void cut_at(fw_cut *c, double A, double narrow_m, double field_m, double 
    the least solution and rise to it, and a point with F > m and F' >= 1 proves that there is none.
    Where S is 0 or nothing follows the mask, F is constant and one step does. Error: 1e-13 relative
    (quadratic). Cost: 3 lags per cut and step, 3 to 6 steps; at the fold some 20. Valid for A in
-   [0, 1]. Source: docs/theory/process.md. Test: test_fixed_point.c, against plain iteration on
+   [0, 1]. Source: docs/theory/etching.md. Test: test_fixed_point.c, against plain iteration on
    random packs, and at the fold. */
 static bool newton(fw_fixed_point *p, const double *A, double gap_m, double field_m, double *m) {
     *m = 0.0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where edges end up: the bias of the mask, the gaps it leaves, the time of the etch and what that
    etch takes sideways depend on each other and are solved together. Everybody who needs an edge, a
-   time or a bias reads this one struct: masks, recipe, verdict. Theory: docs/theory/process.md,
+   time or a bias reads this one struct: masks, recipe, verdict. Theory: docs/theory/etching.md,
    "Bias, time and gap". */
 #ifndef FW_PROCESS_FIXED_POINT_H
 #define FW_PROCESS_FIXED_POINT_H

@@ -5,7 +5,7 @@
 /* u(z) = (1 - A)(E - z), E = R T the depth the floor would have reached in the whole time: the wall
    at depth z is exposed from z/R on. w m, A 1, depth and E m. w_top = w - 2u(0), w_bottom = w -
    2u(depth); negative where the beam is gone. Constant lateral rate (1 - A) R.
-   Source: docs/theory/process.md. Test: test_undercut.c, table. */
+   Source: docs/theory/etching.md. Test: test_undercut.c, table. */
 void fw_undercut_widths(double width_m, double anisotropy, double depth_m, double etched_m,
                         double *top_m, double *bottom_m) {
     double loss = 2.0 * (1.0 - anisotropy);

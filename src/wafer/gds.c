@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The plate as one GDSII library: every different die once, one array per evenly spaced run of
    equal dies, the top cell last. No reader warns: names of at most 32 letters, digits and _, no
-   rotation, array corners that divide exactly, dates zero (docs/theory/masks.md). */
+   rotation, array corners that divide exactly, dates zero (docs/theory/mask-files.md). */
 #include "mask/notes.h"
 #include "mask/references.h"
 #include "mask/stream.h"
