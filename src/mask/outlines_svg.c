@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* As drawn, on the mask and as fabricated, over each other: one picture with true arcs, and two
    places of it enlarged, the narrowest line and the narrowest space. 1 user unit = 1 um. */
+#include "geometry/svg.h"
 #include "mask/outlines.h"
 #include "base/constants.h"
 #include <math.h>
@@ -30,48 +31,8 @@ static void id(const page *p, const char *name) {
 
 /* ---- paths ---- */
 
-static void point(const page *p, char letter, fw_vec2 at) {
-    char text[2 * FW_FIXED_BYTES + 2], *end = text;
-    *end++ = letter;
-    end = fw_fixed_text(end, (at.x - p->x0) * 1e6, DECIMALS);
-    *end++ = ' ';
-    end = fw_fixed_text(end, (p->y1 - at.y) * 1e6, DECIMALS);
-    fw_text_bytes(p->out, text, (size_t)(end - text));
-}
-
-/* in parts of at most a third of a turn, as in svg.c */
-static void arc(const page *p, const fw_segment *s) {
-    int parts = (int)ceil(fabs(s->sweep_rad) / (2 * FW_PI / 3) - 1e-9);
-    fw_vec2 r = {s->a.x - s->centre.x, s->a.y - s->centre.y};
-    for (int i = 1; i <= parts; i++) {
-        double c = cos(s->sweep_rad * i / parts), n = sin(s->sweep_rad * i / parts);
-        fw_vec2 to = {s->centre.x + r.x * c - r.y * n, s->centre.y + r.x * n + r.y * c};
-        fw_text_add(p->out, "A");
-        fw_text_fixed(p->out, s->radius * 1e6, DECIMALS);
-        fw_text_add(p->out, " ");
-        fw_text_fixed(p->out, s->radius * 1e6, DECIMALS);
-        fw_text_add(p->out, s->sweep_rad < 0 ? " 0 0 1" : " 0 0 0");
-        point(p, ' ', i < parts ? to : s->b);
-    }
-}
-
-/* whole: closed, for filling; else the edges alone, without the cuts between pieces */
-static void contour(const page *p, const fw_contour *c, bool whole) {
-    bool pen = false;
-    for (int i = 0; i < c->count; i++) {
-        const fw_segment *s = &c->segment[i];
-        if (!whole && s->flags & FW_SEGMENT_JOINT) {
-            pen = false;
-            continue;
-        }
-        if (!pen) point(p, 'M', s->a);
-        pen = true;
-        if (s->kind == FW_ARC)
-            arc(p, s);
-        else
-            point(p, 'L', s->b);
-    }
-    if (whole && c->count > 0) fw_text_add(p->out, "Z");
+static fw_geometry_sheet sheet_of(const page *p) {
+    return (fw_geometry_sheet){p->x0, p->y1, 1e6, DECIMALS, FW_GEOMETRY_ARC_EXACT};
 }
 
 typedef enum which { DRAWN, ON_MASK, TOP, BOTTOM } which;
@@ -83,37 +44,46 @@ static const fw_contour *pick(const fw_mask_outline *o, which w) {
                           : &o->bottom;
 }
 
-static void group(const page *p, const char *name, which w, bool whole) {
-    fw_text_add(p->out, "<path id=\"");
+static void open_path(const page *p, const char *name) {
+    fw_svg_start(p->out, "path id");
     id(p, name);
-    fw_text_add(p->out, "\" d=\"");
+}
+
+/* whole: closed, for filling; else the edges alone, without the cuts between pieces */
+static void group(const page *p, const char *name, which w, bool whole) {
+    const fw_geometry_sheet sheet = sheet_of(p);
+    open_path(p, name);
+    fw_svg_more(p->out, "d=''");
     for (int i = 0; i < p->lines.n; i++)
-        contour(p, pick(&p->lines.outline[i], w), whole);
-    fw_text_add(p->out, "\"/>\n");
+        if (whole)
+            fw_geometry_svg_contour(p->out, &sheet, pick(&p->lines.outline[i], w));
+        else
+            fw_geometry_svg_edges(p->out, &sheet, pick(&p->lines.outline[i], w));
+    fw_svg_path_end(p->out);
 }
 
 /* between the two ends of the range: both outlines of a shape, even-odd. A shape that is gone at
    the worse end is filled up to the better one. */
 static void band(const page *p) {
-    fw_text_add(p->out, "<path id=\"");
-    id(p, "band");
-    fw_text_add(p->out, "\" fill-rule=\"evenodd\" d=\"");
+    const fw_geometry_sheet sheet = sheet_of(p);
+    open_path(p, "band");
+    fw_svg_more(p->out, "fill-rule='evenodd' d=''");
     for (int i = 0; i < p->lines.n; i++) {
-        contour(p, &p->lines.outline[i].most, true);
-        contour(p, &p->lines.outline[i].least, true);
+        fw_geometry_svg_contour(p->out, &sheet, &p->lines.outline[i].most);
+        fw_geometry_svg_contour(p->out, &sheet, &p->lines.outline[i].least);
     }
-    fw_text_add(p->out, "\"/>\n");
+    fw_svg_path_end(p->out);
 }
 
 static void define(const page *p) {
-    fw_text_add(p->out, "<defs>\n");
+    fw_svg_open(p->out, "defs\n");
     group(p, "drawn", DRAWN, false);
     group(p, "mask", ON_MASK, false);
     group(p, "body", p->tapered ? BOTTOM : TOP, true);
     if (!p->even) group(p, "top", TOP, false);
     if (p->tapered) group(p, "bottom", BOTTOM, false);
     if (p->banded) band(p);
-    fw_text_add(p->out, "</defs>\n");
+    fw_svg_close(p->out, "defs\n");
 }
 
 /* ---- one view of everything ---- */
@@ -121,26 +91,29 @@ static void define(const page *p) {
 static const char *const BODY = "#dfeadf", *const BAND = "#f4a340", *const MASK = "#1f5fbf",
                          *const MADE = "#187a2f";
 
-static void filled(const page *p, const char *name, const char *colour) {
-    fw_text_add(p->out, "<use href=\"#");
+static void open_use(const page *p, const char *name) {
+    fw_svg_start(p->out, "use href");
+    fw_text_add(p->out, "#");
     id(p, name);
-    fw_text_printf(p->out, "\" fill=\"%s\"/>\n", colour);
+}
+
+static void filled(const page *p, const char *name, const char *colour) {
+    open_use(p, name);
+    fw_svg_more(p->out, "fill='{r}'", colour);
+    fw_svg_path_end(p->out);
 }
 
 static void use(const page *p, const char *name, const char *colour, double width,
                 const char *dashes, double unit) {
-    fw_text_add(p->out, "<use href=\"#");
-    id(p, name);
-    fw_text_printf(p->out, "\" fill=\"none\" stroke=\"%s\" stroke-width=\"", colour);
+    open_use(p, name);
+    fw_svg_more(p->out, "fill='none' stroke='{r}' stroke-width=''", colour);
     fw_text_number(p->out, width, 4);
-    if (*dashes) {
-        fw_text_add(p->out, "\" stroke-dasharray=\"");
-        for (const char *d = dashes; *d; d++) { /* one digit each, in units */
-            if (d != dashes) fw_text_add(p->out, " ");
-            fw_text_number(p->out, (*d - '0') * unit, 4);
-        }
+    if (*dashes) fw_svg_more(p->out, "stroke-dasharray=''");
+    for (const char *d = dashes; *d; d++) { /* one digit each, in units */
+        if (d != dashes) fw_text_add(p->out, " ");
+        fw_text_number(p->out, (*d - '0') * unit, 4);
     }
-    fw_text_add(p->out, "\"/>\n");
+    fw_svg_path_end(p->out);
 }
 
 /* unit: um of a hair line in this view */
@@ -154,15 +127,7 @@ static void view(const page *p, double unit) {
 }
 
 static void words(const page *p, double x, double y, double size, const char *text) {
-    fw_text_add(p->out, "<text x=\"");
-    fw_text_fixed(p->out, x, 2);
-    fw_text_add(p->out, "\" y=\"");
-    fw_text_fixed(p->out, y, 2);
-    fw_text_add(p->out, "\" font-size=\"");
-    fw_text_fixed(p->out, size, 2);
-    fw_text_add(p->out, "\">");
-    fw_text_escaped(p->out, text);
-    fw_text_add(p->out, "</text>\n");
+    fw_svg_put(p->out, "text x='{2}' y='{2}' font-size='{2}'>{s}\n", x, y, size, text);
 }
 
 /* ---- enlargements ---- */
@@ -172,31 +137,14 @@ static void enlarge(const page *p, const fw_vec2 *at, double across_um, double x
                     const char *const *label, int nlabel) {
     double cx = (0.5 * (at[0].x + at[1].x) - p->x0) * 1e6;
     double cy = (p->y1 - 0.5 * (at[0].y + at[1].y)) * 1e6;
-    fw_text_add(p->out, "<svg x=\"");
-    fw_text_fixed(p->out, x, 3);
-    fw_text_add(p->out, "\" y=\"");
-    fw_text_fixed(p->out, y, 3);
-    fw_text_add(p->out, "\" width=\"");
-    fw_text_fixed(p->out, p->inset, 3);
-    fw_text_add(p->out, "\" height=\"");
-    fw_text_fixed(p->out, p->inset, 3);
-    fw_text_add(p->out, "\" viewBox=\"");
-    const double box[] = {cx - across_um / 2, cy - across_um / 2, across_um, across_um};
-    for (int i = 0; i < 4; i++) {
-        if (i) fw_text_add(p->out, " ");
-        fw_text_fixed(p->out, box[i], 4);
-    }
-    fw_text_add(p->out, "\">\n");
+    fw_svg_inset(p->out, "x='{3}' y='{3}' width='{3}' height='{3}' viewBox='{4} {4} {4} {4}'", x, y,
+                 p->inset, p->inset, cx - across_um / 2, cy - across_um / 2, across_um, across_um);
     view(p, across_um / 300);
-    fw_text_add(p->out, "</svg>\n<rect fill=\"none\" stroke=\"#606060\" stroke-width=\"3\" x=\"");
-    fw_text_fixed(p->out, x, 3);
-    fw_text_add(p->out, "\" y=\"");
-    fw_text_fixed(p->out, y, 3);
-    fw_text_add(p->out, "\" width=\"");
-    fw_text_fixed(p->out, p->inset, 3);
-    fw_text_add(p->out, "\" height=\"");
-    fw_text_fixed(p->out, p->inset, 3);
-    fw_text_add(p->out, "\"/>\n");
+    fw_svg_end(p->out);
+    fw_svg_put(p->out,
+               "rect fill='none' stroke='#606060' stroke-width='3' x='{3}' y='{3}' width='{3}' "
+               "height='{3}'\n",
+               x, y, p->inset, p->inset);
     for (int i = 0; i < nlabel; i++)
         words(p, x, y + p->inset + (1.2 + 1.15 * i) * p->font, p->font, label[i]);
 }
@@ -254,15 +202,9 @@ static fw_status enlargements(const page *p) {
 /* ---- legend ---- */
 
 static void sample(const page *p, double y, const char *style) {
-    fw_text_add(p->out, "<line x1=\"");
-    fw_text_fixed(p->out, MARGIN_UM, 2);
-    fw_text_add(p->out, "\" x2=\"");
-    fw_text_fixed(p->out, MARGIN_UM + 4 * p->font, 2);
-    for (int i = 1; i < 3; i++) {
-        fw_text_printf(p->out, "\" y%d=\"", i);
-        fw_text_fixed(p->out, y - 0.35 * p->font, 2);
-    }
-    fw_text_printf(p->out, "\" %s/>\n", style);
+    double middle = y - 0.35 * p->font;
+    fw_svg_put(p->out, "line x1='{2}' x2='{2}' y1='{2}' y2='{2}' {r}\n", MARGIN_UM,
+               MARGIN_UM + 4 * p->font, middle, middle, style);
 }
 
 static void entry(const page *p, int *row, const char *style, const char *text) {
@@ -352,37 +294,26 @@ static double legend_height(const page *p) {
 
 /* ---- the page ---- */
 
-static void title(const page *p) {
-    fw_text_add(p->out, "<title>");
-    if (p->mask->rejected) fw_text_add(p->out, "REJECTED: ");
-    fw_text_escaped(p->out, p->mask->title);
-    fw_text_add(p->out, ", ");
-    fw_text_escaped(p->out, p->mask->flow);
-    fw_text_add(p->out, ": as drawn, on the mask, as fabricated</title>\n");
-}
-
 /* as wide as a screen: at its own size a device is a dot */
 static const double PICTURE_MM = 280;
 
 static void head(const page *p, double width, double height) {
-    fw_text_add(p->out, p->part ? "" : "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
-    fw_text_add(p->out, "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\"");
-    const double side_um[] = {width, height};
-    for (int i = 0; i < 2 && !p->part; i++) {
-        fw_text_printf(p->out, " %s=\"", i ? "height" : "width");
-        fw_text_fixed(p->out, side_um[i] * PICTURE_MM / width, 3);
-        fw_text_add(p->out, "mm\"");
-    }
-    fw_text_add(p->out,
-                p->part ? " class=\"drawing\" role=\"img\" viewBox=\"0 0 " : " viewBox=\"0 0 ");
-    fw_text_fixed(p->out, width, 4);
-    fw_text_add(p->out, " ");
-    fw_text_fixed(p->out, height, 4);
-    fw_text_add(p->out, "\" font-family=\"sans-serif\">\n");
-    title(p);
-    fw_text_add(p->out, "<desc>1 unit of the view box = 1 um; a picture, not for writing masks; "
-                        "flexwright " FW_VERSION "</desc>\n<rect width=\"100%\" height=\"100%\" "
-                        "fill=\"#ffffff\"/>\n");
+    fw_svg_begin(p->out,
+                 &(fw_svg_frame){.width = width,
+                                 .height = height,
+                                 .decimals = 4,
+                                 .size = p->part ? FW_SVG_SIZE_NONE : FW_SVG_SIZE_BEFORE,
+                                 .unit_mm = PICTURE_MM / width,
+                                 .mm_decimals = 3,
+                                 .file = !p->part,
+                                 .lead = p->part ? "version='1.1' class='drawing' role='img'"
+                                                 : "version='1.1'",
+                                 .font = "sans-serif"});
+    fw_svg_title(p->out, "{r}{s}, {s}: as drawn, on the mask, as fabricated",
+                 p->mask->rejected ? "REJECTED: " : "", p->mask->title, p->mask->flow);
+    fw_svg_put(p->out, "desc>1 unit of the view box = 1 um; a picture, not for writing masks; "
+                       "flexwright " FW_VERSION "\n");
+    fw_svg_paper(p->out, "#ffffff");
 }
 
 static page page_of(const fw_mask *mask, fw_text *out) {
@@ -417,9 +348,9 @@ static fw_status picture(const fw_mask *mask, bool part, fw_text *out) {
     FW_TRY(enlargements(&p));
     FW_TRY(legend(&p));
     if (mask->rejected)
-        fw_text_add(out, "<text x=\"50%\" y=\"50%\" text-anchor=\"middle\" font-size=\"500\" "
-                         "fill=\"#c00000\" fill-opacity=\"0.6\">REJECTED</text>\n");
-    fw_text_add(out, "</svg>\n");
+        fw_svg_put(out, "text x='50%' y='50%' text-anchor='middle' font-size='500' fill='#c00000' "
+                        "fill-opacity='0.6'>REJECTED\n");
+    fw_svg_end(out);
     return fw_text_end(out);
 }
 

@@ -16,9 +16,9 @@ void fw_gds_end(fw_text *out);
 
 /* the outlines of one layer as <path>s, um, y downwards from `upper_left` (m); one that is another
    one moved as a <use> of it */
-void fw_svg_paths(const fw_mask *mask, int layer, fw_vec2 upper_left, fw_text *out);
+void fw_mask_svg_paths(const fw_mask *mask, int layer, fw_vec2 upper_left, fw_text *out);
 /* (nshape) the first shape that each one of the layer repeats, -1: none */
-fw_status fw_svg_repeats(fw_arena *arena, const fw_mask *mask, int layer, fw_vec2 upper_left,
+fw_status fw_mask_svg_repeats(fw_arena *arena, const fw_mask *mask, int layer, fw_vec2 upper_left,
                          int **out);
 
 #endif

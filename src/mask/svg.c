@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Exact outlines with true arcs: 1 user unit = 1 um, six decimals (1 pm). The y axis of SVG points
-   down, so y is turned round here and not by a transform that importers may lose. */
+/* Exact outlines with true arcs: 1 user unit = 1 um, six decimals (1 pm). What is around them comes
+   from the canvas (base/svg.h); the outlines themselves, of which there may be millions, have their
+   own tight loop and only share the parts of arcs with other pictures (geometry/svg.h). */
+#include "geometry/svg.h"
 #include "mask/stream.h"
 #include "base/constants.h"
 #include <math.h>
@@ -25,22 +27,12 @@ static void coordinate(const page *p, char letter, fw_vec2 at) {
     out->length = (size_t)(end - out->data);
 }
 
-/* parts of at most a third of a turn: a reader finds the centre from the end points, which fails
-   for equal points and loses half the digits near a half turn. The large-arc flag is then never
-   set. */
 static void arc(const page *p, const fw_segment *s) {
-    const double third = 2 * FW_PI / 3;
-    int parts = (int)ceil(fabs(s->sweep_rad) / third - 1e-9);
-    fw_vec2 r = {s->a.x - s->centre.x, s->a.y - s->centre.y};
+    int parts = fw_geometry_arc_parts(s, FW_GEOMETRY_ARC_EXACT);
     for (int i = 1; i <= parts; i++) {
-        double angle = s->sweep_rad * i / parts, c = cos(angle), n = sin(angle);
-        fw_vec2 to = {s->centre.x + r.x * c - r.y * n, s->centre.y + r.x * n + r.y * c};
-        fw_text_add(p->out, "A");
-        fw_text_fixed(p->out, s->radius * 1e6, 6);
-        fw_text_add(p->out, " ");
-        fw_text_fixed(p->out, s->radius * 1e6, 6);
+        fw_svg_point(p->out, 'A', s->radius * 1e6, s->radius * 1e6, 6);
         fw_text_add(p->out, s->sweep_rad < 0 ? " 0 0 1" : " 0 0 0");
-        coordinate(p, ' ', i < parts ? to : s->b);
+        coordinate(p, ' ', fw_geometry_arc_end(s, i, parts));
     }
 }
 
@@ -65,38 +57,36 @@ static void repeat(const page *p, const fw_mask *mask, int first, const fw_mask_
     fw_vec2 from = mask->shape[first].contour.segment[0].a, to = s->contour.segment[0].a;
     double x0 = round((from.x - p->x0) * 1e12), y0 = round((p->y1 - from.y) * 1e12);
     double x1 = round((to.x - p->x0) * 1e12), y1 = round((p->y1 - to.y) * 1e12);
-    fw_text_add(p->out, "<use xlink:href=\"#");
+    fw_svg_start(p->out, "use xlink:href");
+    fw_text_add(p->out, "#");
     name_of(p->out, mask, first);
-    fw_text_add(p->out, "\" x=\"");
-    fw_text_fixed(p->out, (x1 - x0) * 1e-6, 6);
-    fw_text_add(p->out, "\" y=\"");
-    fw_text_fixed(p->out, (y1 - y0) * 1e-6, 6);
-    fw_text_add(p->out, "\"><title>");
-    fw_text_escaped(p->out, s->piece->label);
-    fw_text_add(p->out, "</title></use>\n");
+    fw_svg_more(p->out, "x='{6}' y='{6}'", (x1 - x0) * 1e-6, (y1 - y0) * 1e-6);
+    fw_svg_finish(p->out, ">");
+    fw_svg_put(p->out, "title>{s}", s->piece->label);
+    fw_svg_close(p->out, "use\n");
 }
 
 /* id: of the shape in the mask where others repeat it, else -1 */
 static void shape(const page *p, const fw_mask *mask, const fw_mask_shape *s, int id) {
-    fw_text_add(p->out, "<path ");
     if (id >= 0) {
-        fw_text_add(p->out, "id=\"");
+        fw_svg_start(p->out, "path id");
         name_of(p->out, mask, id);
-        fw_text_add(p->out, "\" ");
-    }
-    fw_text_add(p->out, "d=\"");
+        fw_svg_more(p->out, "d=''");
+    } else
+        fw_svg_path(p->out, "");
     coordinate(p, 'M', s->contour.segment[0].a);
     for (int i = 0; i < s->contour.count; i++)
         segment(p, &s->contour.segment[i]);
-    fw_text_add(p->out, "Z\"><title>");
-    fw_text_escaped(p->out, s->piece->label);
-    fw_text_add(p->out, "</title></path>\n");
+    fw_text_add(p->out, "Z");
+    fw_svg_finish(p->out, ">");
+    fw_svg_put(p->out, "title>{s}", s->piece->label);
+    fw_svg_close(p->out, "path\n");
 }
 
-void fw_svg_paths(const fw_mask *mask, int layer, fw_vec2 upper_left, fw_text *out) {
+void fw_mask_svg_paths(const fw_mask *mask, int layer, fw_vec2 upper_left, fw_text *out) {
     page p = {.out = out, .x0 = upper_left.x, .y1 = upper_left.y};
     int *of;
-    if (fw_svg_repeats(out->arena, mask, layer, upper_left, &of) != FW_OK) {
+    if (fw_mask_svg_repeats(out->arena, mask, layer, upper_left, &of) != FW_OK) {
         out->failed = 1;
         return;
     }
@@ -111,15 +101,11 @@ void fw_svg_paths(const fw_mask *mask, int layer, fw_vec2 upper_left, fw_text *o
 
 static void layer(const page *p, const fw_mask *mask, int k) {
     const fw_mask_layer *y = &mask->table->layer[k];
-    fw_text_printf(p->out, "<g id=\"%s\" data-gds=\"%d/%d\" fill=\"%s\" fill-opacity=\"0.8\">",
-                   y->id, y->layer, y->datatype, y->colour);
-    fw_text_add(p->out, "<title>");
-    fw_text_escaped(p->out, y->name);
-    fw_text_add(p->out, ": ");
-    fw_text_escaped(p->out, y->purpose);
-    fw_text_printf(p->out, " (%s)</title>\n", y->tone);
-    fw_svg_paths(mask, k, (fw_vec2){p->x0, p->y1}, p->out);
-    fw_text_add(p->out, "</g>\n");
+    fw_svg_open(p->out, "g id='{r}' data-gds='{i}/{i}' fill='{r}' fill-opacity='0.8'", y->id,
+                y->layer, y->datatype, y->colour);
+    fw_svg_title(p->out, "{s}: {s} ({r})", y->name, y->purpose, y->tone);
+    fw_mask_svg_paths(mask, k, (fw_vec2){p->x0, p->y1}, p->out);
+    fw_svg_close(p->out, "g\n");
 }
 
 /* 1, 2 or 5 times a power of ten, at most a quarter of the width */
@@ -131,44 +117,34 @@ static double bar_length(double width_um) {
 
 static void scale_bar(const page *p, double drawn_um) {
     double length = bar_length(drawn_um), y = p->height - LEGEND_UM;
-    fw_text_add(p->out, "<g id=\"scale\" fill=\"#000000\">\n<rect x=\"");
-    fw_text_fixed(p->out, MARGIN_UM, 6);
-    fw_text_add(p->out, "\" y=\"");
-    fw_text_fixed(p->out, y, 6);
-    fw_text_add(p->out, "\" width=\"");
-    fw_text_fixed(p->out, length, 6);
-    fw_text_add(p->out, "\" height=\"");
-    fw_text_fixed(p->out, BAR_UM, 6);
-    fw_text_add(p->out, "\"/>\n<text font-family=\"sans-serif\" font-size=\"80\" x=\"");
-    fw_text_fixed(p->out, MARGIN_UM, 6);
-    fw_text_add(p->out, "\" y=\"");
-    fw_text_fixed(p->out, y + 90, 6);
-    fw_text_add(p->out, "\">");
+    fw_svg_open(p->out, "g id='scale' fill='#000000'\n");
+    fw_svg_put(p->out, "rect x='{6}' y='{6}' width='{6}' height='{6}'\n", MARGIN_UM, y, length,
+               BAR_UM);
+    fw_svg_open(p->out, "text font-family='sans-serif' font-size='80' x='{6}' y='{6}'", MARGIN_UM,
+                y + 90);
     fw_text_number(p->out, length, 6);
-    fw_text_add(p->out, " um</text>\n</g>\n");
+    fw_text_add(p->out, " um");
+    fw_svg_close(p->out, "text\n");
+    fw_svg_close(p->out, "g\n");
 }
 
 static void head(const page *p, const fw_mask *mask) {
-    fw_text_add(p->out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-                        "<svg xmlns=\"http://www.w3.org/2000/svg\" "
-                        "xmlns:xlink=\"http://www.w3.org/1999/xlink\" version=\"1.1\" width=\"");
-    fw_text_fixed(p->out, p->width / 1000, 9);
-    fw_text_add(p->out, "mm\" height=\"");
-    fw_text_fixed(p->out, p->height / 1000, 9);
-    fw_text_add(p->out, "mm\" viewBox=\"0 0 ");
-    fw_text_fixed(p->out, p->width, 6);
-    fw_text_add(p->out, " ");
-    fw_text_fixed(p->out, p->height, 6);
-    fw_text_add(p->out, "\">\n<title>");
-    if (mask->rejected) fw_text_add(p->out, "REJECTED: ");
-    fw_text_escaped(p->out, mask->title);
-    fw_text_add(p->out, ", ");
-    fw_text_escaped(p->out, mask->flow);
-    fw_text_add(p->out, "</title>\n<desc>1 unit = 1 um; ");
-    fw_text_escaped(p->out, mask->table->reading);
-    fw_text_add(p->out, "; bias per edge ");
+    fw_svg_begin(p->out, &(fw_svg_frame){.width = p->width,
+                                         .height = p->height,
+                                         .decimals = 6,
+                                         .size = FW_SVG_SIZE_BEFORE,
+                                         .unit_mm = 1e-3,
+                                         .mm_decimals = 9,
+                                         .file = true,
+                                         .links = true,
+                                         .lead = "version='1.1'"});
+    fw_svg_title(p->out, "{r}{s}, {s}", mask->rejected ? "REJECTED: " : "", mask->title,
+                 mask->flow);
+    fw_svg_open(p->out, "desc");
+    fw_markup(p->out, "1 unit = 1 um; {s}; bias per edge ", mask->table->reading);
     fw_text_number(p->out, mask->bias_m * 1e6, 6);
-    fw_text_add(p->out, " um, included; flexwright " FW_VERSION "</desc>\n");
+    fw_text_add(p->out, " um, included; flexwright " FW_VERSION);
+    fw_svg_close(p->out, "desc\n");
 }
 
 /* about what the outlines take, so that the text is not copied while it grows: by some of their
@@ -197,9 +173,9 @@ fw_status fw_mask_write_svg(const fw_mask *mask, fw_text *out) {
         if (mask->table->layer[k].roles) layer(&p, mask, k);
     scale_bar(&p, width);
     if (mask->rejected)
-        fw_text_add(out, "<text id=\"rejected\" x=\"50%\" y=\"50%\" text-anchor=\"middle\" "
-                         "font-family=\"sans-serif\" font-size=\"500\" fill=\"#c00000\" "
-                         "fill-opacity=\"0.6\">REJECTED</text>\n");
-    fw_text_add(out, "</svg>\n");
+        fw_svg_put(out, "text id='rejected' x='50%' y='50%' text-anchor='middle' "
+                        "font-family='sans-serif' font-size='500' fill='#c00000' "
+                        "fill-opacity='0.6'>REJECTED\n");
+    fw_svg_end(out);
     return fw_text_end(out);
 }

@@ -79,7 +79,7 @@ static int by_hash(const void *left, const void *right) {
 /* For every shape of a layer the first one that it repeats: itself where others repeat it, -1 where
    none does. In: outlines (m), as they are rounded in the file (1 pm). Out: of (nshape). Cost: O(n
    log n) hashes, then each against the first of its hash. Test: test_svg_repeat.c. */
-fw_status fw_svg_repeats(fw_arena *arena, const fw_mask *mask, int layer, fw_vec2 upper_left,
+fw_status fw_mask_svg_repeats(fw_arena *arena, const fw_mask *mask, int layer, fw_vec2 upper_left,
                          int **out) {
     int n = 0, *of = fw_arena_array(arena, int, (size_t)mask->nshape);
     entry *list = fw_arena_array(arena, entry, (size_t)mask->nshape);

@@ -6,6 +6,7 @@
    hide each other by their order in the plane (block.c), and the ceilings lie above all of them.
    The two cut faces are nearer than all else and come last. Heights as in the sections. */
 #include "recipe/block.h"
+#include "base/svg.h"
 #include "recipe/words.h"
 #include <math.h>
 #include <stdlib.h>
@@ -21,27 +22,22 @@ typedef struct view {
     double origin;         /* y of the point (0, 0, 0) */
 } view;
 
-static void put(const view *v, const char *letter, double x, double y, double z) {
-    fw_text_add(v->out, letter);
-    fw_text_fixed(v->out, v->xx * x + v->xy * y, 1);
-    fw_text_add(v->out, " ");
-    fw_text_fixed(v->out, v->origin + v->yx * x + v->yy * y - v->kz * z, 1);
+static void put(const view *v, char letter, double x, double y, double z) {
+    fw_svg_point(v->out, letter, v->xx * x + v->xy * y,
+                 v->origin + v->yx * x + v->yy * y - v->kz * z, 1);
 }
 
 /* "#rrggbb" times a factor, at most white */
-static void shaded(fw_text *out, const char *fill, double factor) {
-    fw_text_add(out, "#");
+static const char *shaded(char text[8], const char *fill, double factor) {
+    static const char digit[] = "0123456789abcdef";
+    text[0] = '#', text[7] = '\0';
     for (int i = 0; i < 3; i++) {
         char hex[3] = {fill[1 + 2 * i], fill[2 + 2 * i], '\0'};
         int c = (int)lround(factor * (double)strtol(hex, NULL, 16));
-        fw_text_printf(out, "%02x", (unsigned)(c < 0 ? 0 : c > 255 ? 255 : c));
+        c = c < 0 ? 0 : c > 255 ? 255 : c;
+        text[1 + 2 * i] = digit[c / 16], text[2 + 2 * i] = digit[c % 16];
     }
-}
-
-static void open_path(const view *v, const char *fill, double factor) {
-    fw_text_add(v->out, "<path fill=\"");
-    shaded(v->out, fill, factor);
-    fw_text_add(v->out, "\" d=\"");
+    return text;
 }
 
 /* ---- a layer: films between two heights ---- */
@@ -104,16 +100,16 @@ static void draw_wall(const view *v, const fw_wall *w, const fw_film *f, const l
     double light = n > 0.0 ? (0.55 * nx - 0.83 * ny) / n : 0.0; /* from the right, before it */
     const char *fill = fw_paint_fill(f->material, f->exposed);
     double factor = 0.80 + 0.04 * floor(4.0 * light);
-    fw_text_add(v->out, "<path stroke-width=\"0.4\" stroke=\""); /* no seams between facets */
-    shaded(v->out, fill, factor);
-    fw_text_add(v->out, "\" fill=\"");
-    shaded(v->out, fill, factor);
-    fw_text_add(v->out, "\" d=\"");
-    put(v, "M", w->a.x, w->a.y, l->low_m);
-    put(v, "L", w->b.x, w->b.y, l->low_m);
-    put(v, "L", w->b.x, w->b.y, l->high_m);
-    put(v, "L", w->a.x, w->a.y, l->high_m);
-    fw_text_add(v->out, "Z\"/>\n");
+    char ink[8];
+    shaded(ink, fill, factor);
+    /* a stroke too: no seams between facets */
+    fw_svg_path(v->out, "stroke-width='0.4' stroke='{r}' fill='{r}'", ink, ink);
+    put(v, 'M', w->a.x, w->a.y, l->low_m);
+    put(v, 'L', w->b.x, w->b.y, l->low_m);
+    put(v, 'L', w->b.x, w->b.y, l->high_m);
+    put(v, 'L', w->a.x, w->a.y, l->high_m);
+    fw_text_add(v->out, "Z");
+    fw_svg_path_end(v->out);
 }
 
 static fw_status draw_walls(fw_slicer *slicer, const view *v, const layer *l, double tolerance_m) {
@@ -148,29 +144,29 @@ static bool covered(const fw_films *films, const fw_film *f) {
 }
 
 static void block_top(const view *v, const fw_recipe_cut *cut, double z) {
-    put(v, "M", 0.0, 0.0, z);
-    put(v, "L", cut->length_m, 0.0, z);
-    put(v, "L", cut->length_m, cut->depth_m, z);
-    put(v, "L", 0.0, cut->depth_m, z);
+    put(v, 'M', 0.0, 0.0, z);
+    put(v, 'L', cut->length_m, 0.0, z);
+    put(v, 'L', cut->length_m, cut->depth_m, z);
+    put(v, 'L', 0.0, cut->depth_m, z);
     fw_text_add(v->out, "Z");
 }
 
 /* edges of the ceiling that are edges of the material, and of the block where the field is */
 static void ceiling_edges(const view *v, const fw_rings *rings, const fw_recipe_cut *block,
                           double z) {
-    fw_text_add(v->out, "<path fill=\"none\" stroke=\"#222\" stroke-width=\"0.35\" d=\"");
+    fw_svg_path(v->out, "fill='none' stroke='#222' stroke-width='0.35'");
     if (block) block_top(v, block, z);
     for (int i = 0; i < rings->n; i++) {
         const fw_ring *r = &rings->ring[i];
         bool down = false;
         for (int k = 0; k < r->n; k++) {
             fw_spot a = r->corner[k > 0 ? k - 1 : r->n - 1], b = r->corner[k];
-            if (!b.open && !down) put(v, "M", a.x, a.y, z);
-            if (!b.open) put(v, "L", b.x, b.y, z);
+            if (!b.open && !down) put(v, 'M', a.x, a.y, z);
+            if (!b.open) put(v, 'L', b.x, b.y, z);
             down = !b.open;
         }
     }
-    fw_text_add(v->out, "\"/>\n");
+    fw_svg_path_end(v->out);
 }
 
 static fw_status draw_ceiling(fw_slicer *slicer, const view *v, const fw_film *f,
@@ -178,16 +174,16 @@ static fw_status draw_ceiling(fw_slicer *slicer, const view *v, const fw_film *f
     fw_rings rings = {0};
     bool both = f->in[0] && f->in[1];
     if (!both) FW_TRY(fw_block_rings(slicer, f->head_m, tolerance_m, &rings));
-    fw_text_add(v->out, "<path fill-rule=\"evenodd\" fill=\"");
-    shaded(v->out, fw_paint_fill(f->material, f->exposed), 1.07);
-    fw_text_add(v->out, "\" d=\"");
+    char ink[8];
+    fw_svg_path(v->out, "fill-rule='evenodd' fill='{r}'",
+                shaded(ink, fw_paint_fill(f->material, f->exposed), 1.07));
     if (f->in[FW_STACK_FIELD]) block_top(v, slicer->cut, f->top_m);
     for (int i = 0; i < rings.n; i++) {
         for (int k = 0; k < rings.ring[i].n; k++)
-            put(v, k ? "L" : "M", rings.ring[i].corner[k].x, rings.ring[i].corner[k].y, f->top_m);
+            put(v, k ? 'L' : 'M', rings.ring[i].corner[k].x, rings.ring[i].corner[k].y, f->top_m);
         fw_text_add(v->out, "Z");
     }
-    fw_text_add(v->out, "\"/>\n");
+    fw_svg_path_end(v->out);
     ceiling_edges(v, &rings, f->in[FW_STACK_FIELD] ? slicer->cut : NULL, f->top_m);
     return FW_OK;
 }
@@ -228,11 +224,15 @@ static void draw_face(const view *v, const fw_cross_section *p, double x, double
     for (int i = 0; i < p->n; i++) {
         const fw_patch *q = &p->patch[i];
         const double s[] = {q->low_m[0], q->high_m[0], q->high_m[1], q->low_m[1]};
-        open_path(v, fw_paint_fill(q->film->material, q->film->exposed), factor);
+        char ink[8];
+        fw_svg_path(v->out, "fill='{r}'",
+                    shaded(ink, fw_paint_fill(q->film->material, q->film->exposed), factor));
         for (int k = 0; k < 4; k++)
-            put(v, k ? "L" : "M", x + dx * s[k], y + dy * s[k],
+            put(v, k ? 'L' : 'M', x + dx * s[k], y + dy * s[k],
                 k == 0 || k == 3 ? q->bottom_m : q->top_m);
-        fw_text_add(v->out, "Z\" stroke=\"#222\" stroke-width=\"0.35\"/>\n");
+        fw_text_add(v->out, "Z");
+        fw_svg_more(v->out, "stroke='#222' stroke-width='0.35'");
+        fw_svg_path_end(v->out);
     }
 }
 
@@ -278,9 +278,9 @@ fw_status fw_block_draw(fw_slicer *slicer, const fw_flow *flow, const fw_section
               .yy = -k * cos(TURN) * sin(TILT)};
     v.origin = v.kz * high - v.yy * cut->depth_m + 1.0;
     *height = v.origin + v.yx * cut->length_m - v.kz * low + 1.0;
-    fw_text_printf(out, "<g stroke-linejoin=\"round\">\n");
+    fw_svg_open(out, "g stroke-linejoin='round'\n");
     FW_TRY(draw_layers(slicer, &v, &films));
     FW_TRY(draw_faces(slicer, &v, flow, index));
-    fw_text_add(out, "</g>\n");
+    fw_svg_close(out, "g\n");
     return FW_OK;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is made, at the head of the run sheet: the block behind the cut, and widths to look for. */
+#include "base/svg.h"
 #include "recipe/sections.h"
 #include "recipe/words.h"
 #include <math.h>
@@ -67,13 +68,14 @@ fw_status fw_html_pictures(const fw_flow *flow, const fw_recipe_header *header, 
                 "cut, seen from above.</p>\n");
     parts(&plan, out);
     openings(&plan, out);
-    int whole = (int)ceil(height);
-    fw_text_printf(out,
-                   "</div><div><svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 420 %d\" "
-                   "width=\"420\" height=\"%d\" role=\"img\">\n<title>finished wafer at the "
-                   "cut</title>\n",
-                   whole, whole);
+    fw_text_add(out, "</div><div>");
+    fw_svg_begin(out, &(fw_svg_frame){.width = 420,
+                                      .height = ceil(height),
+                                      .size = FW_SVG_SIZE_BEHIND,
+                                      .trail = "role='img'"});
+    fw_svg_title(out, "finished wafer at the cut");
     fw_text_add(out, body.data);
-    fw_text_add(out, "</svg></div></div>\n");
+    fw_svg_close(out, "svg");
+    fw_text_add(out, "</div></div>\n");
     return FW_OK;
 }

@@ -2,6 +2,7 @@
 /* The schedule as a picture: a panel per working day, in it a row for every machine in use, for
    every operator and for every hold window. The night behind a day is a narrow strip of its panel,
    so that no run is outside the picture. */
+#include "base/svg.h"
 #include "recipe/words.h"
 #include <math.h>
 #include <stdio.h>
@@ -45,44 +46,26 @@ static bool meets(const picture *p, double start, double end) {
     return start < p->next_s - 1e-6 && end > p->open_s + 1e-6;
 }
 
-static void at(fw_text *out, const char *name, double value) {
-    fw_text_printf(out, " %s=\"", name);
-    fw_text_fixed(out, value, 2);
-    fw_text_add(out, "\"");
+#define BOX "rect x='{2}' y='{2}' width='{2}' height='{2}'"
+static const double LEAST = 0.6; /* px: narrower boxes could not be seen */
+
+static void label(fw_text *out, double x, double y, const char *class_name, const char *text) {
+    fw_svg_put(out, "text x='{2}' y='{2}' class='{r}'>{s}\n", x, y, class_name, text);
 }
 
-static void rectangle(fw_text *out, double x, double y, double w, double h, const char *style) {
-    fw_text_add(out, "<rect");
-    at(out, "x", x);
-    at(out, "y", y);
-    at(out, "width", fmax(w, 0.6));
-    at(out, "height", h);
-    fw_text_printf(out, " %s", style);
-}
-
-static void label(fw_text *out, double x, double y, const char *style, const char *text) {
-    fw_text_add(out, "<text");
-    at(out, "x", x);
-    at(out, "y", y);
-    fw_text_printf(out, "%s%s>", *style ? " " : "", style);
-    fw_text_escaped(out, text);
-    fw_text_add(out, "</text>\n");
-}
-
+/* content of the box of a load, and its end */
 static void hover(fw_text *out, const fw_schedule *s, const fw_run *r) {
     const fw_task *t = &s->shop->task[r->task];
-    fw_text_add(out, "><title>");
-    fw_text_escaped(out, t->id);
-    fw_text_add(out, " ");
-    fw_text_escaped(out, t->title);
-    fw_text_add(out, "; wafer ");
+    fw_svg_open(out, "title");
+    fw_markup(out, "{s} {s}; wafer ", t->id, t->title);
     fw_put_wafers(out, r);
     fw_text_add(out, "; ");
     fw_put_moment(out, r->start_s);
     fw_text_add(out, " to ");
     fw_put_moment(out, r->end_s);
     if (t->unknown) fw_text_add(out, "; time unknown");
-    fw_text_add(out, "</title></rect>\n");
+    fw_svg_close(out, "title");
+    fw_svg_close(out, "rect\n");
 }
 
 /* one bar: a band of colour for every wafer of the load */
@@ -90,19 +73,18 @@ static void bar(const picture *p, const fw_run *r, double start, double end, dou
                 double height) {
     const fw_task *t = &p->s->shop->task[r->task];
     double x = px(p, start), w = px(p, end) - x, band = height / r->count;
-    for (int i = 0; i < r->count; i++) {
-        char fill[64];
-        snprintf(fill, sizeof fill, "fill=\"%s\"/>\n", colour[(r->first + i) % COLOURS]);
-        rectangle(p->out, x, y + band * i, w, band, fill);
-    }
-    rectangle(p->out, x, y, w, height,
-              t->unknown
-                  ? "fill=\"none\" stroke=\"#000\" stroke-width=\"1\" stroke-dasharray=\"3 2\" "
-                    "pointer-events=\"all\""
-                  : "fill=\"none\" stroke=\"#333\" stroke-width=\"0.5\" pointer-events=\"all\"");
+    for (int i = 0; i < r->count; i++)
+        fw_svg_put(p->out, BOX " fill='{r}'\n", x, y + band * i, fmax(w, LEAST), band,
+                   colour[(r->first + i) % COLOURS]);
+    fw_svg_open(p->out,
+                t->unknown ? BOX " fill='none' stroke='#000' stroke-width='1' "
+                                 "stroke-dasharray='3 2' pointer-events='all'"
+                           : BOX " fill='none' stroke='#333' stroke-width='0.5' "
+                                 "pointer-events='all'",
+                x, y, fmax(w, LEAST), height);
     hover(p->out, p->s, r);
     if (height < 12.0 || w < 6.2 * (double)strlen(t->id) + 2.0) return;
-    label(p->out, x + w / 2.0, y + height / 2.0 + 3.5, "class=\"b\"", t->id);
+    label(p->out, x + w / 2.0, y + height / 2.0 + 3.5, "b", t->id);
 }
 
 static int lanes_of(const picture *p, const row *r) {
@@ -184,7 +166,7 @@ static void row_label(const picture *p, const row *r) {
         p->out->failed = 1;
         return;
     }
-    label(p->out, LABELS - 6, r->y + r->height / 2.0 + 3.5, "class=\"l\"", text.data);
+    label(p->out, LABELS - 6, r->y + r->height / 2.0 + 3.5, "l", text.data);
 }
 
 /* what a wafer waited, in its colour, and what it might still have waited */
@@ -196,14 +178,12 @@ static void windows(const picture *p, const row *r) {
         waited(p, h, w, &from, &to);
         if (!in_panel(p, from, to)) continue;
         double deadline = fmin(from + h->max_s, p->s->start_s + p->s->makespan_s);
-        char fill[80];
-        snprintf(fill, sizeof fill, "fill=\"%s\"/>\n", colour[w % COLOURS]);
-        if (deadline > to && in_panel(p, to, to)) {
-            rectangle(p->out, px(p, to), y + 1.0, px(p, deadline) - px(p, to), LANE - 3.0,
-                      "fill=\"none\" stroke=\"#999\" stroke-width=\"0.5\"/>\n");
-        }
+        if (deadline > to && in_panel(p, to, to))
+            fw_svg_put(p->out, BOX " fill='none' stroke='#999' stroke-width='0.5'\n", px(p, to),
+                       y + 1.0, fmax(px(p, deadline) - px(p, to), LEAST), LANE - 3.0);
         if (meets(p, from, to) && to > from)
-            rectangle(p->out, px(p, from), y, px(p, to) - px(p, from), LANE - 1.0, fill);
+            fw_svg_put(p->out, BOX " fill='{r}'\n", px(p, from), y,
+                       fmax(px(p, to) - px(p, from), LEAST), LANE - 1.0, colour[w % COLOURS]);
     }
 }
 
@@ -230,28 +210,24 @@ static void draw_row(const picture *p, const row *r) {
 static void grid(const picture *p, double bottom, const char *title) {
     fw_text *out = p->out;
     double top = p->y + 30.0, hour = 3600.0 * ((p->close_s - p->open_s) > 16 * 3600.0 ? 2.0 : 1.0);
-    label(out, 10, p->y + 24.0, "class=\"d\"", title);
+    label(out, 10, p->y + 24.0, "d", title);
     if (p->next_s > p->close_s) {
-        rectangle(out, LABELS + DAY, top, NIGHT, bottom - top, "fill=\"#e9ebef\"/>\n");
-        label(out, LABELS + DAY + NIGHT / 2.0, p->y + 24.0, "class=\"t\"", "night");
+        fw_svg_put(out, BOX " fill='#e9ebef'\n", (double)(LABELS + DAY), top, (double)NIGHT,
+                   bottom - top);
+        label(out, LABELS + DAY + NIGHT / 2.0, p->y + 24.0, "t", "night");
     }
     for (double t = ceil(p->open_s / hour) * hour; t <= p->close_s + 1e-6; t += hour) {
         char text[16];
         long minutes = lround(t / 60.0) % 1440;
         snprintf(text, sizeof text, "%02ld:%02ld", minutes / 60, minutes % 60);
-        fw_text_add(out, "<path class=\"g\" d=\"M");
-        fw_text_fixed(out, px(p, t), 2);
-        fw_text_add(out, " ");
-        fw_text_fixed(out, top, 2);
-        fw_text_add(out, "V");
-        fw_text_fixed(out, bottom, 2);
-        fw_text_add(out, "\"/>\n");
-        label(out, px(p, t), p->y + 24.0, "class=\"t\"", text);
+        fw_svg_put(out, "path class='g' d='M{2} {2}V{2}'\n", px(p, t), top, bottom);
+        label(out, px(p, t), p->y + 24.0, "t", text);
     }
     for (int i = 0; i < p->nrow; i++) {
         const row *r = &p->row[i];
-        rectangle(out, LABELS, r->y, width_px - 20 - LABELS - (p->next_s > p->close_s ? 0 : NIGHT),
-                  r->height, "fill=\"none\" stroke=\"#ddd\" stroke-width=\"0.5\"/>\n");
+        fw_svg_put(out, BOX " fill='none' stroke='#ddd' stroke-width='0.5'\n", (double)LABELS, r->y,
+                   (double)(width_px - 20 - LABELS - (p->next_s > p->close_s ? 0 : NIGHT)),
+                   r->height);
     }
 }
 
@@ -308,11 +284,9 @@ static double paragraph(fw_text *out, double y, const char *text) {
             for (cut = most; cut > 0 && text[cut] != ' ';)
                 cut--;
         if (cut == 0) cut = n;
-        fw_text_add(out, "<text x=\"10\" class=\"p\"");
-        at(out, "y", y);
-        fw_text_add(out, ">");
+        fw_svg_open(out, "text x='10' class='p' y='{2}'", y);
         fw_text_bytes(out, text, cut); /* escaped already */
-        fw_text_add(out, "</text>\n");
+        fw_svg_close(out, "text\n");
         text += cut + (text[cut] == ' ');
         y += 15.0;
     }
@@ -320,17 +294,16 @@ static double paragraph(fw_text *out, double y, const char *text) {
 }
 
 static void legend(fw_text *out, int wafers, double y) {
-    label(out, 10, y + 10.0, "class=\"p\"", "wafer");
+    label(out, 10, y + 10.0, "p", "wafer");
     for (int w = 0; w < wafers; w++) {
-        char fill[64], text[16];
-        snprintf(fill, sizeof fill, "fill=\"%s\" stroke=\"#333\" stroke-width=\"0.5\"/>\n",
-                 colour[w % COLOURS]);
+        char text[16];
         snprintf(text, sizeof text, "%d", w + 1);
-        rectangle(out, 52.0 + 24.0 * w, y, 22.0, 14.0, fill);
-        label(out, 63.0 + 24.0 * w, y + 11.0, "class=\"b\"", text);
+        fw_svg_put(out, BOX " fill='{r}' stroke='#333' stroke-width='0.5'\n", 52.0 + 24.0 * w, y,
+                   22.0, 14.0, colour[w % COLOURS]);
+        label(out, 63.0 + 24.0 * w, y + 11.0, "b", text);
     }
     label(
-        out, 66.0 + 24.0 * wafers, y + 10.0, "class=\"p\"",
+        out, 66.0 + 24.0 * wafers, y + 10.0, "p",
         "a load has a band for every wafer; dashed: the time is not known; below: windows, waited "
         "and allowed");
 }
@@ -349,22 +322,21 @@ fw_status fw_recipe_write_schedule_svg(const fw_flow *flow, const fw_recipe_head
         out->arena, "%sSchedule: %s%s%s", header->rejected ? "REJECTED. " : "", flow->title,
         header->device ? ", " : "", header->device ? header->device : "");
     FW_NEED(title);
-    label(&body, 10, 24, "class=\"h\"", title);
+    label(&body, 10, 24, "h", title);
     p->y = paragraph(&body, 44, words.data);
     legend(&body, s->shop->wafers, p->y);
     p->y += 16.0;
     panels(p);
     FW_TRY(fw_text_end(&body));
-    fw_text_printf(
-        out,
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" "
-        "height=\"%d\">\n<style>text{font:11px Helvetica,Arial,sans-serif}.h{font-size:15px;"
-        "font-weight:bold}.l{text-anchor:end}.t,.b{text-anchor:middle}.b{font-size:10px;"
-        "pointer-events:none}.d{font-weight:bold}.t{fill:#555;font-size:10px}"
-        ".g{stroke:#ddd;stroke-width:0.5;fill:none}</style>\n"
-        "<rect width=\"100%%\" height=\"100%%\" fill=\"#fff\"/>\n",
-        width_px, (int)p->y, width_px, (int)p->y);
+    fw_svg_begin(
+        out, &(fw_svg_frame){.width = width_px, .height = floor(p->y), .size = FW_SVG_SIZE_BEHIND});
+    fw_svg_put(out,
+               "style>text{font:11px Helvetica,Arial,sans-serif}.h{font-size:15px;"
+               "font-weight:bold}.l{text-anchor:end}.t,.b{text-anchor:middle}.b{font-size:10px;"
+               "pointer-events:none}.d{font-weight:bold}.t{fill:#555;font-size:10px}"
+               ".g{stroke:#ddd;stroke-width:0.5;fill:none}\n");
+    fw_svg_paper(out, "#fff");
     fw_text_add(out, body.data);
-    fw_text_add(out, "</svg>\n");
+    fw_svg_end(out);
     return fw_text_end(out);
 }

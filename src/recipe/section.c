@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cross-section of the wafer, not to scale: a narrow and a wide part of the structure between
  * fields. */
+#include "base/svg.h"
 #include "process/stack.h"
 #include "recipe/legend.h"
 #include "recipe/profile.h"
@@ -32,27 +33,13 @@ static fw_status extent(fw_arena *arena, const fw_flow *flow, double *low, doubl
 }
 
 static void rectangle(fw_text *out, double x, double y, double w, double h, const char *fill) {
-    fw_text_add(out, "<rect x=\"");
-    fw_text_fixed(out, x, 2);
-    fw_text_add(out, "\" y=\"");
-    fw_text_fixed(out, y, 2);
-    fw_text_add(out, "\" width=\"");
-    fw_text_fixed(out, w, 2);
-    fw_text_add(out, "\" height=\"");
-    fw_text_fixed(out, h, 2);
-    fw_text_printf(out, "\" fill=\"%s\"/>\n", fill);
+    fw_svg_put(out, "rect x='{2}' y='{2}' width='{2}' height='{2}' fill='{r}'\n", x, y, w, h, fill);
 }
 
 /* outline of a cell: floor and ceiling always, walls only where the neighbour band differs */
 static void stroke(fw_text *out, double x0, double y0, double x1, double y1) {
-    fw_text_add(out, "M");
-    fw_text_fixed(out, x0, 2);
-    fw_text_add(out, " ");
-    fw_text_fixed(out, y0, 2);
-    fw_text_add(out, "L");
-    fw_text_fixed(out, x1, 2);
-    fw_text_add(out, " ");
-    fw_text_fixed(out, y1, 2);
+    fw_svg_point(out, 'M', x0, y0, 2);
+    fw_svg_point(out, 'L', x1, y1, 2);
 }
 
 static bool has_cell(const fw_stack *s, int column, const fw_cell *like) {
@@ -103,10 +90,11 @@ static void collect(const fw_stack *s, fw_legend *legend) {
 }
 
 static void label(fw_text *out, const fw_flow *flow, const fw_legend_entry *l, int y) {
-    fw_text_printf(out,
-                   "<rect x=\"%d\" y=\"%d\" width=\"9\" height=\"9\" fill=\"%s\" stroke=\"#222\" "
-                   "stroke-width=\"0.5\"/>\n<text x=\"%d\" y=\"%d\">",
-                   SECTION + 10, y, fw_paint_fill(l->material, l->exposed), SECTION + 23, y + 8);
+    fw_svg_put(out,
+               "rect x='{i}' y='{i}' width='9' height='9' fill='{r}' stroke='#222' "
+               "stroke-width='0.5'\n",
+               SECTION + 10, y, fw_paint_fill(l->material, l->exposed));
+    fw_svg_open(out, "text x='{i}' y='{i}'", SECTION + 23, y + 8);
     char shown[32];
     fw_text_escaped(out, l->exposed ? l->material : fw_paint_name(flow, l->material, shown));
     fw_text_add(out, l->exposed ? ", exposed" : "");
@@ -117,7 +105,7 @@ static void label(fw_text *out, const fw_flow *flow, const fw_legend_entry *l, i
         fw_text_number(out, l->thickness_m * 1e6, 3);
         fw_text_add(out, " µm");
     }
-    fw_text_add(out, "</text>\n");
+    fw_svg_close(out, "text\n");
 }
 
 fw_status fw_recipe_section_svg(const fw_flow *flow, int index, fw_text *out) {
@@ -135,19 +123,21 @@ fw_status fw_recipe_section_svg(const fw_flow *flow, int index, fw_text *out) {
             bottom = fmin(bottom, c->bottom);
         }
     /* only as high as the layers or their names need */
-    int height = (int)ceil(fmax(fmax(top - bottom, 0.0) * scale + 4.0, 15.0 * legend.n + 2.0));
-    fw_text_printf(out,
-                   "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" "
-                   "height=\"%d\" role=\"img\" font-family=\"Helvetica, Arial, sans-serif\" "
-                   "font-size=\"10\">\n<title>layers after this step, not to scale</title>\n",
-                   WIDTH, height, WIDTH, height);
+    double height = ceil(fmax(fmax(top - bottom, 0.0) * scale + 4.0, 15.0 * legend.n + 2.0));
+    fw_svg_begin(out, &(fw_svg_frame){.width = WIDTH,
+                                      .height = height,
+                                      .size = FW_SVG_SIZE_BEHIND,
+                                      .trail = "role='img'",
+                                      .font = fw_svg_font_step,
+                                      .font_size = 10});
+    fw_svg_title(out, "layers after this step, not to scale");
     high = top + 2.0 / scale; /* drawn from the top down */
     draw_bands(out, &stack, high, scale, false);
-    fw_text_add(out, "<path fill=\"none\" stroke=\"#222\" stroke-width=\"0.6\" d=\"");
+    fw_svg_path(out, "fill='none' stroke='#222' stroke-width='0.6'");
     draw_bands(out, &stack, high, scale, true);
-    fw_text_add(out, "\"/>\n");
+    fw_svg_path_end(out);
     for (int i = 0; i < legend.n; i++)
         label(out, flow, &legend.entry[i], 2 + 15 * i);
-    fw_text_add(out, "</svg>\n");
+    fw_svg_end(out);
     return fw_text_end(out);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The section along a cut, to scale along it; heights by one factor for all steps of a flow. */
+#include "base/svg.h"
 #include "recipe/legend.h"
 #include "recipe/profile.h"
 #include "recipe/words.h"
@@ -47,18 +48,15 @@ typedef struct frame {
     double x_per_m, y_per_m, high_m, width;
 } frame;
 
-static void point(const frame *f, const char *letter, double s_m, double z_m) {
-    fw_text_add(f->out, letter);
-    fw_text_fixed(f->out, s_m * f->x_per_m, 2);
-    fw_text_add(f->out, " ");
-    fw_text_fixed(f->out, (f->high_m - z_m) * f->y_per_m, 2);
+static void point(const frame *f, char letter, double s_m, double z_m) {
+    fw_svg_point(f->out, letter, s_m * f->x_per_m, (f->high_m - z_m) * f->y_per_m, 2);
 }
 
 static void area(const frame *f, const fw_patch *p, bool close) {
-    point(f, "M", p->low_m[0], p->bottom_m);
-    point(f, "L", p->high_m[0], p->top_m);
-    point(f, "L", p->high_m[1], p->top_m);
-    point(f, "L", p->low_m[1], p->bottom_m);
+    point(f, 'M', p->low_m[0], p->bottom_m);
+    point(f, 'L', p->high_m[0], p->top_m);
+    point(f, 'L', p->high_m[1], p->top_m);
+    point(f, 'L', p->low_m[1], p->bottom_m);
     fw_text_add(f->out, close ? "Z" : "");
 }
 
@@ -66,43 +64,36 @@ static void area(const frame *f, const fw_patch *p, bool close) {
 static void fills(const frame *f, const fw_cross_section *p) {
     for (int i = 0; i < p->n;) {
         const fw_film *film = p->patch[i].film;
-        fw_text_printf(f->out, "<path fill=\"%s\" d=\"",
-                       fw_paint_fill(film->material, film->exposed));
+        fw_svg_path(f->out, "fill='{r}'", fw_paint_fill(film->material, film->exposed));
         for (; i < p->n && p->patch[i].film == film; i++)
             area(f, &p->patch[i], true);
-        fw_text_add(f->out, "\"/>\n");
+        fw_svg_path_end(f->out);
     }
 }
 
 /* floors and ceilings, and walls that are not the window's ends */
 static void outlines(const frame *f, const fw_cross_section *p) {
     double end = f->width / f->x_per_m;
-    fw_text_add(f->out, "<path fill=\"none\" stroke=\"#222\" stroke-width=\"0.4\" d=\"");
+    fw_svg_path(f->out, "fill='none' stroke='#222' stroke-width='0.4'");
     for (int i = 0; i < p->n; i++) {
         const fw_patch *q = &p->patch[i];
         bool left = q->low_m[0] > 0.0 || q->high_m[0] > 0.0;
         bool right = q->low_m[1] < end || q->high_m[1] < end;
-        point(f, "M", q->low_m[0], q->bottom_m);
-        point(f, left ? "L" : "M", q->high_m[0], q->top_m);
-        point(f, "L", q->high_m[1], q->top_m);
-        point(f, right ? "L" : "M", q->low_m[1], q->bottom_m);
-        point(f, "L", q->low_m[0], q->bottom_m);
+        point(f, 'M', q->low_m[0], q->bottom_m);
+        point(f, left ? 'L' : 'M', q->high_m[0], q->top_m);
+        point(f, 'L', q->high_m[1], q->top_m);
+        point(f, right ? 'L' : 'M', q->low_m[1], q->bottom_m);
+        point(f, 'L', q->low_m[0], q->bottom_m);
     }
-    fw_text_add(f->out, "\"/>\n");
+    fw_svg_path_end(f->out);
 }
 
 /* a line at 45 degrees through a box, from its floor; heights grow downward */
 static void hatch_line(fw_text *out, double x0, double x1, double top, double low, double from) {
     double a = fmax(from, x0), b = fmin(from + (low - top), x1);
     if (b <= a) return;
-    fw_text_add(out, "M");
-    fw_text_fixed(out, a, 1);
-    fw_text_add(out, " ");
-    fw_text_fixed(out, low - (a - from), 1);
-    fw_text_add(out, "L");
-    fw_text_fixed(out, b, 1);
-    fw_text_add(out, " ");
-    fw_text_fixed(out, low - (b - from), 1);
+    fw_svg_point(out, 'M', a, low - (a - from), 1);
+    fw_svg_point(out, 'L', b, low - (b - from), 1);
 }
 
 static void hatch(const frame *f, const fw_cross_section *p) {
@@ -110,8 +101,7 @@ static void hatch(const frame *f, const fw_cross_section *p) {
     for (int i = 0; i < p->n; i++) {
         const fw_patch *q = &p->patch[i];
         if (!isnan(q->film->thickness_m)) continue;
-        if (!any)
-            fw_text_add(f->out, "<path fill=\"none\" stroke=\"#222\" stroke-width=\"0.4\" d=\"");
+        if (!any) fw_svg_path(f->out, "fill='none' stroke='#222' stroke-width='0.4'");
         any = true;
         double x0 = q->low_m[0] * f->x_per_m, x1 = q->low_m[1] * f->x_per_m;
         double top = (f->high_m - q->top_m) * f->y_per_m;
@@ -119,7 +109,7 @@ static void hatch(const frame *f, const fw_cross_section *p) {
         for (double x = HATCH * floor((x0 - (low - top)) / HATCH); x < x1; x += HATCH)
             hatch_line(f->out, x0, x1, top, low, x);
     }
-    fw_text_add(f->out, any ? "\"/>\n" : "");
+    if (any) fw_svg_path_end(f->out);
 }
 
 /* the zigzag through what is drawn thinner than it is */
@@ -128,15 +118,13 @@ static void breaks(const frame *f, const fw_cross_section *p) {
         const fw_patch *q = &p->patch[i];
         if (!q->film->shortened) continue;
         double y = (f->high_m - 0.5 * (q->top_m + q->bottom_m)) * f->y_per_m, up = 2.5;
-        fw_text_add(f->out, "<path fill=\"none\" stroke=\"#fff\" stroke-width=\"2\" d=\"");
+        fw_svg_path(f->out, "fill='none' stroke='#fff' stroke-width='2'");
         for (double x = q->low_m[0] * f->x_per_m; x < q->low_m[1] * f->x_per_m + 6.0; x += 6.0) {
-            fw_text_add(f->out, x > q->low_m[0] * f->x_per_m ? "L" : "M");
-            fw_text_fixed(f->out, fmin(x, q->low_m[1] * f->x_per_m), 1);
-            fw_text_add(f->out, " ");
-            fw_text_fixed(f->out, y + up, 1);
+            fw_svg_point(f->out, x > q->low_m[0] * f->x_per_m ? 'L' : 'M',
+                         fmin(x, q->low_m[1] * f->x_per_m), y + up, 1);
             up = -up;
         }
-        fw_text_add(f->out, "\"/>\n");
+        fw_svg_path_end(f->out);
     }
 }
 
@@ -177,30 +165,22 @@ static void collect(const fw_films *films, fw_legend *list) {
 }
 
 static void swatch(fw_text *out, const fw_legend_entry *e, double x, double y) {
-    fw_text_add(out, "<rect x=\"");
-    fw_text_fixed(out, x, 1);
-    fw_text_add(out, "\" y=\"");
-    fw_text_fixed(out, y, 1);
-    fw_text_printf(out,
-                   "\" width=\"9\" height=\"9\" fill=\"%s\" stroke=\"#222\" "
-                   "stroke-width=\"0.5\"/>\n",
-                   fw_paint_fill(e->material, e->exposed));
+    fw_svg_put(out,
+               "rect x='{1}' y='{1}' width='9' height='9' fill='{r}' stroke='#222' "
+               "stroke-width='0.5'\n",
+               x, y, fw_paint_fill(e->material, e->exposed));
     if (!e->unknown) return;
-    fw_text_add(out, "<path fill=\"none\" stroke=\"#222\" stroke-width=\"0.4\" d=\"");
+    fw_svg_path(out, "fill='none' stroke='#222' stroke-width='0.4'");
     for (double from = x - 5.0; from < x + 9.0; from += 4.0)
         hatch_line(out, x, x + 9.0, y, y + 9.0, from);
-    fw_text_add(out, "\"/>\n");
+    fw_svg_path_end(out);
 }
 
 static void legend(const fw_flow *flow, const fw_legend_entry *e, double x, double y,
                    fw_text *out) {
     char shown[32];
     swatch(out, e, x, y);
-    fw_text_add(out, "<text x=\"");
-    fw_text_fixed(out, x + 13.0, 1);
-    fw_text_add(out, "\" y=\"");
-    fw_text_fixed(out, y + 8.0, 1);
-    fw_text_add(out, "\">");
+    fw_svg_open(out, "text x='{1}' y='{1}'", x + 13.0, y + 8.0);
     fw_text_escaped(out, e->exposed ? e->material : fw_paint_name(flow, e->material, shown));
     fw_text_add(out, e->exposed ? ", exposed" : "");
     if (e->reach_m > 0.0) {
@@ -214,7 +194,7 @@ static void legend(const fw_flow *flow, const fw_legend_entry *e, double x, doub
         fw_text_number(out, e->thickness_m * 1e6, 3);
         fw_text_add(out, " µm");
     }
-    fw_text_add(out, "</text>\n");
+    fw_svg_close(out, "text\n");
 }
 
 /* the longest of 1, 2, 5, 10 ... um that is at most a quarter of the window */
@@ -229,25 +209,18 @@ static double bar_m(double window_m) {
 
 void fw_section_scale_bar(const fw_section_scale *scale, double width, double y, fw_text *out) {
     double m = bar_m(scale->window_m), to = m * width / scale->window_m;
-    fw_text_add(out, "<path fill=\"none\" stroke=\"#000\" d=\"M1 ");
-    fw_text_fixed(out, y + 3.0, 1);
-    fw_text_add(out, "v6m0 -3h");
-    fw_text_fixed(out, to - 1.0, 1);
-    fw_text_add(out, "m0 -3v6");
-    fw_text_add(out, "\"/>\n<text x=\"");
-    fw_text_fixed(out, to + 5.0, 1);
-    fw_text_add(out, "\" y=\"");
-    fw_text_fixed(out, y + 9.5, 1);
-    fw_text_add(out, "\">");
+    fw_svg_put(out, "path fill='none' stroke='#000' d='M1 {1}v6m0 -3h{1}m0 -3v6'\n", y + 3.0,
+               to - 1.0);
+    fw_svg_open(out, "text x='{1}' y='{1}'", to + 5.0, y + 9.5);
     fw_text_fixed(out, m < 1e-3 ? m * 1e6 : m * 1e3, 0);
     fw_text_add(out, m < 1e-3 ? " µm" : " mm");
     if (scale->exaggeration == 1.0)
-        fw_text_add(out, ", heights to scale</text>\n");
+        fw_text_add(out, ", heights to scale");
     else {
         fw_text_add(out, ", heights × ");
         fw_text_number(out, scale->exaggeration, 3);
-        fw_text_add(out, "</text>\n");
     }
+    fw_svg_close(out, "text\n");
 }
 
 int fw_section_legend(const fw_flow *flow, const fw_films *films, double width, int columns,
@@ -272,15 +245,14 @@ fw_status fw_section_exact(fw_slicer *slicer, const fw_flow *flow, const fw_sect
     fw_section_scale_bar(scale, width, height + 2.0, &body);
     int rows = fw_section_legend(flow, &profile.films, width, 2, height + 17.0, &body);
     FW_TRY(fw_text_end(&body));
-    int whole = (int)ceil(height + 18.0 + 14.0 * rows);
-    fw_text_printf(out,
-                   "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 310 %d\" width=\"310\" "
-                   "height=\"%d\" role=\"img\" font-family=\"Helvetica, Arial, sans-serif\" "
-                   "font-size=\"10\">\n<title>section after this step: ",
-                   whole, whole);
-    fw_text_escaped(out, slicer->cut->name);
-    fw_text_add(out, "</title>\n");
+    fw_svg_begin(out, &(fw_svg_frame){.width = width,
+                                      .height = ceil(height + 18.0 + 14.0 * rows),
+                                      .size = FW_SVG_SIZE_BEHIND,
+                                      .trail = "role='img'",
+                                      .font = fw_svg_font_step,
+                                      .font_size = 10});
+    fw_svg_title(out, "section after this step: {s}", slicer->cut->name);
     fw_text_add(out, body.data);
-    fw_text_add(out, "</svg>\n");
+    fw_svg_end(out);
     return fw_text_end(out);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The section after every step as one picture and as numbers. */
 #include "recipe/sections.h"
+#include "base/svg.h"
 #include "geometry/segment.h"
 #include "recipe/words.h"
 #include <math.h>
@@ -101,14 +102,6 @@ fw_status fw_section_plan_of(fw_slicer *slicer, const fw_flow *flow, fw_section_
 
 /* ---- the picture ---- */
 
-static void text_at(fw_text *out, double x, double y, const char *more) {
-    fw_text_add(out, "<text x=\"");
-    fw_text_fixed(out, x, 1);
-    fw_text_add(out, "\" y=\"");
-    fw_text_fixed(out, y, 1);
-    fw_text_printf(out, "\"%s>", more);
-}
-
 static void um(fw_text *out, double m) {
     if (isnan(m))
         fw_text_add(out, "gone");
@@ -122,27 +115,23 @@ static double parts(const fw_section_plan *plan, const fw_section_scale *scale, 
     double per_m = width / scale->window_m, y = 0.0, last = -20.0;
     for (int i = 0; i < plan->npart; i++) {
         double x = 0.5 * (plan->part[i].from_m + plan->part[i].to_m) * per_m;
-        fw_text_add(out, "<path stroke=\"#000\" stroke-width=\"2\" d=\"M");
-        fw_text_fixed(out, plan->part[i].from_m * per_m, 1);
-        fw_text_add(out, " 16H");
-        fw_text_fixed(out, plan->part[i].to_m * per_m, 1);
-        fw_text_add(out, "\"/>\n");
+        fw_svg_put(out, "path stroke='#000' stroke-width='2' d='M{1} 16H{1}'\n",
+                   plan->part[i].from_m * per_m, plan->part[i].to_m * per_m);
         if (x - last < 14.0) continue; /* two numbers would lie on each other */
         last = x;
-        text_at(out, x, 11.0, " text-anchor=\"middle\"");
-        fw_text_printf(out, "%d</text>\n", i + 1);
+        fw_svg_put(out, "text x='{1}' y='11' text-anchor='middle'>{i}\n", x, i + 1);
     }
     for (int i = 0; i < plan->npart; i++, y += 15.0) {
-        text_at(out, 0.0, 34.0 + y, "");
-        fw_text_printf(out, "%d&#160; ", i + 1);
-        fw_text_escaped(out, plan->part[i].label ? plan->part[i].label : "");
+        fw_svg_open(out, "text x='0' y='{1}'", 34.0 + y);
+        fw_markup(out, "{i}&#160; {s}", i + 1, plan->part[i].label);
         fw_text_add(out, ", ");
         um(out, plan->part[i].to_m - plan->part[i].from_m);
-        fw_text_add(out, " µm along the cut</text>\n");
+        fw_text_add(out, " µm along the cut");
+        fw_svg_close(out, "text\n");
     }
     for (int i = 0; i < plan->nopening; i++, y += 15.0) {
         const fw_section_opening *o = &plan->opening[i];
-        text_at(out, 0.0, 34.0 + y, "");
+        fw_svg_open(out, "text x='0' y='{1}'", 34.0 + y);
         fw_text_add(out, "opening from ");
         um(out, o->from_m);
         fw_text_add(out, " to ");
@@ -161,29 +150,27 @@ static double parts(const fw_section_plan *plan, const fw_section_scale *scale, 
             um(out, o->depth_m);
             fw_text_add(out, " µm deep");
         }
-        fw_text_add(out, "</text>\n");
+        fw_svg_close(out, "text\n");
     }
     return 34.0 + y;
 }
 
 static void step_title(const fw_step *s, double y, fw_text *out) {
-    text_at(out, 0.0, y, " font-size=\"14\" font-weight=\"bold\"");
-    fw_text_escaped(out, s->id);
-    fw_text_add(out, "&#160; ");
-    fw_text_escaped(out, s->title);
-    fw_text_add(out, "</text>\n");
+    fw_svg_put(out, "text x='0' y='{1}' font-size='14' font-weight='bold'>{s}&#160; {s}\n", y,
+               s->id, s->title);
 }
 
 /* steps that leave the films as they are, in one line */
 static double quiet_steps(const fw_flow *flow, int from, int to, double y, fw_text *out) {
     if (from > to) return y;
-    text_at(out, 0.0, y + 12.0, " fill=\"#444\"");
+    fw_svg_open(out, "text x='0' y='{1}' fill='#444'", y + 12.0);
     fw_text_escaped(out, flow->step[from].id);
     if (to > from) {
         fw_text_add(out, " to ");
         fw_text_escaped(out, flow->step[to].id);
     }
-    fw_text_add(out, ": no change of the layers</text>\n");
+    fw_text_add(out, ": no change of the layers");
+    fw_svg_close(out, "text\n");
     return y + 26.0;
 }
 
@@ -199,18 +186,14 @@ static fw_status steps(fw_slicer *slicer, const fw_flow *flow, const fw_section_
         quiet = i + 1;
         FW_TRY(fw_cross_section_of(slicer, flow, i, &p));
         step_title(&flow->step[i], *y + 14.0, out);
-        fw_text_add(out, "<g transform=\"translate(0 ");
-        fw_text_fixed(out, *y + 22.0, 1);
-        fw_text_add(out, ")\">\n");
+        fw_svg_open(out, "g transform='translate(0 {1})'\n", *y + 22.0);
         fw_section_draw(&p, scale, width, out, &height);
         int rows = fw_section_legend(flow, &p.films, width, 3, height + 6.0, out);
-        fw_text_add(out, "</g>\n");
+        fw_svg_close(out, "g\n");
         *y += 22.0 + height + 8.0 + 14.0 * rows;
         for (int k = 0; k < p.films.nnote; k++) {
             if (!fw_films_is_new(&p.films, &before.films, k)) continue;
-            text_at(out, 0.0, *y + 10.0, " fill=\"#444\"");
-            fw_text_escaped(out, p.films.note[k]);
-            fw_text_add(out, ".</text>\n");
+            fw_svg_put(out, "text x='0' y='{1}' fill='#444'>{s}.\n", *y + 10.0, p.films.note[k]);
             *y += 14.0;
         }
         *y += 16.0;
@@ -234,32 +217,33 @@ static void cut_text(const fw_recipe_cut *cut, fw_text *out) {
 
 void fw_section_head(const fw_flow *flow, const fw_recipe_header *header, const char *what,
                      fw_text *out) {
-    text_at(out, 0.0, 20.0, " font-size=\"16\" font-weight=\"bold\"");
-    fw_text_escaped(out, header->device ? header->device : "");
-    fw_text_add(out, ": ");
-    fw_text_escaped(out, flow->title);
-    fw_text_printf(out, ", %s</text>\n", what);
-    text_at(out, 0.0, 38.0, "");
+    fw_svg_put(out, "text x='0' y='20' font-size='16' font-weight='bold'>{s}: {s}, {r}\n",
+               header->device, flow->title, what);
+    fw_svg_open(out, "text x='0' y='38'");
     cut_text(header->cut, out);
-    fw_text_add(out, "</text>\n");
+    fw_svg_close(out, "text\n");
     if (!header->rejected) return;
-    text_at(out, WIDTH - 2.0 * MARGIN, 38.0,
-            " text-anchor=\"end\" font-size=\"14\" font-weight=\"bold\" fill=\"#b00020\"");
-    fw_text_add(out, "REJECTED - DO NOT FABRICATE</text>\n");
+    fw_svg_put(out,
+               "text x='{1}' y='38' text-anchor='end' font-size='14' font-weight='bold' "
+               "fill='#b00020'>REJECTED - DO NOT FABRICATE\n",
+               WIDTH - 2.0 * MARGIN);
 }
 
 /* body in a page of WIDTH, `height` high */
 fw_status fw_section_page(const fw_text *body, double height, const char *title, fw_text *out) {
     FW_TRY(fw_text_end(body));
-    int whole = (int)ceil(height + 2.0 * MARGIN);
-    fw_text_printf(out,
-                   "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 860 %d\" width=\"860\" "
-                   "height=\"%d\" font-family=\"Helvetica, Arial, 'Liberation Sans', sans-serif\" "
-                   "font-size=\"11\">\n<title>%s</title>\n<rect width=\"860\" height=\"%d\" "
-                   "fill=\"#fff\"/>\n<g transform=\"translate(30 30)\">\n",
-                   whole, whole, title, whole);
+    double whole = ceil(height + 2.0 * MARGIN);
+    fw_svg_begin(out, &(fw_svg_frame){.width = WIDTH,
+                                      .height = whole,
+                                      .size = FW_SVG_SIZE_BEHIND,
+                                      .font = fw_svg_font_sheet,
+                                      .font_size = 11});
+    fw_svg_title(out, "{r}", title);
+    fw_svg_put(out, "rect width='{c}' height='{c}' fill='#fff'\n", WIDTH, whole);
+    fw_svg_open(out, "g transform='translate({c} {c})'\n", MARGIN, MARGIN);
     fw_text_add(out, body->data);
-    fw_text_add(out, "</g>\n</svg>\n");
+    fw_svg_close(out, "g\n");
+    fw_svg_end(out);
     return fw_text_end(out);
 }
 
@@ -276,9 +260,9 @@ fw_status fw_recipe_write_sections_svg(const fw_flow *flow, const fw_recipe_head
     fw_section_head(flow, header, "section after every step", &body);
     double y = 44.0;
     fw_section_scale_bar(&scale, width, y, &body);
-    fw_text_add(&body, "<g transform=\"translate(0 62)\">\n");
+    fw_svg_open(&body, "g transform='translate(0 62)'\n");
     y = 62.0 + parts(&plan, &scale, width, &body) + 4.0;
-    fw_text_add(&body, "</g>\n");
+    fw_svg_close(&body, "g\n");
     FW_TRY(steps(&slicer, flow, &scale, width, &y, &body));
     return fw_section_page(&body, y, "section after every step", out);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The block behind the cut after every step that changes the wafer: two in a row. */
 #include "recipe/sections.h"
+#include "base/svg.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -22,19 +23,15 @@ fw_status fw_recipe_write_stack_svg(const fw_flow *flow, const fw_recipe_header 
         double height;
         fw_films films;
         if (!fw_step_changes(s)) continue;
-        fw_text_add(&body, "<g transform=\"translate(");
-        fw_text_fixed(&body, across * column, 1);
-        fw_text_add(&body, " ");
-        fw_text_fixed(&body, y, 1);
-        fw_text_add(&body, ")\">\n<text y=\"12\" font-size=\"13\" font-weight=\"bold\">");
-        fw_text_escaped(&body, s->id);
-        fw_text_add(&body, "&#160; ");
-        fw_text_escaped(&body, s->title);
-        fw_text_add(&body, "</text>\n<g transform=\"translate(0 20)\">\n");
+        fw_svg_open(&body, "g transform='translate({1} {1})'\n", across * column, y);
+        fw_svg_put(&body, "text y='12' font-size='13' font-weight='bold'>{s}&#160; {s}\n", s->id,
+                   s->title);
+        fw_svg_open(&body, "g transform='translate(0 20)'\n");
         FW_TRY(fw_block_draw(&slicer, flow, &scale, i, own, &body, &height));
         FW_TRY(fw_flow_films(out->arena, flow, i, &films));
         int rows = fw_section_legend(flow, &films, own, 2, height + 4.0, &body);
-        fw_text_add(&body, "</g></g>\n");
+        fw_svg_close(&body, "g");
+        fw_svg_close(&body, "g\n");
         row = fmax(row, height + 44.0 + 14.0 * rows);
         if (++column < COLUMNS) continue;
         column = 0;

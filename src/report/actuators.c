@@ -267,28 +267,27 @@ void fw_report_actuators_reach(const fw_device *device, const fw_layout *layout,
 static void svg_path(void *to, const double *xy, int n, const char *fill, const char *ink,
                      double width, bool dashed) {
     fw_text *out = to;
-    fw_text_add(out, "<path d=\"");
+    fw_svg_path(out, "");
     for (int i = 0; i < n; i++)
-        fw_report_markup(out, "{r}{c} {c}", i ? "L" : "M", xy[2 * i], xy[2 * i + 1]);
-    fw_report_markup(out, "{r}\" fill=\"{r}\"", fill ? "Z" : "", fill ? fill : "none");
-    if (width > 0) fw_report_markup(out, " stroke=\"{r}\" stroke-width=\"{c}\"", ink, width);
-    fw_text_add(out, dashed ? " stroke-dasharray=\"6 3\"/>\n" : "/>\n");
+        fw_svg_point(out, i ? 'L' : 'M', xy[2 * i], xy[2 * i + 1], 2);
+    fw_text_add(out, fill ? "Z" : "");
+    fw_svg_more(out, "fill='{r}'", fill ? fill : "none");
+    if (width > 0) fw_svg_more(out, "stroke='{r}' stroke-width='{c}'", ink, width);
+    if (dashed) fw_svg_more(out, "stroke-dasharray='6 3'");
+    fw_svg_path_end(out);
 }
 
 static void svg_circle(void *to, double x, double y, double r, const char *fill, const char *ink,
                        double width) {
-    fw_report_markup(to,
-                     "<circle cx=\"{c}\" cy=\"{c}\" r=\"{c}\" fill=\"{r}\" stroke=\"{r}\" "
-                     "stroke-width=\"{c}\"/>\n",
-                     x, y, r, fill, ink, width);
+    fw_svg_put(to, "circle cx='{c}' cy='{c}' r='{c}' fill='{r}' stroke='{r}' stroke-width='{c}'\n",
+               x, y, r, fill, ink, width);
 }
 
 static void svg_label(void *to, double x, double y, const char *text) {
-    fw_report_markup(to,
-                     "<text x=\"{c}\" y=\"{c}\" font-size=\"{i}\" fill=\"{r}\" stroke=\"#fff\" "
-                     "stroke-width=\"2.5\" paint-order=\"stroke\" text-anchor=\"middle\">{s}"
-                     "</text>\n",
-                     x, y, LABEL, INK, text);
+    fw_svg_put(to,
+               "text x='{c}' y='{c}' font-size='{i}' fill='{r}' stroke='#fff' stroke-width='2.5' "
+               "paint-order='stroke' text-anchor='middle'>{s}\n",
+               x, y, LABEL, INK, text);
 }
 
 void fw_report_actuators_svg(const fw_device *device, const fw_layout *layout,

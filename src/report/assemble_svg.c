@@ -41,39 +41,35 @@ static fw_vec2 place(const double *q, int body, double x, double y) {
 static void outline(const panel *p, const double *q, int body, fw_text *out) {
     const double *drawn = p->in->assembly->before + 3 * body, *now = q + 3 * body;
     double turn = -(now[2] - drawn[2]) * 180.0 / FW_PI; /* y points down */
-    fw_report_markup(out, "<g transform=\"translate({c} {c})", fw_report_x(&p->view, now[0]),
-                     fw_report_y(&p->view, now[1]));
-    fw_text_add(out, " rotate(");
-    fw_text_fixed(out, turn, 6);
-    fw_report_markup(out, ") translate({c} {c})\"><path d=\"", -fw_report_x(&p->view, drawn[0]),
-                     -fw_report_y(&p->view, drawn[1]));
+    fw_svg_open(out, "g transform='translate({c} {c}) rotate({6}) translate({c} {c})'",
+                fw_report_x(&p->view, now[0]), fw_report_y(&p->view, now[1]), turn,
+                -fw_report_x(&p->view, drawn[0]), -fw_report_y(&p->view, drawn[1]));
+    fw_svg_path(out, "");
     fw_report_body_path(p->in->layout, body, &p->view, out);
-    fw_text_add(out, "\"/></g>\n");
+    fw_svg_finish(out, "/>");
+    fw_svg_close(out, "g\n");
 }
 
 /* where the bodies were, behind where they are */
 static void draw_ghosts(const panel *p, const fw_figure_pen *pen, fw_text *out) {
     const fw_report_assembly *in = p->in;
     if (in->assembly->most_moved_m == 0.0 && in->assembly->most_turned_rad == 0.0) return;
-    fw_text_add(out, "<g fill=\"none\" stroke=\"#aab2ba\" stroke-width=\"1\" "
-                     "stroke-dasharray=\"4 3\">\n");
+    fw_svg_open(out, "g fill='none' stroke='#aab2ba' stroke-width='1' stroke-dasharray='4 3'\n");
     for (int b = 0; b < in->mechanism->nbody; b++)
         if (fw_report_outlined(in->layout, b)) outline(p, in->assembly->before, b, out);
     for (int i = 0; i < p->figure->count; i++)
         if (!fw_report_outlined(in->layout, p->figure->part[i].of))
             fw_figure_ghost(&p->figure->part[i], in->assembly->before, pen);
-    fw_text_add(out, "</g>\n");
+    fw_svg_close(out, "g\n");
 }
 
 static void draw_outlines(const panel *p, fw_text *out) {
     for (int b = 0; b < p->in->mechanism->nbody; b++) {
         if (!fw_report_outlined(p->in->layout, b)) continue;
-        fw_report_markup(out,
-                         "<g fill=\"{r}\" fill-opacity=\"0.35\" stroke=\"{r}\" "
-                         "stroke-width=\"1\">",
-                         fw_figure_colour(b), fw_figure_colour(b));
+        fw_svg_open(out, "g fill='{r}' fill-opacity='0.35' stroke='{r}' stroke-width='1'",
+                    fw_figure_colour(b), fw_figure_colour(b));
         outline(p, p->q, b, out);
-        fw_text_add(out, "</g>\n");
+        fw_svg_close(out, "g\n");
     }
 }
 
@@ -87,10 +83,9 @@ static void draw_figure(const panel *p, const fw_figure_pen *pen) {
 }
 
 static void dot(const panel *p, double x, double y, bool open, fw_text *out) {
-    fw_report_markup(out,
-                     "<circle cx=\"{c}\" cy=\"{c}\" r=\"{c}\" fill=\"#fff\" stroke=\"{r}\" "
-                     "stroke-width=\"1.6\"/>\n",
-                     x, y, 0.75 * p->mark, open ? open_colour : "#1f2328");
+    fw_svg_put(out,
+               "circle cx='{c}' cy='{c}' r='{c}' fill='#fff' stroke='{r}' stroke-width='1.6'\n", x,
+               y, 0.75 * p->mark, open ? open_colour : "#1f2328");
 }
 
 static void draw_pins(const panel *p, fw_text *out) {
@@ -109,11 +104,10 @@ static void draw_pins(const panel *p, fw_text *out) {
 
 static void halo_text(fw_text *out, double x, double y, double size, const char *colour,
                       const char *weight, const char *anchor) {
-    fw_report_markup(out,
-                     "<text x=\"{c}\" y=\"{c}\" font-size=\"{c}\" font-weight=\"{r}\" "
-                     "text-anchor=\"{r}\" fill=\"{r}\" stroke=\"#fff\" stroke-width=\"3\" "
-                     "paint-order=\"stroke\">",
-                     x, y, size, weight, anchor, colour);
+    fw_svg_open(out,
+                "text x='{c}' y='{c}' font-size='{c}' font-weight='{r}' text-anchor='{r}' "
+                "fill='{r}' stroke='#fff' stroke-width='3' paint-order='stroke'",
+                x, y, size, weight, anchor, colour);
 }
 
 static fw_vec2 middle_of(const panel *p) {
@@ -143,10 +137,10 @@ static void gap_line(const panel *p, fw_vec2 from, fw_vec2 to, label_list *taken
     double ax = fw_report_x(&p->view, from.x), ay = fw_report_y(&p->view, from.y);
     double bx = fw_report_x(&p->view, to.x), by = fw_report_y(&p->view, to.y);
     if (!(hypot(ax - bx, ay - by) > 0.5)) return;
-    fw_report_markup(out,
-                     "<path d=\"M{c} {c}L{c} {c}\" stroke=\"{r}\" stroke-width=\"1.6\" "
-                     "stroke-dasharray=\"2 2\" fill=\"none\"/>\n",
-                     ax, ay, bx, by, open_colour);
+    fw_svg_put(out,
+               "path d='M{c} {c}L{c} {c}' stroke='{r}' stroke-width='1.6' stroke-dasharray='2 2' "
+               "fill='none'\n",
+               ax, ay, bx, by, open_colour);
     double mx = 0.5 * (ax + bx), my = 0.5 * (ay + by);
     /* beside the line, towards the middle of the mechanism: names of joints stand outside */
     double d = hypot(bx - ax, by - ay), nx = (by - ay) / d, ny = -(bx - ax) / d;
@@ -156,7 +150,8 @@ static void gap_line(const panel *p, fw_vec2 from, fw_vec2 to, label_list *taken
     at = free_spot(taken, at, nx, ny);
     at.x = fmax(34, fmin(PANEL - 34, at.x));
     halo_text(out, at.x, at.y + 4, 11, open_colour, "600", "middle");
-    fw_report_markup(out, "{u}</text>\n", hypot(from.x - to.x, from.y - to.y), "m");
+    fw_markup(out, "{u}", hypot(from.x - to.x, from.y - to.y), "m");
+    fw_svg_close(out, "text\n");
 }
 
 /* pins and welds: point to point; sliding joints: point b to its line; rods: what is missing or too
@@ -231,9 +226,8 @@ static void joint_labels(const panel *p, fw_vec2 middle, fw_text *out) {
         y = fmax(14, fmin(p->view.height - 6, y));
         halo_text(out, x, y, 13, "#1f2328", "700", "middle");
         for (int k = i; k < n; k++)
-            if (near(at, joint_at(p, k, &id)))
-                fw_report_markup(out, "{r}{s}", k > i ? " " : "", id);
-        fw_text_add(out, "</text>\n");
+            if (near(at, joint_at(p, k, &id))) fw_markup(out, "{r}{s}", k > i ? " " : "", id);
+        fw_svg_close(out, "text\n");
     }
 }
 
@@ -271,7 +265,8 @@ static void draw_labels(const panel *p, fw_text *out) {
         double x = fw_report_x(&p->view, at.x), y = fw_report_y(&p->view, at.y) + 4;
         if (on_joint(p, (fw_vec2){x, y - 4})) y += 4 * p->mark;
         halo_text(out, x, y, 11, "#424a53", "400", "middle");
-        fw_report_markup(out, "{s}</text>\n", name_of(m->body[b].id));
+        fw_markup(out, "{s}", name_of(m->body[b].id));
+        fw_svg_close(out, "text\n");
     }
     joint_labels(p, middle_of(p), out);
 }
@@ -320,12 +315,12 @@ static void choose_views(panel *p) {
 
 static void draw_panel(const panel *p, const char *letter, const char *title, double x,
                        fw_text *out) {
-    fw_report_markup(out,
-                     "<text x=\"{c}\" y=\"28\" font-size=\"15\" font-weight=\"700\" "
-                     "fill=\"#1f2328\">{r} <tspan font-weight=\"400\">{r}</tspan></text>\n"
-                     "<svg x=\"{c}\" y=\"{i}\" width=\"{i}\" height=\"{c}\">\n"
-                     "<rect width=\"100%\" height=\"100%\" fill=\"#fff\" stroke=\"#d0d7de\"/>\n",
-                     x, letter, title, x, HEAD, PANEL, p->view.height);
+    fw_svg_open(out, "text x='{c}' y='28' font-size='15' font-weight='700' fill='#1f2328'", x);
+    fw_markup(out, "{r} ", letter);
+    fw_svg_put(out, "tspan font-weight='400'>{r}", title);
+    fw_svg_close(out, "text\n");
+    fw_svg_inset(out, "x='{c}' y='{i}' width='{i}' height='{c}'", x, HEAD, PANEL, p->view.height);
+    fw_svg_put(out, "rect width='100%' height='100%' fill='#fff' stroke='#d0d7de'\n");
     const fw_figure_pen pen = {.view = &p->view,
                                .out = out,
                                .still = p->q,
@@ -338,44 +333,46 @@ static void draw_panel(const panel *p, const char *letter, const char *title, do
     draw_gaps(p, out);
     draw_labels(p, out);
     fw_report_scale_bar_svg(out, &p->view);
-    fw_text_add(out, "</svg>\n");
+    fw_svg_end(out);
 }
 
 static void caption(const fw_report_assembly *in, double size_m, double y, fw_text *out) {
     const fw_assembly *a = in->assembly;
     bool tight = a->gap_after_m <= 1e-11 * (a->gap_before_m + size_m);
-    fw_report_markup(out, "<g font-size=\"12.5\" fill=\"#424a53\"><text x=\"{i}\" y=\"{c}\">",
-                     GUTTER, y);
+    fw_svg_open(out, "g font-size='12.5' fill='#424a53'");
+    fw_svg_open(out, "text x='{i}' y='{c}'", GUTTER, y);
     if (in->closed && a->iterations == 0)
         fw_text_add(out, "the poses of the description close all joints to round-off; nothing was "
                          "moved");
     else {
-        fw_report_markup(out, "largest open joint {u} before, ", a->gap_before_m, "m");
+        fw_markup(out, "largest open joint {u} before, ", a->gap_before_m, "m");
         if (tight)
             fw_text_add(out, "round-off after");
         else
-            fw_report_markup(out, "{u} after", a->gap_after_m, "m");
-        fw_report_markup(out, "; {i} iterations", a->iterations);
-        if (a->restarts) fw_report_markup(out, ", {i} restarts", a->restarts);
-        fw_report_markup(out, "; largest movement {u}", a->most_moved_m, "m");
-        if (a->most_turned_rad > 1e-12) fw_report_markup(out, ", {d}", a->most_turned_rad);
+            fw_markup(out, "{u} after", a->gap_after_m, "m");
+        fw_markup(out, "; {i} iterations", a->iterations);
+        if (a->restarts) fw_markup(out, ", {i} restarts", a->restarts);
+        fw_markup(out, "; largest movement {u}", a->most_moved_m, "m");
+        if (a->most_turned_rad > 1e-12) fw_markup(out, ", {d}", a->most_turned_rad);
     }
-    fw_report_markup(out, "</text>\n<text x=\"{i}\" y=\"{c}\">", GUTTER, y + 18);
+    fw_svg_close(out, "text\n");
+    fw_svg_open(out, "text x='{i}' y='{c}'", GUTTER, y + 18);
     if (!in->closed)
-        fw_report_markup(out,
-                         "<tspan fill=\"{r}\" font-weight=\"700\">cannot be assembled: the "
-                         "right-hand picture is the least mismatch that was found</tspan>",
-                         open_colour);
+        fw_svg_put(out,
+                   "tspan fill='{r}' font-weight='700'>cannot be assembled: the right-hand picture "
+                   "is the least mismatch that was found",
+                   open_colour);
     else {
-        fw_report_markup(out, "{i} degree{r} of freedom", a->rank.dof, a->rank.dof == 1 ? "" : "s");
+        fw_markup(out, "{i} degree{r} of freedom", a->rank.dof, a->rank.dof == 1 ? "" : "s");
         for (int i = 0; i < a->nelbow; i++)
             if (a->elbow[i].guess != a->elbow[i].found)
-                fw_report_markup(out, "; elbow at {s} {r}", a->elbow[i].id,
-                                 a->elbow[i].found == 0   ? "stretched flat"
-                                 : a->elbow[i].guess == 0 ? "was flat"
-                                                          : "on the other side than in the guess");
+                fw_markup(out, "; elbow at {s} {r}", a->elbow[i].id,
+                          a->elbow[i].found == 0   ? "stretched flat"
+                          : a->elbow[i].guess == 0 ? "was flat"
+                                                   : "on the other side than in the guess");
     }
-    fw_text_add(out, "</text></g>\n");
+    fw_svg_close(out, "text");
+    fw_svg_close(out, "g\n");
 }
 
 fw_status fw_report_assemble_svg(fw_arena *arena, const fw_report_assembly *in, fw_text *out) {
@@ -389,16 +386,18 @@ fw_status fw_report_assemble_svg(fw_arena *arena, const fw_report_assembly *in, 
     choose_views(p);
     p[0].mark = p[1].mark = m->nbody > 30 ? 2.5 : m->nbody > 12 ? 4 : 5.5;
     double width = 2 * PANEL + 3 * GUTTER, height = HEAD + p[0].view.height + FOOT;
-    fw_report_markup(out,
-                     "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-                     "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 {c} "
-                     "{c}\" width=\"{c}\" height=\"{c}\" font-family=\"system-ui,'DejaVu Sans',"
-                     "sans-serif\">\n<title>{s}: guess and assembled position</title>\n"
-                     "<rect width=\"100%\" height=\"100%\" fill=\"#f6f8fa\"/>\n",
-                     width, height, width, height, in->device->name);
+    fw_svg_begin(out, &(fw_svg_frame){.width = width,
+                                      .height = height,
+                                      .decimals = 2,
+                                      .size = FW_SVG_SIZE_BEHIND,
+                                      .file = true,
+                                      .lead = "role='img'",
+                                      .font = fw_svg_font_page});
+    fw_svg_title(out, "{s}: guess and assembled position", in->device->name);
+    fw_svg_paper(out, "#f6f8fa");
     draw_panel(&p[0], "(a)", "guess: as the description states it", GUTTER, out);
     draw_panel(&p[1], "(b)", in->closed ? "assembled" : "least mismatch", 2 * GUTTER + PANEL, out);
     caption(in, figure[1].size_m, HEAD + p[0].view.height + 24, out);
-    fw_text_add(out, "</svg>\n");
+    fw_svg_end(out);
     return fw_text_end(out);
 }

@@ -16,10 +16,10 @@ typedef struct used_list {
 } used_list;
 
 static void place_cell(fw_text *out, const fw_quantity *q) {
-    fw_report_markup(out, "<td>{s}{r}{s}", q->source, q->source && q->note ? "; " : "", q->note);
+    fw_markup(out, "<td>{s}{r}{s}", q->source, q->source && q->note ? "; " : "", q->note);
     if (q->place.file && q->place.line > 0)
-        fw_report_markup(out, " <span class=\"soft\">{s}:{i}</span>", fw_place_file(q->place),
-                         q->place.line);
+        fw_markup(out, " <span class=\"soft\">{s}:{i}</span>", fw_place_file(q->place),
+                  q->place.line);
     fw_text_add(out, "</td>");
 }
 
@@ -28,30 +28,26 @@ static void quantity_row(fw_text *out, const used *u) {
     fw_unit unit = {1.0, 0.0, {0, 0, 0, 0, 0, 0, 0}};
     bool known =
         q->unit && q->unit[0] && fw_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL);
-    fw_report_markup(out, "<tr><th scope=\"row\">{s}</th><td>{s}</td><td class=\"n\">", u->name,
-                     u->where);
+    fw_markup(out, "<tr><th scope=\"row\">{s}</th><td>{s}</td><td class=\"n\">", u->name, u->where);
     if (q->unknown)
         fw_text_add(out, "<strong class=\"no\">unknown</strong>");
     else {
-        fw_report_markup(out, "{n}", (q->value - unit.offset) / unit.factor);
-        if (q->uncertainty > 0.0)
-            fw_report_markup(out, " \u00b1 {e}", q->uncertainty / unit.factor);
-        fw_report_markup(out, " {s}", known && strcmp(q->unit, "1") != 0 ? q->unit : "");
+        fw_markup(out, "{n}", (q->value - unit.offset) / unit.factor);
+        if (q->uncertainty > 0.0) fw_markup(out, " \u00b1 {e}", q->uncertainty / unit.factor);
+        fw_markup(out, " {s}", known && strcmp(q->unit, "1") != 0 ? q->unit : "");
     }
-    fw_report_markup(out, "</td><td>{s}</td>",
-                     q->unknown ? "unknown" : fw_value_status_text(q->status));
+    fw_markup(out, "</td><td>{s}</td>", q->unknown ? "unknown" : fw_value_status_text(q->status));
     place_cell(out, q);
     fw_text_add(out, "</tr>\n");
 }
 
 static void quantity_head(fw_text *out, const char *caption) {
-    fw_report_markup(
-        out,
-        "<div class=\"wide\"><table><caption>{s}</caption><thead><tr><th scope=\"col\">"
-        "Quantity</th><th scope=\"col\">Used in</th><th scope=\"col\" class=\"n\">Value"
-        "</th><th scope=\"col\">Status</th><th scope=\"col\">Source</th></tr></thead>"
-        "<tbody>\n",
-        caption);
+    fw_markup(out,
+              "<div class=\"wide\"><table><caption>{s}</caption><thead><tr><th scope=\"col\">"
+              "Quantity</th><th scope=\"col\">Used in</th><th scope=\"col\" class=\"n\">Value"
+              "</th><th scope=\"col\">Status</th><th scope=\"col\">Source</th></tr></thead>"
+              "<tbody>\n",
+              caption);
 }
 
 static void materials(fw_page *page) {
@@ -108,7 +104,7 @@ static fw_status process_quantities(fw_page *page) {
     for (int i = 0; i < list->count; i++)
         quantity_row(out, &list->item[i]);
     fw_text_add(out, "</tbody></table></div>\n");
-    if (list->dropped) fw_report_markup(out, "<p>{i} more are not shown.</p>\n", list->dropped);
+    if (list->dropped) fw_markup(out, "<p>{i} more are not shown.</p>\n", list->dropped);
     return fw_text_end(out);
 }
 
@@ -120,14 +116,13 @@ static void scaling(fw_page *page) {
         if (a->explicit_mass_scale == 1.0 && a->explicit_stiffness_scale == 1.0 &&
             a->explicit_damping_scale == 1.0)
             continue;
-        fw_report_markup(
-            out,
-            "<li>{s}: masses, stiffnesses and dampings that the file states hold for the "
-            "device's own material and thickness; here they are multiplied by {n}, {n} "
-            "and {n} (density \u00d7 thickness, modulus \u00d7 thickness, and the root of "
-            "their product: the same modal damping).</li>\n",
-            a->flow ? a->flow : "this variant", a->explicit_mass_scale, a->explicit_stiffness_scale,
-            a->explicit_damping_scale);
+        fw_markup(out,
+                  "<li>{s}: masses, stiffnesses and dampings that the file states hold for the "
+                  "device's own material and thickness; here they are multiplied by {n}, {n} "
+                  "and {n} (density \u00d7 thickness, modulus \u00d7 thickness, and the root of "
+                  "their product: the same modal damping).</li>\n",
+                  a->flow ? a->flow : "this variant", a->explicit_mass_scale,
+                  a->explicit_stiffness_scale, a->explicit_damping_scale);
     }
 }
 
@@ -138,15 +133,14 @@ static void models(fw_page *page) {
     for (int i = 0; i < v->nvariant; i++)
         for (int k = 0; v->variant[i].mechanism && k < v->variant[i].mechanism->nhinge; k++)
             most = fmax(most, v->variant[i].mechanism->hinge[k].closed_form.limit_uncertainty);
-    fw_report_markup(
-        out,
-        "<li>Hinges: pseudo-rigid bodies, revolute joints at the elastic centres; "
-        "closed-form curved-beam theory with depth and root corrections and the "
-        "concentration at the fillet. Standard uncertainty of the limit angle from the "
-        "model: up to {p}.</li>\n<li>Safety factor {n}, applied to the material's "
-        "limit.</li>\n<li>Bodies between the hinges are rigid; the motion stays in the "
-        "plane of the wafer.</li>\n",
-        most, page->in->device->safety_factor);
+    fw_markup(out,
+              "<li>Hinges: pseudo-rigid bodies, revolute joints at the elastic centres; "
+              "closed-form curved-beam theory with depth and root corrections and the "
+              "concentration at the fillet. Standard uncertainty of the limit angle from the "
+              "model: up to {p}.</li>\n<li>Safety factor {n}, applied to the material's "
+              "limit.</li>\n<li>Bodies between the hinges are rigid; the motion stays in the "
+              "plane of the wafer.</li>\n",
+              most, page->in->device->safety_factor);
 }
 
 fw_status fw_report_section_assumptions(fw_page *page) {
@@ -157,7 +151,7 @@ fw_status fw_report_section_assumptions(fw_page *page) {
         scaling(page);
     }
     for (int i = 0; i < page->in->nassumption; i++)
-        fw_report_markup(out, "<li>{s}</li>\n", page->in->assumption[i]);
+        fw_markup(out, "<li>{s}</li>\n", page->in->assumption[i]);
     fw_text_add(out, "</ul>\n");
     if (page->in->verdict->nvariant) materials(page);
     fw_report_mechanics(page);

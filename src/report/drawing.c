@@ -21,16 +21,16 @@ void fw_report_body_path(const fw_layout *layout, int body, const fw_report_view
 
 static void fixed_parts(const fw_layout *layout, const fw_report_view *view, bool ids,
                         fw_text *out) {
-    fw_report_markup(out,
-                     "<g fill=\"#eceff2\" stroke=\"#b6bec7\" stroke-width=\"0.7\"><path{r} d=\"",
-                     ids ? " id=\"fw-fixed\"" : "");
+    fw_svg_open(out, "g fill='#eceff2' stroke='#b6bec7' stroke-width='0.7'");
+    fw_svg_path(out, ids ? "id='fw-fixed'" : "");
     for (int i = 0; i < layout->npiece; i++) {
         const fw_piece *p = &layout->piece[i];
         if (p->role == FW_ROLE_FRAME ||
             ((p->body == FW_GROUND || p->body == FW_ISLAND) && p->role == FW_ROLE_STRUCTURE))
             fw_report_path(out, view, &p->contour);
     }
-    fw_text_add(out, "\"/></g>\n");
+    fw_svg_finish(out, "/>");
+    fw_svg_close(out, "g\n");
 }
 
 /* in a path of their own: figures that move leave them out */
@@ -40,23 +40,22 @@ static void tethers(const fw_layout *layout, const fw_report_view *view, fw_text
         const fw_piece *p = &layout->piece[i];
         if (p->role != FW_ROLE_TETHER) continue;
         if (!any)
-            fw_text_add(out, "<path class=\"tethers\" fill=\"#eceff2\" stroke=\"#b6bec7\" "
-                             "stroke-width=\"0.7\" d=\"");
+            fw_svg_path(out, "class='tethers' fill='#eceff2' stroke='#b6bec7' stroke-width='0.7'");
         any = true;
         fw_report_path(out, view, &p->contour);
     }
-    if (any) fw_text_add(out, "\"/>\n");
+    if (any) fw_svg_path_end(out);
 }
 
 static void bodies(const fw_device *device, const fw_layout *layout, const fw_report_view *view,
                    bool ids, fw_text *out) {
     for (int b = 0; b < device->nbody; b++) {
-        fw_report_markup(out, "<g fill=\"{r}\" stroke=\"#57606a\" stroke-width=\"0.7\"><path",
-                         device->body[b].platform ? "#bcd0e3" : "#d5dbe1");
-        if (ids) fw_report_markup(out, " id=\"fw-b{i}\"", b);
-        fw_text_add(out, " d=\"");
+        fw_svg_open(out, "g fill='{r}' stroke='#57606a' stroke-width='0.7'",
+                    device->body[b].platform ? "#bcd0e3" : "#d5dbe1");
+        fw_svg_path(out, ids ? "id='fw-b{i}'" : "", b);
         fw_report_body_path(layout, b, view, out);
-        fw_text_add(out, "\"/></g>\n");
+        fw_svg_finish(out, "/>");
+        fw_svg_close(out, "g\n");
     }
 }
 
@@ -75,19 +74,18 @@ static fw_status schematic(const fw_device *device, const fw_verdict *verdict,
         for (int i = 0; i < figure.count; i++)
             if (figure.part[i].role == FW_FIGURE_BODY && figure.part[i].of == b)
                 body = &figure.part[i];
-        fw_report_markup(out,
-                         "<g fill=\"#8c959f\" fill-opacity=\"0.25\" stroke=\"{r}\" "
-                         "stroke-width=\"5\" stroke-linecap=\"round\" "
-                         "stroke-linejoin=\"round\"><path",
-                         device->body[b].platform ? "#7f9fbd" : "#8c959f");
-        if (ids) fw_report_markup(out, " id=\"fw-b{i}\"", b);
-        fw_text_add(out, " d=\"");
+        fw_svg_open(out,
+                    "g fill='#8c959f' fill-opacity='0.25' stroke='{r}' stroke-width='5' "
+                    "stroke-linecap='round' stroke-linejoin='round'",
+                    device->body[b].platform ? "#7f9fbd" : "#8c959f");
+        fw_svg_path(out, ids ? "id='fw-b{i}'" : "", b);
         if (body)
             fw_figure_path(body, &pen, q);
         else
-            fw_report_markup(out, "M{c} {c}h14v8h-14Z", fw_report_x(view, q[3 * b]) - 7.0,
-                             fw_report_y(view, q[3 * b + 1]) - 4.0);
-        fw_text_add(out, "\"/></g>\n");
+            fw_markup(out, "M{c} {c}h14v8h-14Z", fw_report_x(view, q[3 * b]) - 7.0,
+                      fw_report_y(view, q[3 * b + 1]) - 4.0);
+        fw_svg_finish(out, "/>");
+        fw_svg_close(out, "g\n");
     }
     for (int i = 0; i < figure.count; i++) {
         fw_figure_role role = figure.part[i].role;
@@ -105,19 +103,17 @@ static void hinges(const fw_device *device, const fw_layout *layout, const fw_ve
             if (p->role != FW_ROLE_FLEXURE) continue;
             const char *colour =
                 fw_report_utilisation_colour(fw_report_joint_utilisation(verdict, p->joint));
-            fw_report_markup(out, "<path fill=\"{r}\" stroke=\"{r}\" stroke-width=\"1.2\" d=\"",
-                             colour, colour);
+            fw_svg_path(out, "fill='{r}' stroke='{r}' stroke-width='1.2'", colour, colour);
             fw_report_path(out, view, &p->contour);
-            fw_text_add(out, "\"/>\n");
+            fw_svg_path_end(out);
         }
     for (int j = 0; j < device->njoint; j++) {
         bool flexure = fw_report_drawn(layout) && layout->hinge && layout->hinge[j].drawn;
         fw_vec2 p = fw_report_hinge_point(device, layout, j);
-        fw_report_markup(out,
-                         "<circle cx=\"{c}\" cy=\"{c}\" r=\"{c}\" fill=\"{r}\" "
-                         "stroke=\"#fff\" stroke-width=\"1\"/>\n",
-                         fw_report_x(view, p.x), fw_report_y(view, p.y), flexure ? 2.2 : 5.0,
-                         fw_report_utilisation_colour(fw_report_joint_utilisation(verdict, j)));
+        fw_svg_put(out,
+                   "circle cx='{c}' cy='{c}' r='{c}' fill='{r}' stroke='#fff' stroke-width='1'\n",
+                   fw_report_x(view, p.x), fw_report_y(view, p.y), flexure ? 2.2 : 5.0,
+                   fw_report_utilisation_colour(fw_report_joint_utilisation(verdict, j)));
     }
 }
 
@@ -149,17 +145,16 @@ static void hinge_labels(const fw_device *device, const fw_layout *layout,
         double bar = fw_report_scale_bar(view) * view->scale + 32.0; /* the scale bar's corner */
         if (tx + room > view->width - bar) ty = fmin(ty, view->height - 42.0);
         double u = fw_report_joint_utilisation(verdict, j);
-        fw_report_markup(out,
-                         "<text x=\"{c}\" y=\"{c}\" font-size=\"13\" text-anchor=\"{r}\" "
-                         "fill=\"#1f2328\" stroke=\"#fff\" stroke-width=\"3\" "
-                         "paint-order=\"stroke\"><tspan font-weight=\"700\">{s}</tspan>",
-                         tx, ty,
-                         side > 0.0   ? "start"
-                         : side < 0.0 ? "end"
-                                      : "middle",
-                         device->joint[j].id);
-        if (isfinite(u)) fw_report_markup(out, " {p}", u);
-        fw_text_add(out, "</text>\n");
+        fw_svg_open(out,
+                    "text x='{c}' y='{c}' font-size='13' text-anchor='{r}' fill='#1f2328' "
+                    "stroke='#fff' stroke-width='3' paint-order='stroke'",
+                    tx, ty,
+                    side > 0.0   ? "start"
+                    : side < 0.0 ? "end"
+                                 : "middle");
+        fw_svg_put(out, "tspan font-weight='700'>{s}", device->joint[j].id);
+        if (isfinite(u)) fw_markup(out, " {p}", u);
+        fw_svg_close(out, "text\n");
     }
 }
 
@@ -169,11 +164,11 @@ static void body_labels(const fw_device *device, const fw_layout *layout,
     for (int b = 0; b < device->nbody; b++) {
         if (!(layout->body[b].area_m2 > 0.0)) continue;
         fw_vec2 c = layout->body[b].centroid;
-        fw_report_markup(out,
-                         "<text x=\"{c}\" y=\"{c}\" font-size=\"10.5\" text-anchor=\"middle\" "
-                         "fill=\"#424a53\" stroke=\"#fff\" stroke-opacity=\"0.8\" "
-                         "stroke-width=\"2.5\" paint-order=\"stroke\">{s}</text>\n",
-                         fw_report_x(view, c.x), fw_report_y(view, c.y) + 3.5, device->body[b].id);
+        fw_svg_put(
+            out,
+            "text x='{c}' y='{c}' font-size='10.5' text-anchor='middle' fill='#424a53' "
+            "stroke='#fff' stroke-opacity='0.8' stroke-width='2.5' paint-order='stroke'>{s}\n",
+            fw_report_x(view, c.x), fw_report_y(view, c.y) + 3.5, device->body[b].id);
     }
 }
 
@@ -191,19 +186,18 @@ fw_status fw_report_drawing(const fw_device *device, const fw_layout *layout,
     body_labels(device, layout, view, out);
     hinge_labels(device, layout, verdict, view, out);
     fw_report_scale_bar_svg(out, view);
-    fw_report_markup(out,
-                     "<g font-size=\"11\" fill=\"#424a53\"><rect y=\"{c}\" width=\"{c}\" "
-                     "height=\"60\" fill=\"#fff\"/>\n",
-                     view->height, view->width);
+    fw_svg_open(out, "g font-size='11' fill='#424a53'");
+    fw_svg_put(out, "rect y='{c}' width='{c}' height='60' fill='#fff'\n", view->height,
+               view->width);
     static const double place[FW_REPORT_CLASSES] = {10.0, 118.0, 220.0, 330.0, 456.0};
     double size = view->width / WIDTH;
-    for (int i = 0; i < FW_REPORT_CLASSES; i++)
-        fw_report_markup(out,
-                         "<rect x=\"{c}\" y=\"{c}\" width=\"12\" height=\"12\" rx=\"2\" "
-                         "fill=\"{r}\"/><text x=\"{c}\" y=\"{c}\">{r}</text>\n",
-                         place[i] * size, view->height + 10.0, fw_report_classes[i].colour,
-                         place[i] * size + 18.0, view->height + 20.0, fw_report_classes[i].label);
-    fw_text_add(out, "</g>\n");
+    for (int i = 0; i < FW_REPORT_CLASSES; i++) {
+        fw_svg_put(out, "rect x='{c}' y='{c}' width='12' height='12' rx='2' fill='{r}'",
+                   place[i] * size, view->height + 10.0, fw_report_classes[i].colour);
+        fw_svg_put(out, "text x='{c}' y='{c}'>{r}\n", place[i] * size + 18.0, view->height + 20.0,
+                   fw_report_classes[i].label);
+    }
+    fw_svg_close(out, "g\n");
     return FW_OK;
 }
 
@@ -215,21 +209,22 @@ fw_status fw_report_device_svg(fw_arena *arena, const fw_device *device, const f
         FW_TRY(fw_figure_rest_reach(arena, verdict, &box));
         if (box.x1 >= box.x0) view = fw_figure_view(&box, WIDTH);
     }
-    fw_report_markup(
-        out,
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 {c} {c}\" "
-        "width=\"{c}\" height=\"{c}\" font-family=\"system-ui,'DejaVu Sans',"
-        "sans-serif\">\n<title>{r}{s}: hinges coloured by utilisation</title>\n"
-        "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
-        view.width, view.height + LEGEND_HEIGHT, view.width, view.height + LEGEND_HEIGHT,
-        fw_report_rejected(verdict), device->name);
+    fw_svg_begin(out, &(fw_svg_frame){.width = view.width,
+                                      .height = view.height + LEGEND_HEIGHT,
+                                      .decimals = 2,
+                                      .size = FW_SVG_SIZE_BEHIND,
+                                      .file = true,
+                                      .lead = "role='img'",
+                                      .font = fw_svg_font_page});
+    fw_svg_title(out, "{r}{s}: hinges coloured by utilisation", fw_report_rejected(verdict),
+                 device->name);
+    fw_svg_paper(out, "#fff");
     FW_TRY(fw_report_drawing(device, layout, verdict, &view, false, out));
     if (*fw_report_rejected(verdict))
-        fw_report_markup(out,
-                         "<text x=\"{c}\" y=\"22\" font-size=\"18\" font-weight=\"700\" "
-                         "text-anchor=\"end\" fill=\"{r}\">REJECTED</text>\n",
-                         view.width - 10.0, fw_report_decision_colour(FW_REJECT));
-    fw_text_add(out, "</svg>\n");
+        fw_svg_put(out,
+                   "text x='{c}' y='22' font-size='18' font-weight='700' text-anchor='end' "
+                   "fill='{r}'>REJECTED\n",
+                   view.width - 10.0, fw_report_decision_colour(FW_REJECT));
+    fw_svg_end(out);
     return fw_text_end(out);
 }

@@ -32,10 +32,10 @@ static fw_vec2 place(const picture *p, int body, double x, double y) {
 
 static void label(const picture *p, double x, double y, double value, const char *unit) {
     x = fmax(6.0, fmin(p->view->width - 70.0, x));
-    fw_report_markup(p->out,
-                     "<text x=\"{c}\" y=\"{c}\" font-size=\"12\" fill=\"#B03A00\" stroke=\"#fff\" "
-                     "stroke-width=\"3\" paint-order=\"stroke\">{u}</text>\n",
-                     x, fmax(12.0, y), value, unit);
+    fw_svg_put(p->out,
+               "text x='{c}' y='{c}' font-size='12' fill='#B03A00' stroke='#fff' stroke-width='3' "
+               "paint-order='stroke'>{u}\n",
+               x, fmax(12.0, y), value, unit);
 }
 
 /* the arrow ends at the point of the force; false: there is none */
@@ -77,11 +77,10 @@ static void arrow(const picture *p, const fw_force *f, double largest) {
     double ex = (tip.x - tail.x) / far, ey = (tip.y - tail.y) / far, x = tail.x, y = tail.y;
     double bx = tip.x - 11.0 * ex, by = tip.y - 11.0 * ey;
     double size = fabs(at_end(p, f->law)) * hypot(f->fx_N, f->fy_N);
-    fw_report_markup(p->out,
-                     "<path d=\"M{c} {c}L{c} {c}\" stroke=\"#D55E00\" stroke-width=\"2.5\"/><path "
-                     "d=\"M{c} {c}L{c} {c}L{c} {c}Z\" fill=\"#D55E00\"/>\n",
-                     x, y, bx, by, tip.x, tip.y, bx - 5.0 * ey, by + 5.0 * ex, bx + 5.0 * ey,
-                     by - 5.0 * ex);
+    fw_svg_put(p->out, "path d='M{c} {c}L{c} {c}' stroke='#D55E00' stroke-width='2.5'", x, y, bx,
+               by);
+    fw_svg_put(p->out, "path d='M{c} {c}L{c} {c}L{c} {c}Z' fill='#D55E00'\n", tip.x, tip.y,
+               bx - 5.0 * ey, by + 5.0 * ex, bx + 5.0 * ey, by - 5.0 * ex);
     label(p, x + 6.0, y - 6.0, size, "N");
 }
 
@@ -91,12 +90,11 @@ static void torque(const picture *p, const fw_torque *t) {
     fw_vec2 c = place(p, t->body, 0.0, 0.0);
     /* counter-clockwise from below to the left, else to the right: the tip points down there */
     double sign = value > 0.0 ? 1.0 : -1.0;
-    fw_report_markup(p->out,
-                     "<path d=\"M{c} {c}A{c} {c} 0 1 {i} {c} {c}\" fill=\"none\" "
-                     "stroke=\"#D55E00\" stroke-width=\"2.5\"/><path d=\"M{c} {c}l-5-10h10Z\" "
-                     "fill=\"#D55E00\"/>\n",
-                     c.x, c.y + r, r, r, sign > 0.0 ? 0 : 1, c.x - sign * r, c.y, c.x - sign * r,
-                     c.y + 9.0);
+    fw_svg_put(
+        p->out,
+        "path d='M{c} {c}A{c} {c} 0 1 {i} {c} {c}' fill='none' stroke='#D55E00' stroke-width='2.5'",
+        c.x, c.y + r, r, r, sign > 0.0 ? 0 : 1, c.x - sign * r, c.y);
+    fw_svg_put(p->out, "path d='M{c} {c}l-5-10h10Z' fill='#D55E00'\n", c.x - sign * r, c.y + 9.0);
     label(p, c.x + r + 4.0, c.y - 8.0, value, "N\u00b7m");
 }
 
@@ -147,29 +145,28 @@ fw_status fw_report_statics_svg(fw_arena *arena, const fw_device *device, const 
                                  .still_s = 1.0,
                                  .ghost = true};
     double height = HEAD + view.height + 26.0;
-    fw_report_markup(
-        out,
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 {c} {c}\" "
-        "width=\"{c}\" height=\"{c}\" font-family=\"system-ui,'DejaVu Sans',"
-        "sans-serif\">\n<title>{s}, scene {s}: equilibrium</title>\n"
-        "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
-        "<text x=\"14\" y=\"25\" font-size=\"14\" fill=\"#1f2328\">{s}, scene {s}: {r}</text>\n"
-        "<svg y=\"{i}\" width=\"{c}\" height=\"{c}\">\n",
-        view.width, height, view.width, height, device->name, scene->name, device->name,
-        scene->name,
-        statics->negative > 0  ? "unstable equilibrium"
-        : statics->neutral > 0 ? "indifferent equilibrium"
-                               : "stable equilibrium",
-        HEAD, view.width, view.height);
+    fw_svg_begin(out, &(fw_svg_frame){.width = view.width,
+                                      .height = height,
+                                      .decimals = 2,
+                                      .size = FW_SVG_SIZE_BEHIND,
+                                      .file = true,
+                                      .lead = "role='img'",
+                                      .font = fw_svg_font_page});
+    fw_svg_title(out, "{s}, scene {s}: equilibrium", device->name, scene->name);
+    fw_svg_paper(out, "#fff");
+    fw_svg_put(out, "text x='14' y='25' font-size='14' fill='#1f2328'>{s}, scene {s}: {r}\n",
+               device->name, scene->name,
+               statics->negative > 0  ? "unstable equilibrium"
+               : statics->neutral > 0 ? "indifferent equilibrium"
+                                      : "stable equilibrium");
+    fw_svg_inset(out, "y='{i}' width='{c}' height='{c}'", HEAD, view.width, view.height);
     FW_TRY(fw_report_film_draw(arena, &film));
     if (!moves) loads(&p);
     fw_report_scale_bar_svg(out, &view);
-    fw_report_markup(out,
-                     "</svg>\n<text x=\"14\" y=\"{c}\" font-size=\"11\" fill=\"#57606a\">{r}"
-                     "</text>\n</svg>\n",
-                     height - 10.0,
-                     moves ? "From rest (dashed) along the load path to the full load."
-                           : "Dashed: at rest. Arrows: the loads at the end of the scene.");
+    fw_svg_end(out);
+    fw_svg_put(out, "text x='14' y='{c}' font-size='11' fill='#57606a'>{r}\n", height - 10.0,
+               moves ? "From rest (dashed) along the load path to the full load."
+                     : "Dashed: at rest. Arrows: the loads at the end of the scene.");
+    fw_svg_end(out);
     return fw_text_end(out);
 }

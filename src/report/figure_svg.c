@@ -45,12 +45,12 @@ static void zigzag(const pen_t *pen, fw_vec2 a, fw_vec2 b, int waves) {
     double dx = b.x - a.x, dy = b.y - a.y, d = hypot(dx, dy), high = 0.95 * pen->mark;
     double ex = d > 1e-9 ? dx / d : 1.0, ey = d > 1e-9 ? dy / d : 0.0;
     double lead = fmin(0.15 * d, 2.5 * pen->mark), pitch = (d - 2.0 * lead) / waves;
-    fw_report_markup(pen->out, "M{c} {c}L{c} {c}", a.x, a.y, a.x + lead * ex, a.y + lead * ey);
+    fw_markup(pen->out, "M{c} {c}L{c} {c}", a.x, a.y, a.x + lead * ex, a.y + lead * ey);
     for (int i = 0; i < waves; i++) {
         double s = lead + (i + 0.5) * pitch, h = i % 2 ? -high : high;
-        fw_report_markup(pen->out, "L{c} {c}", a.x + s * ex - h * ey, a.y + s * ey + h * ex);
+        fw_markup(pen->out, "L{c} {c}", a.x + s * ex - h * ey, a.y + s * ey + h * ex);
     }
-    fw_report_markup(pen->out, "L{c} {c}L{c} {c}", b.x - lead * ex, b.y - lead * ey, b.x, b.y);
+    fw_markup(pen->out, "L{c} {c}L{c} {c}", b.x - lead * ex, b.y - lead * ey, b.x, b.y);
 }
 
 void fw_figure_path(const fw_figure_part *part, const fw_figure_pen *pen, const double *q) {
@@ -59,7 +59,7 @@ void fw_figure_path(const fw_figure_part *part, const fw_figure_pen *pen, const 
             fw_vec2 p =
                 seen(pen, q,
                      (fw_figure_point){part->end[0].body, part->outline[i].x, part->outline[i].y});
-            fw_report_markup(pen->out, "{r}{c} {c}", i ? "L" : "M", p.x, p.y);
+            fw_markup(pen->out, "{r}{c} {c}", i ? "L" : "M", p.x, p.y);
         }
         if (part->noutline > 2) fw_text_add(pen->out, "Z");
         return;
@@ -68,7 +68,7 @@ void fw_figure_path(const fw_figure_part *part, const fw_figure_pen *pen, const 
     if (part->role == FW_FIGURE_SPRING)
         zigzag(pen, a, b, waves_of(part, pen));
     else
-        fw_report_markup(pen->out, "M{c} {c}L{c} {c}", a.x, a.y, b.x, b.y);
+        fw_markup(pen->out, "M{c} {c}L{c} {c}", a.x, a.y, b.x, b.y);
 }
 
 static bool at_rest(const fw_figure_part *part) {
@@ -76,91 +76,84 @@ static bool at_rest(const fw_figure_part *part) {
            part->turns_with == FW_GROUND;
 }
 
-static void timing(const pen_t *pen) {
-    fw_report_markup(pen->out, " dur=\"{i}s\" repeatCount=\"indefinite\" values=\"", pen->seconds);
-}
+#define ROUND " stroke-linecap='round' stroke-linejoin='round'"
 
-static void look(const fw_figure_part *part, const pen_t *pen) {
+/* opens the path of a line or outline in the look of its part */
+static void open_line(const fw_figure_part *part, const pen_t *pen) {
     const char *colour = fw_figure_colour(part->of);
     double mark = pen->mark;
     switch (part->role) {
     case FW_FIGURE_BODY:
-        fw_report_markup(pen->out,
-                         " fill=\"{r}\" fill-opacity=\"0.22\" stroke=\"{r}\" stroke-width=\"{c}\"",
-                         colour, colour, (part->noutline > 2 ? 0.45 : 1.1) * mark);
+        fw_svg_path(pen->out,
+                    "fill='{r}' fill-opacity='0.22' stroke='{r}' stroke-width='{c}'" ROUND, colour,
+                    colour, (part->noutline > 2 ? 0.45 : 1.1) * mark);
         return;
     case FW_FIGURE_RAIL:
-        fw_report_markup(pen->out, " stroke=\"{r}\" stroke-width=\"{c}\"",
-                         part->of == FW_GROUND ? "#57606a" : "#1f2328", 0.35 * mark);
+        fw_svg_path(pen->out, "stroke='{r}' stroke-width='{c}'" ROUND,
+                    part->of == FW_GROUND ? "#57606a" : "#1f2328", 0.35 * mark);
         return;
     case FW_FIGURE_DRIVEN_ROD:
-        fw_report_markup(pen->out, " stroke=\"#D55E00\" stroke-width=\"{c}\"", 0.8 * mark);
+        fw_svg_path(pen->out, "stroke='#D55E00' stroke-width='{c}'" ROUND, 0.8 * mark);
         return;
     case FW_FIGURE_SPRING:
-        fw_report_markup(pen->out, " fill=\"none\" stroke=\"#8250df\" stroke-width=\"{c}\"",
-                         0.28 * mark);
+        fw_svg_path(pen->out, "fill='none' stroke='#8250df' stroke-width='{c}'" ROUND, 0.28 * mark);
         return;
     case FW_FIGURE_CABLE:
-        fw_report_markup(pen->out,
-                         " stroke=\"#424a53\" stroke-width=\"{c}\" stroke-dasharray=\"6 3\"",
-                         0.28 * mark);
+        fw_svg_path(pen->out, "stroke='#424a53' stroke-width='{c}' stroke-dasharray='6 3'" ROUND,
+                    0.28 * mark);
         return;
     default:
-        fw_report_markup(pen->out, " stroke=\"#1f2328\" stroke-width=\"{c}\"", 0.5 * mark);
+        fw_svg_path(pen->out, "stroke='#1f2328' stroke-width='{c}'" ROUND, 0.5 * mark);
     }
 }
 
 /* the ground under a guide: a row of short strokes across it */
 static void hatch(const fw_figure_part *part, const pen_t *pen) {
-    fw_report_markup(pen->out,
-                     "<path stroke=\"#8c959f\" stroke-width=\"{c}\" stroke-dasharray=\"1 5\" d=\"",
-                     1.8 * pen->mark);
+    fw_svg_path(pen->out, "stroke='#8c959f' stroke-width='{c}' stroke-dasharray='1 5'",
+                1.8 * pen->mark);
     fw_figure_path(part, pen, pen->still);
-    fw_text_add(pen->out, "\"/>\n");
+    fw_svg_path_end(pen->out);
 }
 
 static void line(const fw_figure_part *part, const pen_t *pen) {
     if (part->role == FW_FIGURE_RAIL && part->of == FW_GROUND) hatch(part, pen);
-    fw_text_add(pen->out, "<path");
-    look(part, pen);
-    fw_text_add(pen->out, " stroke-linecap=\"round\" stroke-linejoin=\"round\" d=\"");
+    open_line(part, pen);
     fw_figure_path(part, pen, pen->still);
     if (pen->frames == 0 || at_rest(part)) {
-        fw_text_add(pen->out, "\"/>\n");
+        fw_svg_path_end(pen->out);
         return;
     }
-    fw_text_add(pen->out, "\"><animate attributeName=\"d\"");
-    timing(pen);
+    fw_svg_finish(pen->out, ">");
+    fw_svg_animate_path(pen->out, pen->seconds);
     for (int i = 0; i < pen->frames; i++) {
         fw_text_add(pen->out, i ? ";" : "");
         fw_figure_path(part, pen, frame(pen, i));
     }
-    fw_text_add(pen->out, "\"/></path>\n");
+    fw_svg_finish(pen->out, "/>");
+    fw_svg_close(pen->out, "path\n");
 }
 
 /* ---- marks: one drawing in pixels about their place, x along their angle, y down ---- */
 
 /* from the first angle to the second, counter-clockwise as seen */
 static void arc(const pen_t *pen, double r, double from, double to) {
-    fw_report_markup(pen->out, "M{c} {c}A{c} {c} 0 {i} 0 {c} {c}", r * cos(from), -r * sin(from), r,
-                     r, to - from > 0.5 * 360.0 / FW_DEG_PER_RAD ? 1 : 0, r * cos(to),
-                     -r * sin(to));
+    fw_markup(pen->out, "M{c} {c}A{c} {c} 0 {i} 0 {c} {c}", r * cos(from), -r * sin(from), r, r,
+              to - from > 0.5 * 360.0 / FW_DEG_PER_RAD ? 1 : 0, r * cos(to), -r * sin(to));
 }
 
 static void ray(const pen_t *pen, double angle, double from, double to) {
-    fw_report_markup(pen->out, "M{c} {c}L{c} {c}", from * cos(angle), -from * sin(angle),
-                     to * cos(angle), -to * sin(angle));
+    fw_markup(pen->out, "M{c} {c}L{c} {c}", from * cos(angle), -from * sin(angle), to * cos(angle),
+              -to * sin(angle));
 }
 
 static void stop_shape(const fw_figure_part *part, const pen_t *pen) {
     double low = part->from_rad, high = part->to_rad, m = pen->mark, about = 0.35;
-    fw_report_markup(pen->out, "<path fill=\"none\" stroke=\"#B03A00\" stroke-width=\"{c}\" d=\"",
-                     0.3 * m);
+    fw_svg_path(pen->out, "fill='none' stroke='#B03A00' stroke-width='{c}'", 0.3 * m);
     if (isfinite(low)) ray(pen, low, 2.2 * m, 4.4 * m);
     if (isfinite(high)) ray(pen, high, 2.2 * m, 4.4 * m);
     double from = isfinite(low) ? low : high - about, to = isfinite(high) ? high : low + about;
     if (to - from < 6.2) arc(pen, 3.3 * m, from, to);
-    fw_text_add(pen->out, "\"/>");
+    fw_svg_finish(pen->out, "/>");
 }
 
 static void shape(const fw_figure_part *part, const pen_t *pen) {
@@ -168,88 +161,79 @@ static void shape(const fw_figure_part *part, const pen_t *pen) {
     double m = pen->mark, s = 1.9 * m;
     switch (part->role) {
     case FW_FIGURE_FOOT:
-        fw_report_markup(pen->out,
-                         "<path d=\"M0 0l{c} {c}h{c}Zm{c} {c}h{c}\" fill=\"#eceff2\" "
-                         "stroke=\"#57606a\"/>",
-                         -0.6 * s, s, 1.2 * s, -0.95 * s, s, 1.9 * s);
+        fw_svg_put(pen->out,
+                   "path d='M0 0l{c} {c}h{c}Zm{c} {c}h{c}' fill='#eceff2' stroke='#57606a'",
+                   -0.6 * s, s, 1.2 * s, -0.95 * s, s, 1.9 * s);
         return;
     case FW_FIGURE_BLOCK:
     case FW_FIGURE_PLATE: /* the line in a plate shows how it turns */
-        fw_report_markup(pen->out,
-                         "<path d=\"M{c} {c}h{c}v{c}h{c}ZM0 0h{c}\" fill=\"{r}\" "
-                         "stroke=\"{r}\" stroke-width=\"{c}\"/>",
-                         -2.2 * m, -1.4 * m, 4.4 * m, 2.8 * m, -4.4 * m,
-                         part->role == FW_FIGURE_PLATE ? 2.2 * m : 0.0, tint(part->of), colour,
-                         0.3 * m);
+        fw_svg_put(
+            pen->out,
+            "path d='M{c} {c}h{c}v{c}h{c}ZM0 0h{c}' fill='{r}' stroke='{r}' stroke-width='{c}'",
+            -2.2 * m, -1.4 * m, 4.4 * m, 2.8 * m, -4.4 * m,
+            part->role == FW_FIGURE_PLATE ? 2.2 * m : 0.0, tint(part->of), colour, 0.3 * m);
         return;
     case FW_FIGURE_WELD:
-        fw_report_markup(pen->out, "<path d=\"M{c} {c}h{c}v{c}h{c}Z\" fill=\"#1f2328\"/>", -0.8 * m,
-                         -0.8 * m, 1.6 * m, 1.6 * m, -1.6 * m);
+        fw_svg_put(pen->out, "path d='M{c} {c}h{c}v{c}h{c}Z' fill='#1f2328'", -0.8 * m, -0.8 * m,
+                   1.6 * m, 1.6 * m, -1.6 * m);
         return;
     case FW_FIGURE_STOP:
         stop_shape(part, pen);
         return;
     case FW_FIGURE_TURN: /* an arrow round the pin */
-        fw_text_add(pen->out, "<path fill=\"none\" stroke=\"#D55E00\" stroke-width=\"2\" d=\"");
+        fw_svg_path(pen->out, "fill='none' stroke='#D55E00' stroke-width='2'");
         arc(pen, 2.6 * m, -0.6, 3.4);
-        fw_report_markup(pen->out, "\"/><path d=\"M{c} {c}l{c} {c}h{c}Z\" fill=\"#D55E00\"/>",
-                         -2.6 * m, 1.7 * m, -0.8 * m, -1.3 * m, 1.6 * m);
+        fw_svg_finish(pen->out, "/>");
+        fw_svg_put(pen->out, "path d='M{c} {c}l{c} {c}h{c}Z' fill='#D55E00'", -2.6 * m, 1.7 * m,
+                   -0.8 * m, -1.3 * m, 1.6 * m);
         return;
     case FW_FIGURE_PUSH: /* a double arrow beside the slider */
-        fw_report_markup(pen->out,
-                         "<path fill=\"none\" stroke=\"#D55E00\" stroke-width=\"2\" "
-                         "d=\"M{c} {c}h{c}m{c} {c}l{c} {c}l{c} {c}M{c} {c}l{c} {c}l{c} {c}\"/>",
-                         -2.6 * m, -2.4 * m, 5.2 * m, -0.9 * m, -0.7 * m, 0.9 * m, 0.7 * m,
-                         -0.9 * m, 0.7 * m, -1.7 * m, -3.1 * m, -0.9 * m, 0.7 * m, 0.9 * m,
-                         0.7 * m);
+        fw_svg_put(pen->out,
+                   "path fill='none' stroke='#D55E00' stroke-width='2' d='M{c} {c}h{c}m{c} {c}l{c} "
+                   "{c}l{c} {c}M{c} {c}l{c} {c}l{c} {c}'",
+                   -2.6 * m, -2.4 * m, 5.2 * m, -0.9 * m, -0.7 * m, 0.9 * m, 0.7 * m, -0.9 * m,
+                   0.7 * m, -1.7 * m, -3.1 * m, -0.9 * m, 0.7 * m, 0.9 * m, 0.7 * m);
         return;
     case FW_FIGURE_END:
-        fw_report_markup(pen->out, "<circle r=\"{c}\" fill=\"#1f2328\"/>", 0.45 * m);
+        fw_svg_put(pen->out, "circle r='{c}' fill='#1f2328'", 0.45 * m);
         return;
     default:
-        fw_report_markup(pen->out,
-                         "<circle r=\"{c}\" fill=\"#fff\" stroke=\"#1f2328\" "
-                         "stroke-width=\"{c}\"/>",
-                         0.75 * m, 0.28 * m);
+        fw_svg_put(pen->out, "circle r='{c}' fill='#fff' stroke='#1f2328' stroke-width='{c}'",
+                   0.75 * m, 0.28 * m);
     }
 }
 
-static void angle(const fw_figure_part *part, const pen_t *pen, const double *q) {
+static double angle(const fw_figure_part *part, const double *q) {
     double turn =
         part->angle_rad + (part->turns_with == FW_GROUND ? 0.0 : q[3 * part->turns_with + 2]);
-    fw_text_fixed(pen->out, isfinite(turn) ? -FW_DEG_PER_RAD * turn : 0.0, 2);
+    return -FW_DEG_PER_RAD * turn;
 }
 
 static void turning(const fw_figure_part *part, const pen_t *pen) {
-    fw_text_add(pen->out, "<g transform=\"rotate(");
-    angle(part, pen, pen->still);
-    fw_text_add(pen->out, ")\">");
+    fw_svg_open(pen->out, "g transform='rotate({2})'", angle(part, pen->still));
     if (pen->frames == 0 || part->turns_with == FW_GROUND) return;
-    fw_text_add(pen->out, "<animateTransform attributeName=\"transform\" type=\"rotate\"");
-    timing(pen);
-    for (int i = 0; i < pen->frames; i++) {
-        fw_text_add(pen->out, i ? ";" : "");
-        angle(part, pen, frame(pen, i));
-    }
-    fw_text_add(pen->out, "\"/>");
+    fw_svg_animate_group(pen->out, "rotate", pen->seconds);
+    for (int i = 0; i < pen->frames; i++)
+        fw_markup(pen->out, "{r}{2}", i ? ";" : "", angle(part, frame(pen, i)));
+    fw_svg_finish(pen->out, "/>");
 }
 
 static void mark(const fw_figure_part *part, const pen_t *pen) {
     fw_vec2 p = seen(pen, pen->still, part->end[0]);
-    fw_report_markup(pen->out, "<g transform=\"translate({c} {c})\">", p.x, p.y);
+    fw_svg_open(pen->out, "g transform='translate({c} {c})'", p.x, p.y);
     if (pen->frames && part->end[0].body != FW_GROUND) {
-        fw_text_add(pen->out, "<animateTransform attributeName=\"transform\" type=\"translate\"");
-        timing(pen);
+        fw_svg_animate_group(pen->out, "translate", pen->seconds);
         for (int i = 0; i < pen->frames; i++) {
             p = seen(pen, frame(pen, i), part->end[0]);
-            fw_report_markup(pen->out, "{r}{c} {c}", i ? ";" : "", p.x, p.y);
+            fw_markup(pen->out, "{r}{c} {c}", i ? ";" : "", p.x, p.y);
         }
-        fw_text_add(pen->out, "\"/>");
+        fw_svg_finish(pen->out, "/>");
     }
     bool turns = part->turns_with != FW_GROUND || part->angle_rad != 0.0;
     if (turns) turning(part, pen);
     shape(part, pen);
-    fw_report_markup(pen->out, "{r}</g>\n", turns ? "</g>" : "");
+    if (turns) fw_svg_close(pen->out, "g");
+    fw_svg_close(pen->out, "g\n");
 }
 
 static bool is_line(const fw_figure_part *part) {
@@ -265,9 +249,9 @@ void fw_figure_draw(const fw_figure_part *part, const fw_figure_pen *pen) {
 
 void fw_figure_ghost(const fw_figure_part *part, const double *q, const fw_figure_pen *pen) {
     if (part->role != FW_FIGURE_BODY) return;
-    fw_text_add(pen->out, "<path d=\"");
+    fw_svg_path(pen->out, "");
     fw_figure_path(part, pen, q);
-    fw_text_add(pen->out, "\"/>\n");
+    fw_svg_path_end(pen->out);
 }
 
 int fw_figure_numbers(const fw_figure_part *part) {

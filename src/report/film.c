@@ -14,27 +14,27 @@ static double instant(const film *f, int frame) {
     return f->motion->t_s[f->motion->nsample - 1] * frame / (f->frames - 1);
 }
 
-static void timing(const film *f) {
-    fw_report_markup(f->out, "dur=\"{i}s\" repeatCount=\"indefinite\"", f->seconds);
-}
-
-static void rotation(fw_text *out, double rad) {
-    double turn = -FW_DEG_PER_RAD * rad;
-    fw_text_fixed(out, isfinite(turn) ? turn : 0.0, 3);
+static double degrees(double rad) { /* clockwise, as in the picture */
+    return -FW_DEG_PER_RAD * rad;
 }
 
 /* ---- bodies ---- */
 
-/* opens three groups that put what is drawn at the body's drawn place to its pose at t */
+/* the innermost of three groups that put what is drawn at the body's drawn place to its pose */
+static void from_drawn(const film *f, const fw_mass *m) {
+    fw_svg_open(f->out, "g transform='translate({c} {c})'", -fw_report_x(f->view, m->x_m),
+                -fw_report_y(f->view, m->y_m));
+}
+
+/* the pose at t */
 static void body_at(const film *f, int body, double t_s) {
     const fw_mass *m = &f->mechanism->body[body];
     double pose[3];
     fw_report_pose_at(f->motion, body, t_s, pose);
-    fw_report_markup(f->out, "<g transform=\"translate({c} {c})\"><g transform=\"rotate(",
-                     fw_report_x(f->view, pose[0]), fw_report_y(f->view, pose[1]));
-    rotation(f->out, pose[2] - m->phi_rad);
-    fw_report_markup(f->out, ")\"><g transform=\"translate({c} {c})\">",
-                     -fw_report_x(f->view, m->x_m), -fw_report_y(f->view, m->y_m));
+    fw_svg_open(f->out, "g transform='translate({c} {c})'", fw_report_x(f->view, pose[0]),
+                fw_report_y(f->view, pose[1]));
+    fw_svg_open(f->out, "g transform='rotate({3})'", degrees(pose[2] - m->phi_rad));
+    from_drawn(f, m);
 }
 
 /* the same, moving */
@@ -47,39 +47,40 @@ static void body_motion(const film *f, int body) {
     }
     fw_report_pose_at(f->motion, body, f->still_s, pose); /* for viewers that do not animate */
     double still = pose[2] - m->phi_rad;
-    fw_report_markup(f->out,
-                     "<g transform=\"translate({c} {c})\"><animateTransform "
-                     "attributeName=\"transform\" type=\"translate\" ",
-                     fw_report_x(f->view, pose[0]), fw_report_y(f->view, pose[1]));
-    timing(f);
-    fw_text_add(f->out, " values=\"");
+    fw_svg_open(f->out, "g transform='translate({c} {c})'", fw_report_x(f->view, pose[0]),
+                fw_report_y(f->view, pose[1]));
+    fw_svg_animate_group(f->out, "translate", f->seconds);
     for (int i = 0; i < f->frames; i++) {
         fw_report_pose_at(f->motion, body, instant(f, i), pose);
-        fw_report_markup(f->out, "{r}{c} {c}", i ? ";" : "", fw_report_x(f->view, pose[0]),
-                         fw_report_y(f->view, pose[1]));
+        fw_markup(f->out, "{r}{c} {c}", i ? ";" : "", fw_report_x(f->view, pose[0]),
+                  fw_report_y(f->view, pose[1]));
     }
-    fw_text_add(f->out, "\"/><g transform=\"rotate(");
-    rotation(f->out, still);
-    fw_text_add(f->out, ")\"><animateTransform attributeName=\"transform\" type=\"rotate\" ");
-    timing(f);
-    fw_text_add(f->out, " values=\"");
+    fw_svg_finish(f->out, "/>");
+    fw_svg_open(f->out, "g transform='rotate({3})'", degrees(still));
+    fw_svg_animate_group(f->out, "rotate", f->seconds);
     for (int i = 0; i < f->frames; i++) {
         fw_report_pose_at(f->motion, body, instant(f, i), pose);
-        fw_text_add(f->out, i ? ";" : "");
-        rotation(f->out, pose[2] - m->phi_rad);
+        fw_markup(f->out, "{r}{3}", i ? ";" : "", degrees(pose[2] - m->phi_rad));
     }
-    fw_report_markup(f->out, "\"/><g transform=\"translate({c} {c})\">",
-                     -fw_report_x(f->view, m->x_m), -fw_report_y(f->view, m->y_m));
+    fw_svg_finish(f->out, "/>");
+    from_drawn(f, m);
+}
+
+static void close_body(const film *f) {
+    fw_svg_finish(f->out, "/>");
+    fw_svg_close(f->out, "g");
+    fw_svg_close(f->out, "g");
+    fw_svg_close(f->out, "g\n");
 }
 
 static void bodies(const film *f) {
     for (int b = 0; b < f->motion->nbody; b++) {
         if (!fw_report_outlined(f->layout, b)) continue;
         body_motion(f, b);
-        fw_report_markup(f->out, "<path fill=\"{r}\" stroke=\"#57606a\" stroke-width=\"0.7\" d=\"",
-                         f->device->body[b].platform ? "#bcd0e3" : "#d5dbe1");
+        fw_svg_path(f->out, "fill='{r}' stroke='#57606a' stroke-width='0.7'",
+                    f->device->body[b].platform ? "#bcd0e3" : "#d5dbe1");
         fw_report_body_path(f->layout, b, f->view, f->out);
-        fw_text_add(f->out, "\"/></g></g></g>\n");
+        close_body(f);
     }
 }
 
@@ -88,10 +89,9 @@ static void ghost(const film *f) {
     for (int b = 0; f->ghost && b < f->motion->nbody; b++) {
         if (!fw_report_outlined(f->layout, b)) continue;
         body_at(f, b, 0.0);
-        fw_text_add(f->out, "<path fill=\"none\" stroke=\"#8c959f\" stroke-width=\"1\" "
-                            "stroke-dasharray=\"4 3\" d=\"");
+        fw_svg_path(f->out, "fill='none' stroke='#8c959f' stroke-width='1' stroke-dasharray='4 3'");
         fw_report_body_path(f->layout, b, f->view, f->out);
-        fw_text_add(f->out, "\"/></g></g></g>\n");
+        close_body(f);
     }
 }
 
@@ -100,8 +100,8 @@ static void ghost(const film *f) {
 static void outline(const film *f, const fw_report_bend *bend, double t_s) {
     for (int k = 0; k < bend->npoint; k++) {
         fw_vec2 p = fw_report_bent(f->mechanism, f->motion, bend, t_s, bend->point[k]);
-        fw_report_markup(f->out, "{r}{c} {c}", k ? "L" : "M", fw_report_x(f->view, p.x),
-                         fw_report_y(f->view, p.y));
+        fw_markup(f->out, "{r}{c} {c}", k ? "L" : "M", fw_report_x(f->view, p.x),
+                  fw_report_y(f->view, p.y));
     }
     fw_text_add(f->out, "Z");
 }
@@ -118,21 +118,20 @@ static void flexures(const film *f, const fw_report_bends *bends) {
         double u = fabs(f->motion->peak[bend->joint].angle_rad) /
                    fw_report_pin_limit(f->mechanism, bend->joint);
         const char *colour = fw_report_utilisation_colour(u);
-        fw_report_markup(f->out, "<path fill=\"{r}\" stroke=\"{r}\" stroke-width=\"1.2\" d=\"",
-                         colour, colour);
+        fw_svg_path(f->out, "fill='{r}' stroke='{r}' stroke-width='1.2'", colour, colour);
         outline(f, bend, f->still_s);
         if (f->frames == 0) {
-            fw_text_add(f->out, "\"/>\n");
+            fw_svg_path_end(f->out);
             continue;
         }
-        fw_text_add(f->out, "\"><animate attributeName=\"d\" ");
-        timing(f);
-        fw_text_add(f->out, " values=\"");
+        fw_svg_finish(f->out, ">");
+        fw_svg_animate_path(f->out, f->seconds);
         for (int k = 0; k < coarse.frames; k++) {
             fw_text_add(f->out, k ? ";" : "");
             outline(f, bend, instant(&coarse, k));
         }
-        fw_text_add(f->out, "\"/></path>\n");
+        fw_svg_finish(f->out, "/>");
+        fw_svg_close(f->out, "path\n");
     }
 }
 
@@ -163,23 +162,23 @@ static fw_status all_poses(fw_arena *arena, const film *f, fw_figure_pen *pen) {
 
 static void figure_ghost(const film *f, const fw_figure *figure, const fw_figure_pen *pen) {
     if (!f->ghost) return;
-    fw_text_add(f->out, "<g fill=\"none\" stroke=\"#8c959f\" stroke-dasharray=\"4 3\">\n");
+    fw_svg_open(f->out, "g fill='none' stroke='#8c959f' stroke-dasharray='4 3'\n");
     for (int i = 0; i < figure->count; i++)
         if (!shown(f->layout, &figure->part[i]))
             fw_figure_ghost(&figure->part[i], f->motion->q, pen);
-    fw_text_add(f->out, "</g>\n");
+    fw_svg_close(f->out, "g\n");
 }
 
 static void still_parts(const film *f) {
     if (!fw_report_drawn(f->layout)) return;
-    fw_text_add(f->out, "<path fill=\"#eceff2\" stroke=\"#b6bec7\" stroke-width=\"0.7\" d=\"");
+    fw_svg_path(f->out, "fill='#eceff2' stroke='#b6bec7' stroke-width='0.7'");
     for (int i = 0; i < f->layout->npiece; i++) {
         const fw_piece *p = &f->layout->piece[i];
         if (p->role == FW_ROLE_FRAME ||
             ((p->body == FW_GROUND || p->body == FW_ISLAND) && p->role == FW_ROLE_STRUCTURE))
             fw_report_path(f->out, f->view, &p->contour);
     }
-    fw_text_add(f->out, "\"/>\n");
+    fw_svg_path_end(f->out);
 }
 
 /* enough key frames for smooth turns: a straight way between two of them cuts a corner */

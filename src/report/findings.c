@@ -9,16 +9,16 @@ static void row(fw_text *out, const fw_mask *mask, const fw_mask_finding *f) {
     const fw_mask_layer *layer = &mask->table->layer[rule->layer];
     const char *unit = fw_mask_rule_unit(rule);
     bool too_much = f->value > f->needed;
-    fw_report_markup(out,
-                     "<tr><th scope=\"row\">{s}</th><td>{s}</td><td>{i}/{i} {s}</td><td "
-                     "class=\"n\">{n} {r}</td><td class=\"n\">{r} {n} {r}</td><td "
-                     "class=\"n\">{n}, {n}</td><td>{s}{r}{s}</td><td>{s}</td></tr>\n",
-                     fw_mask_rule_name(rule), rule->severity == FW_ERROR ? "error" : "warning",
-                     layer->layer, layer->datatype, layer->name, fw_mask_rule_shown(rule, f->value),
-                     unit, too_much ? "\u2264" : "\u2265", fw_mask_rule_shown(rule, f->needed),
-                     unit, 0.5e6 * (f->at[0].x + f->at[1].x), 0.5e6 * (f->at[0].y + f->at[1].y),
-                     f->label[0] ? f->label[0] : "", f->label[1] ? ", " : "",
-                     f->label[1] ? f->label[1] : "", rule->source);
+    fw_markup(out,
+              "<tr><th scope=\"row\">{s}</th><td>{s}</td><td>{i}/{i} {s}</td><td "
+              "class=\"n\">{n} {r}</td><td class=\"n\">{r} {n} {r}</td><td "
+              "class=\"n\">{n}, {n}</td><td>{s}{r}{s}</td><td>{s}</td></tr>\n",
+              fw_mask_rule_name(rule), rule->severity == FW_ERROR ? "error" : "warning",
+              layer->layer, layer->datatype, layer->name, fw_mask_rule_shown(rule, f->value), unit,
+              too_much ? "\u2264" : "\u2265", fw_mask_rule_shown(rule, f->needed), unit,
+              0.5e6 * (f->at[0].x + f->at[1].x), 0.5e6 * (f->at[0].y + f->at[1].y),
+              f->label[0] ? f->label[0] : "", f->label[1] ? ", " : "",
+              f->label[1] ? f->label[1] : "", rule->source);
 }
 
 /* errors first */
@@ -36,10 +36,10 @@ void fw_report_findings(fw_text *out, const fw_mask *mask) {
             if (error == (pass == 0) && rows++ < MOST_ROWS) row(out, mask, &mask->finding[i]);
         }
     fw_text_add(out, "</tbody></table></div>\n");
-    if (rows > MOST_ROWS) fw_report_markup(out, "<p>and {i} more.</p>\n", rows - MOST_ROWS);
-    fw_report_markup(out,
-                     "<p class=\"soft small\">With chords and boxes in "
-                     "masks/{s}.violations.json, as markers in masks/{s}.violations.gds, and in "
-                     "masks/{s}.violations.lyrdb for KLayout.</p>\n",
-                     mask->flow, mask->flow, mask->flow);
+    if (rows > MOST_ROWS) fw_markup(out, "<p>and {i} more.</p>\n", rows - MOST_ROWS);
+    fw_markup(out,
+              "<p class=\"soft small\">With chords and boxes in "
+              "masks/{s}.violations.json, as markers in masks/{s}.violations.gds, and in "
+              "masks/{s}.violations.lyrdb for KLayout.</p>\n",
+              mask->flow, mask->flow, mask->flow);
 }

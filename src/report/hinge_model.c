@@ -129,13 +129,13 @@ static void row(fw_text *out, const char *scene, const char *flow, const fw_mech
     const fw_level_step *s = x->level;
     const fw_hinge_use *use = &x->ledger.hinge;
     double strain = 0, largest = 0;
-    fw_report_markup(out, "<tr><th scope=\"row\">{s}</th><td>{s}</td><td>{s}</td>", scene, flow,
-                     fw_hinge_model_text(use->used));
+    fw_markup(out, "<tr><th scope=\"row\">{s}</th><td>{s}</td><td>{s}</td>", scene, flow,
+              fw_hinge_model_text(use->used));
     if (!stepped(s)) {
-        fw_report_markup(out,
-                         "<td>\u2013</td><td class=\"n\">\u2013</td><td class=\"n\">\u2013"
-                         "</td><td class=\"n\">\u2013</td><td>{s}{s}{s}</td></tr>\n",
-                         use->why, s && s->why_not ? "; " : "", s ? s->why_not : NULL);
+        fw_markup(out,
+                  "<td>\u2013</td><td class=\"n\">\u2013</td><td class=\"n\">\u2013"
+                  "</td><td class=\"n\">\u2013</td><td>{s}{s}{s}</td></tr>\n",
+                  use->why, s && s->why_not ? "; " : "", s ? s->why_not : NULL);
         return;
     }
     for (int k = 0; k < m->nhinge; k++) {
@@ -143,11 +143,11 @@ static void row(fw_text *out, const char *scene, const char *flow, const fw_mech
         largest = fmax(largest, s->at.strain[k]);
     }
     const double *p = s->at.q + 3 * most_moved(m, s), *q = s->up.q + 3 * most_moved(m, s);
-    fw_report_markup(out,
-                     "<td>{s}</td><td class=\"n\">{p}</td><td class=\"n\">{u}</td><td "
-                     "class=\"n\">{p}</td><td>{s}</td></tr>\n",
-                     fw_hinge_model_text(s->next), s->relative, hypot(q[0] - p[0], q[1] - p[1]),
-                     "m", largest > 0 ? strain / largest : (double)NAN, use->why);
+    fw_markup(out,
+              "<td>{s}</td><td class=\"n\">{p}</td><td class=\"n\">{u}</td><td "
+              "class=\"n\">{p}</td><td>{s}</td></tr>\n",
+              fw_hinge_model_text(s->next), s->relative, hypot(q[0] - p[0], q[1] - p[1]), "m",
+              largest > 0 ? strain / largest : (double)NAN, use->why);
 }
 
 void fw_report_section_levels(fw_page *page) {

@@ -13,99 +13,69 @@ static const char *const blue = "#0072B2", *const green = "#009E73", *const oran
 typedef struct panel {
     const fw_report_hinge *of;
     const fw_flexure *flexure;
-    double y;              /* of its top */
-    double x0, x1, y0, y1; /* degrees and um at the edges of the plot */
+    double y;         /* of its top */
+    fw_svg_axes axes; /* degrees and um */
     fw_text *out;
 } panel;
 
 /* ---- the plot ---- */
 
-static double px(const panel *p, double degrees) {
-    return LEFT + (WIDTH - LEFT - RIGHT) * (degrees - p->x0) / (p->x1 - p->x0);
-}
-
-static double py(const panel *p, double um) {
-    return p->y + HIGH - BOTTOM - (HIGH - TOP - BOTTOM) * (um - p->y0) / (p->y1 - p->y0);
-}
-
 static void range(panel *p) {
-    p->x0 = p->y0 = 0, p->x1 = p->y1 = 0;
+    fw_svg_axes a = {.left = LEFT,
+                     .right = WIDTH - RIGHT,
+                     .top = p->y + TOP,
+                     .bottom = p->y + HIGH - BOTTOM,
+                     .columns = 8,
+                     .rows = 5};
     for (int i = 0; i < p->of->npoint; i++) {
         const fw_drift_point *at = &p->of->point[i];
         double drift = at->drift_m * MICRO, left = at->left_m * MICRO;
-        p->x0 = fmin(p->x0, at->rotation_rad * FW_DEG_PER_RAD);
-        p->x1 = fmax(p->x1, at->rotation_rad * FW_DEG_PER_RAD);
-        p->y0 = fmin(p->y0, drift), p->y1 = fmax(p->y1, drift);
-        if (p->of->gap_m > 0) p->y0 = fmin(p->y0, left), p->y1 = fmax(p->y1, left);
+        a.x0 = fmin(a.x0, at->rotation_rad * FW_DEG_PER_RAD);
+        a.x1 = fmax(a.x1, at->rotation_rad * FW_DEG_PER_RAD);
+        a.y0 = fmin(a.y0, drift), a.y1 = fmax(a.y1, drift);
+        if (p->of->gap_m > 0) a.y0 = fmin(a.y0, left), a.y1 = fmax(a.y1, left);
     }
-    if (!(p->x1 > p->x0)) p->x1 = p->x0 + 1;
-    double high = p->y1 > p->y0 ? p->y1 - p->y0 : 1;
-    p->y0 -= 0.06 * high, p->y1 += 0.08 * high;
-}
-
-static int decimals(double step) {
-    int n = 0;
-    for (; n < 9 && step < 0.999; n++)
-        step *= 10;
-    return n;
-}
-
-static void tick(const panel *p, double x, double y, const char *anchor, double value,
-                 double step) {
-    fw_report_markup(p->out, "<text x=\"{c}\" y=\"{c}\" text-anchor=\"{r}\">", x, y, anchor);
-    if (value < -1e-9 * step) fw_text_add(p->out, "\u2212");
-    fw_text_fixed(p->out, fabs(value) < 1e-9 * step ? 0 : fabs(value), decimals(step));
-    fw_text_add(p->out, "</text>");
+    if (!(a.x1 > a.x0)) a.x1 = a.x0 + 1;
+    double high = a.y1 > a.y0 ? a.y1 - a.y0 : 1;
+    a.y0 -= 0.06 * high, a.y1 += 0.08 * high;
+    p->axes = a;
 }
 
 static void axes(const panel *p) {
-    double bottom = p->y + HIGH - BOTTOM, right = WIDTH - RIGHT, top = p->y + TOP;
-    double sx = fw_report_nice((p->x1 - p->x0) / 8), sy = fw_report_nice((p->y1 - p->y0) / 5);
-    fw_text_add(p->out, "<g font-size=\"11\" fill=\"#57606a\">\n");
-    for (double k = ceil(p->y0 / sy); k * sy <= p->y1; k += 1) {
-        fw_report_markup(p->out, "<path d=\"M{i} {c}H{c}\" stroke=\"{r}\"/>", LEFT, py(p, k * sy),
-                         right, fabs(k) < 0.5 ? "#8c959f" : "#eaeef2");
-        tick(p, LEFT - 7.0, py(p, k * sy) + 4, "end", k * sy, sy);
-    }
-    for (double k = ceil(p->x0 / sx); k * sx <= p->x1; k += 1) {
-        fw_report_markup(p->out, "<path d=\"M{c} {c}V{c}\" stroke=\"{r}\"/>", px(p, k * sx), top,
-                         bottom, fabs(k) < 0.5 ? "#8c959f" : "#eaeef2");
-        tick(p, px(p, k * sx), bottom + 16, "middle", k * sx, sx);
-    }
-    fw_report_markup(p->out,
-                     "<text x=\"{c}\" y=\"{c}\" text-anchor=\"end\">angle (\u00b0)</text>"
-                     "<text x=\"{i}\" y=\"{c}\" text-anchor=\"end\">\u00b5m</text></g>\n",
-                     right, bottom + 32, LEFT - 7, top - 8);
+    fw_svg_open(p->out, "g font-size='11' fill='#57606a'\n");
+    fw_svg_grid(p->out, &p->axes);
+    fw_svg_put(p->out, "text x='{c}' y='{c}' text-anchor='end'>angle (\u00b0)", p->axes.right,
+               p->axes.bottom + 32);
+    fw_svg_put(p->out, "text x='{i}' y='{c}' text-anchor='end'>\u00b5m", LEFT - 7, p->axes.top - 8);
+    fw_svg_close(p->out, "g\n");
 }
 
 static void curve(const panel *p, const char *colour, bool gap) {
-    fw_report_markup(p->out,
-                     "<path fill=\"none\" stroke=\"{r}\" stroke-width=\"2\" "
-                     "stroke-linejoin=\"round\" d=\"",
-                     colour);
+    fw_svg_path(p->out, "fill='none' stroke='{r}' stroke-width='2' stroke-linejoin='round'",
+                colour);
     for (int i = 0; i < p->of->npoint; i++) {
         const fw_drift_point *at = &p->of->point[i];
-        fw_report_markup(p->out, "{r}{c} {c}",
-                         i == 0   ? "M"
-                         : i == 1 ? "L"
-                                  : " ",
-                         px(p, at->rotation_rad * FW_DEG_PER_RAD),
-                         py(p, MICRO * (gap ? at->left_m : at->drift_m)));
+        fw_markup(p->out, "{r}{c} {c}",
+                  i == 0   ? "M"
+                  : i == 1 ? "L"
+                           : " ",
+                  fw_svg_axes_x(&p->axes, at->rotation_rad * FW_DEG_PER_RAD),
+                  fw_svg_axes_y(&p->axes, MICRO * (gap ? at->left_m : at->drift_m)));
     }
-    fw_text_add(p->out, "\"/>\n");
+    fw_svg_path_end(p->out);
 }
 
 static void contacts(const panel *p) {
     for (int side = 0; side < 2; side++) {
         double at = p->of->contact_rad[side] * FW_DEG_PER_RAD;
-        if (!isfinite(at) || at < p->x0 || at > p->x1) continue;
-        fw_report_markup(p->out,
-                         "<path d=\"M{c} {c}V{c}\" stroke=\"{r}\" stroke-dasharray=\"5 3\"/>"
-                         "<text x=\"{c}\" y=\"{c}\" font-size=\"11\" fill=\"{r}\" "
-                         "text-anchor=\"{r}\">surfaces meet</text>\n",
-                         px(p, at), p->y + TOP, p->y + HIGH - BOTTOM, orange,
-                         px(p, at) + (side ? -5.0 : 5.0), p->y + TOP + 12, orange,
-                         side ? "end" : "start");
+        if (!isfinite(at) || at < p->axes.x0 || at > p->axes.x1) continue;
+        fw_svg_put(p->out, "path d='M{c} {c}V{c}' stroke='{r}' stroke-dasharray='5 3'",
+                   fw_svg_axes_x(&p->axes, at), p->y + TOP, p->y + HIGH - BOTTOM, orange);
+        fw_svg_put(
+            p->out,
+            "text x='{c}' y='{c}' font-size='11' fill='{r}' text-anchor='{r}'>surfaces meet\n",
+            fw_svg_axes_x(&p->axes, at) + (side ? -5.0 : 5.0), p->y + TOP + 12, orange,
+            side ? "end" : "start");
     }
 }
 
@@ -126,7 +96,7 @@ static void arc(const panel *p, const sketch *s, double centre, double r, double
     for (int i = 0; i <= 48; i++) {
         double b = from + (to - from) * i / 48, at[2];
         place(s, centre + r * cos(b), r * sin(b), at);
-        fw_report_markup(p->out, "{r}{c} {c}", i == 0 ? "M" : i == 1 ? "L" : " ", at[0], at[1]);
+        fw_markup(p->out, "{r}{c} {c}", i == 0 ? "M" : i == 1 ? "L" : " ", at[0], at[1]);
     }
 }
 
@@ -135,11 +105,11 @@ static void surfaces(const panel *p, const sketch *s) {
     const double *cover = p->of->cover_rad;
     if (!(h->surface_radius_m > 0) || !isfinite(cover[0])) return;
     for (int outer = 0; outer < 2; outer++) {
-        fw_report_markup(p->out, "<path fill=\"none\" stroke=\"{r}\" stroke-width=\"1.5\" d=\"",
-                         outer ? green : "#57606a");
+        fw_svg_path(p->out, "fill='none' stroke='{r}' stroke-width='1.5'",
+                    outer ? green : "#57606a");
         arc(p, s, 0, h->surface_radius_m + (outer ? p->of->gap_m : 0), cover[0] - s->axis,
             cover[1] - s->axis);
-        fw_text_add(p->out, "\"/>\n");
+        fw_svg_path_end(p->out);
     }
 }
 
@@ -155,7 +125,7 @@ static void outline(const panel *p, const sketch *s, const fw_course *path) {
                 double part = (double)(side > 0 ? k : PLACES - k) / PLACES;
                 fw_vec2 q = fw_path_edge(path, piece, part, side);
                 place(s, q.x - centre, q.y, at);
-                fw_report_markup(p->out, "{r}{c} {c}", join, at[0], at[1]);
+                fw_markup(p->out, "{r}{c} {c}", join, at[0], at[1]);
                 join = "L";
             }
     fw_text_add(p->out, "Z");
@@ -181,8 +151,8 @@ static void draw(const panel *p) {
                 .scale = 0.42 * SKETCH / reach,
                 .axis = isfinite(h->axis_rad) ? h->axis_rad : 0};
     surfaces(p, &s);
-    fw_report_markup(p->out, "<path fill=\"{r}\" stroke=\"#1f2328\" stroke-width=\"{c}\" d=\"",
-                     varies ? "#1f2328" : "none", varies ? 0.5 : fmax(1.2, s.scale * f->width_m));
+    fw_svg_path(p->out, "fill='{r}' stroke='#1f2328' stroke-width='{c}'",
+                varies ? "#1f2328" : "none", varies ? 0.5 : fmax(1.2, s.scale * f->width_m));
     double from[2], to[2], a = 0.5 * f->angle_rad;
     if (varies)
         outline(p, &s, &path);
@@ -190,50 +160,53 @@ static void draw(const panel *p) {
         arc(p, &s, -centre, f->radius_m, -a, a);
     else {
         place(&s, 0, -size, from), place(&s, 0, size, to);
-        fw_report_markup(p->out, "M{c} {c}L{c} {c}", from[0], from[1], to[0], to[1]);
+        fw_markup(p->out, "M{c} {c}L{c} {c}", from[0], from[1], to[0], to[1]);
     }
-    fw_text_add(p->out, "\"/>\n");
+    fw_svg_path_end(p->out);
     const double *off = h->closed_form.offset_m;
     double w[2];
     place(&s, off[0], off[1], w);
-    fw_report_markup(p->out,
-                     "<circle cx=\"{c}\" cy=\"{c}\" r=\"3.5\" fill=\"{r}\"/><text x=\"{c}\" "
-                     "y=\"{c}\" font-size=\"11\" fill=\"{r}\">W</text>\n",
-                     w[0], w[1], blue, w[0] + 6, w[1] - 5, blue);
+    fw_svg_put(p->out, "circle cx='{c}' cy='{c}' r='3.5' fill='{r}'", w[0], w[1], blue);
+    fw_svg_put(p->out, "text x='{c}' y='{c}' font-size='11' fill='{r}'>W\n", w[0] + 6, w[1] - 5,
+               blue);
 }
 
 static void heading(const panel *p) {
     const fw_flexure_result *c = &p->of->hinge->closed_form;
-    fw_report_markup(p->out,
-                     "<text x=\"14\" y=\"{c}\" font-size=\"13\" font-weight=\"600\" "
-                     "fill=\"#1f2328\">{s}{r}{s}</text><text x=\"{i}\" y=\"{c}\" font-size=\"11\" "
-                     "fill=\"#57606a\">{u}, limit {d}</text>\n",
-                     p->y + 16, p->of->id, p->of->flow ? ", " : "", p->of->flow ? p->of->flow : "",
-                     LEFT, p->y + 16, c->stiffness_Nm_per_rad, "N m/rad", c->limit_angle_rad);
+    fw_svg_put(p->out,
+               "text x='14' y='{c}' font-size='13' font-weight='600' fill='#1f2328'>{s}{r}{s}",
+               p->y + 16, p->of->id, p->of->flow ? ", " : "", p->of->flow ? p->of->flow : "");
+    fw_svg_put(p->out, "text x='{i}' y='{c}' font-size='11' fill='#57606a'>{u}, limit {d}\n", LEFT,
+               p->y + 16, c->stiffness_Nm_per_rad, "N m/rad", c->limit_angle_rad);
 }
 
 static void legend(fw_text *out) {
     static const char *const word[] = {"drift of the axis", "left of the gap"};
     const char *const colour[] = {blue, green};
-    for (int i = 0; i < 2; i++)
-        fw_report_markup(out,
-                         "<path d=\"M{i} 46h26\" stroke=\"{r}\" stroke-width=\"2\"/><text "
-                         "x=\"{i}\" y=\"50\" font-size=\"11\" fill=\"#57606a\">{r}</text>\n",
-                         LEFT + 180 * i, colour[i], LEFT + 180 * i + 32, word[i]);
+    for (int i = 0; i < 2; i++) {
+        fw_svg_put(out, "path d='M{i} 46h26' stroke='{r}' stroke-width='2'", LEFT + 180 * i,
+                   colour[i]);
+        fw_svg_put(out, "text x='{i}' y='50' font-size='11' fill='#57606a'>{r}\n",
+                   LEFT + 180 * i + 32, word[i]);
+    }
 }
 
-fw_status fw_report_hinges_picture(const fw_device *device, const fw_report_hinge *hinge, int count,
-                                   fw_text *out) {
+static fw_status picture(const fw_device *device, const fw_report_hinge *hinge, int count,
+                         bool file, fw_text *out) {
     int height = HEADING + count * HIGH + 8;
-    fw_report_markup(out,
-                     "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 {i} "
-                     "{i}\" width=\"{i}\" height=\"{i}\" font-family=\"system-ui,'DejaVu Sans',"
-                     "sans-serif\">\n<title>{s}: hinges</title>\n"
-                     "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
-                     "<text x=\"14\" y=\"26\" font-size=\"15\" font-weight=\"600\" "
-                     "fill=\"#1f2328\">{s}: hinges under a pure moment, up to the limit angle"
-                     "</text>\n",
-                     WIDTH, height, WIDTH, height, device->name, device->name);
+    fw_svg_begin(out, &(fw_svg_frame){.width = WIDTH,
+                                      .height = height,
+                                      .decimals = 2,
+                                      .size = FW_SVG_SIZE_BEHIND,
+                                      .file = file,
+                                      .lead = "role='img'",
+                                      .font = fw_svg_font_page});
+    fw_svg_title(out, "{s}: hinges", device->name);
+    fw_svg_paper(out, "#fff");
+    fw_svg_put(out,
+               "text x='14' y='26' font-size='15' font-weight='600' fill='#1f2328'>{s}: hinges "
+               "under a pure moment, up to the limit angle\n",
+               device->name);
     legend(out);
     for (int i = 0; i < count; i++) {
         panel p = {.of = &hinge[i],
@@ -248,12 +221,16 @@ fw_status fw_report_hinges_picture(const fw_device *device, const fw_report_hing
         curve(&p, blue, false);
         contacts(&p);
     }
-    fw_text_add(out, "</svg>\n");
+    fw_svg_end(out);
     return fw_text_end(out);
+}
+
+fw_status fw_report_hinges_picture(const fw_device *device, const fw_report_hinge *hinge, int count,
+                                   fw_text *out) {
+    return picture(device, hinge, count, false, out);
 }
 
 fw_status fw_report_hinges_svg(const fw_device *device, const fw_report_hinge *hinge, int count,
                                fw_text *out) {
-    fw_text_add(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
-    return fw_report_hinges_picture(device, hinge, count, out);
+    return picture(device, hinge, count, true, out);
 }

@@ -22,47 +22,45 @@ static void bar(fw_text *out, const fw_hinge_verdict *h, double most) {
         return;
     }
     double px = BAR / most, u = fmin(h->utilisation, most);
-    fw_report_markup(out,
-                     "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"bar\" role=\"img\" "
-                     "width=\"{i}\" height=\"16\" viewBox=\"0 0 {i} 16\"><title>{p} of the limit"
-                     "</title><rect y=\"3\" width=\"{i}\" height=\"10\" fill=\"#eaeef2\"/>"
-                     "<rect y=\"3\" width=\"{c}\" height=\"10\" fill=\"{r}\"/>",
-                     BAR, BAR, h->utilisation, BAR, u * px,
-                     fw_report_utilisation_colour(h->utilisation));
+    fw_svg_begin(out, &(fw_svg_frame){.width = BAR,
+                                      .height = 16,
+                                      .size = FW_SVG_SIZE_BEFORE,
+                                      .lead = "class='bar' role='img'"});
+    fw_svg_title(out, "{p} of the limit", h->utilisation);
+    fw_svg_put(out, "rect y='3' width='{i}' height='10' fill='#eaeef2'", BAR);
+    fw_svg_put(out, "rect y='3' width='{c}' height='10' fill='{r}'", u * px,
+               fw_report_utilisation_colour(h->utilisation));
     if (isfinite(h->utilisation_low) && isfinite(h->utilisation_high)) {
         double low = fmin(h->utilisation_low, most) * px;
         double high = fmin(h->utilisation_high, most) * px;
-        fw_report_markup(out,
-                         "<path d=\"M{c} 8H{c}M{c} 5v6M{c} 5v6\" stroke=\"#1f2328\" "
-                         "stroke-width=\"1.2\"/>",
-                         low, high, low, high);
+        fw_svg_put(out, "path d='M{c} 8H{c}M{c} 5v6M{c} 5v6' stroke='#1f2328' stroke-width='1.2'",
+                   low, high, low, high);
     }
-    fw_report_markup(out,
-                     "<path d=\"M{c} 0v16\" stroke=\"#1f2328\" stroke-width=\"1.5\" "
-                     "stroke-dasharray=\"2 1.5\"/></svg>",
-                     px);
+    fw_svg_put(
+        out, "path d='M{c} 0v16' stroke='#1f2328' stroke-width='1.5' stroke-dasharray='2 1.5'", px);
+    fw_svg_close(out, "svg");
 }
 
 static void row(fw_text *out, const fw_hinge_verdict *h, bool with_flow, double most) {
-    fw_report_markup(out, "<tr{r}><th scope=\"row\">{s}</th>",
-                     h->decision == FW_ACCEPT ? "" : " class=\"bad\"", h->id);
-    if (with_flow) fw_report_markup(out, "<td>{s}</td>", h->flow ? h->flow : "\u2013");
-    fw_report_markup(out, "<td class=\"n\">{D} \u00b1 ", h->peak_angle_rad);
-    fw_report_number(out, h->angle_error_rad * FW_DEG_PER_RAD, 2);
-    fw_report_markup(out,
-                     "</td><td class=\"n\">{D}</td><td class=\"n\">{p}</td>"
-                     "<td class=\"n\">{p}</td><td>",
-                     h->limit_angle_rad, h->peak_strain, h->strain_limit);
+    fw_markup(out, "<tr{r}><th scope=\"row\">{s}</th>",
+              h->decision == FW_ACCEPT ? "" : " class=\"bad\"", h->id);
+    if (with_flow) fw_markup(out, "<td>{s}</td>", h->flow ? h->flow : "\u2013");
+    fw_markup(out, "<td class=\"n\">{D} \u00b1 ", h->peak_angle_rad);
+    fw_markup_number(out, h->angle_error_rad * FW_DEG_PER_RAD, 2);
+    fw_markup(out,
+              "</td><td class=\"n\">{D}</td><td class=\"n\">{p}</td>"
+              "<td class=\"n\">{p}</td><td>",
+              h->limit_angle_rad, h->peak_strain, h->strain_limit);
     bar(out, h, most);
-    fw_report_markup(out, "</td><td class=\"n\">{p}</td><td class=\"n\">", h->utilisation);
+    fw_markup(out, "</td><td class=\"n\">{p}</td><td class=\"n\">", h->utilisation);
     if (isfinite(h->utilisation_low) && isfinite(h->utilisation_high))
-        fw_report_markup(out, "{p} to {p}", h->utilisation_low, h->utilisation_high);
+        fw_markup(out, "{p} to {p}", h->utilisation_low, h->utilisation_high);
     else
         fw_text_add(out, "\u2013");
-    fw_report_markup(out, "</td><td>{s}</td><td>{s}</td><td class=\"n\">",
-                     h->limit ? h->limit->criterion : "\u2013", h->scene ? h->scene : "\u2013");
+    fw_markup(out, "</td><td>{s}</td><td>{s}</td><td class=\"n\">",
+              h->limit ? h->limit->criterion : "\u2013", h->scene ? h->scene : "\u2013");
     if (isfinite(h->t_s))
-        fw_report_markup(out, "{u}", h->t_s, "s");
+        fw_markup(out, "{u}", h->t_s, "s");
     else
         fw_text_add(out, "\u2013");
     fw_text_add(out, "</td></tr>\n");
@@ -71,17 +69,16 @@ static void row(fw_text *out, const fw_hinge_verdict *h, bool with_flow, double 
 void fw_report_hinge_table(fw_text *out, const fw_hinge_verdict *hinge, int nhinge, bool with_flow,
                            const char *caption) {
     double most = bar_scale(hinge, nhinge);
-    fw_report_markup(
-        out,
-        "<div class=\"wide\"><table><caption>{s}</caption><thead><tr><th "
-        "scope=\"col\">Hinge</th>{r}<th scope=\"col\" class=\"n\">Peak angle (\u00b0)</th>"
-        "<th scope=\"col\" class=\"n\">Limit (\u00b0)</th><th scope=\"col\" class=\"n\">Peak "
-        "strain</th><th scope=\"col\" class=\"n\">Strain limit</th><th scope=\"col\" "
-        "colspan=\"2\">Utilisation</th><th scope=\"col\" class=\"n\">Error band</th><th "
-        "scope=\"col\">Criterion</th><th scope=\"col\">Scene</th><th scope=\"col\" "
-        "class=\"n\">Instant</th></tr></thead>"
-        "<tbody>\n",
-        caption, with_flow ? "<th scope=\"col\">Flow</th>" : "");
+    fw_markup(out,
+              "<div class=\"wide\"><table><caption>{s}</caption><thead><tr><th "
+              "scope=\"col\">Hinge</th>{r}<th scope=\"col\" class=\"n\">Peak angle (\u00b0)</th>"
+              "<th scope=\"col\" class=\"n\">Limit (\u00b0)</th><th scope=\"col\" class=\"n\">Peak "
+              "strain</th><th scope=\"col\" class=\"n\">Strain limit</th><th scope=\"col\" "
+              "colspan=\"2\">Utilisation</th><th scope=\"col\" class=\"n\">Error band</th><th "
+              "scope=\"col\">Criterion</th><th scope=\"col\">Scene</th><th scope=\"col\" "
+              "class=\"n\">Instant</th></tr></thead>"
+              "<tbody>\n",
+              caption, with_flow ? "<th scope=\"col\">Flow</th>" : "");
     for (int i = 0; i < nhinge; i++)
         row(out, &hinge[i], with_flow, most);
     fw_text_add(out, "</tbody></table></div>\n");

@@ -24,23 +24,22 @@ static const struct {
 enum { SECTIONS = sizeof sections / sizeof sections[0], DRAWING_WIDTH = 640 };
 
 static void head(fw_page *page) {
-    fw_report_markup(page->out,
-                     "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n"
-                     "<head>\n<meta charset=\"utf-8\"/>\n"
-                     "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-                     "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
-                     "style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\"/>\n"
-                     "<meta name=\"generator\" content=\"Flexwright {s}\"/>\n"
-                     "<title>{s}: {r}</title>\n<style>\n{r}</style>\n</head>\n<body>\n",
-                     page->in->version, page->in->device->name,
-                     fw_report_decision_word(page->in->verdict->decision), fw_report_style);
+    fw_markup(page->out,
+              "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n"
+              "<head>\n<meta charset=\"utf-8\"/>\n"
+              "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+              "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+              "style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\"/>\n"
+              "<meta name=\"generator\" content=\"Flexwright {s}\"/>\n"
+              "<title>{s}: {r}</title>\n<style>\n{r}</style>\n</head>\n<body>\n",
+              page->in->version, page->in->device->name,
+              fw_report_decision_word(page->in->verdict->decision), fw_report_style);
 }
 
 static void navigation(fw_page *page) {
     fw_text_add(page->out, "<nav aria-label=\"Sections\"><div class=\"in\">");
     for (int i = 0; i < SECTIONS; i++)
-        fw_report_markup(page->out, "<a href=\"#{r}\">{r}</a>\n", sections[i].id,
-                         sections[i].title);
+        fw_markup(page->out, "<a href=\"#{r}\">{r}</a>\n", sections[i].id, sections[i].title);
     fw_text_add(page->out, "</div></nav>\n");
 }
 
@@ -77,18 +76,17 @@ fw_status fw_report_write_html(fw_arena *arena, const fw_report_input *input, fw
     fw_text_add(out, "<main>\n");
     fw_report_advice(&page);
     for (int i = 0; i < SECTIONS; i++) {
-        fw_report_markup(out,
-                         "<section id=\"{r}\" aria-labelledby=\"h-{r}\"><h2 id=\"h-{r}\">{r}"
-                         "</h2>\n",
-                         sections[i].id, sections[i].id, sections[i].id, sections[i].title);
+        fw_markup(out,
+                  "<section id=\"{r}\" aria-labelledby=\"h-{r}\"><h2 id=\"h-{r}\">{r}"
+                  "</h2>\n",
+                  sections[i].id, sections[i].id, sections[i].id, sections[i].title);
         FW_TRY(sections[i].write(&page));
         fw_text_add(out, "</section>\n");
     }
-    fw_report_markup(
-        out,
-        "</main>\n<footer><p>Flexwright {s}. The same input gives the same bytes: this "
-        "page holds no date and no run time.</p></footer>\n"
-        "<script>//<![CDATA[\n{r}//]]></script>\n</body>\n</html>\n",
-        input->version, fw_report_script);
+    fw_markup(out,
+              "</main>\n<footer><p>Flexwright {s}. The same input gives the same bytes: this "
+              "page holds no date and no run time.</p></footer>\n"
+              "<script>//<![CDATA[\n{r}//]]></script>\n</body>\n</html>\n",
+              input->version, fw_report_script);
     return fw_text_end(out);
 }

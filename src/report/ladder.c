@@ -4,32 +4,32 @@
 
 static void within(fw_text *out, double error) {
     fw_text_add(out, " <span class=\"soft\">\u00b1 ");
-    fw_report_number(out, error * 100, 2);
+    fw_markup_number(out, error * 100, 2);
     fw_text_add(out, " %</span></td><td class=\"n\">");
 }
 
 static void level(fw_text *out, const fw_report_level *l) {
-    fw_report_markup(out, "<td>{s}</td>", l->name);
+    fw_markup(out, "<td>{s}</td>", l->name);
     if (l->state != FW_LEVEL_SOLVED) {
-        fw_report_markup(out, "<td colspan=\"7\">not here: {s}</td></tr>\n", l->why);
+        fw_markup(out, "<td colspan=\"7\">not here: {s}</td></tr>\n", l->why);
         return;
     }
-    fw_report_markup(out, "<td class=\"n\">{u}", l->stiffness_Nm_per_rad, "N\u00b7m/rad");
+    fw_markup(out, "<td class=\"n\">{u}", l->stiffness_Nm_per_rad, "N\u00b7m/rad");
     within(out, l->error.stiffness);
-    fw_report_markup(out, "{u}", l->kx_N_per_m, "N/m");
+    fw_markup(out, "{u}", l->kx_N_per_m, "N/m");
     within(out, l->error.kx);
-    fw_report_markup(out, "{u}", l->ky_N_per_m, "N/m");
+    fw_markup(out, "{u}", l->ky_N_per_m, "N/m");
     within(out, l->error.ky);
     fw_text_fixed(out, l->centre_m[0] * 1e6, 2);
     fw_text_add(out, ", ");
     fw_text_fixed(out, l->centre_m[1] * 1e6, 2);
     fw_text_add(out, " <span class=\"soft\">\u00b1 ");
-    fw_report_number(out, l->error.centre_m * 1e6, 2);
-    fw_report_markup(out, "</span></td><td class=\"n\">{n}", l->strain_per_rad);
+    fw_markup_number(out, l->error.centre_m * 1e6, 2);
+    fw_markup(out, "</span></td><td class=\"n\">{n}", l->strain_per_rad);
     within(out, l->error.strain);
-    fw_report_markup(out, "{D}</td><td class=\"n\">", l->limit_angle_rad);
+    fw_markup(out, "{D}</td><td class=\"n\">", l->limit_angle_rad);
     if (l->drift_m >= 0)
-        fw_report_markup(out, "{u}", l->drift_m, "m");
+        fw_markup(out, "{u}", l->drift_m, "m");
     else
         fw_text_add(out, "\u2013");
     fw_text_add(out, "</td></tr>\n");
@@ -39,8 +39,8 @@ static void rows(fw_text *out, const fw_report_hinge *h) {
     for (int k = 0; k < h->nlevel; k++) {
         fw_text_add(out, "<tr>");
         if (k == 0)
-            fw_report_markup(out, "<th scope=\"rowgroup\" rowspan=\"{i}\">{s}{r}{s}</th>",
-                             h->nlevel, h->id, h->flow ? ", " : "", h->flow);
+            fw_markup(out, "<th scope=\"rowgroup\" rowspan=\"{i}\">{s}{r}{s}</th>", h->nlevel,
+                      h->id, h->flow ? ", " : "", h->flow);
         level(out, &h->level[k]);
     }
 }

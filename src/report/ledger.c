@@ -7,27 +7,26 @@
 
 static void effect_row(fw_text *out, const fw_effect_entry *e) {
     char bound[32]; /* with the digits of the reason */
-    fw_report_markup(out, "<tr><th scope=\"row\" class=\"id\">{s}</th><td>{r}</td><td class=\"n\">",
-                     e->id, e->active ? "<strong>active</strong>" : "left out");
+    fw_markup(out, "<tr><th scope=\"row\" class=\"id\">{s}</th><td>{r}</td><td class=\"n\">", e->id,
+              e->active ? "<strong>active</strong>" : "left out");
     if (isinf(e->bound))
         fw_text_add(out, "\u221e");
     else
-        fw_report_markup(out, "{s}\u00a0%", fw_percent_text(bound, sizeof bound, e->bound));
+        fw_markup(out, "{s}\u00a0%", fw_percent_text(bound, sizeof bound, e->bound));
     fw_text_add(out, "</td><td class=\"n\">");
     if (e->cost > 0)
-        fw_report_markup(out, "{n}", e->cost);
+        fw_markup(out, "{n}", e->cost);
     else
         fw_text_add(out, "\u2013");
-    fw_report_markup(out, "</td><td>{s}</td></tr>\n", e->reason);
+    fw_markup(out, "</td><td>{s}</td></tr>\n", e->reason);
 }
 
 static void not_called_for(fw_text *out, const fw_effect_ledger *ledger) {
     bool any = false;
     for (int i = 0; i < ledger->count; i++) {
         if (ledger->item[i].called_for) continue;
-        fw_report_markup(out,
-                         any ? ", {s}" : "<tr><td class=\"soft\" colspan=\"5\">Not called for: {s}",
-                         ledger->item[i].id);
+        fw_markup(out, any ? ", {s}" : "<tr><td class=\"soft\" colspan=\"5\">Not called for: {s}",
+                  ledger->item[i].id);
         any = true;
     }
     if (any) fw_text_add(out, "</td></tr>\n");
@@ -52,17 +51,17 @@ static void each_motion(fw_page *page, motion_rows rows) {
 static void effects_of(fw_text *out, const char *flow, const char *scene, double wanted,
                        const fw_motion *motion) {
     const fw_effect_ledger *ledger = &motion->ledger;
-    fw_report_markup(out,
-                     "<tbody><tr><th scope=\"rowgroup\" colspan=\"5\">{s} <span class=\"soft\">"
-                     "({s})</span></th></tr>\n",
-                     scene, flow);
+    fw_markup(out,
+              "<tbody><tr><th scope=\"rowgroup\" colspan=\"5\">{s} <span class=\"soft\">"
+              "({s})</span></th></tr>\n",
+              scene, flow);
     for (int i = 0; i < ledger->count; i++)
         if (ledger->item[i].called_for) effect_row(out, &ledger->item[i]);
     not_called_for(out, ledger);
-    fw_report_markup(out,
-                     "<tr><td class=\"soft\" colspan=\"5\">Sum of the bounds of what is left out: "
-                     "{p}, accuracy wanted: {p}</td></tr></tbody>\n",
-                     ledger->left_out, wanted);
+    fw_markup(out,
+              "<tr><td class=\"soft\" colspan=\"5\">Sum of the bounds of what is left out: "
+              "{p}, accuracy wanted: {p}</td></tr></tbody>\n",
+              ledger->left_out, wanted);
 }
 
 /* ---- pull-in ---- */
@@ -73,21 +72,20 @@ static void pull_in_row(fw_text *out, const char *flow, const char *scene, const
                                        [FW_PULL_IN_SIDE] = "side: moves aside between the fingers",
                                        [FW_PULL_IN_TILT] = "tilt: turns between the fingers"};
     bool none = p->kind == FW_PULL_IN_NONE;
-    fw_report_markup(out,
-                     "<tr{r}><th scope=\"row\">{s}</th><td>{s}</td><td>{s}</td><td class=\"n\">",
-                     !none && p->margin < 1 ? " class=\"bad\"" : "", scene, flow, p->comb);
+    fw_markup(out, "<tr{r}><th scope=\"row\">{s}</th><td>{s}</td><td>{s}</td><td class=\"n\">",
+              !none && p->margin < 1 ? " class=\"bad\"" : "", scene, flow, p->comb);
     if (none && isinf(p->voltage_V))
         fw_text_add(out, "none");
     else
-        fw_report_markup(out, "{r}{u}", none ? "above " : "", p->voltage_V, "V");
-    fw_report_markup(out, "</td><td>{r}", what[p->kind]);
-    if (none && p->why) fw_report_markup(out, " ({s})", p->why);
-    fw_report_markup(out, "</td><td class=\"n\">{u}</td><td class=\"n\">", p->largest_V, "V");
+        fw_markup(out, "{r}{u}", none ? "above " : "", p->voltage_V, "V");
+    fw_markup(out, "</td><td>{r}", what[p->kind]);
+    if (none && p->why) fw_markup(out, " ({s})", p->why);
+    fw_markup(out, "</td><td class=\"n\">{u}</td><td class=\"n\">", p->largest_V, "V");
     if (isfinite(p->margin))
-        fw_report_markup(out, "{n}", p->margin);
+        fw_markup(out, "{n}", p->margin);
     else
         fw_text_add(out, "\u2013");
-    fw_report_markup(out, "</td><td class=\"n\">{p}</td></tr>\n", p->fringe);
+    fw_markup(out, "</td><td class=\"n\">{p}</td></tr>\n", p->fringe);
 }
 
 static void pull_ins(fw_page *page) {
@@ -144,28 +142,28 @@ static void stats_of(fw_text *out, const char *flow, const char *scene, double w
                      const fw_motion *motion) {
     (void)wanted;
     const fw_motion_stats *s = &motion->stats;
-    fw_report_markup(
-        out,
-        "<tr><th scope=\"row\">{s}</th><td>{s}</td><td>{s}</td><td>{s}</td><td "
-        "class=\"n\">{e}</td><td class=\"n\">{l} ({l})</td><td class=\"n\">{l}</td><td "
-        "class=\"n\">{l}</td><td class=\"n\">{e}</td><td class=\"n\">{e}</td><td "
-        "class=\"n\">{e}</td></tr>\n",
-        scene, flow, motion->method, motion->integrator, s->rtol, s->steps, s->rejected, s->rhs,
-        s->projections, s->max_constraint_norm, s->max_velocity_norm, s->energy_error);
+    fw_markup(out,
+              "<tr><th scope=\"row\">{s}</th><td>{s}</td><td>{s}</td><td>{s}</td><td "
+              "class=\"n\">{e}</td><td class=\"n\">{l} ({l})</td><td class=\"n\">{l}</td><td "
+              "class=\"n\">{l}</td><td class=\"n\">{e}</td><td class=\"n\">{e}</td><td "
+              "class=\"n\">{e}</td></tr>\n",
+              scene, flow, motion->method, motion->integrator, s->rtol, s->steps, s->rejected,
+              s->rhs, s->projections, s->max_constraint_norm, s->max_velocity_norm,
+              s->energy_error);
 }
 
 static void reason_of(fw_text *out, const char *flow, const char *scene, double wanted,
                       const fw_motion *motion) {
     (void)wanted;
     if (motion->reason && motion->reason[0])
-        fw_report_markup(out, "<li>{s}, {s}: {s}; {s}</li>\n", scene, flow, motion->reason,
-                         motion->tolerance);
+        fw_markup(out, "<li>{s}, {s}: {s}; {s}</li>\n", scene, flow, motion->reason,
+                  motion->tolerance);
 }
 
 fw_status fw_report_section_accuracy(fw_page *page) {
     const fw_verdict *v = page->in->verdict;
     fw_text *out = page->out;
-    fw_report_markup(
+    fw_markup(
         out,
         "<p>Relative error wanted on the peak hinge deflection: <strong>{p}</strong>; "
         "estimated: <strong>{p}</strong>. This is the error of the computation and the sum of the "

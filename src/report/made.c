@@ -74,14 +74,14 @@ static void ranges(fw_text *out, const fw_variant_verdict *v) {
                      "scope=\"col\">Source</th></tr></thead><tbody>\n");
     for (int i = 0; i < v->ninput; i++) {
         const fw_made_input *in = &v->input[i];
-        fw_report_markup(out,
-                         "<tr><th scope=\"row\">{s}</th><td class=\"n\">{n} {s}</td><td "
-                         "class=\"n\">{n}</td><td class=\"n\">{n}</td><td>{s}{s}{s}</td><td>{s}"
-                         "{s}{s}</td></tr>\n",
-                         in->name, in_unit(in, in->nominal), unit_of(in), in_unit(in, in->low),
-                         in_unit(in, in->high), fw_value_status_text(in->q.status),
-                         in->unknown ? ": not known, " : "", in->unknown, in->q.source,
-                         in->q.note ? "; " : "", in->q.note);
+        fw_markup(out,
+                  "<tr><th scope=\"row\">{s}</th><td class=\"n\">{n} {s}</td><td "
+                  "class=\"n\">{n}</td><td class=\"n\">{n}</td><td>{s}{s}{s}</td><td>{s}"
+                  "{s}{s}</td></tr>\n",
+                  in->name, in_unit(in, in->nominal), unit_of(in), in_unit(in, in->low),
+                  in_unit(in, in->high), fw_value_status_text(in->q.status),
+                  in->unknown ? ": not known, " : "", in->unknown, in->q.source,
+                  in->q.note ? "; " : "", in->q.note);
     }
     fw_text_add(out, "</tbody></table></div>\n");
 }
@@ -90,14 +90,13 @@ static void tightest_row(fw_text *out, const fw_variant_verdict *v, int k) {
     const fw_made_hinge *m = &v->made->hinge[k];
     const fw_made_corner *c = &v->made->corner[m->corner];
     const fw_hinge_verdict *h = &c->hinge[k];
-    fw_report_markup(
-        out,
-        "<tr{r}><th scope=\"row\">{s}</th><td class=\"n\">{p}</td><td class=\"n\">{p}"
-        "</td><td class=\"n\">{p}</td><td class=\"n\">{p} to {p}</td><td class=\"n\">{p}"
-        "</td><td>{s}</td><td>{s}</td></tr>\n",
-        h->decision == FW_ACCEPT ? "" : " class=\"bad\"", h->id, v->hinge[k].utilisation,
-        v->made->corner[0].hinge[k].utilisation, h->utilisation, h->utilisation_low,
-        h->utilisation_high, m->most, h->scene, c->what);
+    fw_markup(out,
+              "<tr{r}><th scope=\"row\">{s}</th><td class=\"n\">{p}</td><td class=\"n\">{p}"
+              "</td><td class=\"n\">{p}</td><td class=\"n\">{p} to {p}</td><td class=\"n\">{p}"
+              "</td><td>{s}</td><td>{s}</td></tr>\n",
+              h->decision == FW_ACCEPT ? "" : " class=\"bad\"", h->id, v->hinge[k].utilisation,
+              v->made->corner[0].hinge[k].utilisation, h->utilisation, h->utilisation_low,
+              h->utilisation_high, m->most, h->scene, c->what);
 }
 
 static void tightest(fw_text *out, const fw_variant_verdict *v) {
@@ -115,7 +114,7 @@ static void tightest(fw_text *out, const fw_variant_verdict *v) {
 
 static void sigma_row(fw_text *out, const fw_variant_verdict *v, int k) {
     const fw_made_hinge *m = &v->made->hinge[k];
-    fw_report_markup(out, "<tr><th scope=\"row\">{s}</th><td class=\"n\">", v->hinge[k].id);
+    fw_markup(out, "<tr><th scope=\"row\">{s}</th><td class=\"n\">", v->hinge[k].id);
     fw_text_fixed(out, 100.0 * m->sigma, 2);
     fw_text_add(out, "</td>");
     for (int i = 0; i < v->ninput; i++) {
@@ -133,7 +132,7 @@ static void sigmas(fw_text *out, const fw_variant_verdict *v) {
                 "</caption><thead><tr><th scope=\"col\">Hinge</th><th scope=\"col\" class=\"n\">"
                 "In all</th>");
     for (int i = 0; i < v->ninput; i++)
-        fw_report_markup(out, "<th scope=\"col\" class=\"n\">{s}</th>", v->input[i].name);
+        fw_markup(out, "<th scope=\"col\" class=\"n\">{s}</th>", v->input[i].name);
     fw_text_add(out, "</tr></thead><tbody>\n");
     for (int k = 0; k < v->nhinge; k++)
         sigma_row(out, v, k);
@@ -142,15 +141,14 @@ static void sigmas(fw_text *out, const fw_variant_verdict *v) {
 
 static void one_flow(fw_text *out, const fw_variant_verdict *v) {
     const fw_made_verdict *m = v->made;
-    fw_report_markup(
-        out,
-        "<h3>{s}: {s}</h3>\n<p>As drawn: {s}. {i} devices within the ranges were run{s}"
-        "; first-order estimates were within {p} of them.</p>\n",
-        v->variant->flow, fw_decision_text(m->decision), fw_decision_text(v->drawn), m->ncorner,
-        m->all ? ", every corner among them" : "", m->error);
+    fw_markup(out,
+              "<h3>{s}: {s}</h3>\n<p>As drawn: {s}. {i} devices within the ranges were run{s}"
+              "; first-order estimates were within {p} of them.</p>\n",
+              v->variant->flow, fw_decision_text(m->decision), fw_decision_text(v->drawn),
+              m->ncorner, m->all ? ", every corner among them" : "", m->error);
     if (m->reason)
-        fw_report_markup(out, "<p><strong>{s}</strong>{s}{s}.</p>\n", m->reason,
-                         m->control ? "; " : "", m->control);
+        fw_markup(out, "<p><strong>{s}</strong>{s}{s}.</p>\n", m->reason, m->control ? "; " : "",
+                  m->control);
     ranges(out, v);
     tightest(out, v);
     sigmas(out, v);

@@ -18,31 +18,30 @@ static void thumbnail(fw_text *out, const fw_mask *mask) {
     fw_box box = mask->box;
     fw_report_view view =
         fw_report_view_fit(box, THUMBNAIL, 0.02 * fmax(box.x1 - box.x0, box.y1 - box.y0));
-    fw_report_markup(out,
-                     "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"drawing\" role=\"img\" "
-                     "viewBox=\"0 0 {c} {c}\"><title>Mask {s}, all layers</title>\n",
-                     view.width, view.height + SCALE_STRIP, mask->flow);
+    fw_svg_begin(out, &(fw_svg_frame){.width = view.width,
+                                      .height = view.height + SCALE_STRIP,
+                                      .decimals = 2,
+                                      .lead = "class='drawing' role='img'"});
+    fw_svg_title(out, "Mask {s}, all layers", mask->flow);
     for (int layer = 0; layer < mask->table->nlayer; layer++) {
         const char *colour = fw_report_layer_colour(mask->table->layer[layer].colour, layer);
-        fw_report_markup(out,
-                         "<path fill=\"{r}\" fill-opacity=\"0.6\" stroke=\"{r}\" "
-                         "stroke-width=\"0.4\" d=\"",
-                         colour, colour);
+        fw_svg_path(out, "fill='{r}' fill-opacity='0.6' stroke='{r}' stroke-width='0.4'", colour,
+                    colour);
         for (int i = 0; i < mask->nshape; i++) {
             const fw_mask_shape *s = &mask->shape[i];
             if (s->layer == layer && (with_text || !s->piece || s->piece->role != FW_ROLE_TEXT))
                 fw_report_path(out, &view, &s->contour);
         }
-        fw_text_add(out, "\"/>\n");
+        fw_svg_path_end(out);
     }
     view.height += SCALE_STRIP;
     fw_report_scale_bar_svg(out, &view);
-    fw_text_add(out, "</svg>\n");
+    fw_svg_end(out);
 }
 
 static void length_or_dash(fw_text *out, double value) {
     if (value > 0.0 && isfinite(value))
-        fw_report_markup(out, "<td class=\"n\">{u}</td>", value, "m");
+        fw_markup(out, "<td class=\"n\">{u}</td>", value, "m");
     else
         fw_text_add(out, "<td class=\"n\">\u2013</td>");
 }
@@ -60,14 +59,13 @@ static void layers(fw_text *out, const fw_mask *mask) {
     for (int i = 0; i < mask->table->nlayer; i++) {
         const fw_mask_layer *l = &mask->table->layer[i];
         const fw_mask_measure none = {0}, *m = mask->measure ? &mask->measure[i] : &none;
-        fw_report_markup(
-            out,
-            "<tr><th scope=\"row\"><span class=\"swatch\" style=\"background:{r}\"></span>"
-            "{i}/{i} {s}</th><td>{s}{r}{s}{r}</td><td class=\"n\">{i}</td><td "
-            "class=\"n\">{i}</td><td class=\"n\">{n} mm\u00b2</td>",
-            fw_report_layer_colour(l->colour, i), l->layer, l->datatype, l->name ? l->name : l->id,
-            l->purpose, l->tone && l->tone[0] ? ", " : "", l->tone, l->biased ? ", biased" : "",
-            m->shapes, m->vertices, m->area_m2 * 1e6);
+        fw_markup(out,
+                  "<tr><th scope=\"row\"><span class=\"swatch\" style=\"background:{r}\"></span>"
+                  "{i}/{i} {s}</th><td>{s}{r}{s}{r}</td><td class=\"n\">{i}</td><td "
+                  "class=\"n\">{i}</td><td class=\"n\">{n} mm\u00b2</td>",
+                  fw_report_layer_colour(l->colour, i), l->layer, l->datatype,
+                  l->name ? l->name : l->id, l->purpose, l->tone && l->tone[0] ? ", " : "", l->tone,
+                  l->biased ? ", biased" : "", m->shapes, m->vertices, m->area_m2 * 1e6);
         length_or_dash(out, m->shortest_edge_m);
         length_or_dash(out, m->width_m);
         length_or_dash(out, l->min_width_m);
@@ -86,24 +84,24 @@ static fw_status one(fw_text *out, const fw_report_flow *f) {
     if (mask->rejected)
         fw_text_add(out, "<p><strong class=\"no\">REJECTED: made on request; every file says so."
                          "</strong></p>\n");
-    fw_report_markup(out,
-                     "<table><tbody><tr><th scope=\"row\">Cell</th><td>{s}</td></tr>"
-                     "<tr><th scope=\"row\">Size</th><td>{u} \u00d7 {u}</td></tr>"
-                     "<tr><th scope=\"row\">Bias per edge</th><td>{u}</td></tr>"
-                     "<tr><th scope=\"row\">Arc tolerance</th><td>{u}, grid 1\u00a0nm</td></tr>"
-                     "<tr><th scope=\"row\">Reading</th><td>{s}</td></tr>"
-                     "{r}{s}{r}"
-                     "<tr><th scope=\"row\">Polygons</th><td>{i}</td></tr></tbody></table>\n",
-                     mask->cell, mask->box.x1 - mask->box.x0, "m", mask->box.y1 - mask->box.y0, "m",
-                     mask->bias_m, "m", mask->tolerance_m, "m", mask->table->reading,
-                     mask->table->order ? "<tr><th scope=\"row\">Order</th><td>" : "",
-                     mask->table->order ? mask->table->order : "",
-                     mask->table->order ? "</td></tr>" : "", mask->nshape);
+    fw_markup(out,
+              "<table><tbody><tr><th scope=\"row\">Cell</th><td>{s}</td></tr>"
+              "<tr><th scope=\"row\">Size</th><td>{u} \u00d7 {u}</td></tr>"
+              "<tr><th scope=\"row\">Bias per edge</th><td>{u}</td></tr>"
+              "<tr><th scope=\"row\">Arc tolerance</th><td>{u}, grid 1\u00a0nm</td></tr>"
+              "<tr><th scope=\"row\">Reading</th><td>{s}</td></tr>"
+              "{r}{s}{r}"
+              "<tr><th scope=\"row\">Polygons</th><td>{i}</td></tr></tbody></table>\n",
+              mask->cell, mask->box.x1 - mask->box.x0, "m", mask->box.y1 - mask->box.y0, "m",
+              mask->bias_m, "m", mask->tolerance_m, "m", mask->table->reading,
+              mask->table->order ? "<tr><th scope=\"row\">Order</th><td>" : "",
+              mask->table->order ? mask->table->order : "", mask->table->order ? "</td></tr>" : "",
+              mask->nshape);
     if (f->flow && f->flow->bias_note)
-        fw_report_markup(out, "<p class=\"soft small\">{s}</p>\n", f->flow->bias_note);
+        fw_markup(out, "<p class=\"soft small\">{s}</p>\n", f->flow->bias_note);
     if (mask->nnote) fw_text_add(out, "<p class=\"soft small\">Written on the mask: ");
     for (int i = 0; i < mask->nnote; i++)
-        fw_report_markup(out, "{r}{s}", i ? "; " : "", mask->note[i]);
+        fw_markup(out, "{r}{s}", i ? "; " : "", mask->note[i]);
     fw_text_add(out, mask->nnote ? "</p>\n" : "");
     fw_text_add(out, "</div></div>\n");
     layers(out, mask);
@@ -116,17 +114,16 @@ fw_status fw_report_section_masks(fw_page *page) {
     for (int i = 0; i < page->in->nflow; i++) {
         const fw_report_flow *f = &page->in->flow[i];
         const char *flow = f->flow ? f->flow->id : f->mask ? f->mask->flow : NULL;
-        fw_report_markup(out, "<h3>{s}</h3>\n", flow ? flow : "flow");
+        fw_markup(out, "<h3>{s}</h3>\n", flow ? flow : "flow");
         if (f->mask)
             FW_TRY(one(out, f));
         else if (f->mask_error)
-            fw_report_markup(out, "<p><strong class=\"no\">No mask:</strong> {s}</p>\n",
-                             f->mask_error);
+            fw_markup(out, "<p><strong class=\"no\">No mask:</strong> {s}</p>\n", f->mask_error);
         else
-            fw_report_markup(out, "<p>No mask{r}.</p>\n",
-                             page->in->verdict->decision == FW_REJECT
-                                 ? ": a rejected design gets none unless it is forced"
-                                 : " was made");
+            fw_markup(out, "<p>No mask{r}.</p>\n",
+                      page->in->verdict->decision == FW_REJECT
+                          ? ": a rejected design gets none unless it is forced"
+                          : " was made");
         if (f->violated) fw_report_findings(out, f->violated);
     }
     if (page->in->nflow == 0) fw_text_add(out, "<p>The description names no flow.</p>\n");

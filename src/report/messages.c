@@ -24,13 +24,12 @@ fw_status fw_report_section_messages(fw_page *page) {
         const fw_diag *d = &diags->item[i];
         if (d->number == 230)
             continue; /* how the program was called is no property of the device */
-        fw_report_markup(out, "<tr><td>{r}</td><td>{s}", word[d->severity], file_of(d->place));
-        if (d->place.line > 0) fw_report_markup(out, ":{i}:{i}", d->place.line, d->place.column);
-        fw_report_markup(out, "</td><td>{s}</td><td>", d->message);
+        fw_markup(out, "<tr><td>{r}</td><td>{s}", word[d->severity], file_of(d->place));
+        if (d->place.line > 0) fw_markup(out, ":{i}:{i}", d->place.line, d->place.column);
+        fw_markup(out, "</td><td>{s}</td><td>", d->message);
         fw_text_printf(out, "FW-D%03d</td></tr>\n", d->number);
     }
     fw_text_add(out, "</tbody></table></div>\n");
-    if (diags->dropped)
-        fw_report_markup(out, "<p>{l} more are not shown.</p>\n", (long)diags->dropped);
+    if (diags->dropped) fw_markup(out, "<p>{l} more are not shown.</p>\n", (long)diags->dropped);
     return fw_text_end(out);
 }

@@ -16,7 +16,7 @@ static bool attribute(fw_text *out, const fw_law *law, const char *name, size_t 
     if (a->whole)
         fw_text_fixed(out, value, 0);
     else
-        fw_report_markup(out, "{u}", value, a->si_unit);
+        fw_markup(out, "{u}", value, a->si_unit);
     return value != a->absent;
 }
 
@@ -45,7 +45,7 @@ static const char *words(fw_text *out, const fw_law *law, const char *words_, ch
 static void law(fw_text *out, const fw_law *law) {
     bool given = false;
     if (!law) return;
-    fw_report_markup(out, " times a {s}", law->kind->name);
+    fw_markup(out, " times a {s}", law->kind->name);
     words(out, law, law->kind->words, '\0', &given);
 }
 
@@ -57,21 +57,20 @@ static void actuators(fw_text *out, const fw_device *device, const fw_scene *s) 
     for (int i = 0; i < s->ntendon; i++) {
         const fw_tendon *t = &s->tendon[i];
         bool pulled = !isnan(t->pull_N);
-        fw_report_markup(out, "; cable {s} {s} {u}", t->id, pulled ? "pulls with" : "taken in by",
-                         pulled ? t->pull_N : t->draw_m, pulled ? "N" : "m");
+        fw_markup(out, "; cable {s} {s} {u}", t->id, pulled ? "pulls with" : "taken in by",
+                  pulled ? t->pull_N : t->draw_m, pulled ? "N" : "m");
         law(out, t->law);
     }
     for (int i = 0; i < s->ncomb; i++) {
         const fw_comb *c = &s->comb[i];
-        fw_report_markup(out, "; {s} {s} between {s} and {s} at {u}",
-                         c->kind == FW_ELECTRODES_COMB ? "comb" : "plates", c->id,
-                         body_text(device, c->body_b), body_text(device, c->body_a), c->voltage_V,
-                         "V");
+        fw_markup(out, "; {s} {s} between {s} and {s} at {u}",
+                  c->kind == FW_ELECTRODES_COMB ? "comb" : "plates", c->id,
+                  body_text(device, c->body_b), body_text(device, c->body_a), c->voltage_V, "V");
         law(out, c->law);
     }
     for (int i = 0; i < s->nbase; i++) {
-        fw_report_markup(out, "; base shaken with ({n}, {n}) m/s\u00b2", s->base[i].ax_m_per_s2,
-                         s->base[i].ay_m_per_s2);
+        fw_markup(out, "; base shaken with ({n}, {n}) m/s\u00b2", s->base[i].ax_m_per_s2,
+                  s->base[i].ay_m_per_s2);
         law(out, s->base[i].law);
     }
 }
@@ -81,41 +80,41 @@ static void surroundings(fw_text *out, const fw_device *device, const fw_scene *
                                       [FW_AIR_SQUEEZE] = "squeezed film",
                                       [FW_AIR_DRAG] = "drag"};
     for (int i = 0; i < s->nfriction; i++)
-        fw_report_markup(out, "; friction in {s}, coefficient {n}",
-                         s->friction[i].joint != FW_NONE ? device->joint[s->friction[i].joint].id
-                                                         : device->tie[s->friction[i].tie].id,
-                         s->friction[i].coefficient);
+        fw_markup(out, "; friction in {s}, coefficient {n}",
+                  s->friction[i].joint != FW_NONE ? device->joint[s->friction[i].joint].id
+                                                  : device->tie[s->friction[i].tie].id,
+                  s->friction[i].coefficient);
     for (int i = 0; i < s->ncontact; i++)
-        fw_report_markup(out, "; contact {s}", s->contact[i].id);
+        fw_markup(out, "; contact {s}", s->contact[i].id);
     if (s->ndamping) fw_text_add(out, "; damping by the material");
     for (int i = 0; i < s->ntemperature; i++) {
-        fw_report_markup(out, "; temperature changed by {n} K", s->temperature[i].change_K);
+        fw_markup(out, "; temperature changed by {n} K", s->temperature[i].change_K);
         law(out, s->temperature[i].law);
     }
     for (int i = 0; i < s->nstress; i++)
-        fw_report_markup(out, "; residual stress {u}", s->stress[i].mean_Pa, "Pa");
+        fw_markup(out, "; residual stress {u}", s->stress[i].mean_Pa, "Pa");
     for (int i = 0; i < s->nair; i++)
-        fw_report_markup(out, "; air: {s} on {s}, {u}", air[s->air[i].kind],
-                         s->air[i].body < 0 ? "all bodies" : device->body[s->air[i].body].id,
-                         s->air[i].pressure_Pa, "Pa");
+        fw_markup(out, "; air: {s} on {s}, {u}", air[s->air[i].kind],
+                  s->air[i].body < 0 ? "all bodies" : device->body[s->air[i].body].id,
+                  s->air[i].pressure_Pa, "Pa");
 }
 
 static void loads(fw_text *out, const fw_device *device, const fw_scene *s) {
-    fw_report_markup(out, "<p class=\"soft\">{u}", s->duration_s, "s");
+    fw_markup(out, "<p class=\"soft\">{u}", s->duration_s, "s");
     for (int i = 0; i < s->nforce; i++) {
-        fw_report_markup(out, "; force on {s} ({u}, {u})", device->body[s->force[i].body].id,
-                         s->force[i].fx_N, "N", s->force[i].fy_N, "N");
+        fw_markup(out, "; force on {s} ({u}, {u})", device->body[s->force[i].body].id,
+                  s->force[i].fx_N, "N", s->force[i].fy_N, "N");
         law(out, s->force[i].law);
     }
     for (int i = 0; i < s->ntorque; i++) {
-        fw_report_markup(out, "; torque on {s} {u}", device->body[s->torque[i].body].id,
-                         s->torque[i].value_Nm, "N\u00b7m");
+        fw_markup(out, "; torque on {s} {u}", device->body[s->torque[i].body].id,
+                  s->torque[i].value_Nm, "N\u00b7m");
         law(out, s->torque[i].law);
     }
     for (int i = 0; i < device->ndriver; i++)
-        fw_report_markup(out, "; joint {s} driven in time", device->driver[i].id);
+        fw_markup(out, "; joint {s} driven in time", device->driver[i].id);
     if (s->gravity)
-        fw_report_markup(out, "; gravity ({n}, {n}) m/s\u00b2", s->gx_m_per_s2, s->gy_m_per_s2);
+        fw_markup(out, "; gravity ({n}, {n}) m/s\u00b2", s->gx_m_per_s2, s->gy_m_per_s2);
     actuators(out, device, s);
     surroundings(out, device, s);
     if (s->ninitial) fw_text_add(out, "; bodies start with a velocity");
@@ -134,9 +133,8 @@ static fw_status one(fw_page *page, const fw_variant_verdict *v, int scene, int 
     const char *flow = v->variant ? v->variant->flow : NULL;
     char *title = fw_arena_printf(page->arena, "Hinge angles in scene %s", s->name);
     FW_NEED(title);
-    fw_report_markup(out,
-                     "<figure class=\"motion\" id=\"motion-{i}\"><figcaption><h3>{s}{r}{s}</h3>\n",
-                     number, s->name, flow ? ", " : "", flow);
+    fw_markup(out, "<figure class=\"motion\" id=\"motion-{i}\"><figcaption><h3>{s}{r}{s}</h3>\n",
+              number, s->name, flow ? ", " : "", flow);
     loads(out, device, s);
     fw_text_add(out, "</figcaption>\n<div class=\"both\"><div>\n");
     FW_TRY(fw_report_player(page, v, scene, number));

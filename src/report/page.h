@@ -1,22 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Inside the report room: numbers for people, markup, drawing in picture coordinates, sections. */
+/* Inside the report room: colours, drawing in picture coordinates, sections of the page. */
 #ifndef FW_REPORT_PAGE_H
 #define FW_REPORT_PAGE_H
+#include "base/svg.h"
 #include "report/report.h"
-
-/* ---- markup.c: numbers and text for people ---- */
-
-/* writes `format`, replacing
-     {s} const char * escaped (NULL: nothing)   {r} const char * as it is, for our own markup
-     {i} int        {l} long        {c} double, picture coordinate, 2 decimals
-     {n} double, 4 digits           {e} double, 2 digits
-     {u} double, const char *: value with SI prefix and unit, 4 digits
-     {d} double, rad shown in degrees, 4 digits   {D} the same for columns: no sign, zeros at the
-   end kept {p} double, ratio shown in per cent {h} double, seconds shown as a duration A number
-   that is not finite becomes a dash (0 for {c}). */
-void fw_report_markup(fw_text *out, const char *format, ...);
-void fw_report_number(fw_text *out, double value, int digits);
-void fw_report_si(fw_text *out, double value, const char *unit, int digits);
 
 extern const char fw_report_style[];  /* style sheet of the page */
 extern const char fw_report_script[]; /* its player */
@@ -57,7 +44,6 @@ bool fw_report_outlined(const fw_layout *layout, int body); /* the body has a sh
 /* length of a scale bar that fills about a fifth of the view: 1, 2 or 5 times a power of ten */
 double fw_report_scale_bar(const fw_report_view *view);
 void fw_report_scale_bar_svg(fw_text *out, const fw_report_view *view);
-double fw_report_nice(double x); /* the 1, 2, 5 x 10^n at or above x */
 
 /* ---- pose.c: bodies and bending flexures at an instant ---- */
 typedef struct fw_report_bend_point { /* turns about the hinge point with `weight` of the upper body

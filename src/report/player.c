@@ -7,40 +7,33 @@
 
 enum { FRAMES = 400, FEWEST_FRAMES = 30, NUMBERS = 60000 }; /* NUMBERS: in the whole page */
 
-/* translate(now) rotate translate(-then): picture coordinates, clockwise positive */
-static void body_transform(const fw_mechanism *mechanism, const fw_motion *motion, int body,
-                           double t_s, const fw_report_view *view, fw_text *out) {
-    double pose[3];
-    fw_report_pose_at(motion, body, t_s, pose);
-    const fw_mass *m = &mechanism->body[body];
-    fw_text_add(out, "translate(");
-    fw_report_markup(out, "{c} {c}) rotate(", fw_report_x(view, pose[0]),
-                     fw_report_y(view, pose[1]));
-    double turn = -FW_DEG_PER_RAD * (pose[2] - m->phi_rad);
-    fw_text_fixed(out, isfinite(turn) ? turn : 0.0, 4);
-    fw_report_markup(out, ") translate({c} {c})", -fw_report_x(view, m->x_m),
-                     -fw_report_y(view, m->y_m));
-}
+#define PLACED                                                                                     \
+    " class='body' data-body='{i}'"                                                                \
+    " transform='translate({c} {c}) rotate({4}) translate({c} {c})'"
 
+/* translate(now) rotate translate(-then): picture coordinates, clockwise positive */
 static void moving_bodies(const fw_page *page, const fw_mechanism *mechanism,
                           const fw_motion *motion, double t_s) {
-    fw_text *out = page->out;
+    const fw_report_view *view = &page->view;
     bool drawn = fw_report_drawn(page->in->layout);
     for (int b = 0; b < motion->nbody; b++) {
+        const fw_mass *m = &mechanism->body[b];
+        double pose[3];
         bool platform = page->in->device->body[b].platform;
-        fw_report_markup(out, "<g class=\"body\" data-body=\"{i}\" transform=\"", b);
-        body_transform(mechanism, motion, b, t_s, &page->view, out);
+        fw_report_pose_at(motion, b, t_s, pose);
+        double x = fw_report_x(view, pose[0]), y = fw_report_y(view, pose[1]);
+        double x0 = -fw_report_x(view, m->x_m), y0 = -fw_report_y(view, m->y_m);
+        double turn = -FW_DEG_PER_RAD * (pose[2] - m->phi_rad);
         if (drawn)
-            fw_report_markup(out,
-                             "\" fill=\"{r}\" stroke=\"#57606a\" stroke-width=\"0.7\"><use "
-                             "href=\"#fw-b{i}\"/></g>\n",
-                             platform ? "#bcd0e3" : "#d5dbe1", b);
+            fw_svg_open(page->out, "g" PLACED " fill='{r}' stroke='#57606a' stroke-width='0.7'", b,
+                        x, y, turn, x0, y0, platform ? "#bcd0e3" : "#d5dbe1");
         else
-            fw_report_markup(out,
-                             "\" fill=\"#8c959f\" fill-opacity=\"0.25\" stroke=\"{r}\" "
-                             "stroke-width=\"5\" stroke-linecap=\"round\" "
-                             "stroke-linejoin=\"round\"><use href=\"#fw-b{i}\"/></g>\n",
-                             platform ? "#7f9fbd" : "#8c959f", b);
+            fw_svg_open(page->out,
+                        "g" PLACED " fill='#8c959f' fill-opacity='0.25' stroke='{r}' "
+                        "stroke-width='5' stroke-linecap='round' stroke-linejoin='round'",
+                        b, x, y, turn, x0, y0, platform ? "#7f9fbd" : "#8c959f");
+        fw_svg_put(page->out, "use href='#fw-b{i}'", b);
+        fw_svg_close(page->out, "g\n");
     }
 }
 
@@ -55,16 +48,15 @@ static void flexures(const fw_page *page, const fw_mechanism *mechanism, const f
         fw_report_pose_at(motion, mechanism->pin[bend->joint].body_b, t_s, b);
         double angle = b[2] - a[2] - mechanism->pin[bend->joint].free_angle_rad;
         const char *colour = fw_report_utilisation_colour(fabs(angle) / limit);
-        fw_report_markup(out,
-                         "<path class=\"flexure\" fill=\"{r}\" stroke=\"{r}\" "
-                         "stroke-width=\"1.2\" d=\"",
-                         colour, colour);
+        fw_svg_path(out, "class='flexure' fill='{r}' stroke='{r}' stroke-width='1.2'", colour,
+                    colour);
         for (int k = 0; k < bend->npoint; k++) {
             fw_vec2 p = fw_report_bent(mechanism, motion, bend, t_s, bend->point[k]);
-            fw_report_markup(out, "{r}{c} {c}", k ? "L" : "M", fw_report_x(&page->view, p.x),
-                             fw_report_y(&page->view, p.y));
+            fw_markup(out, "{r}{c} {c}", k ? "L" : "M", fw_report_x(&page->view, p.x),
+                      fw_report_y(&page->view, p.y));
         }
-        fw_text_add(out, "Z\"/>\n");
+        fw_text_add(out, "Z");
+        fw_svg_path_end(out);
     }
 }
 
@@ -73,14 +65,14 @@ static void platform_trace(const fw_page *page, const fw_motion *motion) {
     for (int b = 0; b < motion->nbody; b++) {
         if (!device->body[b].platform || motion->nsample < 2) continue;
         int step = 1 + motion->nsample / FRAMES;
-        fw_text_add(page->out, "<path fill=\"none\" stroke=\"#0072B2\" stroke-width=\"1\" "
-                               "stroke-opacity=\"0.55\" d=\"");
+        fw_svg_path(page->out,
+                    "fill='none' stroke='#0072B2' stroke-width='1' stroke-opacity='0.55'");
         for (int i = 0; i < motion->nsample; i += step) {
             const double *q = motion->q + ((size_t)i * (size_t)motion->nbody + (size_t)b) * 3;
-            fw_report_markup(page->out, "{r}{c} {c}", i ? "L" : "M", fw_report_x(&page->view, q[0]),
-                             fw_report_y(&page->view, q[1]));
+            fw_markup(page->out, "{r}{c} {c}", i ? "L" : "M", fw_report_x(&page->view, q[0]),
+                      fw_report_y(&page->view, q[1]));
         }
-        fw_text_add(page->out, "\"/>\n");
+        fw_svg_path_end(page->out);
     }
 }
 
@@ -95,16 +87,19 @@ static void force_arrows(const fw_motion *motion, const fw_scene *scene, double 
         double x = pose[0] + c * f->x_m - s * f->y_m, y = pose[1] + s * f->x_m + c * f->y_m;
         double dx = f->fx_N / size, dy = -f->fy_N / size;
         /* the tip points at where the force acts */
-        fw_report_markup(
+        fw_svg_open(out, "g class='force' data-force='{i}' transform='translate({c} {c})'", i,
+                    fw_report_x(view, x), fw_report_y(view, y));
+        fw_svg_put(out,
+                   "path d='M{c} {c}L0 0M{c} {c}L0 0L{c} {c}' fill='none' stroke='#8E3B6F' "
+                   "stroke-width='2'",
+                   -44.0 * dx, -44.0 * dy, -9.0 * dx - 4.0 * dy, -9.0 * dy + 4.0 * dx,
+                   -9.0 * dx + 4.0 * dy, -9.0 * dy - 4.0 * dx);
+        fw_svg_put(
             out,
-            "<g class=\"force\" data-force=\"{i}\" transform=\"translate({c} {c})\">"
-            "<path d=\"M{c} {c}L0 0M{c} {c}L0 0L{c} {c}\" fill=\"none\" "
-            "stroke=\"#8E3B6F\" stroke-width=\"2\"/><text x=\"{c}\" y=\"{c}\" "
-            "font-size=\"13\" fill=\"#8E3B6F\" text-anchor=\"middle\">{u}{r}{r}</text></g>\n",
-            i, fw_report_x(view, x), fw_report_y(view, y), -44.0 * dx, -44.0 * dy,
-            -9.0 * dx - 4.0 * dy, -9.0 * dy + 4.0 * dx, -9.0 * dx + 4.0 * dy, -9.0 * dy - 4.0 * dx,
+            "text x='{c}' y='{c}' font-size='13' fill='#8E3B6F' text-anchor='middle'>{u}{r}{r}",
             -58.0 * dx, -54.0 * dy + 4.0, size, "N", f->law ? " \u00d7 " : "",
             f->law ? fw_law_name(f->law) : "");
+        fw_svg_close(out, "g\n");
     }
 }
 
@@ -143,15 +138,15 @@ static void model_data(const fw_page *page, const fw_mechanism *mechanism,
     fw_text_add(out, "\"b\":[");
     for (int b = 0; b < motion->nbody; b++) {
         const fw_mass *m = &mechanism->body[b];
-        fw_report_markup(out, "{r}[{c},{c},", b ? "," : "", fw_report_x(&page->view, m->x_m),
-                         fw_report_y(&page->view, m->y_m));
+        fw_markup(out, "{r}[{c},{c},", b ? "," : "", fw_report_x(&page->view, m->x_m),
+                  fw_report_y(&page->view, m->y_m));
         plain(out, FW_DEG_PER_RAD * m->phi_rad, 4);
         fw_text_add(out, "]");
     }
     fw_text_add(out, "],\n\"p\":[");
     for (int k = 0; k < motion->npin; k++) {
         const fw_pin *p = &mechanism->pin[k];
-        fw_report_markup(out, "{r}[{i},{i},", k ? "," : "", p->body_a, p->body_b);
+        fw_markup(out, "{r}[{i},{i},", k ? "," : "", p->body_a, p->body_b);
         plain(out, FW_DEG_PER_RAD * p->free_angle_rad, 6);
         fw_text_add(out, ",");
         plain(out, FW_DEG_PER_RAD * fw_report_pin_limit(mechanism, k), 6); /* 0: none */
@@ -165,13 +160,12 @@ static void shape_data(const fw_page *page, const fw_report_bends *bends, const 
     fw_text_add(out, "],\n\"f\":[");
     for (int i = 0; i < bends->count; i++) {
         const fw_report_bend *bend = &bends->item[i];
-        fw_report_markup(out, "{r}[{i},{i},{i},{c},{c},[", i ? ",\n" : "", bend->joint, bend->lower,
-                         bend->upper, fw_report_x(view, bend->centre.x),
-                         fw_report_y(view, bend->centre.y));
+        fw_markup(out, "{r}[{i},{i},{i},{c},{c},[", i ? ",\n" : "", bend->joint, bend->lower,
+                  bend->upper, fw_report_x(view, bend->centre.x),
+                  fw_report_y(view, bend->centre.y));
         for (int k = 0; k < bend->npoint; k++) {
-            fw_report_markup(out, "{r}{c},{c},", k ? "," : "",
-                             fw_report_x(view, bend->point[k].x_m),
-                             fw_report_y(view, bend->point[k].y_m));
+            fw_markup(out, "{r}{c},{c},", k ? "," : "", fw_report_x(view, bend->point[k].x_m),
+                      fw_report_y(view, bend->point[k].y_m));
             plain(out, bend->point[k].weight, 3);
         }
         fw_text_add(out, "]]");
@@ -179,8 +173,8 @@ static void shape_data(const fw_page *page, const fw_report_bends *bends, const 
     fw_text_add(out, "],\n\"a\":[");
     for (int i = 0; i < scene->nforce; i++) {
         const fw_force *f = &scene->force[i];
-        fw_report_markup(out, "{r}[{i},{c},{c}]", i ? "," : "", f->body, f->x_m * view->scale,
-                         f->y_m * view->scale);
+        fw_markup(out, "{r}[{i},{c},{c}]", i ? "," : "", f->body, f->x_m * view->scale,
+                  f->y_m * view->scale);
     }
     fw_text_add(out, "],\n");
 }
@@ -194,16 +188,16 @@ static int frames_of(const fw_page *page, const fw_motion *motion) {
 }
 
 static void controls(fw_text *out, int number) {
-    fw_report_markup(out,
-                     "<div class=\"controls\" hidden=\"hidden\"><button type=\"button\" "
-                     "class=\"play\">Play</button><label>Speed <select class=\"speed\">"
-                     "<option value=\"0.25\">\u00bc</option><option value=\"0.5\">\u00bd</option>"
-                     "<option value=\"1\" selected=\"selected\">1</option>"
-                     "<option value=\"2\">2</option><option value=\"4\">4</option></select></label>"
-                     "<input class=\"time\" type=\"range\" min=\"0\" max=\"1000\" step=\"1\" "
-                     "value=\"0\" aria-label=\"Time in scene {i}\"/><output class=\"now\"></output>"
-                     "</div>\n",
-                     number);
+    fw_markup(out,
+              "<div class=\"controls\" hidden=\"hidden\"><button type=\"button\" "
+              "class=\"play\">Play</button><label>Speed <select class=\"speed\">"
+              "<option value=\"0.25\">\u00bc</option><option value=\"0.5\">\u00bd</option>"
+              "<option value=\"1\" selected=\"selected\">1</option>"
+              "<option value=\"2\">2</option><option value=\"4\">4</option></select></label>"
+              "<input class=\"time\" type=\"range\" min=\"0\" max=\"1000\" step=\"1\" "
+              "value=\"0\" aria-label=\"Time in scene {i}\"/><output class=\"now\"></output>"
+              "</div>\n",
+              number);
 }
 
 fw_status fw_report_player(fw_page *page, const fw_variant_verdict *variant, int scene,
@@ -215,24 +209,24 @@ fw_status fw_report_player(fw_page *page, const fw_variant_verdict *variant, int
     fw_report_bends bends;
     FW_TRY(fw_report_bends_make(page->arena, page->in->device, page->in->layout, &bends));
     fw_text *out = page->out;
-    fw_report_markup(out,
-                     "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"stage\" role=\"img\" "
-                     "viewBox=\"0 0 {c} {c}\"><title>{s}: the mechanism at {u}</title>\n",
-                     page->view.width, page->view.height, s->name, worst.t_s, "s");
+    fw_svg_begin(out, &(fw_svg_frame){.width = page->view.width,
+                                      .height = page->view.height,
+                                      .decimals = 2,
+                                      .lead = "class='stage' role='img'"});
+    fw_svg_title(out, "{s}: the mechanism at {u}", s->name, worst.t_s, "s");
     if (fw_report_drawn(page->in->layout))
-        fw_text_add(out, "<use href=\"#fw-fixed\" fill=\"#eceff2\" stroke=\"#b6bec7\" "
-                         "stroke-width=\"0.7\"/>\n");
-    fw_text_add(out, "<g fill=\"none\" stroke=\"#8c959f\" stroke-width=\"0.8\" "
-                     "stroke-dasharray=\"3 2\">");
+        fw_svg_put(out,
+                   "use href='#fw-fixed' fill='#eceff2' stroke='#b6bec7' stroke-width='0.7'\n");
+    fw_svg_open(out, "g fill='none' stroke='#8c959f' stroke-width='0.8' stroke-dasharray='3 2'");
     for (int b = 0; b < motion->nbody; b++)
-        fw_report_markup(out, "<use href=\"#fw-b{i}\"/>", b);
-    fw_text_add(out, "</g>\n");
+        fw_svg_put(out, "use href='#fw-b{i}'", b);
+    fw_svg_close(out, "g\n");
     moving_bodies(page, mechanism, motion, worst.t_s);
     flexures(page, mechanism, motion, &bends, worst.t_s);
     platform_trace(page, motion);
     force_arrows(motion, s, worst.t_s, &page->view, out);
     fw_report_scale_bar_svg(out, &page->view);
-    fw_text_add(out, "</svg>\n");
+    fw_svg_end(out);
     int frames = frames_of(page, motion);
     if (frames < 2) return fw_text_end(out);
     controls(out, number);

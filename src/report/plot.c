@@ -50,58 +50,46 @@ static void range(panel *p) {
     p->low = -p->high;
 }
 
-static int decimals(double step) {
-    int n = 0;
-    for (; n < 12 && step < 0.999; n++)
-        step *= 10.0;
-    return n;
-}
-
-static void tick_text(fw_text *out, double value, int digits) {
-    if (value < 0.0) fw_text_add(out, "\u2212");
-    fw_text_fixed(out, fabs(value), digits);
-}
-
 static void axes(const panel *p, fw_text *out) {
     double right = p->x + p->width, bottom = p->y + p->height;
-    double step = fw_report_nice((p->high - p->low) / 6.0);
-    fw_text_add(out, "<g font-size=\"10\" fill=\"#57606a\" stroke=\"none\">");
+    double step = fw_svg_nice((p->high - p->low) / 6.0);
+    fw_svg_open(out, "g font-size='10' fill='#57606a' stroke='none'");
     for (int k = -6; k <= 6; k++) {
         double value = k * step, y = place_y(p, value);
         if (value < p->low || value > p->high) continue;
-        fw_report_markup(out,
-                         "<path d=\"M{c} {c}H{c}\" stroke=\"{r}\"/><text x=\"{c}\" y=\"{c}\" "
-                         "text-anchor=\"end\">",
-                         p->x, y, right, k == 0 ? "#8c959f" : "#eaeef2", p->x - 5.0, y + 3.5);
-        tick_text(out, value, decimals(step));
-        fw_text_add(out, "</text>");
+        fw_svg_put(out, "path d='M{c} {c}H{c}' stroke='{r}'", p->x, y, right,
+                   k == 0 ? "#8c959f" : "#eaeef2");
+        fw_svg_open(out, "text x='{c}' y='{c}' text-anchor='end'", p->x - 5.0, y + 3.5);
+        fw_svg_tick(out, value, step);
+        fw_svg_close(out, "text");
     }
-    double t_step = fw_report_nice(p->t_end / p->time_unit / 5.5);
+    double t_step = fw_svg_nice(p->t_end / p->time_unit / 5.5);
     for (int k = 0; k <= 8; k++) {
         double t = k * t_step * p->time_unit;
         if (t > p->t_end * (1.0 + 1e-9)) break;
-        fw_report_markup(out,
-                         "<path d=\"M{c} {c}v4\" stroke=\"#8c959f\"/><text x=\"{c}\" "
-                         "y=\"{c}\" text-anchor=\"middle\">",
-                         place_x(p, t), bottom, place_x(p, t), bottom + 15.0);
-        tick_text(out, k * t_step, decimals(t_step));
-        fw_text_add(out, "</text>");
+        fw_svg_put(out, "path d='M{c} {c}v4' stroke='#8c959f'", place_x(p, t), bottom);
+        fw_svg_open(out, "text x='{c}' y='{c}' text-anchor='middle'", place_x(p, t), bottom + 15.0);
+        fw_svg_tick(out, k * t_step, t_step);
+        fw_svg_close(out, "text");
     }
-    fw_report_markup(out,
-                     "<text x=\"{c}\" y=\"{c}\" text-anchor=\"end\">time ({r})</text>"
-                     "<path d=\"M{c} {c}V{c}H{c}\" fill=\"none\" stroke=\"#8c959f\"/></g>\n",
-                     right, bottom + 28.0, p->time_name, p->x, p->y, bottom, right);
+    fw_svg_put(out, "text x='{c}' y='{c}' text-anchor='end'>time ({r})", right, bottom + 28.0,
+               p->time_name);
+    fw_svg_put(out, "path d='M{c} {c}V{c}H{c}' fill='none' stroke='#8c959f'", p->x, p->y, bottom,
+               right);
+    fw_svg_close(out, "g\n");
 }
 
 static void limits(const panel *p, fw_text *out) {
     if (!p->limit_shown) return;
     double top = place_y(p, p->limit), low = place_y(p, -p->limit);
-    fw_report_markup(out,
-                     "<path d=\"M{c} {c}h{c}V{c}h-{c}zM{c} {c}h{c}V{c}h-{c}z\" fill=\"#D55E00\" "
-                     "fill-opacity=\"0.08\"/><path d=\"M{c} {c}h{c}M{c} {c}h{c}\" "
-                     "stroke=\"#D55E00\" stroke-dasharray=\"5 3\" fill=\"none\"/>\n",
-                     p->x, p->y, p->width, top, p->width, p->x, low, p->width, p->y + p->height,
-                     p->width, p->x, top, p->width, p->x, low, p->width);
+    fw_svg_put(
+        out,
+        "path d='M{c} {c}h{c}V{c}h-{c}zM{c} {c}h{c}V{c}h-{c}z' fill='#D55E00' fill-opacity='0.08'",
+        p->x, p->y, p->width, top, p->width, p->x, low, p->width, p->y + p->height, p->width);
+    fw_svg_put(
+        out,
+        "path d='M{c} {c}h{c}M{c} {c}h{c}' stroke='#D55E00' stroke-dasharray='5 3' fill='none'\n",
+        p->x, top, p->width, p->x, low, p->width);
 }
 
 static fw_status curve(fw_arena *arena, const panel *p, fw_text *out) {
@@ -111,15 +99,14 @@ static fw_status curve(fw_arena *arena, const panel *p, fw_text *out) {
     int most = p->points < 4 ? 4 : p->points;
     FW_NEED(index = fw_arena_array(arena, int, (size_t)most));
     int n = fw_report_decimate(m->angle_rad + p->pin, m->npin, m->nsample, most, index);
-    fw_text_add(out, "<path fill=\"none\" stroke=\"#0072B2\" stroke-width=\"1.4\" "
-                     "stroke-linejoin=\"round\" d=\"");
+    fw_svg_path(out, "fill='none' stroke='#0072B2' stroke-width='1.4' stroke-linejoin='round'");
     for (int i = 0; i < n; i++)
-        fw_report_markup(out, "{r}{c} {c}",
-                         i == 0   ? "M"
-                         : i == 1 ? "L"
-                                  : " ",
-                         place_x(p, m->t_s[index[i]]), place_y(p, angle(p, index[i])));
-    fw_text_add(out, "\"/>\n");
+        fw_markup(out, "{r}{c} {c}",
+                  i == 0   ? "M"
+                  : i == 1 ? "L"
+                           : " ",
+                  place_x(p, m->t_s[index[i]]), place_y(p, angle(p, index[i])));
+    fw_svg_path_end(out);
     return FW_OK;
 }
 
@@ -128,50 +115,47 @@ static void peak_mark(const panel *p, fw_text *out) {
     if (!isfinite(peak->angle_rad) || !isfinite(peak->t_s)) return;
     double x = place_x(p, peak->t_s), y = place_y(p, FW_DEG_PER_RAD * peak->angle_rad);
     bool left = x > p->x + 0.55 * p->width;
-    fw_report_markup(out,
-                     "<circle cx=\"{c}\" cy=\"{c}\" r=\"3\" fill=\"#1f2328\"/><text x=\"{c}\" "
-                     "y=\"{c}\" font-size=\"10.5\" fill=\"#1f2328\" stroke=\"#fff\" "
-                     "stroke-width=\"3\" paint-order=\"stroke\" text-anchor=\"{r}\">{D}\u00b0 at "
-                     "{n} {r}</text>\n",
-                     x, y, left ? x - 7.0 : x + 7.0,
-                     peak->angle_rad > 0.0 ? fmax(y - 5.0, p->y + 9.0) : y + 13.0,
-                     left ? "end" : "start", peak->angle_rad, peak->t_s / p->time_unit,
-                     p->time_name);
+    fw_svg_put(out, "circle cx='{c}' cy='{c}' r='3' fill='#1f2328'", x, y);
+    fw_svg_put(out,
+               "text x='{c}' y='{c}' font-size='10.5' fill='#1f2328' stroke='#fff' "
+               "stroke-width='3' paint-order='stroke' text-anchor='{r}'>{D}\u00b0 at {n} {r}\n",
+               left ? x - 7.0 : x + 7.0,
+               peak->angle_rad > 0.0 ? fmax(y - 5.0, p->y + 9.0) : y + 13.0, left ? "end" : "start",
+               peak->angle_rad, peak->t_s / p->time_unit, p->time_name);
 }
 
 static void heading(const panel *p, fw_text *out) {
     double u = fabs(FW_DEG_PER_RAD * p->motion->peak[p->pin].angle_rad) / p->limit;
-    fw_report_markup(
-        out,
-        "<text x=\"{c}\" y=\"{c}\" font-size=\"13\" font-weight=\"600\" "
-        "fill=\"#1f2328\">{s} <tspan class=\"readout\" font-size=\"11.5\" "
-        "font-weight=\"400\"></tspan></text><text x=\"{c}\" y=\"{c}\" font-size=\"10.5\" "
-        "text-anchor=\"end\" fill=\"#57606a\">",
-        p->x, p->y - 9.0, p->mechanism->pin[p->pin].id, p->x + p->width, p->y - 9.0);
+    fw_svg_open(out, "text x='{c}' y='{c}' font-size='13' font-weight='600' fill='#1f2328'", p->x,
+                p->y - 9.0);
+    fw_markup(out, "{s} ", p->mechanism->pin[p->pin].id);
+    fw_svg_put(out, "tspan class='readout' font-size='11.5' font-weight='400'>");
+    fw_svg_close(out, "text");
+    fw_svg_open(out, "text x='{c}' y='{c}' font-size='10.5' text-anchor='end' fill='#57606a'",
+                p->x + p->width, p->y - 9.0);
     if (isfinite(u))
-        fw_report_markup(out, "{p} of limit \u00b1{D}\u00b0{r}", u, p->limit / FW_DEG_PER_RAD,
-                         p->limit_shown ? "" : " (off scale)");
+        fw_markup(out, "{p} of limit \u00b1{D}\u00b0{r}", u, p->limit / FW_DEG_PER_RAD,
+                  p->limit_shown ? "" : " (off scale)");
     else
         fw_text_add(out, "no limit");
-    fw_report_markup(
-        out,
-        "</text><text x=\"{c}\" y=\"{c}\" font-size=\"10\" fill=\"#57606a\" "
-        "text-anchor=\"end\" transform=\"rotate(-90 {c} {c})\">angle (\u00b0)</text>\n",
-        p->x - 36.0, p->y, p->x - 36.0, p->y);
+    fw_svg_close(out, "text");
+    fw_svg_put(out,
+               "text x='{c}' y='{c}' font-size='10' fill='#57606a' text-anchor='end' "
+               "transform='rotate(-90 {c} {c})'>angle (\u00b0)\n",
+               p->x - 36.0, p->y, p->x - 36.0, p->y);
 }
 
 static fw_status draw_panel(fw_arena *arena, const panel *p, fw_text *out) {
-    fw_report_markup(out, "<g class=\"panel\" data-pin=\"{i}\" data-x=\"{c}\" data-w=\"{c}\">\n",
-                     p->pin, p->x, p->width);
+    fw_svg_open(out, "g class='panel' data-pin='{i}' data-x='{c}' data-w='{c}'\n", p->pin, p->x,
+                p->width);
     heading(p, out);
     axes(p, out);
     limits(p, out);
     FW_TRY(curve(arena, p, out));
     peak_mark(p, out);
-    fw_report_markup(out,
-                     "<path class=\"cursor\" d=\"M0 {c}v{c}\" stroke=\"#1f2328\" "
-                     "visibility=\"hidden\"/></g>\n",
-                     p->y, p->height);
+    fw_svg_put(out, "path class='cursor' d='M0 {c}v{c}' stroke='#1f2328' visibility='hidden'", p->y,
+               p->height);
+    fw_svg_close(out, "g\n");
     return FW_OK;
 }
 
@@ -202,17 +186,19 @@ static void time_scale(panel *p) {
 }
 
 static void open_svg(const fw_report_figure *figure, int width, double height, fw_text *out) {
-    fw_report_markup(out,
-                     "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plots\" role=\"img\" "
-                     "viewBox=\"0 0 {i} {c}\" font-family=\"system-ui,'DejaVu Sans',sans-serif\"",
-                     width, height);
-    if (figure->standalone) fw_report_markup(out, " width=\"{i}\" height=\"{c}\"", width, height);
-    fw_report_markup(out, ">\n<title>{s}</title>\n", figure->title);
-    if (figure->standalone)
-        fw_report_markup(out,
-                         "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/><text x=\"{i}\" "
-                         "y=\"24\" font-size=\"15\" font-weight=\"600\">{s}</text>\n",
-                         LEFT, figure->title);
+    fw_svg_begin(out,
+                 &(fw_svg_frame){.width = width,
+                                 .height = height,
+                                 .decimals = 2,
+                                 .file = figure->standalone,
+                                 .size = figure->standalone ? FW_SVG_SIZE_BEHIND : FW_SVG_SIZE_NONE,
+                                 .lead = "class='plots' role='img'",
+                                 .font = fw_svg_font_page});
+    fw_svg_title(out, "{s}", figure->title);
+    if (!figure->standalone) return;
+    fw_svg_paper(out, "#fff");
+    fw_svg_put(out, "text x='{i}' y='24' font-size='15' font-weight='600'>{s}\n", LEFT,
+               figure->title);
 }
 
 fw_status fw_report_panels(fw_arena *arena, const fw_mechanism *mechanism, const fw_motion *motion,
@@ -235,11 +221,11 @@ fw_status fw_report_panels(fw_arena *arena, const fw_mechanism *mechanism, const
         FW_TRY(draw_panel(arena, &p, out));
     }
     if (motion->npin > n)
-        fw_report_markup(out,
-                         "<text x=\"{i}\" y=\"{c}\" font-size=\"11\" fill=\"#57606a\">The {i} most "
-                         "used of {i} joints.</text>\n",
-                         LEFT, height - 6.0, n, motion->npin);
-    fw_text_add(out, "</svg>\n");
+        fw_svg_put(
+            out,
+            "text x='{i}' y='{c}' font-size='11' fill='#57606a'>The {i} most used of {i} joints.\n",
+            LEFT, height - 6.0, n, motion->npin);
+    fw_svg_end(out);
     return fw_text_end(out);
 }
 
@@ -252,7 +238,7 @@ fw_status fw_report_motion_svg(fw_arena *arena, const fw_device *device,
                         fw_report_rejected(verdict), device->name ? device->name : "device",
                         scene->name ? scene->name : "", flow ? ", " : "", flow ? flow : "");
     FW_NEED(title);
-    fw_text_add(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+
     const fw_report_figure figure = {3, 2 * FW_REPORT_CURVE, true, title};
     return fw_report_panels(arena, mechanism, motion, &figure, out);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/page.h"
-#include "base/constants.h"
+#include "geometry/svg.h"
 #include <math.h>
 
 bool fw_report_drawn(const fw_layout *layout) {
@@ -46,38 +46,10 @@ double fw_report_y(const fw_report_view *view, double y_m) {
     return (view->y1_m - y_m) * view->scale;
 }
 
-static void arc_to(fw_text *out, const fw_report_view *view, const fw_segment *s, double sweep,
-                   fw_vec2 to) {
-    double r = s->radius * view->scale;
-    /* y points down in the picture: counter-clockwise is SVG's negative sweep */
-    fw_report_markup(out, "A{c} {c} 0 {i} {i} {c} {c}", r, r, fabs(sweep) > FW_PI ? 1 : 0,
-                     sweep > 0.0 ? 0 : 1, fw_report_x(view, to.x), fw_report_y(view, to.y));
-}
-
-static void segment(fw_text *out, const fw_report_view *view, const fw_segment *s) {
-    if (s->kind == FW_LINE) {
-        fw_report_markup(out, "L{c} {c}", fw_report_x(view, s->b.x), fw_report_y(view, s->b.y));
-        return;
-    }
-    if (fabs(s->sweep_rad) < 1.8 * FW_PI) {
-        arc_to(out, view, s, s->sweep_rad, s->b);
-        return;
-    }
-    /* an arc that ends where it starts has no direction in SVG: two halves */
-    double c = cos(0.5 * s->sweep_rad), d = sin(0.5 * s->sweep_rad);
-    double x = s->a.x - s->centre.x, y = s->a.y - s->centre.y;
-    fw_vec2 half = {s->centre.x + c * x - d * y, s->centre.y + d * x + c * y};
-    arc_to(out, view, s, 0.5 * s->sweep_rad, half);
-    arc_to(out, view, s, 0.5 * s->sweep_rad, s->b);
-}
-
 void fw_report_path(fw_text *out, const fw_report_view *view, const fw_contour *contour) {
-    if (contour->count == 0) return;
-    fw_vec2 a = contour->segment[0].a;
-    fw_report_markup(out, "M{c} {c}", fw_report_x(view, a.x), fw_report_y(view, a.y));
-    for (int i = 0; i < contour->count; i++)
-        segment(out, view, &contour->segment[i]);
-    fw_text_add(out, "Z");
+    const fw_geometry_sheet sheet = {view->x0_m, view->y1_m, view->scale, 2,
+                                     FW_GEOMETRY_ARC_PICTURE};
+    fw_geometry_svg_contour(out, &sheet, contour);
 }
 
 fw_vec2 fw_report_hinge_point(const fw_device *device, const fw_layout *layout, int joint) {
@@ -147,29 +119,21 @@ fw_report_view fw_report_device_view(const fw_device *device, const fw_layout *l
     return fw_report_view_fit(box, width, 0.0);
 }
 
-double fw_report_nice(double x) {
-    if (!isfinite(x) || x <= 0.0) return 1.0;
-    double power = pow(10.0, floor(log10(x)));
-    static const double step[] = {1.0, 2.0, 5.0, 10.0};
-    for (int i = 0; i < 4; i++)
-        if (x <= step[i] * power * (1.0 + 1e-9)) return step[i] * power;
-    return 10.0 * power;
-}
-
 double fw_report_scale_bar(const fw_report_view *view) {
-    return fw_report_nice(0.1 * view->width / view->scale);
+    return fw_svg_nice(0.1 * view->width / view->scale);
 }
 
 void fw_report_scale_bar_svg(fw_text *out, const fw_report_view *view) {
     double length = fw_report_scale_bar(view), px = length * view->scale;
     double x = view->width - 16.0 - px, y = view->height - 14.0;
-    fw_report_markup(out,
-                     "<g class=\"scale\"><rect x=\"{c}\" y=\"{c}\" width=\"{c}\" "
-                     "height=\"30\" rx=\"3\" fill=\"#fff\" fill-opacity=\"0.85\"/><path d=\"M{c} "
-                     "{c}v-5M{c} {c}h{c}v-5\" fill=\"none\" "
-                     "stroke=\"#444\" stroke-width=\"1.5\"/>"
-                     "<text x=\"{c}\" y=\"{c}\" text-anchor=\"middle\" font-size=\"11\" "
-                     "fill=\"#444\">{u}</text></g>\n",
-                     x - 8.0, y - 22.0, px + 16.0, x, y, x, y, px, x + 0.5 * px, y - 7.0, length,
-                     "m");
+    fw_svg_open(out, "g class='scale'");
+    fw_svg_put(
+        out, "rect x='{c}' y='{c}' width='{c}' height='30' rx='3' fill='#fff' fill-opacity='0.85'",
+        x - 8.0, y - 22.0, px + 16.0);
+    fw_svg_put(out,
+               "path d='M{c} {c}v-5M{c} {c}h{c}v-5' fill='none' stroke='#444' stroke-width='1.5'",
+               x, y, x, y, px);
+    fw_svg_put(out, "text x='{c}' y='{c}' text-anchor='middle' font-size='11' fill='#444'>{u}",
+               x + 0.5 * px, y - 7.0, length, "m");
+    fw_svg_close(out, "g\n");
 }

@@ -6,9 +6,9 @@
 
 static void span(fw_text *out, double low, double high, bool angle) {
     if (angle)
-        fw_report_markup(out, "{d} to {d}", low, high);
+        fw_markup(out, "{d} to {d}", low, high);
     else
-        fw_report_markup(out, "{u} to {u}", low, "m", high, "m");
+        fw_markup(out, "{u} to {u}", low, "m", high, "m");
 }
 
 static void boxes(fw_page *page, const char *flow) {
@@ -28,17 +28,16 @@ static void boxes(fw_page *page, const char *flow) {
 
 static void judgement(fw_text *out, const fw_workspace_result *w) {
     if (!w->reachable)
-        fw_report_markup(out,
-                         "<p><strong class=\"no\">Not reachable:</strong> the mechanism cannot be "
-                         "assembled at ({u}, {u}, {d}).</p>\n",
-                         w->fail_x_m, "m", w->fail_y_m, "m", w->fail_phi_rad);
+        fw_markup(out,
+                  "<p><strong class=\"no\">Not reachable:</strong> the mechanism cannot be "
+                  "assembled at ({u}, {u}, {d}).</p>\n",
+                  w->fail_x_m, "m", w->fail_y_m, "m", w->fail_phi_rad);
     else
-        fw_report_markup(out,
-                         "<p>All of it can be reached{r}. Volume {n} mm\u00b2\u00b7\u00b0.</p>\n",
-                         w->certified ? ", <strong>certified</strong> by interval arithmetic: the "
-                                        "peaks below enclose every pose of the box"
-                                      : "; peaks from samples, <strong>not certified</strong>",
-                         w->volume_m2_rad * 1e6 * FW_DEG_PER_RAD);
+        fw_markup(out, "<p>All of it can be reached{r}. Volume {n} mm\u00b2\u00b7\u00b0.</p>\n",
+                  w->certified ? ", <strong>certified</strong> by interval arithmetic: the "
+                                 "peaks below enclose every pose of the box"
+                               : "; peaks from samples, <strong>not certified</strong>",
+                  w->volume_m2_rad * 1e6 * FW_DEG_PER_RAD);
 }
 
 static void peaks(fw_page *page, const fw_variant_verdict *v) {
@@ -54,14 +53,13 @@ static void peaks(fw_page *page, const fw_variant_verdict *v) {
     for (int k = 0; k < FW_SIX && k < v->mechanism->npin; k++) {
         const fw_workspace_peak *p = &v->workspace.peak[k];
         double limit = fw_report_pin_limit(v->mechanism, k), u = fabs(p->angle_rad) / limit;
-        fw_report_markup(out, "<tr{r}><th scope=\"row\">{s}</th><td class=\"n\">{D} \u00b1 ",
-                         u > 1.0 ? " class=\"bad\"" : "", v->mechanism->pin[k].id, p->angle_rad);
-        fw_report_number(out, p->error_rad * FW_DEG_PER_RAD, 2);
-        fw_report_markup(
-            out,
-            "</td><td class=\"n\">{D}</td><td class=\"n\">{p}</td><td "
-            "class=\"n\">{u}</td><td class=\"n\">{u}</td><td class=\"n\">{d}</td></tr>\n",
-            limit, u, p->x_m, "m", p->y_m, "m", p->phi_rad);
+        fw_markup(out, "<tr{r}><th scope=\"row\">{s}</th><td class=\"n\">{D} \u00b1 ",
+                  u > 1.0 ? " class=\"bad\"" : "", v->mechanism->pin[k].id, p->angle_rad);
+        fw_markup_number(out, p->error_rad * FW_DEG_PER_RAD, 2);
+        fw_markup(out,
+                  "</td><td class=\"n\">{D}</td><td class=\"n\">{p}</td><td "
+                  "class=\"n\">{u}</td><td class=\"n\">{u}</td><td class=\"n\">{d}</td></tr>\n",
+                  limit, u, p->x_m, "m", p->y_m, "m", p->phi_rad);
     }
     fw_text_add(out, "</tbody></table></div>\n");
 }
@@ -78,24 +76,28 @@ static fw_status reachable(fw_page *page, const fw_variant_verdict *v) {
     double height;
     FW_TRY(fw_report_slices(page->arena, &flow, 0.0, &height, &picture));
     FW_TRY(fw_text_end(&picture));
-    fw_report_markup(
-        page->out,
-        "<p>Reachable with every hinge inside its elastic limit: {n} to {n} "
-        "mm\u00b2\u00b7\u00b0, <strong>certified</strong>; x from {u} to {u}, y from {u} "
-        "to {u}, rotation {d} to {d}. It grows with all limits to the power ",
-        map->volume.value.lo * 1e6 * FW_DEG_PER_RAD, map->volume.value.hi * 1e6 * FW_DEG_PER_RAD,
-        map->survey.least[0].hi, "m", map->survey.most[0].lo, "m", map->survey.least[1].hi, "m",
-        map->survey.most[1].lo, "m", map->survey.least[2].hi, map->survey.most[2].lo);
-    fw_report_number(page->out, map->survey.exponent, 3);
-    fw_report_markup(page->out,
-                     ".</p>\n<figure class=\"wide\"><svg role=\"img\" viewBox=\"0 0 {i} {c}\" "
-                     "width=\"{i}\" height=\"{c}\" font-family=\"system-ui,'DejaVu Sans',"
-                     "sans-serif\"><title>Workspace at constant rotation, x and y in \u00b5m"
-                     "</title><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
-                     FW_SLICES_WIDTH, height, FW_SLICES_WIDTH, height);
+    fw_markup(page->out,
+              "<p>Reachable with every hinge inside its elastic limit: {n} to {n} "
+              "mm\u00b2\u00b7\u00b0, <strong>certified</strong>; x from {u} to {u}, y from {u} "
+              "to {u}, rotation {d} to {d}. It grows with all limits to the power ",
+              map->volume.value.lo * 1e6 * FW_DEG_PER_RAD,
+              map->volume.value.hi * 1e6 * FW_DEG_PER_RAD, map->survey.least[0].hi, "m",
+              map->survey.most[0].lo, "m", map->survey.least[1].hi, "m", map->survey.most[1].lo,
+              "m", map->survey.least[2].hi, map->survey.most[2].lo);
+    fw_markup_number(page->out, map->survey.exponent, 3);
+    fw_text_add(page->out, ".</p>\n<figure class=\"wide\">");
+    fw_svg_begin(page->out, &(fw_svg_frame){.width = FW_SLICES_WIDTH,
+                                            .height = height,
+                                            .decimals = 2,
+                                            .size = FW_SVG_SIZE_BEHIND,
+                                            .lead = "role='img'",
+                                            .font = fw_svg_font_page});
+    fw_svg_title(page->out, "Workspace at constant rotation, x and y in \u00b5m");
+    fw_svg_paper(page->out, "#fff");
     fw_text_bytes(page->out, picture.data, picture.length);
+    fw_svg_close(page->out, "svg");
     fw_text_add(page->out,
-                "</svg><figcaption>Workspace at constant rotation, x and y of the "
+                "<figcaption>Workspace at constant rotation, x and y of the "
                 "platform in \u00b5m from the drawn pose. The boundary has the colour of "
                 "the hinge that is at its limit; dashed: the required box. The line is "
                 "drawn from samples, areas and volume are proved.</figcaption></figure>\n");
@@ -110,7 +112,7 @@ fw_status fw_report_section_workspace(fw_page *page) {
         if (!v->workspace.required) continue;
         any = true;
         const char *flow = v->variant ? v->variant->flow : NULL;
-        fw_report_markup(page->out, "<h3>{s}</h3>\n", flow ? flow : "all flows");
+        fw_markup(page->out, "<h3>{s}</h3>\n", flow ? flow : "all flows");
         boxes(page, flow);
         judgement(page->out, &v->workspace);
         if (v->workspace.reachable) peaks(page, v);

@@ -104,7 +104,7 @@ static void march(slice *s) {
 static void fill(slice *s) {
     for (int e = 0; e < EDGES; e++)
         s->seen[e] = 0;
-    fw_text_add(s->out, "<path fill=\"#eaeef2\" fill-rule=\"evenodd\" d=\"");
+    fw_svg_path(s->out, "fill='#eaeef2' fill-rule='evenodd'");
     for (int e = 0; e < EDGES; e++) {
         if (s->next[e] < 0 || s->seen[e]) continue;
         const char *how = "M";
@@ -112,12 +112,12 @@ static void fill(slice *s) {
             double x, y;
             s->seen[at] = 1;
             point(s, at, &x, &y);
-            fw_report_markup(s->out, "{r}{c} {c}", how, x, y);
+            fw_markup(s->out, "{r}{c} {c}", how, x, y);
             how = "L";
         }
         fw_text_add(s->out, "Z");
     }
-    fw_text_add(s->out, "\"/>\n");
+    fw_svg_path_end(s->out);
 }
 
 /* the hinge's name outside of the middle of its part of the boundary, which has the inside to its
@@ -127,11 +127,11 @@ static void name_it(const slice *s, int who, int e) {
     point(s, e, &x, &y);
     point(s, s->next[e], &u, &v);
     double d = fmax(hypot(u - x, v - y), 1e-9);
-    fw_report_markup(s->out,
-                     "<text x=\"{c}\" y=\"{c}\" font-size=\"11\" font-weight=\"600\" "
-                     "text-anchor=\"middle\" fill=\"{r}\">{s}</text>\n",
-                     x - 11.0 * (v - y) / d, y + 11.0 * (u - x) / d + 4.0, ink[who],
-                     s->flow->mechanism->pin[who].id);
+    fw_svg_put(s->out,
+               "text x='{c}' y='{c}' font-size='11' font-weight='600' text-anchor='middle' "
+               "fill='{r}'>{s}\n",
+               x - 11.0 * (v - y) / d, y + 11.0 * (u - x) / d + 4.0, ink[who],
+               s->flow->mechanism->pin[who].id);
 }
 
 static void outline(slice *s) {
@@ -141,16 +141,17 @@ static void outline(slice *s) {
             if (s->next[e] < 0 || owner(s, e) != who) continue;
             double x, y, u, v;
             if (count++ == 0)
-                fw_report_markup(s->out,
-                                 "<path fill=\"none\" stroke=\"{r}\" stroke-width=\"3\" "
-                                 "stroke-linecap=\"round\" d=\"",
-                                 ink[who]);
+                fw_svg_path(s->out,
+                            "fill='none' stroke='{r}' stroke-width='3' stroke-linecap='round'",
+                            ink[who]);
             point(s, e, &x, &y);
             point(s, s->next[e], &u, &v);
-            fw_report_markup(s->out, "M{c} {c}L{c} {c}", x, y, u, v);
+            fw_markup(s->out, "M{c} {c}L{c} {c}", x, y, u, v);
         }
         if (count == 0) continue;
-        fw_report_markup(s->out, "\"><title>{s}</title></path>\n", s->flow->mechanism->pin[who].id);
+        fw_svg_finish(s->out, ">");
+        fw_svg_put(s->out, "title>{s}", s->flow->mechanism->pin[who].id);
+        fw_svg_close(s->out, "path\n");
         for (int e = 0, k = 0; e < EDGES && middle < 0; e++)
             if (s->next[e] >= 0 && owner(s, e) == who && k++ == count / 2) middle = e;
         name_it(s, who, middle);
@@ -170,59 +171,60 @@ static void required(const slice *s) {
         double right = fmin(fmax((b->x_max_m - s->low[0]) * fx, 0.0), s->plot_wide);
         double bottom = fmin(fmax((s->high[1] - b->y_min_m) * fx, 0.0), s->plot_high);
         double top = fmin(fmax((s->high[1] - b->y_max_m) * fx, 0.0), s->plot_high);
-        fw_report_markup(s->out,
-                         "<rect x=\"{c}\" y=\"{c}\" width=\"{c}\" height=\"{c}\" fill=\"none\" "
-                         "stroke=\"#1f2328\" stroke-width=\"1.2\" stroke-dasharray=\"4 3\">"
-                         "<title>required</title></rect>\n",
-                         s->x0 + left, s->y0 + top, right - left, bottom - top);
+        fw_svg_open(s->out,
+                    "rect x='{c}' y='{c}' width='{c}' height='{c}' fill='none' stroke='#1f2328' "
+                    "stroke-width='1.2' stroke-dasharray='4 3'",
+                    s->x0 + left, s->y0 + top, right - left, bottom - top);
+        fw_svg_put(s->out, "title>required");
+        fw_svg_close(s->out, "rect\n");
     }
 }
 
 static void number(fw_text *out, double value, int digits) {
     if (value < 0.0) fw_text_add(out, "\u2212");
-    fw_report_number(out, fabs(value), digits);
+    fw_markup_number(out, fabs(value), digits);
 }
 
 static void frame(const slice *s) {
     double wide = s->high[0] - s->low[0], high = s->high[1] - s->low[1];
-    double step[2] = {fw_report_nice(wide / 4.0), fw_report_nice(high / 4.0)};
-    fw_text_add(s->out, "<g font-size=\"10\" fill=\"#57606a\">\n");
+    double step[2] = {fw_svg_nice(wide / 4.0), fw_svg_nice(high / 4.0)};
+    fw_svg_open(s->out, "g font-size='10' fill='#57606a'\n");
     for (int axis = 0; axis < 2; axis++)
         for (double k = ceil(s->low[axis] / step[axis]); k * step[axis] <= s->high[axis];
              k += 1.0) {
             double t = (k * step[axis] - s->low[axis]) / (s->high[axis] - s->low[axis]);
             const char *grey = fabs(k) < 0.5 ? "#8c959f" : "#eaeef2";
             double x = s->x0 + s->plot_wide * t, y = s->y0 + s->plot_high * (1.0 - t);
-            if (axis == 0)
-                fw_report_markup(s->out,
-                                 "<path d=\"M{c} {c}v{c}\" stroke=\"{r}\"/><text x=\"{c}\" "
-                                 "y=\"{c}\" text-anchor=\"middle\">",
-                                 x, s->y0, s->plot_high, grey, x, s->y0 + s->plot_high + 13.0);
-            else
-                fw_report_markup(s->out,
-                                 "<path d=\"M{c} {c}h{c}\" stroke=\"{r}\"/><text x=\"{c}\" "
-                                 "y=\"{c}\" text-anchor=\"end\">",
-                                 s->x0, y, s->plot_wide, grey, s->x0 - 4.0, y + 3.5);
+            if (axis == 0) {
+                fw_svg_put(s->out, "path d='M{c} {c}v{c}' stroke='{r}'", x, s->y0, s->plot_high,
+                           grey);
+                fw_svg_open(s->out, "text x='{c}' y='{c}' text-anchor='middle'", x,
+                            s->y0 + s->plot_high + 13.0);
+            } else {
+                fw_svg_put(s->out, "path d='M{c} {c}h{c}' stroke='{r}'", s->x0, y, s->plot_wide,
+                           grey);
+                fw_svg_open(s->out, "text x='{c}' y='{c}' text-anchor='end'", s->x0 - 4.0, y + 3.5);
+            }
             number(s->out, k * step[axis] * 1e6, 4);
-            fw_text_add(s->out, "</text>");
+            fw_svg_close(s->out, "text");
         }
-    fw_text_add(s->out, "</g>\n");
+    fw_svg_close(s->out, "g\n");
 }
 
 static void caption(const slice *s, const fw_workspace_slice *at) {
-    fw_report_markup(s->out,
-                     "<text x=\"{c}\" y=\"{c}\" font-size=\"12\" font-weight=\"600\" "
-                     "fill=\"#1f2328\">rotation ",
-                     s->x0, s->y0 - 20.0);
+    fw_svg_open(s->out, "text x='{c}' y='{c}' font-size='12' font-weight='600' fill='#1f2328'",
+                s->x0, s->y0 - 20.0);
+    fw_text_add(s->out, "rotation ");
     number(s->out, fabs(at->phi_rad) < 1e-12 ? 0.0 : at->phi_rad * FW_DEG_PER_RAD, 3);
-    fw_report_markup(s->out,
-                     "\u00b0</text><text x=\"{c}\" y=\"{c}\" font-size=\"11\" fill=\"#57606a\">"
-                     "area ",
-                     s->x0, s->y0 - 6.0);
+    fw_text_add(s->out, "\u00b0");
+    fw_svg_close(s->out, "text");
+    fw_svg_open(s->out, "text x='{c}' y='{c}' font-size='11' fill='#57606a'", s->x0, s->y0 - 6.0);
+    fw_text_add(s->out, "area ");
     fw_text_number(s->out, at->area.value.lo * 1e12, 6);
     fw_text_add(s->out, " to ");
     fw_text_number(s->out, at->area.value.hi * 1e12, 6);
-    fw_text_add(s->out, " \u00b5m\u00b2</text>\n");
+    fw_text_add(s->out, " \u00b5m\u00b2");
+    fw_svg_close(s->out, "text\n");
 }
 
 /* whose limit bounds the set, as bars */
@@ -231,22 +233,22 @@ static void shares(const slice *s) {
     double most = 0.0;
     for (int i = 0; i < FW_SIX; i++)
         most = fmax(most, survey->share[i]);
-    fw_report_markup(
+    fw_svg_put(
         s->out,
-        "<text x=\"{c}\" y=\"{c}\" font-size=\"12\" font-weight=\"600\" "
-        "fill=\"#1f2328\">boundary by hinge</text><text x=\"{c}\" y=\"{c}\" "
-        "font-size=\"11\" fill=\"#57606a\">share of the growth with its limit</text>\n",
-        s->x0, s->y0 - 20.0, s->x0, s->y0 - 6.0);
+        "text x='{c}' y='{c}' font-size='12' font-weight='600' fill='#1f2328'>boundary by hinge",
+        s->x0, s->y0 - 20.0);
+    fw_svg_put(
+        s->out,
+        "text x='{c}' y='{c}' font-size='11' fill='#57606a'>share of the growth with its limit\n",
+        s->x0, s->y0 - 6.0);
     for (int i = 0; i < FW_SIX; i++) {
         double y = s->y0 + 10.0 + 30.0 * i;
-        fw_report_markup(s->out,
-                         "<text x=\"{c}\" y=\"{c}\" font-size=\"12\" fill=\"#1f2328\">{s}</text>"
-                         "<rect x=\"{c}\" y=\"{c}\" width=\"{c}\" height=\"16\" fill=\"{r}\"/>"
-                         "<text x=\"{c}\" y=\"{c}\" font-size=\"11\" fill=\"#57606a\">{p}</text>\n",
-                         s->x0, y + 12.0, s->flow->mechanism->pin[i].id, s->x0 + 34.0, y,
-                         fmax(130.0 * survey->share[i] / most, 1.0), ink[i],
-                         s->x0 + 40.0 + 130.0 * survey->share[i] / most, y + 12.0,
-                         survey->share[i]);
+        fw_svg_put(s->out, "text x='{c}' y='{c}' font-size='12' fill='#1f2328'>{s}", s->x0,
+                   y + 12.0, s->flow->mechanism->pin[i].id);
+        fw_svg_put(s->out, "rect x='{c}' y='{c}' width='{c}' height='16' fill='{r}'", s->x0 + 34.0,
+                   y, fmax(130.0 * survey->share[i] / most, 1.0), ink[i]);
+        fw_svg_put(s->out, "text x='{c}' y='{c}' font-size='11' fill='#57606a'>{p}\n",
+                   s->x0 + 40.0 + 130.0 * survey->share[i] / most, y + 12.0, survey->share[i]);
     }
 }
 
@@ -298,34 +300,36 @@ fw_status fw_report_workspace_svg(fw_arena *arena, const fw_report_workspace *in
     for (int i = 0; i < in->nflow; i++) {
         const fw_report_workspace_flow *f = &in->flow[i];
         double height;
-        fw_report_markup(&body, "<text x=\"14\" y=\"{c}\" font-size=\"13\" fill=\"#1f2328\">{s}: ",
-                         top + 14.0, f->flow ? f->flow : f->mechanism->variant->material.id);
+        fw_svg_open(&body, "text x='14' y='{c}' font-size='13' fill='#1f2328'", top + 14.0);
+        fw_markup(&body, "{s}: ", f->flow ? f->flow : f->mechanism->variant->material.id);
         if (f->map->none)
-            fw_report_markup(&body, "no reachable set, {s}", f->map->none);
+            fw_markup(&body, "no reachable set, {s}", f->map->none);
         else {
             fw_text_add(&body, "volume ");
-            fw_report_number(&body, f->map->volume.value.lo * 1e12, 6);
+            fw_markup_number(&body, f->map->volume.value.lo * 1e12, 6);
             fw_text_add(&body, " to ");
-            fw_report_number(&body, f->map->volume.value.hi * 1e12, 6);
+            fw_markup_number(&body, f->map->volume.value.hi * 1e12, 6);
             fw_text_add(&body, " \u00b5m\u00b2 rad, certified");
         }
-        fw_text_add(&body, "</text>\n");
+        fw_svg_close(&body, "text\n");
         FW_TRY(fw_report_slices(arena, f, top + 20.0, &height, &body));
         top += 34.0 + height;
     }
     FW_TRY(fw_text_end(&body));
-    fw_report_markup(out,
-                     "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-                     "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 {i} "
-                     "{c}\" width=\"{i}\" height=\"{c}\" font-family=\"system-ui,'DejaVu Sans',"
-                     "sans-serif\">\n<title>{s}: workspace</title>\n"
-                     "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
-                     "<text x=\"14\" y=\"26\" font-size=\"15\" font-weight=\"600\" "
-                     "fill=\"#1f2328\">{s}: workspace at constant rotation, x and y in \u00b5m"
-                     "</text>\n",
-                     FW_SLICES_WIDTH, top, FW_SLICES_WIDTH, top, in->device->name,
-                     in->device->name);
+    fw_svg_begin(out, &(fw_svg_frame){.width = FW_SLICES_WIDTH,
+                                      .height = top,
+                                      .decimals = 2,
+                                      .size = FW_SVG_SIZE_BEHIND,
+                                      .file = true,
+                                      .lead = "role='img'",
+                                      .font = fw_svg_font_page});
+    fw_svg_title(out, "{s}: workspace", in->device->name);
+    fw_svg_paper(out, "#fff");
+    fw_svg_put(out,
+               "text x='14' y='26' font-size='15' font-weight='600' fill='#1f2328'>{s}: workspace "
+               "at constant rotation, x and y in \u00b5m\n",
+               in->device->name);
     fw_text_bytes(out, body.data, body.length);
-    fw_text_add(out, "</svg>\n");
+    fw_svg_end(out);
     return fw_text_end(out);
 }

@@ -52,12 +52,11 @@ static void ticks_x(const fw_panel *p, fw_text *out) {
     int every = p->ax.high - p->ax.low > 8 ? 2 : 1;
     for (int e = (int)p->ax.low; e <= (int)p->ax.high; e++) {
         double x = fw_panel_x(p, pow(10, e));
-        fw_report_markup(out, "<path d=\"M{c} {c}V{c}\" stroke=\"#eaeef2\"/>", x, p->y, bottom);
+        fw_svg_put(out, "path d='M{c} {c}V{c}' stroke='#eaeef2'", x, p->y, bottom);
         if ((e - (int)p->ax.low) % every) continue;
-        fw_report_markup(out, "<text x=\"{c}\" y=\"{c}\" text-anchor=\"middle\">", x,
-                         bottom + 16.0);
+        fw_svg_open(out, "text x='{c}' y='{c}' text-anchor='middle'", x, bottom + 16.0);
         power(out, e);
-        fw_text_add(out, "</text>");
+        fw_svg_close(out, "text");
     }
 }
 
@@ -67,39 +66,31 @@ static void ticks_y(const fw_panel *p, fw_text *out) {
     for (int e = (int)p->ay.low; e <= (int)p->ay.high; e++)
         for (int k = 0; k < (fine ? 3 : 1) && (k == 0 || e < (int)p->ay.high); k++) {
             double y = fw_panel_y(p, step[k] * pow(10, e));
-            fw_report_markup(out,
-                             "<path d=\"M{c} {c}H{c}\" stroke=\"#eaeef2\"/><text x=\"{c}\" "
-                             "y=\"{c}\" text-anchor=\"end\">{r}",
-                             p->x, y, p->x + p->width, p->x - 6.0, y + 4.0,
-                             k == 0   ? ""
-                             : k == 1 ? "2\u00b7"
-                                      : "5\u00b7");
+            fw_svg_put(out, "path d='M{c} {c}H{c}' stroke='#eaeef2'", p->x, y, p->x + p->width);
+            fw_svg_open(out, "text x='{c}' y='{c}' text-anchor='end'", p->x - 6.0, y + 4.0);
+            fw_markup(out, "{r}", k == 0 ? "" : k == 1 ? "2\u00b7" : "5\u00b7");
             power(out, e);
-            fw_text_add(out, "</text>");
+            fw_svg_close(out, "text");
         }
 }
 
 void fw_panel_frame(const fw_panel *p, const char *title, const char *x_name, const char *y_name,
                     fw_text *out) {
     double bottom = p->y + p->height, middle = p->y + 0.5 * p->height;
-    fw_report_markup(out,
-                     "<text x=\"{c}\" y=\"{c}\" font-size=\"14\" font-weight=\"600\" "
-                     "fill=\"#1f2328\">{s}</text>\n<g font-size=\"11.5\" fill=\"#57606a\">",
-                     p->x, p->y - 22.0, title);
+    fw_svg_put(out, "text x='{c}' y='{c}' font-size='14' font-weight='600' fill='#1f2328'>{s}\n",
+               p->x, p->y - 22.0, title);
+    fw_svg_open(out, "g font-size='11.5' fill='#57606a'");
     ticks_x(p, out);
     if (!p->bare) ticks_y(p, out);
-    fw_report_markup(out,
-                     "<text x=\"{c}\" y=\"{c}\" text-anchor=\"middle\">{s}{r}</text><path "
-                     "d=\"M{c} {c}V{c}H{c}\" fill=\"none\" stroke=\"#8c959f\"/>",
-                     p->x + 0.5 * p->width, bottom + 34.0, x_name,
-                     p->ax.falls ? " (smaller to the right)" : "", p->x, p->y, bottom,
-                     p->x + p->width);
+    fw_svg_put(out, "text x='{c}' y='{c}' text-anchor='middle'>{s}{r}", p->x + 0.5 * p->width,
+               bottom + 34.0, x_name, p->ax.falls ? " (smaller to the right)" : "");
+    fw_svg_put(out, "path d='M{c} {c}V{c}H{c}' fill='none' stroke='#8c959f'", p->x, p->y, bottom,
+               p->x + p->width);
     if (!p->bare)
-        fw_report_markup(out,
-                         "<text x=\"{c}\" y=\"{c}\" text-anchor=\"middle\" transform=\"rotate(-90 "
-                         "{c} {c})\">{s}</text>",
-                         p->x - 50.0, middle, p->x - 50.0, middle, y_name);
-    fw_text_add(out, "</g>\n");
+        fw_svg_put(out,
+                   "text x='{c}' y='{c}' text-anchor='middle' transform='rotate(-90 {c} {c})'>{s}",
+                   p->x - 50.0, middle, p->x - 50.0, middle, y_name);
+    fw_svg_close(out, "g\n");
 }
 
 /* ---- curves ---- */
@@ -113,7 +104,7 @@ static void marker(double x, double y, int style, fw_text *out) {
     static const char *const shape[] = {"m-3.4 0a3.4 3.4 0 1 0 6.8 0a3.4 3.4 0 1 0 -6.8 0z",
                                         "m-3.1 -3.1h6.2v6.2h-6.2z", "m0 -4.2l4 7h-8z",
                                         "m0 -4.4l4.4 4.4l-4.4 4.4l-4.4 -4.4z", "m0 4.2l-4 -7h8z"};
-    fw_report_markup(out, "M{c} {c}{r}", x, y, shape[style % 5]);
+    fw_markup(out, "M{c} {c}{r}", x, y, shape[style % 5]);
 }
 
 void fw_panel_curve(const fw_panel *p, const double *x, const double *y, int n, int style,
@@ -122,16 +113,15 @@ void fw_panel_curve(const fw_panel *p, const double *x, const double *y, int n, 
     const char *ink = colour[style % COLOURS];
     (void)p;
     if (n == 0) return;
-    fw_report_markup(out,
-                     "<path fill=\"none\" stroke=\"{r}\" stroke-width=\"1.7\" "
-                     "stroke-dasharray=\"{r}\" d=\"",
-                     ink, dash[style / 3 % 3]);
+    fw_svg_path(out, "fill='none' stroke='{r}' stroke-width='1.7' stroke-dasharray='{r}'", ink,
+                dash[style / 3 % 3]);
     for (int i = 0; i < n; i++)
-        fw_report_markup(out, "{r}{c} {c}", i ? "L" : "M", x[i], y[i]);
-    fw_report_markup(out, "\"/><path fill=\"{r}\" stroke=\"#fff\" stroke-width=\"0.7\" d=\"", ink);
+        fw_markup(out, "{r}{c} {c}", i ? "L" : "M", x[i], y[i]);
+    fw_svg_finish(out, "/>");
+    fw_svg_path(out, "fill='{r}' stroke='#fff' stroke-width='0.7'", ink);
     for (int i = 0; i < n; i++)
         marker(x[i], y[i], style, out);
-    fw_text_add(out, "\"/>\n");
+    fw_svg_path_end(out);
 }
 
 /* ---- labels ---- */
@@ -159,13 +149,13 @@ void fw_labels_draw(fw_labels *l, const fw_panel *p, fw_text *out) {
     fw_labels_spread(l, p->y + 6, p->y + p->height - 4, 16);
     for (int i = 0; i < l->n; i++) {
         const char *ink = colour[l->item[i].style % COLOURS];
-        fw_report_markup(out,
-                         "<path d=\"M{c} {c}L{c} {c}\" stroke=\"{r}\" stroke-width=\"0.8\" "
-                         "stroke-opacity=\"0.6\"/><path fill=\"{r}\" d=\"",
-                         l->item[i].x + 4.0, l->item[i].y, x - 4.0, l->item[i].at, ink, ink);
+        fw_svg_put(out,
+                   "path d='M{c} {c}L{c} {c}' stroke='{r}' stroke-width='0.8' stroke-opacity='0.6'",
+                   l->item[i].x + 4.0, l->item[i].y, x - 4.0, l->item[i].at, ink);
+        fw_svg_path(out, "fill='{r}'", ink);
         marker(x + 3.0, l->item[i].at, l->item[i].style, out);
-        fw_report_markup(out,
-                         "\"/><text x=\"{c}\" y=\"{c}\" font-size=\"12\" fill=\"{r}\">{s}</text>\n",
-                         x + 11.0, l->item[i].at + 4.0, ink, l->item[i].text);
+        fw_svg_finish(out, "/>");
+        fw_svg_put(out, "text x='{c}' y='{c}' font-size='12' fill='{r}'>{s}\n", x + 11.0,
+                   l->item[i].at + 4.0, ink, l->item[i].text);
     }
 }

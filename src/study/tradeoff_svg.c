@@ -47,36 +47,38 @@ static void say_exact(fw_text *out, double x) {
 static void marks(const fw_tradeoff *t, const fw_panel *p, fw_text *out) {
     if (isfinite(t->floor)) {
         double x = fw_panel_x(p, t->floor);
-        fw_report_markup(out,
-                         "<rect x=\"{c}\" y=\"{c}\" width=\"{c}\" height=\"{c}\" fill=\"#8c959f\" "
-                         "fill-opacity=\"0.13\"/><path d=\"M{c} {c}v{c}\" stroke=\"#57606a\" "
-                         "stroke-width=\"1.5\"/>\n",
-                         x, p->y, p->x + p->width - x, p->height, x, p->y, p->height);
+        fw_svg_put(
+            out, "rect x='{c}' y='{c}' width='{c}' height='{c}' fill='#8c959f' fill-opacity='0.13'",
+            x, p->y, p->x + p->width - x, p->height);
+        fw_svg_put(out, "path d='M{c} {c}v{c}' stroke='#57606a' stroke-width='1.5'\n", x, p->y,
+                   p->height);
     }
     double x = fw_panel_x(p, t->accuracy);
-    fw_report_markup(out,
-                     "<path d=\"M{c} {c}v{c}\" stroke=\"#0550ae\" stroke-width=\"1.2\" "
-                     "stroke-dasharray=\"5 4\"/><text x=\"{c}\" y=\"{c}\" font-size=\"11\" "
-                     "fill=\"#0550ae\" text-anchor=\"middle\">wanted</text>\n",
-                     x, p->y, p->height, x, p->y - 5.0);
+    fw_svg_put(out,
+               "path d='M{c} {c}v{c}' stroke='#0550ae' stroke-width='1.2' stroke-dasharray='5 4'",
+               x, p->y, p->height);
+    fw_svg_put(out,
+               "text x='{c}' y='{c}' font-size='11' fill='#0550ae' text-anchor='middle'>wanted\n",
+               x, p->y - 5.0);
     if (!isfinite(t->reference.error)) return;
     x = fw_panel_x(p, t->reference.error);
-    fw_report_markup(out,
-                     "<path d=\"M{c} {c}v{c}\" stroke=\"#8c959f\" stroke-dasharray=\"1 4\"/><text "
-                     "x=\"{c}\" y=\"{c}\" font-size=\"11\" fill=\"#57606a\" "
-                     "text-anchor=\"middle\">reference</text>\n",
-                     x, p->y, p->height, x, p->y - 5.0);
+    fw_svg_put(out, "path d='M{c} {c}v{c}' stroke='#8c959f' stroke-dasharray='1 4'", x, p->y,
+               p->height);
+    fw_svg_put(
+        out, "text x='{c}' y='{c}' font-size='11' fill='#57606a' text-anchor='middle'>reference\n",
+        x, p->y - 5.0);
 }
 
 static void chosen(const fw_tradeoff *t, const fw_panel *p, fw_text *out) {
     double x = fw_panel_x(p, fmax(t->point[0].error, t->reference.error));
     double y = fw_panel_y(p, t->point[0].instructions);
-    fw_report_markup(out,
-                     "<circle cx=\"{c}\" cy=\"{c}\" r=\"8\" fill=\"none\" stroke=\"#1f2328\" "
-                     "stroke-width=\"2.2\"/><text x=\"{c}\" y=\"{c}\" font-size=\"12\" "
-                     "font-weight=\"600\" fill=\"#1f2328\" stroke=\"#fff\" stroke-width=\"4\" "
-                     "paint-order=\"stroke\" text-anchor=\"middle\">chosen</text>\n",
-                     x, y, x, y + 24.0 > p->y + p->height - 4.0 ? y - 14.0 : y + 24.0);
+    fw_svg_put(out,
+               "circle cx='{c}' cy='{c}' r='8' fill='none' stroke='#1f2328' stroke-width='2.2'", x,
+               y);
+    fw_svg_put(out,
+               "text x='{c}' y='{c}' font-size='12' font-weight='600' fill='#1f2328' stroke='#fff' "
+               "stroke-width='4' paint-order='stroke' text-anchor='middle'>chosen\n",
+               x, y + 24.0 > p->y + p->height - 4.0 ? y - 14.0 : y + 24.0);
 }
 
 /* costs that are only modelled where others are counted: a white dot in the marker */
@@ -86,9 +88,9 @@ static void hollow(const fw_tradeoff *t, const fw_tradeoff_curve *c, const fw_pa
         const fw_tradeoff_point *at = &t->point[i];
         if (at->state != FW_TRADEOFF_DONE || at->by != FW_COUNT_MODEL) continue;
         if (!isfinite(at->instructions) || (at->floor && i > c->first && at[-1].floor)) continue;
-        fw_report_markup(out, "<circle cx=\"{c}\" cy=\"{c}\" r=\"1.7\" fill=\"#fff\"/>",
-                         fw_panel_x(p, fmax(at->error, t->reference.error)),
-                         fw_panel_y(p, at->instructions));
+        fw_svg_put(out, "circle cx='{c}' cy='{c}' r='1.7' fill='#fff'",
+                   fw_panel_x(p, fmax(at->error, t->reference.error)),
+                   fw_panel_y(p, at->instructions));
     }
 }
 
@@ -141,24 +143,24 @@ static void models(const fw_tradeoff *t, const fw_panel *p, fw_text *out) {
         const char *colour = process ? "#E69F00" : m->chosen ? "#D55E00" : "#8c959f";
         double x = fw_panel_x(p, fmax(m->change, 1e-16));
         x = fmin(x, p->x + p->width);
-        fw_report_markup(out,
-                         "<path d=\"M{c} {c}H{c}\" stroke=\"{r}\" stroke-width=\"7\" "
-                         "stroke-opacity=\"0.55\"/><circle cx=\"{c}\" cy=\"{c}\" r=\"4\" "
-                         "fill=\"{r}\"/><text x=\"{c}\" y=\"{c}\" font-size=\"11.5\" "
-                         "fill=\"#1f2328\" stroke=\"#fff\" stroke-width=\"3\" "
-                         "paint-order=\"stroke\">{r}{s} ",
-                         p->x, y, x, colour, x, y, colour, x + 9.0, y + 4.0, kind,
-                         process || hinge ? m->name : "");
+        fw_svg_put(out, "path d='M{c} {c}H{c}' stroke='{r}' stroke-width='7' stroke-opacity='0.55'",
+                   p->x, y, x, colour);
+        fw_svg_put(out, "circle cx='{c}' cy='{c}' r='4' fill='{r}'", x, y, colour);
+        fw_svg_open(out,
+                    "text x='{c}' y='{c}' font-size='11.5' fill='#1f2328' stroke='#fff' "
+                    "stroke-width='3' paint-order='stroke'",
+                    x + 9.0, y + 4.0);
+        fw_markup(out, "{r}{s} ", kind, process || hinge ? m->name : "");
         say_exact(out, m->change);
-        fw_text_add(out, m->chosen && hinge ? " (chosen)</text>\n" : "</text>\n");
+        fw_text_add(out, m->chosen && hinge ? " (chosen)" : "");
+        fw_svg_close(out, "text\n");
         y += step;
     }
     if (n == 0)
-        fw_report_markup(
-            out,
-            "<text x=\"{c}\" y=\"{c}\" font-size=\"12\" fill=\"#57606a\">nothing that is "
-            "known: no flexure and no flow</text>\n",
-            p->x + 12.0, p->y + 30.0);
+        fw_svg_put(out,
+                   "text x='{c}' y='{c}' font-size='12' fill='#57606a'>nothing that is known: no "
+                   "flexure and no flow\n",
+                   p->x + 12.0, p->y + 30.0);
 }
 
 /* ---- masks ---- */
@@ -181,35 +183,35 @@ static void masks(const fw_tradeoff *t, fw_text *out) {
     fw_panel_curve(&p, x, y, t->nmask, 0, out);
     for (int i = 0; i < t->nmask; i++) {
         if (!t->mask[i].usual) continue;
-        fw_report_markup(out,
-                         "<circle cx=\"{c}\" cy=\"{c}\" r=\"8\" fill=\"none\" stroke=\"#1f2328\" "
-                         "stroke-width=\"2.2\"/><text x=\"{c}\" y=\"{c}\" font-size=\"12\" "
-                         "font-weight=\"600\" fill=\"#1f2328\" text-anchor=\"end\">chosen</text>\n",
-                         x[i], y[i], x[i] - 12.0, y[i] - 4.0);
+        fw_svg_put(out,
+                   "circle cx='{c}' cy='{c}' r='8' fill='none' stroke='#1f2328' stroke-width='2.2'",
+                   x[i], y[i]);
+        fw_svg_put(out,
+                   "text x='{c}' y='{c}' font-size='12' font-weight='600' fill='#1f2328' "
+                   "text-anchor='end'>chosen\n",
+                   x[i] - 12.0, y[i] - 4.0);
     }
-    fw_report_markup(out,
-                     "<g font-size=\"11.5\" fill=\"#57606a\"><text x=\"{c}\" y=\"{c}\">of a "
-                     "deflection</text><text x=\"{c}\" y=\"{c}\">at most</text>",
-                     p.x + p.width + 10.0, p.y + 4.0, p.x + p.width + 10.0, p.y + 18.0);
+    fw_svg_open(out, "g font-size='11.5' fill='#57606a'");
+    fw_svg_put(out, "text x='{c}' y='{c}'>of a deflection", p.x + p.width + 10.0, p.y + 4.0);
+    fw_svg_put(out, "text x='{c}' y='{c}'>at most", p.x + p.width + 10.0, p.y + 18.0);
     for (int i = 0; i < t->nmask; i++) {
         if (!isfinite(t->mask[i].deflection)) continue;
-        fw_report_markup(out, "<text x=\"{c}\" y=\"{c}\">", p.x + p.width + 10.0,
-                         p.y + 38.0 + 15.0 * i);
+        fw_svg_open(out, "text x='{c}' y='{c}'", p.x + p.width + 10.0, p.y + 38.0 + 15.0 * i);
         fw_text_real(out, "%.3g nm: ", 1e9 * t->mask[i].tolerance_m);
         say_exact(out, t->mask[i].deflection);
-        fw_text_add(out, "</text>");
+        fw_svg_close(out, "text");
     }
-    fw_text_add(out, "</g>\n");
+    fw_svg_close(out, "g\n");
 }
 
 /* ---- the whole ---- */
 
 static void headline(const fw_tradeoff *t, fw_text *out) {
-    fw_report_markup(out,
-                     "<text x=\"20\" y=\"28\" font-size=\"18\" font-weight=\"600\" "
-                     "fill=\"#1f2328\">{s}, {s}: what accuracy costs</text>\n<text x=\"20\" "
-                     "y=\"52\" font-size=\"15\" fill=\"#1f2328\">",
-                     t->device, t->scene->name ? t->scene->name : "(unnamed)");
+    fw_svg_put(out,
+               "text x='20' y='28' font-size='18' font-weight='600' fill='#1f2328'>{s}, {s}: what "
+               "accuracy costs\n",
+               t->device, t->scene->name ? t->scene->name : "(unnamed)");
+    fw_svg_open(out, "text x='20' y='52' font-size='15' fill='#1f2328'");
     if (isfinite(t->digit_here)) {
         fw_text_add(out, "One more digit costs \u00d7");
         fw_text_real(out, "%.2f", t->digit_here);
@@ -221,27 +223,30 @@ static void headline(const fw_tradeoff *t, fw_text *out) {
         }
         fw_text_add(out, ".");
     }
-    fw_text_add(out, "</text>\n<text x=\"20\" y=\"74\" font-size=\"13\" fill=\"#1f2328\">");
+    fw_svg_close(out, "text\n");
+    fw_svg_open(out, "text x='20' y='74' font-size='13' fill='#1f2328'");
     if (isfinite(t->over_cheapest)) {
         fw_text_add(out, "The chosen setting costs \u00d7");
         fw_text_real(out, "%.2f", t->over_cheapest);
-        fw_report_markup(out, " the cheapest that would have done: {s} + {s}.",
-                         t->point[t->cheapest].method, t->point[t->cheapest].integrator);
+        fw_markup(out, " the cheapest that would have done: {s} + {s}.",
+                  t->point[t->cheapest].method, t->point[t->cheapest].integrator);
     }
-    fw_text_add(out, "</text>\n<text x=\"20\" y=\"95\" font-size=\"12\" fill=\"#57606a\">");
+    fw_svg_close(out, "text\n");
+    fw_svg_open(out, "text x='20' y='95' font-size='12' fill='#57606a'");
     if (isfinite(t->floor)) {
         fw_text_add(out, "Grey: digits below ");
         say_exact(out, t->floor);
         fw_text_printf(out, ", %s. ", fw_tradeoff_floor_text(t));
     }
     if (!t->instructions_why) fw_text_add(out, "White dot: cost by a model, not counted.");
-    fw_text_add(out, "</text>\n<text x=\"20\" y=\"112\" font-size=\"12\" fill=\"#57606a\">");
+    fw_svg_close(out, "text\n");
+    fw_svg_open(out, "text x='20' y='112' font-size='12' fill='#57606a'");
     if (t->reference.run[1])
-        fw_report_markup(out, "Reference: {s} + {s} against {s} + {s}{r}.",
-                         t->reference.run[0]->method, t->reference.run[0]->integrator,
-                         t->reference.run[1]->method, t->reference.run[1]->integrator,
-                         t->reference.independent ? "" : ", not independent");
-    fw_text_add(out, "</text>\n");
+        fw_markup(out, "Reference: {s} + {s} against {s} + {s}{r}.", t->reference.run[0]->method,
+                  t->reference.run[0]->integrator, t->reference.run[1]->method,
+                  t->reference.run[1]->integrator,
+                  t->reference.independent ? "" : ", not independent");
+    fw_svg_close(out, "text\n");
 }
 
 fw_status fw_tradeoff_svg(const fw_tradeoff *t, fw_text *out) {
@@ -251,13 +256,15 @@ fw_status fw_tradeoff_svg(const fw_tradeoff *t, fw_text *out) {
     bool row = t->row;
     snprintf(title[0], sizeof title[0], "integrators, by %s", row ? "chain" : c->method);
     snprintf(title[1], sizeof title[1], "methods, by %s", row ? "radau5" : c->integrator);
-    fw_report_markup(out,
-                     "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg "
-                     "xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" width=\"{i}\" "
-                     "height=\"{i}\" viewBox=\"0 0 {i} {i}\" font-family=\"system-ui,'DejaVu "
-                     "Sans',sans-serif\">\n<title>what accuracy costs: {s}</title>\n<rect "
-                     "width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
-                     WIDTH, HEIGHT, WIDTH, HEIGHT, t->device);
+    fw_svg_begin(out, &(fw_svg_frame){.width = WIDTH,
+                                      .height = HEIGHT,
+                                      .decimals = 2,
+                                      .size = FW_SVG_SIZE_BEFORE,
+                                      .file = true,
+                                      .lead = "role='img'",
+                                      .font = fw_svg_font_page});
+    fw_svg_title(out, "what accuracy costs: {s}", t->device);
+    fw_svg_paper(out, "#fff");
     headline(t, out);
     p.ax = errors(t), p.ay = costs(t);
     for (int k = 0; k < 2; k++) {
@@ -273,6 +280,6 @@ fw_status fw_tradeoff_svg(const fw_tradeoff *t, fw_text *out) {
                    "", out);
     models(t, &p, out);
     masks(t, out);
-    fw_text_add(out, "</svg>\n");
+    fw_svg_end(out);
     return fw_text_end(out);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The wafer map as a picture: rim with flat or notch, edge exclusion, dies coloured by variant with
    their ids, and a legend. 1 user unit = 1 mm; made for people, so rounded to 1 um. */
+#include "base/svg.h"
 #include "wafer/notes.h"
 #include <math.h>
 #include <string.h>
@@ -13,16 +14,6 @@ typedef struct picture {
     double x, y, r; /* mm: centre and radius of the wafer */
     double k;       /* size of lettering and of all that is beside the wafer */
 } picture;
-
-static void number(fw_text *out, double value) {
-    fw_text_fixed(out, value, 3);
-}
-
-static void pair(fw_text *out, double a, const char *between, double b) {
-    number(out, a);
-    fw_text_add(out, between);
-    number(out, b);
-}
 
 /* lightness rises evenly, so that steps keep their order in grey too and for all eyes; between
    points of the viridis map (Smith and van der Walt 2015, CC0) */
@@ -48,25 +39,17 @@ static bool dark(int i, int n) {
 
 /* circle of radius r about the centre with a chord at `chord` from it, on the flat's side */
 static void rim(const picture *p, double r, double chord, const char *style) {
-    fw_text *out = p->out;
     if (chord >= r) {
-        fw_text_add(out, "<circle cx=\"");
-        pair(out, p->x, "\" cy=\"", p->y);
-        fw_text_add(out, "\" r=\"");
-        number(out, r);
-    } else { /* from one end of the chord the long way round to the other, in screen coordinates */
-        double half = sqrt(r * r - chord * chord);
-        static const double turn[4][2] = {{0, 1}, {0, -1}, {-1, 0}, {1, 0}}; /* outward, y down */
-        const double *u = turn[p->w->form.side];
-        fw_text_add(out, "<path d=\"M");
-        pair(out, p->x + u[0] * chord - u[1] * half, " ", p->y + u[1] * chord + u[0] * half);
-        fw_text_add(out, "A");
-        pair(out, r, " ", r);
-        fw_text_add(out, " 0 1 1 ");
-        pair(out, p->x + u[0] * chord + u[1] * half, " ", p->y + u[1] * chord - u[0] * half);
-        fw_text_add(out, "Z");
+        fw_svg_put(p->out, "circle cx='{3}' cy='{3}' r='{3}' {r}\n", p->x, p->y, r, style);
+        return;
     }
-    fw_text_printf(out, "\" %s/>\n", style);
+    /* from one end of the chord the long way round to the other, in screen coordinates */
+    double half = sqrt(r * r - chord * chord);
+    static const double turn[4][2] = {{0, 1}, {0, -1}, {-1, 0}, {1, 0}}; /* outward, y down */
+    const double *u = turn[p->w->form.side];
+    fw_svg_put(p->out, "path d='M{3} {3}A{3} {3} 0 1 1 {3} {3}Z' {r}\n",
+               p->x + u[0] * chord - u[1] * half, p->y + u[1] * chord + u[0] * half, r, r,
+               p->x + u[0] * chord + u[1] * half, p->y + u[1] * chord - u[0] * half, style);
 }
 
 static void notch(const picture *p) {
@@ -75,37 +58,21 @@ static void notch(const picture *p) {
     static const double turn[4][2] = {{0, 1}, {0, -1}, {-1, 0}, {1, 0}};
     const double *u = turn[f->side];
     double x = p->x + u[0] * p->r, y = p->y + u[1] * p->r, d = f->notch_m * 1e3;
-    fw_text_add(p->out, "<path d=\"M");
-    pair(p->out, x - u[1] * d, " ", y + u[0] * d);
-    fw_text_add(p->out, "L");
-    pair(p->out, x - u[0] * d, " ", y - u[1] * d);
-    fw_text_add(p->out, "L");
-    pair(p->out, x + u[1] * d, " ", y - u[0] * d);
-    fw_text_add(p->out, "\" fill=\"#ffffff\" stroke=\"#404040\" stroke-width=\"0.2\"/>\n");
+    fw_svg_put(p->out,
+               "path d='M{3} {3}L{3} {3}L{3} {3}' fill='#ffffff' stroke='#404040' "
+               "stroke-width='0.2'\n",
+               x - u[1] * d, y + u[0] * d, x - u[0] * d, y - u[1] * d, x + u[1] * d, y - u[0] * d);
 }
 
 static void cross(const picture *p, double x, double y, double a) {
-    fw_text_add(p->out, "<path stroke=\"#000000\" stroke-width=\"");
-    number(p->out, 0.25 * p->k);
-    fw_text_add(p->out, "\" d=\"M");
-    pair(p->out, x - a, " ", y);
-    fw_text_add(p->out, "h");
-    number(p->out, 2 * a);
-    fw_text_add(p->out, "M");
-    pair(p->out, x, " ", y - a);
-    fw_text_add(p->out, "v");
-    number(p->out, 2 * a);
-    fw_text_add(p->out, "\"/>\n");
+    fw_svg_put(p->out, "path stroke='#000000' stroke-width='{3}' d='M{3} {3}h{3}M{3} {3}v{3}'\n",
+               0.25 * p->k, x - a, y, 2 * a, x, y - a, 2 * a);
 }
 
 static void box(const picture *p, double x, double y, double w, double h, const char *fill,
                 bool stood_in) {
-    fw_text_add(p->out, "<rect x=\"");
-    pair(p->out, x, "\" y=\"", y);
-    fw_text_add(p->out, "\" width=\"");
-    pair(p->out, w, "\" height=\"", h);
-    fw_text_printf(p->out, "\" fill=\"%s\"%s/>\n", fill,
-                   stood_in ? " stroke=\"#c00000\" stroke-dasharray=\"0.6 0.4\"" : "");
+    fw_svg_put(p->out, "rect x='{3}' y='{3}' width='{3}' height='{3}' fill='{r}'{r}\n", x, y, w, h,
+               fill, stood_in ? " stroke=\"#c00000\" stroke-dasharray=\"0.6 0.4\"" : "");
 }
 
 static void site(const picture *p, const fw_wafer_site *s) {
@@ -119,22 +86,15 @@ static void site(const picture *p, const fw_wafer_site *s) {
     if (s->kind == FW_WAFER_ALIGNMENT) cross(p, x + 0.5 * w, y + 0.5 * h, 0.35 * least);
     if (s->kind == FW_WAFER_ALIGNMENT) return;
     bool light = v && dark(s->variant, p->w->nvariant);
-    fw_text_add(p->out, "<text x=\"");
-    pair(p->out, x + 0.5 * w, "\" y=\"", y + 0.5 * h + 0.12 * fmin(w, h * 2.2));
-    fw_text_add(p->out, "\" font-size=\"");
-    number(p->out, 0.36 * fmin(w, 2.2 * h));
-    fw_text_printf(p->out, "\" fill=\"%s\">%s</text>\n", light ? "#ffffff" : "#000000",
-                   fw_wafer_site_name(p->w, s, name));
+    fw_svg_put(p->out, "text x='{3}' y='{3}' font-size='{3}' fill='{r}'>{r}\n", x + 0.5 * w,
+               y + 0.5 * h + 0.12 * fmin(w, h * 2.2), 0.36 * fmin(w, 2.2 * h),
+               light ? "#ffffff" : "#000000", fw_wafer_site_name(p->w, s, name));
 }
 
 /* ---- legend ---- */
 
 static void line(const picture *p, double x, double *y, const char *text) {
-    fw_text_add(p->out, "<text x=\"");
-    pair(p->out, x, "\" y=\"", *y);
-    fw_text_add(p->out, "\">");
-    fw_text_escaped(p->out, text);
-    fw_text_add(p->out, "</text>\n");
+    fw_svg_put(p->out, "text x='{3}' y='{3}'>{s}\n", x, *y, text);
     *y += LINE * p->k;
 }
 
@@ -230,15 +190,15 @@ fw_status fw_wafer_write_map(const fw_wafer *w, fw_text *out) {
     double height = fmax(2 * r + 2 * margin, margin + LINE * k * legend_lines(w));
     picture p = {w, out, margin + r, margin + r, r, k};
     fw_text_reserve(out, 8192 + 256 * (size_t)w->grid.nsite);
-    fw_text_add(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg "
-                     "xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" viewBox=\"0 0 ");
-    pair(out, width, " ", height);
-    fw_text_add(out, "\" font-family=\"sans-serif\" font-size=\"");
-    number(out, 3 * k);
-    fw_text_add(out, "\">\n<title>");
-    fw_text_escaped(out, w->title);
-    fw_text_add(out, ": wafer map</title>\n<rect width=\"100%\" height=\"100%\" "
-                     "fill=\"#ffffff\"/>\n");
+    fw_svg_begin(out, &(fw_svg_frame){.width = width,
+                                      .height = height,
+                                      .decimals = 3,
+                                      .file = true,
+                                      .lead = "version='1.1'",
+                                      .font = "sans-serif",
+                                      .font_size = 3 * k});
+    fw_svg_title(out, "{s}: wafer map", w->title);
+    fw_svg_paper(out, "#ffffff");
     double chord = sqrt(r * r - 0.25e6 * w->form.flat_m * w->form.flat_m);
     rim(&p, r, w->form.flat_m > 0 ? chord : r,
         "fill=\"#f0f0f0\" stroke=\"#404040\" stroke-width=\"0.3\"");
@@ -246,20 +206,19 @@ fw_status fw_wafer_write_map(const fw_wafer *w, fw_text *out) {
     double inner = r - w->form.edge_m * 1e3;
     rim(&p, inner, w->form.flat_m > 0 ? chord - w->form.edge_m * 1e3 : inner,
         "fill=\"none\" stroke=\"#c00000\" stroke-width=\"0.2\" stroke-dasharray=\"1.5 1\"");
-    fw_text_add(out, "<g text-anchor=\"middle\" stroke-width=\"0.15\">\n");
+    fw_svg_open(out, "g text-anchor='middle' stroke-width='0.15'\n");
     for (int i = 0; i < w->grid.nsite; i++)
         site(&p, &w->grid.site[i]);
-    fw_text_add(out, "</g>\n");
+    fw_svg_close(out, "g\n");
     double x = 2 * r + 2 * margin, y = margin + LINE * k;
-    fw_text_add(out, "<g font-size=\"");
-    number(out, 4 * k);
-    fw_text_add(out, "\" font-weight=\"bold\">\n");
+    fw_svg_open(out, "g font-size='{3}' font-weight='bold'\n", 4 * k);
     line(&p, x, &y, w->title);
     if (w->rejected) line(&p, x, &y, "REJECTED");
-    fw_text_add(out, "</g>\n");
+    fw_svg_close(out, "g\n");
     FW_TRY(facts(&p, x, &y));
-    fw_text_add(out, "<g stroke-width=\"0.3\">\n");
+    fw_svg_open(out, "g stroke-width='0.3'\n");
     variants(&p, text, x, &y);
-    fw_text_add(out, "</g>\n</svg>\n");
+    fw_svg_close(out, "g\n");
+    fw_svg_end(out);
     return fw_text_end(out);
 }

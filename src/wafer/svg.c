@@ -2,6 +2,7 @@
 /* The plate as exact outlines: every cell once in <defs>, with true arcs, and <use> for each place.
    1 user unit = 1 um, y downwards, the plate's upper left corner is the origin. A <g> is used and
    not a <symbol>, which some importers clip at its own box. */
+#include "base/svg.h"
 #include "mask/stream.h"
 #include "wafer/notes.h"
 #include <math.h>
@@ -20,49 +21,39 @@ static void layers(const fw_wafer *w, const fw_mask *of, const char *name, fw_ve
         for (int i = 0; i < mask->nshape && !any; i++)
             any = mask->shape[i].layer == k;
         if (!any) continue;
-        fw_text_add(out, "<g ");
-        if (top) fw_text_printf(out, "id=\"%s\" ", y->id);
-        fw_text_printf(out, "data-gds=\"%d/%d\" fill=\"%s\" fill-opacity=\"0.8\">\n", y->layer,
-                       y->datatype, y->colour);
-        fw_svg_paths(mask, k, upper_left, out);
-        fw_text_add(out, "</g>\n");
+        if (top)
+            fw_svg_open(out, "g id='{r}' data-gds='{i}/{i}' fill='{r}' fill-opacity='0.8'\n", y->id,
+                        y->layer, y->datatype, y->colour);
+        else
+            fw_svg_open(out, "g data-gds='{i}/{i}' fill='{r}' fill-opacity='0.8'\n", y->layer,
+                        y->datatype, y->colour);
+        fw_mask_svg_paths(mask, k, upper_left, out);
+        fw_svg_close(out, "g\n");
     }
 }
 
 static void head(const fw_wafer *w, fw_text *out) {
     double size = w->form.plate_m * 1e6;
-    fw_text_add(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg "
-                     "xmlns=\"http://www.w3.org/2000/svg\" "
-                     "xmlns:xlink=\"http://www.w3.org/1999/xlink\" version=\"1.1\" width=\"");
-    fw_text_fixed(out, size / 1000, 9);
-    fw_text_add(out, "mm\" height=\"");
-    fw_text_fixed(out, size / 1000, 9);
-    fw_text_add(out, "mm\" viewBox=\"0 0 ");
-    fw_text_fixed(out, size, 6);
-    fw_text_add(out, " ");
-    fw_text_fixed(out, size, 6);
-    fw_text_add(out, "\">\n<title>");
-    if (w->rejected) fw_text_add(out, "REJECTED: ");
-    fw_text_escaped(out, w->title);
-    fw_text_add(out, ", ");
-    fw_text_escaped(out, w->flow);
-    fw_text_add(out, ", whole plate</title>\n<desc>1 unit = 1 um; ");
-    fw_text_escaped(out, w->table->reading);
-    fw_text_add(out, "; flexwright " FW_VERSION "</desc>\n");
+    fw_svg_begin(out, &(fw_svg_frame){.width = size,
+                                      .height = size,
+                                      .decimals = 6,
+                                      .size = FW_SVG_SIZE_BEFORE,
+                                      .unit_mm = 1e-3,
+                                      .mm_decimals = 9,
+                                      .file = true,
+                                      .links = true,
+                                      .lead = "version='1.1'"});
+    fw_svg_title(out, "{r}{s}, {s}, whole plate", w->rejected ? "REJECTED: " : "", w->title,
+                 w->flow);
+    fw_svg_put(out, "desc>1 unit = 1 um; {s}; flexwright " FW_VERSION "\n", w->table->reading);
 }
 
 static void use(const fw_wafer *w, const fw_wafer_run *r, double half_um, fw_text *out) {
     for (int j = 0; j < r->rows; j++)
-        for (int i = 0; i < r->columns; i++) {
-            char text[2 * FW_FIXED_BYTES], *end = text;
-            fw_text_printf(out, "<use xlink:href=\"#%s\" x=\"", w->cell[r->cell].name);
-            end = fw_fixed_text(end, half_um + 1e-3 * (r->x + i * r->step_x), 3);
-            fw_text_bytes(out, text, (size_t)(end - text));
-            fw_text_add(out, "\" y=\"");
-            end = fw_fixed_text(text, half_um - 1e-3 * (r->y + j * r->step_y), 3);
-            fw_text_bytes(out, text, (size_t)(end - text));
-            fw_text_add(out, "\"/>\n");
-        }
+        for (int i = 0; i < r->columns; i++)
+            fw_svg_put(out, "use xlink:href='#{r}' x='{3}' y='{3}'\n", w->cell[r->cell].name,
+                       half_um + 1e-3 * (r->x + i * r->step_x),
+                       half_um - 1e-3 * (r->y + j * r->step_y));
 }
 
 static size_t expected_bytes(const fw_wafer *w) {
@@ -79,22 +70,22 @@ fw_status fw_wafer_write_svg(const fw_wafer *w, fw_text *out) {
     double half_um = 0.5 * w->form.plate_m * 1e6;
     fw_text_reserve(out, expected_bytes(w));
     head(w, out);
-    fw_text_add(out, "<defs>\n");
+    fw_svg_open(out, "defs\n");
     for (int c = 0; c < w->ncell; c++) {
-        fw_text_printf(out, "<g id=\"%s\">\n", w->cell[c].name);
+        fw_svg_open(out, "g id='{r}'\n", w->cell[c].name);
         layers(w, w->cell[c].mask, w->cell[c].name, (fw_vec2){0, 0}, false, out);
-        fw_text_add(out, "</g>\n");
+        fw_svg_close(out, "g\n");
     }
-    fw_text_add(out, "</defs>\n");
+    fw_svg_close(out, "defs\n");
     if (w->plate)
         layers(w, w->plate, w->top, (fw_vec2){-0.5 * w->form.plate_m, 0.5 * w->form.plate_m}, true,
                out);
     for (int i = 0; i < w->nrun; i++)
         use(w, &w->run[i], half_um, out);
     if (w->rejected)
-        fw_text_add(out, "<text id=\"rejected\" x=\"50%\" y=\"50%\" text-anchor=\"middle\" "
-                         "font-family=\"sans-serif\" font-size=\"15000\" fill=\"#c00000\" "
-                         "fill-opacity=\"0.6\">REJECTED</text>\n");
-    fw_text_add(out, "</svg>\n");
+        fw_svg_put(out, "text id='rejected' x='50%' y='50%' text-anchor='middle' "
+                        "font-family='sans-serif' font-size='15000' fill='#c00000' "
+                        "fill-opacity='0.6'>REJECTED\n");
+    fw_svg_end(out);
     return fw_text_end(out);
 }

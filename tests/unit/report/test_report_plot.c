@@ -40,14 +40,14 @@ static void decimation_keeps_ends_and_extremes(void **state) {
 static void nice_steps(void **state) {
     (void)state;
     for (int trial = 0; trial < 1000; trial++) {
-        double x = pow(10.0, 12.0 * uniform() - 6.0), s = fw_report_nice(x);
+        double x = pow(10.0, 12.0 * uniform() - 6.0), s = fw_svg_nice(x);
         assert_true(s >= x * (1.0 - 1e-9) && s < 2.51 * x);
         double digit = s / pow(10.0, floor(log10(s) + 1e-9));
         assert_true(fabs(digit - 1.0) < 1e-9 || fabs(digit - 2.0) < 1e-9 ||
                     fabs(digit - 5.0) < 1e-9);
     }
-    assert_true(fw_report_nice((double)NAN) == 1.0);
-    assert_true(fw_report_nice(0.0) == 1.0);
+    assert_true(fw_svg_nice((double)NAN) == 1.0);
+    assert_true(fw_svg_nice(0.0) == 1.0);
 }
 
 /* the flexure meets both bodies: ends move as points of the body on that side */
@@ -114,8 +114,18 @@ static void picture_keeps_points_where_they_are(void **state) {
     assert_true(isfinite(none.scale) && none.scale > 0.0);
 }
 
+static void only_plain_colours_pass(void **state) {
+    (void)state;
+    assert_string_equal(fw_report_layer_colour("#12aBcD", 0), "#12aBcD");
+    assert_string_equal(fw_report_layer_colour("#123", 0), "#123");
+    const char *const bad[] = {"red", "#12345", "#12345g", "#123\"><script>", "url(x)", "", NULL};
+    for (int i = 0; i < 7; i++)
+        assert_string_equal(fw_report_layer_colour(bad[i], 1), "#E69F00");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(only_plain_colours_pass),
         cmocka_unit_test(decimation_keeps_ends_and_extremes),
         cmocka_unit_test(nice_steps),
         cmocka_unit_test(bent_flexure_meets_both_bodies),

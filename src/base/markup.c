@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "report/page.h"
 #include "base/constants.h"
+#include "base/markup.h"
 #include <math.h>
 #include <string.h>
 
@@ -35,7 +35,7 @@ static void fixed_with_zeros(fw_text *out, double value, int decimals) {
         fw_text_add(out, "0");
 }
 
-void fw_report_number(fw_text *out, double value, int digits) {
+void fw_markup_number(fw_text *out, double value, int digits) {
     if (!isfinite(value)) {
         fw_text_add(out, "\u2013");
         return;
@@ -50,7 +50,7 @@ void fw_report_number(fw_text *out, double value, int digits) {
 static void padded(fw_text *out, double value, int digits) {
     double size = fabs(value);
     if (!(size >= 1e-4 && size < 1e4)) {
-        fw_report_number(out, value, digits);
+        fw_markup_number(out, value, digits);
         return;
     }
     int decimals = digits - 1;
@@ -63,7 +63,7 @@ static void padded(fw_text *out, double value, int digits) {
     fixed_with_zeros(out, size, decimals);
 }
 
-void fw_report_si(fw_text *out, double value, const char *unit, int digits) {
+void fw_markup_si(fw_text *out, double value, const char *unit, int digits) {
     static const struct {
         double factor;
         const char *prefix;
@@ -75,7 +75,7 @@ void fw_report_si(fw_text *out, double value, const char *unit, int digits) {
     if (isfinite(value) && size > 0.0)
         for (i = 0; i < ROWS - 1 && size < 0.99995 * row[i].factor;)
             i++;
-    fw_report_number(out, value / row[i].factor, digits);
+    fw_markup_number(out, value / row[i].factor, digits);
     if (size > 0.0 && (unit[0] || row[i].prefix[0])) {
         fw_text_add(out, "\u00a0"); /* number and unit stay on one line */
         fw_text_add(out, row[i].prefix);
@@ -86,7 +86,7 @@ void fw_report_si(fw_text *out, double value, const char *unit, int digits) {
 static void percent(fw_text *out, double ratio) {
     double value = 100.0 * ratio;
     if (!isfinite(value) || fabs(value) >= 1e6 || fabs(value) < 0.1)
-        fw_report_number(out, value, 3);
+        fw_markup_number(out, value, 3);
     else {
         if (value < 0.0) fw_text_add(out, "\u2212");
         double size = fabs(value);
@@ -97,7 +97,7 @@ static void percent(fw_text *out, double ratio) {
 
 static void duration(fw_text *out, double seconds) {
     if (!isfinite(seconds) || fabs(seconds) < 60.0 || fabs(seconds) >= 3.6e9) {
-        fw_report_si(out, seconds, "s", 3);
+        fw_markup_si(out, seconds, "s", 3);
         return;
     }
     long whole = lround(fabs(seconds));
@@ -110,9 +110,8 @@ static void duration(fw_text *out, double seconds) {
     if (rest) fw_text_printf(out, " %ld\u00a0%s", rest, whole < 7200 ? "s" : "min");
 }
 
-static void coordinate(fw_text *out, double value) {
-    if (!isfinite(value)) value = 0.0;
-    fw_text_fixed(out, fmax(-1e6, fmin(1e6, value)), 2);
+static void coordinate(fw_text *out, double value, int decimals) {
+    fw_text_fixed(out, isfinite(value) ? value : 0.0, decimals);
 }
 
 static void directive(fw_text *out, char kind, va_list *arguments) {
@@ -133,22 +132,33 @@ static void directive(fw_text *out, char kind, va_list *arguments) {
     case 'l':
         fw_text_printf(out, "%ld", va_arg(*arguments, long));
         break;
-    case 'c':
-        coordinate(out, va_arg(*arguments, double));
+    case 'c': {
+        double value = va_arg(*arguments, double);
+        /* what lies far outside every picture must not cost a line of digits */
+        coordinate(out, isfinite(value) ? fmax(-1e6, fmin(1e6, value)) : 0.0, 2);
+        break;
+    }
+    case '1':
+    case '2':
+    case '3':
+    case '4':
+    case '6':
+    case '9':
+        coordinate(out, va_arg(*arguments, double), kind - '0');
         break;
     case 'n':
-        fw_report_number(out, va_arg(*arguments, double), 4);
+        fw_markup_number(out, va_arg(*arguments, double), 4);
         break;
     case 'e':
-        fw_report_number(out, va_arg(*arguments, double), 2);
+        fw_markup_number(out, va_arg(*arguments, double), 2);
         break;
     case 'u': {
         double value = va_arg(*arguments, double);
-        fw_report_si(out, value, va_arg(*arguments, const char *), 4);
+        fw_markup_si(out, value, va_arg(*arguments, const char *), 4);
         break;
     }
     case 'd':
-        fw_report_number(out, va_arg(*arguments, double) * 180.0 / FW_PI, 4);
+        fw_markup_number(out, va_arg(*arguments, double) * 180.0 / FW_PI, 4);
         fw_text_add(out, "\u00b0");
         break;
     case 'D':
@@ -161,25 +171,31 @@ static void directive(fw_text *out, char kind, va_list *arguments) {
         duration(out, va_arg(*arguments, double));
         break;
     default:
-        out->failed = 1; /* a directive that does not exist: a mistake in this room */
+        out->failed = 1; /* a directive that does not exist: a mistake of the caller */
     }
 }
 
-void fw_report_markup(fw_text *out, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    for (const char *at = format; *at;) {
-        const char *brace = strchr(at, '{');
-        size_t plain = brace ? (size_t)(brace - at) : strlen(at);
+void fw_markup_part(fw_text *out, const char *format, size_t n, char quote, va_list *arguments) {
+    for (const char *at = format, *end = format + n; at < end;) {
+        size_t plain = 0, left = (size_t)(end - at);
+        while (plain < left && at[plain] != '{' && (at[plain] != '\'' || quote == '\''))
+            plain++;
         fw_text_bytes(out, at, plain);
         at += plain;
-        if (brace && brace[1] && brace[2] == '}') {
-            directive(out, brace[1], &arguments);
+        if (at == end) return;
+        if (*at == '{' && end - at > 2 && at[2] == '}') {
+            directive(out, at[1], arguments);
             at += 3;
-        } else if (brace) {
-            fw_text_add(out, "{");
-            at++;
+            continue;
         }
+        fw_text_bytes(out, *at == '{' ? at : &quote, 1);
+        at++;
     }
+}
+
+void fw_markup(fw_text *out, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    fw_markup_part(out, format, strlen(format), '\'', &arguments);
     va_end(arguments);
 }
