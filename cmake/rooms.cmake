@@ -23,22 +23,8 @@ set(FW_EXTERN_report PkgConfig::CAIRO)
 set(FW_EXTERN_serve PkgConfig::MICROHTTPD PkgConfig::ZIP)
 set(FW_EXTERN_base PkgConfig::JANSSON m)
 
-# the kernels are the same source compiled for each instruction set and chosen at run time; those of
-# batches alone may contract products and sums
-set(kernels ${PROJECT_SOURCE_DIR}/src/multibody)
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-    set_source_files_properties(${kernels}/kernel_core_avx2.c ${kernels}/kernel_path_avx2.c PROPERTIES COMPILE_OPTIONS
-                                "-O3;-mavx2;-mfma;-ffp-contract=fast")
-    set_source_files_properties(${kernels}/kernel_core_avx512.c ${kernels}/kernel_path_avx512.c PROPERTIES COMPILE_OPTIONS
-                                "-O3;-mavx512f;-mavx512dq;-mavx512vl;-mfma;-ffp-contract=fast")
-    set_source_files_properties(${kernels}/kernel_path_single_avx.c PROPERTIES COMPILE_OPTIONS
-                                "-mavx;-ffp-contract=off")
-    set_source_files_properties(${kernels}/kernel_path_single_avx512.c PROPERTIES COMPILE_OPTIONS
-                                "-mavx512f;-mavx512dq;-mavx512vl;-ffp-contract=off")
-    # four hinges at once: registers of four numbers; bits as without
-    set_source_files_properties(${PROJECT_SOURCE_DIR}/src/flexure/csfh_four_avx.c PROPERTIES COMPILE_OPTIONS
+set_source_files_properties(${PROJECT_SOURCE_DIR}/src/flexure/csfh_four_avx.c PROPERTIES COMPILE_OPTIONS
                                 "-mavx;-Wno-psabi")
-endif()
 # vectors wider than the registers never cross a call: gcc's note on how they would is of no use
 set_source_files_properties(${PROJECT_SOURCE_DIR}/src/flexure/csfh_four.c PROPERTIES COMPILE_OPTIONS "-Wno-psabi")
 
@@ -71,3 +57,17 @@ foreach(room ${FW_ROOMS})
         list(PREPEND below fw_${room})
     endif()
 endforeach()
+
+# The kernel of the right-hand side once more for lanes of designs, chosen at run time. These may contract
+# products and sums; the kernel of one design, which the room has compiled above, may not.
+function(fw_kernel_lanes name width)
+    add_library(fw_kernel_${name} OBJECT ${PROJECT_SOURCE_DIR}/src/multibody/kernel_blocks.c)
+    target_compile_definitions(fw_kernel_${name} PRIVATE FW_W=${width} FW_BRIEF=1 FW_CORE=fw_core_${name}
+                                                         FW_CORE_NAME="${name}")
+    target_compile_options(fw_kernel_${name} PRIVATE -O3 -mfma -ffp-contract=fast ${ARGN})
+    target_sources(fw_multibody PRIVATE $<TARGET_OBJECTS:fw_kernel_${name}>)
+endfunction()
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    fw_kernel_lanes(avx2 4 -mavx2)
+    fw_kernel_lanes(avx512 8 -mavx512f -mavx512dq -mavx512vl)
+endif()

@@ -2,10 +2,9 @@
 /* The fast right-hand side of the method `chain` for plain models: all joints are pins, the effects
    torsion springs and dampers between bodies and constant forces at the bodies' own points.
 
-   State y = (u, v, [d]) and units as in model.h. A path of bodies (a chain, or the one loop of a
-   six-bar) has a kernel of its own that eliminates from both ends in the two lanes of one register;
-   every other topology runs over a flat schedule. Both give the same bits on every processor: no
-   contraction, baseline instructions, one order of operations. */
+   One source (kernel_blocks.c) serves one design and lanes of designs. One design: baseline
+   instructions, no contraction, one order of operations, hence the same bits on every processor.
+   State y = (u, v, [d]) and units as in model.h. */
 #ifndef FW_MULTIBODY_KERNEL_H
 #define FW_MULTIBODY_KERNEL_H
 #include "multibody/model.h"
@@ -36,9 +35,49 @@ bool fw_kernel_project(fw_kernel *k, double *y, double *f);
 /* (2 npin) joint forces of the last evaluation, pins in the order of the model */
 const double *fw_kernel_lambda(fw_kernel *k);
 fw_kernel_norms fw_kernel_norms_of(const fw_kernel *k);
-/* for tests and measurements */
-bool fw_kernel_is_path(const fw_kernel *k);
-void fw_kernel_prefer(fw_kernel *k, bool path);            /* false: the flat schedule */
-void fw_kernel_set_healthy(fw_kernel *k, double relative); /* infinity: always the careful solve */
+
+/* ---- lanes ----
+
+   Many designs of one topology at once: every lane of a register carries a design with its own
+   masses, stiffnesses, geometry and loads. Plain models only. The instruction set is chosen at run
+   time; wide lanes may contract products and sums, so they agree with the single kernel to
+   round-off and not to the bit.
+
+   A batch is laid out in groups of `width` designs. A state vector y holds group after group, in a
+   group component after component (ny of them, as in model.h), in a component lane after lane.
+   Lanes that no design fills repeat the last design. */
+typedef struct fw_lanes fw_lanes;
+
+/* names of the instruction sets of this processor, best first; NULL after the last */
+const char *fw_lanes_set(int i);
+/* *lanes = NULL when a model is not plain, or has not the joints, springs and state of the first.
+   `set` NULL: the best; FW_USAGE for one that this processor has not. count > 0. */
+fw_status fw_lanes_new(fw_arena *arena, const fw_model *const *models, int count, const char *set,
+                       fw_lanes **lanes);
+int fw_lanes_width(const fw_lanes *l);
+const char *fw_lanes_set_name(const fw_lanes *l);
+size_t fw_lanes_size(const fw_lanes *l); /* doubles in a state vector of the batch */
+
+/* state y (ny) of one design into the batch, and out of it */
+void fw_lanes_put(const fw_lanes *l, int design, const double *y, double *batch);
+void fw_lanes_get(const fw_lanes *l, int design, const double *batch, double *y);
+
+/* f = y' of every design, all with the vectors aligned as the arena aligns them. Allocates nothing.
+   A design that has no solution gets NaN accelerations, the others are not touched by it. */
+void fw_lanes_rhs(fw_lanes *l, const double *y, double *f);
+/* an accepted step of all designs: y onto the constraints in place, then f there; false: some
+   design does not get there */
+bool fw_lanes_project(fw_lanes *l, double *y, double *f);
+void fw_lanes_lambda(const fw_lanes *l, int design, double *lambda); /* (2 nblock), after rhs */
+
+typedef struct fw_lanes_run {
+    long steps, rejected, rhs; /* over all groups */
+} fw_lanes_run;
+/* every design from y over its own duration (scaled), group by group in lockstep: all designs of a
+   group share the fraction of the duration that a step covers. The tolerance of the group's step is
+   rtol / sqrt(width), so that no design's own error norm exceeds what rtol allows alone. atol (ny)
+   for all designs. Integrator dop853. FW_SOLVER: some design stops. */
+fw_status fw_lanes_integrate(fw_arena *arena, fw_lanes *l, const double *duration, double rtol,
+                             const double *atol, double *y, fw_lanes_run *run);
 
 #endif

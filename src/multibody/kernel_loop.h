@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Part of kernel_path.h, lanes only: the right-hand side of one closed loop of 3 to 6 bodies,
-   both ends on the ground, by cutting it at a pin in the middle into two open chains.
+/* Part of kernel_blocks.c: the right-hand side of one closed loop of 3 to 6 bodies, both ends on the
+   ground, by cutting it at a pin in the middle into two open chains.
 
    In an open chain the angular accelerations alpha are minimal coordinates. With T_k from a body's
    pin on the ground's side to its pin on the cut's side, C_k from the first to the centre of mass,
@@ -19,17 +19,19 @@
    the blocks; other lanes, and angles beyond fw_sincos_range, take the blocks. Error of the
    accelerations, of the largest that a joint force gives to the lightest body: 4e-16 at worst for
    masses alike, 3e-12 for masses over four decades; in the median a fifth of the blocks' or less.
-   Cost for 5 bodies: 412 arithmetic operations, sines included. Source: Wittenburg, Dynamics of
-   Multibody Systems, 2nd ed., ch. 5 (augmented bodies, cut joints). Test: test_lanes.c. */
+   Cost for 5 bodies: 412 arithmetic operations, brief sines included. Source: Wittenburg, Dynamics of
+   Multibody Systems, 2nd ed., ch. 5 (augmented bodies, cut joints). Test: test_kernel.c,
+   test_lanes.c. */
 
-enum { LOOP_LEAST = 3, LOOP_MOST = 6, HALF_MOST = 3 };
+enum { LOOP_MOST = FW_LOOP_MOST, HALF_MOST = 3 };
 
 typedef struct loop_body {
     real phi0, tip_x, tip_y, beyond_x, beyond_y, centre_x, centre_y; /* T, G, C in body axes */
     real diagonal, low, inverse;     /* M_kk; what its pivot must exceed; 1/M_kk */
     real torque, by_cosine, by_sine; /* constant torque; moments of constant forces */
     real mass, force_x, force_y;
-    int body;
+    int body, pin; /* the pin on the ground's side */
+    double sign;   /* of its multiplier in the model, which counts pins from either body */
 } loop_body;
 
 typedef struct loop_pin {
@@ -40,8 +42,10 @@ struct loop {
     int bodies;
     loop_body body[LOOP_MOST];   /* along the loop: the second chain reads them backwards */
     loop_pin pin[LOOP_MOST + 1]; /* pin i lies before body i */
-    real floor;                  /* of the pin that is cut */
-    real *spare;                 /* (ny + 4 records) */
+    int cut;                     /* pin of the model that is cut */
+    double sign;                 /* of its multiplier, seen from the second chain */
+    real floor;                  /* of its pivot */
+    real *spare;                 /* (ny + 2 pins) */
 };
 
 typedef struct chain { /* one half at this pose */
@@ -51,12 +55,11 @@ typedef struct chain { /* one half at this pose */
     real xx, xy, yy, gx, gy; /* of the tip: compliance, acceleration without F (x negative) */
 } chain;
 
-#define INLINE static inline __attribute__((always_inline))
 #define UNROLL _Pragma("GCC unroll 8")
 
 /* torques of the pins on the bodies, squared speeds; the power dissipated */
-INLINE real loop_torques(const struct loop *q, const int n, const real *y, const real *v,
-                         real b[LOOP_MOST], real ww[LOOP_MOST]) {
+FW_INLINE real loop_torques(const struct loop *q, const int n, const real *y, const real *v,
+                            real b[LOOP_MOST], real ww[LOOP_MOST]) {
     const real nothing = {0};
     real power = nothing, phi = nothing, w = nothing;
     UNROLL for (int i = 0; i <= n; i++) { /* pin i lies before body i */
@@ -73,8 +76,8 @@ INLINE real loop_torques(const struct loop *q, const int n, const real *y, const
 }
 
 /* arms, M and b; `far` sums the squares of the angles */
-INLINE void loop_arms(const loop_body *body, const int step, const int n, const real *y, chain *c,
-                      real *far, real gx[HALF_MOST], real gy[HALF_MOST]) {
+FW_INLINE void loop_arms(const loop_body *body, const int step, const int n, const real *y,
+                         chain *c, real *far, real gx[HALF_MOST], real gy[HALF_MOST]) {
     UNROLL for (int k = 0; k < n; k++) {
         const loop_body *r = &body[step * k];
         real angle = r->phi0 + y[3 * r->body + 2], sine, cosine;
@@ -91,8 +94,8 @@ INLINE void loop_arms(const loop_body *body, const int step, const int n, const 
 }
 
 /* M = L D L^T from the tip to the ground, three right-hand sides; lanes with a weak pivot */
-INLINE bits loop_factor(const loop_body *body, const int step, const int n, chain *c,
-                        const real gx[HALF_MOST], const real gy[HALF_MOST]) {
+FW_INLINE bits loop_factor(const loop_body *body, const int step, const int n, chain *c,
+                           const real gx[HALF_MOST], const real gy[HALF_MOST]) {
     real m[HALF_MOST][HALF_MOST], x[HALF_MOST], y[HALF_MOST];
     bits sick = {0};
     UNROLL for (int k = 0; k < n; k++) {
@@ -129,10 +132,15 @@ INLINE bits loop_factor(const loop_body *body, const int step, const int n, chai
     return sick;
 }
 
-/* accelerations of one chain under the force (-h, v) at its tip, and the joint forces: lambda of
-   the tip's pin is what the record of that pin holds */
-INLINE void loop_results(path *p, const loop_body *body, const int step, const int n,
-                         const chain *c, real h, real v, real lambda_x, real lambda_y, real *a) {
+FW_INLINE void loop_put(fw_core *k, int pin, double sign, real x, real y) {
+    real *row = WORK(row) + FW_ROW * pin + FW_X;
+    row[0] = sign * x, row[1] = sign * y;
+}
+
+/* accelerations of one chain under the force (-h, v) at its tip, and the joint forces, which begin
+   with that force */
+FW_INLINE void loop_results(fw_core *core, const loop_body *body, const int step, const int n,
+                            const chain *c, real h, real v, real *a) {
     real alpha[HALF_MOST], ax[HALF_MOST], ay[HALF_MOST], px = {0}, py = {0};
     UNROLL for (int k = 0; k < n; k++) {
         alpha[k] = c->zb[k] + (c->zx[k] * h + c->zy[k] * v);
@@ -144,20 +152,21 @@ INLINE void loop_results(path *p, const loop_body *body, const int step, const i
         real *to = a + 3 * body[step * k].body;
         to[0] = ax[k], to[1] = ay[k], to[2] = alpha[k];
     }
+    real lambda_x = h, lambda_y = -v;
     UNROLL for (int k = n - 1; k >= 0; k--) {
-        lambda_x += body[step * k].mass * ax[k] - body[step * k].force_x;
-        lambda_y += body[step * k].mass * ay[k] - body[step * k].force_y;
-        record *r = RECORD(p, k, step < 0);
-        r->x0 = lambda_x, r->x1 = lambda_y;
+        const loop_body *r = &body[step * k];
+        lambda_x += r->mass * ax[k] - r->force_x;
+        lambda_y += r->mass * ay[k] - r->force_y;
+        loop_put(core, r->pin, r->sign, lambda_x, lambda_y);
     }
 }
 
 /* answers the lanes that it cannot do */
-INLINE bits loop_rhs(path *p, const int nl, const int nr, const real *restrict y,
-                     real *restrict f) {
-    const struct loop *q = p->loop;
+FW_INLINE bits loop_rhs(fw_core *core, const int nl, const int nr, const real *restrict y,
+                        real *restrict f) {
+    const struct loop *q = core->loop;
     const int n = nl + nr, nq = 3 * n;
-    const real *v = y + nq;
+    const real *v = y + nq, rate = ((const real *)core->rate)[0];
     const loop_body *first = &q->body[0], *last = &q->body[n - 1];
     chain left, right;
     real far = {0}, gx[2][HALF_MOST], gy[2][HALF_MOST], b[LOOP_MOST], ww[LOOP_MOST];
@@ -170,70 +179,66 @@ INLINE bits loop_rhs(path *p, const int nl, const int nr, const real *restrict y
                 loop_factor(last, -1, nr, &right, gx[1], gy[1]);
     real xx = left.xx + right.xx, xy = left.xy + right.xy, yy = left.yy + right.yy;
     real determinant = xx * yy - xy * xy, inverse = 1.0 / determinant;
-    sick |= check(determinant, xx, yy, q->floor, 100 * p->healthy);
+    real least = 100 * core->healthy * q->floor; /* det/trace is below the smaller eigenvalue */
+    sick |= bits_of(determinant - least * (xx + yy)) | bits_of(xx - least);
     sick |= bits_of(fw_sincos_range * fw_sincos_range - far);
     real sx = right.gx - left.gx, sy = right.gy - left.gy;
     real h = (yy * sx - xy * sy) * inverse, w = (xx * sy - xy * sx) * inverse;
     real *a = f + nq;
-    loop_results(p, first, 1, nl, &left, h, w, h, -w, a);
-    loop_results(p, last, -1, nr, &right, -h, -w, -h, w, a);
-    record *tip = RECORD(p, nr, 1);
-    tip->x0 = -h, tip->x1 = w;
-    if (nl == nr) { /* the cut pin is the middle one, on both sides */
-        tip = RECORD(p, nl, 0);
-        tip->x0 = h, tip->x1 = -w;
-    }
-    UNROLL for (int i = 0; i < nq; i++) f[i] = v[i];
-    if (p->dissipates) f[2 * nq] = power;
-    return sick;
+    loop_results(core, first, 1, nl, &left, h, w, a);
+    loop_results(core, last, -1, nr, &right, -h, -w, a);
+    loop_put(core, q->cut, q->sign, -h, w);
+    UNROLL for (int i = 0; i < nq; i++) f[i] = rate * v[i], a[i] *= rate;
+    if (core->plan.dissipates) f[2 * nq] = rate * power;
+    return bits_negative(sick);
 }
 
 /* one function per number of bodies, so that the registers hold what the chains share */
-static __attribute__((noinline)) bits loop_of_3(path *p, const real *y, real *f) {
-    return loop_rhs(p, 2, 1, y, f);
+static __attribute__((noinline)) bits loop_of_3(fw_core *k, const real *y, real *f) {
+    return loop_rhs(k, 2, 1, y, f);
 }
-static __attribute__((noinline)) bits loop_of_4(path *p, const real *y, real *f) {
-    return loop_rhs(p, 2, 2, y, f);
+static __attribute__((noinline)) bits loop_of_4(fw_core *k, const real *y, real *f) {
+    return loop_rhs(k, 2, 2, y, f);
 }
-static __attribute__((noinline)) bits loop_of_5(path *p, const real *y, real *f) {
-    return loop_rhs(p, 3, 2, y, f);
+static __attribute__((noinline)) bits loop_of_5(fw_core *k, const real *y, real *f) {
+    return loop_rhs(k, 3, 2, y, f);
 }
-static __attribute__((noinline)) bits loop_of_6(path *p, const real *y, real *f) {
-    return loop_rhs(p, 3, 3, y, f);
+static __attribute__((noinline)) bits loop_of_6(fw_core *k, const real *y, real *f) {
+    return loop_rhs(k, 3, 3, y, f);
 }
 
 /* the sick lanes once more by the blocks; the others keep what they have */
-static __attribute__((noinline)) void blocks_for(path *p, bits sick, const double *y, double *f) {
-    const int n = p->records * FW_SIDES;
-    real *other = p->loop->spare, *keep = other + p->ny, *to = (real *)f;
-    for (int i = 0; i < n; i++)
-        keep[2 * i] = p->r[i].x0, keep[2 * i + 1] = p->r[i].x1;
-    blocks_rhs(p, y, (double *)other);
+static __attribute__((noinline)) void blocks_for(fw_core *k, bits sick, const real *y, real *to) {
+    const fw_kernel_plan *p = &k->plan;
+    real *other = k->loop->spare, *keep = other + p->ny;
+    for (int i = 0; i < p->pins; i++)
+        for (int c = 0; c < 2; c++)
+            keep[2 * i + c] = CONST(row)[FW_ROW * i + FW_X + c];
+    blocks_rhs(k, y, other);
     for (int i = 0; i < p->ny; i++)
         to[i] = real_select(sick, other[i], to[i]);
-    for (int i = 0; i < n; i++) {
-        p->r[i].x0 = real_select(sick, p->r[i].x0, keep[2 * i]);
-        p->r[i].x1 = real_select(sick, p->r[i].x1, keep[2 * i + 1]);
-    }
+    for (int i = 0; i < p->pins; i++)
+        for (int c = 0; c < 2; c++) {
+            real *x = &WORK(row)[FW_ROW * i + FW_X + c];
+            *x = real_select(sick, *x, keep[2 * i + c]);
+        }
 }
 
-static void loop_or_blocks(path *p, const double *y, double *f) {
-    static bits (*const of[])(path *, const real *, real *) = {loop_of_3, loop_of_4, loop_of_5,
-                                                               loop_of_6};
-    bits sick = bits_negative(of[p->loop->bodies - LOOP_LEAST](p, (const real *)y, (real *)f));
-    for (int i = 0; i < p->ny && p->rated; i++)
-        ((real *)f)[i] *= p->rate;
-    if (bits_any(sick)) blocks_for(p, sick, y, f);
+static void loop_or_blocks(fw_core *k, const real *y, real *f) {
+    static bits (*const of[])(fw_core *, const real *, real *) = {loop_of_3, loop_of_4, loop_of_5,
+                                                                  loop_of_6};
+    bits sick = of[k->loop->bodies - FW_LOOP_LEAST](k, y, f);
+    if (bits_any(sick)) blocks_for(k, sick, y, f);
 }
 
 /* ---- numbers ---- */
 
-/* body k of a chain of n; `at` and `pin`: bodies and pins of the model from the ground to the cut
- */
+/* body k of a chain of n; `at` and `pin`: bodies and pins of the model from the ground to the cut */
 static void fill_loop_body(loop_body *r, const fw_model *m, const int *at, const int *pin, int k,
                            int n, int lane) {
     const int b = at[k];
-    const double *ground = m->local + 4 * pin[k] + (m->body[2 * pin[k]] == b ? 0 : 2);
+    const bool second = m->body[2 * pin[k]] != b; /* of the two bodies of the pin before */
+    const double *ground = m->local + 4 * pin[k] + (second ? 2 : 0);
     const double *cut = m->local + 4 * pin[k + 1] + (m->body[2 * pin[k + 1]] == b ? 0 : 2);
     const double cx = -ground[0], cy = -ground[1], tx = cut[0] - ground[0], ty = cut[1] - ground[1];
     double mass = 1 / m->minv[b], beyond = 0, fx = 0, fy = 0;
@@ -242,52 +247,54 @@ static void fill_loop_body(loop_body *r, const fw_model *m, const int *at, const
         beyond += one;
         fx += one * m->constant[3 * at[i]], fy += one * m->constant[3 * at[i] + 1];
     }
-    r->body = b;
-    r->phi0[lane] = m->origin[3 * b + 2];
-    r->tip_x[lane] = tx, r->tip_y[lane] = ty;
-    r->centre_x[lane] = cx, r->centre_y[lane] = cy;
-    r->beyond_x[lane] = mass * cx + beyond * tx, r->beyond_y[lane] = mass * cy + beyond * ty;
+    r->body = b, r->pin = pin[k], r->sign = second ? 1 : -1;
+    LANE(r->phi0, lane) = m->origin[3 * b + 2];
+    LANE(r->tip_x, lane) = tx, LANE(r->tip_y, lane) = ty;
+    LANE(r->centre_x, lane) = cx, LANE(r->centre_y, lane) = cy;
+    LANE(r->beyond_x, lane) = mass * cx + beyond * tx;
+    LANE(r->beyond_y, lane) = mass * cy + beyond * ty;
     double diagonal = 1 / m->jinv[b] + mass * (cx * cx + cy * cy) + beyond * (tx * tx + ty * ty);
-    r->diagonal[lane] = diagonal, r->inverse[lane] = 1 / diagonal, r->low[lane] = 1e-4 * diagonal;
-    r->torque[lane] = m->constant[3 * b + 2] / m->jinv[b];
-    r->mass[lane] = mass;
+    LANE(r->diagonal, lane) = diagonal, LANE(r->inverse, lane) = 1 / diagonal;
+    LANE(r->low, lane) = 1e-4 * diagonal;
+    LANE(r->torque, lane) = m->constant[3 * b + 2] / m->jinv[b];
+    LANE(r->mass, lane) = mass;
     double own_x = mass * m->constant[3 * b], own_y = mass * m->constant[3 * b + 1];
-    r->force_x[lane] = own_x, r->force_y[lane] = own_y;
-    r->by_cosine[lane] = (cx * own_y - cy * own_x) + (tx * fy - ty * fx);
-    r->by_sine[lane] = -(cx * own_x + cy * own_y) - (tx * fx + ty * fy);
+    LANE(r->force_x, lane) = own_x, LANE(r->force_y, lane) = own_y;
+    LANE(r->by_cosine, lane) = (cx * own_y - cy * own_x) + (tx * fy - ty * fx);
+    LANE(r->by_sine, lane) = -(cx * own_x + cy * own_y) - (tx * fx + ty * fy);
 }
 
-static void fill_loop(struct loop *q, const fw_model *m, const fw_trail *t, int lane) {
+static void loop_fill(fw_core *k, const fw_model *m, int lane) {
+    struct loop *q = k->loop;
+    const fw_kernel_plan *p = &k->plan;
     const int n = q->bodies, nl = (n + 1) / 2, nr = n / 2;
     int at[HALF_MOST], pin[HALF_MOST + 1];
     for (int side = 0; side < 2; side++) {
         int count = side ? nr : nl;
-        for (int k = 0; k <= count; k++) {
-            pin[k] = t->pin[side ? n - k : k];
-            if (k < count) at[k] = t->body[side ? n - k : k + 1];
+        for (int i = 0; i <= count; i++) {
+            pin[i] = p->loop_pin[side ? n - i : i];
+            if (i < count) at[i] = p->loop_body[side ? n - i : i + 1];
         }
-        for (int k = 0; k < count; k++)
-            fill_loop_body(&q->body[side ? n - 1 - k : k], m, at, pin, k, count, lane);
+        for (int i = 0; i < count; i++)
+            fill_loop_body(&q->body[side ? n - 1 - i : i], m, at, pin, i, count, lane);
     }
-    q->floor[lane] = fw_pin_floor(m, t->pin[nl]);
+    q->cut = p->loop_pin[nl];
+    q->sign = m->body[2 * q->cut] == p->loop_body[nl + 1] ? 1 : -1;
+    LANE(q->floor, lane) = fw_pin_floor(m, q->cut);
     for (int i = 0; i < m->ntorsion; i++) {
         const fw_model_torsion *s = &m->torsion[i];
-        loop_pin *to = &q->pin[t->torsion[i]];
-        to->k[lane] += s->k, to->c[lane] += s->c;
-        to->torque0[lane] += (s->a == t->body[t->torsion[i]] ? 1 : -1) * s->k * s->angle0;
+        loop_pin *to = &q->pin[p->loop_torsion[i]];
+        LANE(to->k, lane) += s->k, LANE(to->c, lane) += s->c;
+        LANE(to->torque0, lane) +=
+            (s->a == p->loop_body[p->loop_torsion[i]] ? 1 : -1) * s->k * s->angle0;
     }
 }
 
-static fw_status create_loop(fw_arena *arena, const fw_model *const *models, const fw_trail *t,
-                             path *p) {
-    const int bodies = t->count - 1;
-    if (p->first == 0 || bodies < LOOP_LEAST || bodies > LOOP_MOST) return FW_OK;
+static fw_status loop_new(fw_arena *arena, fw_core *k) {
     struct loop *q = fw_arena_one(arena, struct loop);
     FW_NEED(q);
-    FW_NEED(q->spare = fw_arena_array(arena, real, (size_t)(p->ny + 2 * p->records * FW_SIDES)));
-    q->bodies = bodies;
-    for (int lane = 0; lane < DESIGNS; lane++)
-        fill_loop(q, models[lane], t, lane);
-    p->loop = q;
+    FW_NEED(q->spare = fw_arena_array(arena, real, (size_t)(k->plan.ny + 2 * k->plan.pins)));
+    q->bodies = k->plan.bodies;
+    k->loop = q;
     return FW_OK;
 }

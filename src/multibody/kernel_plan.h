@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the kernels run over: index tables of one topology, and records of numbers in which every
-   number is `width` doubles, one per design. Private to the kernels of dynamics/. */
+   number is `width` doubles, one per design. Private to the kernels. */
 #ifndef FW_MULTIBODY_KERNEL_PLAN_H
 #define FW_MULTIBODY_KERNEL_PLAN_H
 #include "multibody/kernel.h"
+
+enum { FW_LOOP_LEAST = 3, FW_LOOP_MOST = 6, FW_WIDTH_MOST = 8 };
 
 typedef struct fw_kernel_plan {
     int bodies, pins, blocks, extras, torsions;
@@ -17,6 +19,12 @@ typedef struct fw_kernel_plan {
     const int *first;  /* (pins + 1) first update of each column */
     const fw_update *update;
     const int *torsion; /* (2 torsions) */
+    /* one closed loop of all bodies, both ends on the ground, every spring across one of its pins:
+       pin i of the loop lies between its bodies i and i + 1, of which the first and last are the
+       ground */
+    bool loop;
+    int loop_pin[FW_LOOP_MOST + 1], loop_body[FW_LOOP_MOST + 2];
+    const int *loop_torsion; /* (torsions) the place of their pins in the loop */
 } fw_kernel_plan;
 
 enum { /* records of constants */
@@ -54,12 +62,15 @@ enum { /* records of work */
 };
 
 typedef struct fw_core fw_core;
-typedef struct fw_core_ops { /* one row per instruction set */
+typedef struct fw_core_ops { /* one row per width and instruction set */
     const char *name;
     int width;
     void (*rhs)(fw_core *k, const double *y, double *f);
     bool (*singular)(fw_core *k, const double *u); /* is a pivot sick at this pose? */
     bool (*project)(fw_core *k, double *y, double *f);
+    /* the form of closed loops: memory, and the numbers of one lane */
+    fw_status (*loop_new)(fw_arena *arena, fw_core *k);
+    void (*loop_fill)(fw_core *k, const fw_model *model, int lane);
 } fw_core_ops;
 
 struct fw_core {
@@ -69,56 +80,28 @@ struct fw_core {
     double *size;                                 /* (1) largest |offset| + arms of each design */
     double *rate;                                 /* (1) y' is multiplied by it */
     double *state, *row, *coupling, *keep;        /* work */
-    double *angle, *sine, *cosine;                /* (bodies) width 1 only */
+    struct loop *loop;                            /* NULL: by the blocks alone */
     double healthy;
     bool redundant; /* some pivot vanishes in every pose: no use to try the plain solution */
     fw_kernel_norms norms;
 };
 
+struct fw_kernel {
+    fw_core core;   /* of width 1 */
+    double *lambda; /* (2 pins) */
+};
+
 bool fw_core_plain(const fw_model *model);
-/* what the pivot of a pin is measured against */
+/* 1/m_a + 1/m_b, the smaller eigenvalue of the pin's own block; where r^2/J makes the block so much
+   larger that its round-off would reach fw_healthy of that, 1e-8 of its trace (which does not
+   depend on the pose). The pivot of a pin is measured against it. */
 double fw_pin_floor(const fw_model *model, int pin);
-fw_status fw_kernel_plan_new(fw_arena *arena, const fw_model *model, fw_kernel_plan *plan);
-/* memory for `ops->width` designs of this plan */
-fw_status fw_core_new(fw_arena *arena, const fw_kernel_plan *plan, const fw_core_ops *ops,
-                      fw_core *core);
-/* after all lanes are filled: sets `redundant` */
-fw_status fw_core_examine(fw_arena *arena, fw_core *core);
-/* the numbers of a model of the same topology into one lane */
-void fw_core_fill(fw_core *core, const fw_model *model, int lane);
 
+/* one design, and lanes of them where the processor has neither of the others */
 extern const fw_core_ops fw_core_single;
-extern const fw_core_ops fw_core_sse2, fw_core_avx2, fw_core_avx512;
+extern const fw_core_ops fw_core_avx2, fw_core_avx512;
 
-/* sine and cosine of x (n); see kernel_sincos.h */
-void fw_sincos_array(int n, const double *x, double *sine, double *cosine);
-
-/* ---- paths: kernel_trail.c, kernel_path.h ---- */
-typedef struct fw_trail { /* pins in a row; the bodies around them, one more */
-    int *pin, *body;
-    int *torsion; /* the pin of every spring, by its number in the row */
-    int count;
-} fw_trail;
-/* false: the joints do not form one path, or a spring does not sit across one of them */
-fw_status fw_trail_find(fw_arena *arena, const fw_model *model, fw_trail *trail, bool *found);
-
-typedef struct fw_path_ops { /* one row per instruction set */
-    const char *name;
-    int width; /* designs at once */
-    /* of `width` models with this trail */
-    fw_status (*create)(fw_arena *arena, const fw_model *const *models, const fw_trail *trail,
-                        void **path);
-    void (*rhs)(void *path, const double *y, double *f);
-    bool (*project)(void *path, double *y, double *f);
-    void (*lambda)(const void *path, int lane, double *lambda);
-    fw_kernel_norms (*norms)(const void *path);
-    void (*set_healthy)(void *path, double relative);
-    void (*set_rate)(void *path, const double *rate); /* (width) y' is multiplied by it */
-} fw_path_ops;
-/* one design: the i-th encoding that this processor has, best first, NULL after the last; all give
-   the same bits */
-const fw_path_ops *fw_path_single(int i);
-extern const fw_path_ops fw_path_baseline, fw_path_single_avx, fw_path_single_avx512;
-extern const fw_path_ops fw_path_sse2, fw_path_avx2, fw_path_avx512;
+/* sine and cosine of one angle, as the kernel of one design takes them (kernel_vector.h) */
+void fw_kernel_sincos(double angle_rad, double *sine, double *cosine);
 
 #endif

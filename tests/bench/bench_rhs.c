@@ -6,9 +6,8 @@
 
    bench_rhs            the table
    bench_rhs CASE COUNT only so many evaluations of one case, for instruction counts:
-     valgrind --tool=callgrind --toggle-collect=measured ./bench_rhs path 10000 */
-#include "multibody/kernel.h"
-#include "multibody/lanes.h"
+     valgrind --tool=callgrind --toggle-collect=measured ./bench_rhs loop 10000 */
+#include "multibody/kernel_plan.h"
 #include "dynamics/models.h"
 #include <stdlib.h>
 #include <time.h>
@@ -19,7 +18,7 @@ typedef struct bench {
     const char *name, *label;
     fw_model *model;
     fw_kernel *kernel; /* NULL: the general code, or lanes */
-    bool path, project;
+    bool project;
     fw_lanes *lanes;
     double *y, *f, *start;
     double each; /* divide by: bodies or designs */
@@ -89,8 +88,8 @@ static int by_size(const void *a, const void *b) {
 }
 
 static bench make(fw_arena *arena, const char *name, const char *label, fw_model *m,
-                  fw_kernel *kernel, bool path) {
-    bench b = {.name = name, .label = label, .model = m, .kernel = kernel, .path = path};
+                  fw_kernel *kernel) {
+    bench b = {.name = name, .label = label, .model = m, .kernel = kernel};
     size_t n = (size_t)m->ny;
     b.y = fw_arena_array(arena, double, n);
     b.f = fw_arena_array(arena, double, n);
@@ -101,17 +100,17 @@ static bench make(fw_arena *arena, const char *name, const char *label, fw_model
     return b;
 }
 
-static fw_kernel *kernel_of(fw_arena *arena, const fw_model *m, bool path) {
+static fw_kernel *kernel_of(fw_arena *arena, const fw_model *m, bool loop) {
     fw_kernel *k = NULL;
     if (fw_kernel_new(arena, m, &k) || !k) exit(1);
-    fw_kernel_prefer(k, path);
+    if (!loop) k->core.loop = NULL;
     return k;
 }
 
 static bench make_lanes(fw_arena *arena, const fw_model *m, const char *set) {
     static char label[3][48];
     static int at = 0;
-    bench b = make(arena, set, label[at], (fw_model *)(uintptr_t)m, NULL, false);
+    bench b = make(arena, set, label[at], (fw_model *)(uintptr_t)m, NULL);
     const fw_model *eight[8] = {m, m, m, m, m, m, m, m};
     if (fw_lanes_new(arena, eight, 8, set, &b.lanes)) exit(1);
     b.y = fw_arena_array(arena, double, fw_lanes_size(b.lanes));
@@ -137,14 +136,12 @@ static int make_all(fw_arena *arena, bench *b) {
     fw_model *m = model_of(arena, six, NULL), *d = model_of(arena, twice, NULL);
     fw_model *general = model_of(arena, six, NULL);
     general->kernel = NULL;
-    b[n++] = make(arena, "general", "six-bar, general code", general, NULL, false);
-    b[n++] = make(arena, "flat", "six-bar, flat schedule", m, kernel_of(arena, m, false), false);
-    b[n++] =
-        make(arena, "path", "six-bar, path from both ends", m, kernel_of(arena, m, true), true);
-    b[n++] =
-        make(arena, "redundant", "six-bar, hinge D twice", d, kernel_of(arena, d, false), false);
+    b[n++] = make(arena, "general", "six-bar, general code", general, NULL);
+    b[n++] = make(arena, "blocks", "six-bar, 2 x 2 blocks", m, kernel_of(arena, m, false));
+    b[n++] = make(arena, "loop", "six-bar, closed loop", m, kernel_of(arena, m, true));
+    b[n++] = make(arena, "redundant", "six-bar, hinge D twice", d, kernel_of(arena, d, true));
     b[n] = make(arena, "project", "six-bar, projection of q and v and f", m,
-                kernel_of(arena, m, true), true);
+                kernel_of(arena, m, true));
     for (int i = 0; i < m->ny; i++) /* a step's error off the constraints */
         b[n].start[i] = i < 2 * m->nq ? 1e-8 * b[n].y[i] : 0;
     memcpy(b[n].y, b[n].start, (size_t)m->ny * sizeof(double));
@@ -159,7 +156,7 @@ static int make_all(fw_arena *arena, bench *b) {
         fw_model *big = model_of(arena, r, &ms);
         snprintf(label[i], sizeof label[i], "%d four-bars, per body (model in %.1f ms)", windows,
                  ms);
-        b[n] = make(arena, "windows", label[i], big, kernel_of(arena, big, false), false);
+        b[n] = make(arena, "windows", label[i], big, kernel_of(arena, big, true));
         b[n++].each = big->nbody;
     }
     return n;

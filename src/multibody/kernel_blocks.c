@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The flat kernel for FW_W designs at once: include once in a translation unit that defines FW_W
-   and FW_CORE (name of the row of functions) and FW_CORE_NAME.
+/* The kernel for FW_W designs at once. Compiled for one design (FW_W 1, with baseline instructions)
+   and by cmake/rooms.cmake for four and eight, which define
+
+     FW_W          designs, one per lane of a register
+     FW_BRIEF      1: shorter sines (kernel_vector.h)
+     FW_CORE       name of the row of functions
+     FW_CORE_NAME  as users read it
 
    One evaluation: sines, arms r, S = G M^-1 G^T and right-hand side G M^-1 Q + G' v pin by pin,
    block LDL^T with the forward substitution in the same sweep, backward substitution,
@@ -8,9 +13,16 @@
    The plain solution stands where every pivot block is healthy; otherwise the proximal iteration of
    block_chain.c is run from the start: S + eps D, two to six sweeps. Both solve S lambda = r, with
    an error of round-off times the condition of S; where S is singular the second moves no body
-   along a redundant row. Source: as rhs.c and block_chain.c. Test: test_kernel.c, test_lanes.c. */
+   along a redundant row. A closed loop of few bodies has a shorter form of its own, kernel_loop.h.
+   Source: as rhs.c and block_chain.c. Test: test_kernel.c, test_lanes.c. */
+#ifndef FW_W
+#define FW_W         1
+#define FW_BRIEF     0
+#define FW_CORE      fw_core_single
+#define FW_CORE_NAME "portable"
+#endif
 #include "multibody/kernel_plan.h"
-#include "multibody/kernel_sincos.h"
+#include "multibody/kernel_vector.h"
 #include <float.h>
 #include <math.h>
 
@@ -19,29 +31,19 @@
 
 /* ---- pose ---- */
 
-#if FW_W == 1
-static void set_sines(fw_core *k, const real *u) {
-    for (int b = 0; b < k->plan.bodies; b++)
-        k->angle[b] = k->body[FW_BODY * b + FW_PHI0] + u[3 * b + 2];
-    fw_sincos_array(k->plan.bodies, k->angle, k->sine, k->cosine);
-    for (int b = 0; b < k->plan.bodies; b++) {
-        k->state[FW_STATE * b + FW_C] = k->cosine[b];
-        k->state[FW_STATE * b + FW_S] = k->sine[b];
-    }
-}
-#else
 static __attribute__((noinline)) void sines_of_far(fw_core *k, const real *u) {
     for (int b = 0; b < k->plan.bodies; b++) {
-        real angle = CONST(body)[FW_BODY * b + FW_PHI0] + u[3 * b + 2];
+        real angle = CONST(body)[FW_BODY * b + FW_PHI0] + u[3 * b + 2], *w;
+        w = WORK(state) + FW_STATE * b;
         for (int i = 0; i < FW_W; i++)
-            if (fabs(angle[i]) > fw_sincos_range) {
+            if (fabs(LANE(angle, i)) > fw_sincos_range) {
                 double s, c;
-                sincos(angle[i], &s, &c);
-                WORK(state)[FW_STATE * b + FW_C][i] = c;
-                WORK(state)[FW_STATE * b + FW_S][i] = s;
+                sincos(LANE(angle, i), &s, &c);
+                LANE(w[FW_S], i) = s, LANE(w[FW_C], i) = c;
             }
     }
 }
+
 static void set_sines(fw_core *k, const real *u) {
     bits outside = {0};
     for (int b = 0; b < k->plan.bodies; b++) {
@@ -52,7 +54,6 @@ static void set_sines(fw_core *k, const real *u) {
     }
     if (bits_any(bits_negative(outside))) sines_of_far(k, u);
 }
-#endif
 
 /* arms in world axes */
 static inline void set_arms(const fw_core *k, int i, real arm[4]) {
@@ -121,8 +122,7 @@ static void set_matrix(fw_core *k) {
    substitution. The inverse of the determinant is kept off the longest path of dependent
    operations: B adj B^T is formed while the division runs. Lanes in which a pivot is not above
    `limit` (relative to the masses) are set in the answer; NaN passes and shows in the result. */
-static inline __attribute__((always_inline)) bits eliminate(fw_core *k, double epsilon,
-                                                            double limit, bool forward) {
+FW_INLINE bits eliminate(fw_core *k, double epsilon, double limit, bool forward) {
     const fw_kernel_plan *p = &k->plan;
     real *const rows = WORK(row), *const couplings = WORK(coupling);
     bits sick = {0};
@@ -207,8 +207,7 @@ static void substitute_backward(fw_core *k) {
 }
 
 /* to -= M^-1 G^T x; `to` holds triples `stride` apart, the ground's too when it has them */
-static inline __attribute__((always_inline)) void apply(const fw_core *k, real *to, int stride,
-                                                        bool ground) {
+FW_INLINE void apply(const fw_core *k, real *to, int stride, bool ground) {
     const fw_kernel_plan *p = &k->plan;
     for (int i = 0; i < p->pins; i++) {
         const real *w = CONST(row) + FW_ROW * i, *r = w + FW_ARM;
@@ -313,16 +312,6 @@ static void finish(fw_core *k, bits broken, real power, const real *y, real *f) 
     apply(k, state + FW_A, FW_STATE, true);
     const real *v = y + p->nq;
     real *a = f + p->nq, nothing = real_of((double)NAN);
-#if FW_W == 1
-    for (int i = 0; i < p->nq; i++)
-        f[i] = v[i];
-    for (int b = 0; b < p->bodies; b++)
-        for (int c = 0; c < 3; c++)
-            a[3 * b + c] = state[FW_STATE * b + FW_A + c];
-    if (p->dissipates) f[2 * p->nq] = power;
-    for (int i = 0; i < p->nq && broken; i++)
-        a[i] = nothing;
-#else
     real rate = CONST(rate)[0];
     for (int b = 0; b < p->bodies; b++)
         for (int c = 0; c < 3; c++) {
@@ -333,12 +322,10 @@ static void finish(fw_core *k, bits broken, real power, const real *y, real *f) 
     if (bits_any(broken))
         for (int i = 0; i < p->nq; i++)
             a[i] = real_select(broken, nothing, a[i]);
-#endif
 }
 
-static void core_rhs(fw_core *k, const double *at, double *slope) {
+static void blocks_rhs(fw_core *k, const real *y, real *f) {
     const fw_kernel_plan *p = &k->plan;
-    const real *y = (const real *)at;
     set_sines(k, y);
     real power = set_accelerations(k, y, y + p->nq);
     for (int i = 0; i < p->pins; i++) {
@@ -354,7 +341,16 @@ static void core_rhs(fw_core *k, const double *at, double *slope) {
         substitute_backward(k);
     }
     if (bits_any(sick)) broken = solve_with_care(k, sick, false);
-    finish(k, broken, power, y, (real *)slope);
+    finish(k, broken, power, y, f);
+}
+
+#include "multibody/kernel_loop.h"
+
+static void core_rhs(fw_core *k, const real *y, real *f) {
+    if (k->loop)
+        loop_or_blocks(k, y, f);
+    else
+        blocks_rhs(k, y, f);
 }
 
 /* ---- projection ---- */
@@ -362,7 +358,7 @@ static void core_rhs(fw_core *k, const double *at, double *slope) {
 /* Psi into the rows; the largest |Psi| of any design, and that relative to its size */
 static double residual(fw_core *k, const real *u, double *relative) {
     const fw_kernel_plan *p = &k->plan;
-    static const double still[3 * 8] __attribute__((aligned(64))) = {0};
+    static const double still[3 * FW_W] __attribute__((aligned(64))) = {0};
     set_pose(k, u);
     real worst = {0};
     for (int i = 0; i < p->pins; i++) {
@@ -404,7 +400,8 @@ static bool project_position(fw_core *k, real *u, double *norm) {
         if (!(*norm < (double)INFINITY)) return false;
         bool slow = relative > 0.25 * before;
         if (relative <= 2 * DBL_EPSILON || (slow && relative <= 1e-13 && *norm <= 1e-12)) break;
-        if (slow || i == 4) {
+        /* the loop's right-hand side leaves no factor of the blocks */
+        if (slow || i == 4 || (i == 0 && k->loop)) {
             factor(k, &broken);
             if (bits_any(broken)) return false;
         }
@@ -419,7 +416,7 @@ static bool project_position(fw_core *k, real *u, double *norm) {
 /* v -= M^-1 G^T S^-1 G v with the factor of the pose */
 static bool project_velocity(fw_core *k, real *v, double *norm) {
     const fw_kernel_plan *p = &k->plan;
-    static const double still[3 * 8] __attribute__((aligned(64))) = {0};
+    static const double still[3 * FW_W] __attribute__((aligned(64))) = {0};
     real size = real_of(DBL_MIN);
     double before = (double)INFINITY;
     for (int i = 0; i < p->nq; i++)
@@ -478,7 +475,7 @@ static bool core_project(fw_core *k, double *at, double *slope) {
 #endif
 
 static void rhs(fw_core *k, const double *y, double *f) {
-    core_rhs(k, y, f);
+    core_rhs(k, (const real *)y, (real *)f);
     END_OF_VECTORS();
 }
 static bool project(fw_core *k, double *y, double *f) {
@@ -492,4 +489,11 @@ static bool core_singular(fw_core *k, const double *u) {
     return bits_any(eliminate(k, 0, k->healthy, false));
 }
 
-const fw_core_ops FW_CORE = {FW_CORE_NAME, FW_W, rhs, core_singular, project};
+const fw_core_ops FW_CORE = {FW_CORE_NAME, FW_W, rhs, core_singular, project, loop_new, loop_fill};
+
+#if FW_W == 1
+void fw_kernel_sincos(double angle_rad, double *sine, double *cosine) {
+    real_sincos(angle_rad, sine, cosine);
+    if (!(fabs(angle_rad) <= fw_sincos_range)) sincos(angle_rad, sine, cosine);
+}
+#endif

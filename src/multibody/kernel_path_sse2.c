@@ -1,7 +1,0 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
-#define FW_W         2
-#define FW_BRIEF     1
-#define FW_SIDES     2
-#define FW_PATH      fw_path_sse2
-#define FW_PATH_NAME "sse2"
-#include "multibody/kernel_path.h"
