@@ -113,13 +113,19 @@ def flexure_silicon_program(run, _):
 
 def flexure_errors(g):
     found = arc(g)
-    t, r, rho, h = g["t"], g["r"], g["rho"], g["h"]
+    t, r, rho, h, a, L = g["t"], g["r"], g["rho"], g["h"], g["angle"] / 2, found["L"]
     ends, root = 0.35 * h * found["bow"], 0.006 * t + 2.3 * t * (t / r) ** 2 * (rho / t) ** 2
-    return {"ends": ends, "root": root, "error_K": 0.001 + 2 * (ends + root) / found["L"]}
+    e, stiff = 2 * (ends + root) / L, g["E"] * h * t**3 / 12 * found["D"]
+    x, y, s, c = abs(r * cos(a) - found["xW"]), r * sin(a), sin(a), abs(cos(a))
+    return {"ends": ends, "root": root, "error_K": 0.001 + e,
+            "error_kx": 0.002 + (y * (e * L * y + 0.6 * rho**2 * c) + 3.2 / 12 * t**3 * s * s) * found["kx"] / stiff,
+            "error_ky": 0.002 + (x * (e * L * x + 0.6 * rho**2 * s) + 3.2 / 12 * t**3 * c * c) * found["ky"] / stiff,
+            "error_W": e * x + 0.6 * rho**2 / L + 2e-4 * r}
 
 
 def flexure_errors_program(run, _):
-    return {"error_K": hinge(run, "A")[1]["closed-form"]["error"]["stiffness"]}
+    error = hinge(run, "A")[1]["closed-form"]["error"]
+    return {"error_K": error["stiffness"], "error_kx": error["kx"], "error_ky": error["ky"], "error_W": error["centre_m"]}
 
 
 def flexure_path(g):
