@@ -1,119 +1,180 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* `flexwright hinge`: every flexure on the ladder of models, and what its axis does as it turns. */
+#include "base/json.h"
 #include "base/output.h"
 #include "cli/deck.h"
 #include "cli/hinge_text.h"
 #include "cli/session.h"
 #include "plan/design.h"
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- JSON ---- */
 
-/* JSON has no numbers that are not finite */
-static json_t *real(double value) {
-    return isfinite(value) ? json_real(value) : json_null();
+/* as fw_json_real, but a zero keeps its sign, as it always did in this document */
+static void real(fw_json *json, const char *key, double value) {
+    if (value == 0.0 && signbit(value))
+        fw_text_add(fw_json_value(json, key), "-0.0");
+    else
+        fw_json_real(json, key, value);
 }
 
-static json_t *errors_json(const fw_flexure_error *e) {
-    return json_pack("{s:f, s:f, s:f, s:f, s:f, s:b}", "stiffness", e->stiffness, "kx", e->kx, "ky",
-                     e->ky, "strain", e->strain, "centre_m", e->centre_m, "outside", e->outside);
+static void pair(fw_json *json, const char *key, double a, double b) {
+    fw_json_list(json, key);
+    real(json, NULL, a);
+    real(json, NULL, b);
+    fw_json_end(json);
 }
 
-static json_t *level_json(const fw_report_level *r) {
-    if (r->state != FW_LEVEL_SOLVED)
-        return json_pack("{s:s, s:b, s:s}", "level", r->name, "solved", 0, "why", r->why);
-    return json_pack("{s:s, s:b, s:f, s:[f,f], s:f, s:f, s:f, s:o, s:o, s:f, s:o, s:o}", "level",
-                     r->name, "solved", 1, "stiffness_Nm_per_rad", r->stiffness_Nm_per_rad,
-                     "centre_m", r->centre_m[0], r->centre_m[1], "strain_per_rad",
-                     r->strain_per_rad, "limit_angle_rad", r->limit_angle_rad, "cpu_s", r->cpu_s,
-                     "kx_N_per_m", real(r->kx_N_per_m), "ky_N_per_m", real(r->ky_N_per_m),
-                     "limit_moment_Nm", r->moment_Nm, "limit_drift_m", real(r->drift_m), "error",
-                     errors_json(&r->error));
+static void errors_json(fw_json *json, const fw_flexure_error *e) {
+    fw_json_object(json, "error");
+    real(json, "stiffness", e->stiffness);
+    real(json, "kx", e->kx);
+    real(json, "ky", e->ky);
+    real(json, "strain", e->strain);
+    real(json, "centre_m", e->centre_m);
+    fw_json_truth(json, "outside", e->outside);
+    fw_json_end(json);
 }
 
-static json_t *picked_json(const fw_ladder *l, double accuracy) {
+static void level_json(fw_json *json, const fw_report_level *r) {
+    fw_json_object(json, NULL);
+    fw_json_text(json, "level", r->name);
+    fw_json_truth(json, "solved", r->state == FW_LEVEL_SOLVED);
+    if (r->state == FW_LEVEL_SOLVED) {
+        real(json, "stiffness_Nm_per_rad", r->stiffness_Nm_per_rad);
+        pair(json, "centre_m", r->centre_m[0], r->centre_m[1]);
+        real(json, "strain_per_rad", r->strain_per_rad);
+        real(json, "limit_angle_rad", r->limit_angle_rad);
+        real(json, "cpu_s", r->cpu_s);
+        real(json, "kx_N_per_m", r->kx_N_per_m);
+        real(json, "ky_N_per_m", r->ky_N_per_m);
+        real(json, "limit_moment_Nm", r->moment_Nm);
+        real(json, "limit_drift_m", r->drift_m);
+        errors_json(json, &r->error);
+    } else
+        fw_json_text(json, "why", r->why);
+    fw_json_end(json);
+}
+
+static void picked_json(fw_json *json, const fw_ladder *l, double accuracy) {
     char why[200];
-    if (l->picked < 0) return json_null();
+    if (l->picked < 0) {
+        fw_json_null(json, "picked");
+        return;
+    }
     fw_ladder_why(l, accuracy, why, sizeof why);
-    return json_pack("{s:s, s:b, s:s}", "level", l->row[l->picked].name, "reached", l->reached,
-                     "why", why);
+    fw_json_object(json, "picked");
+    fw_json_text(json, "level", l->row[l->picked].name);
+    fw_json_truth(json, "reached", l->reached);
+    fw_json_text(json, "why", why);
+    fw_json_end(json);
 }
 
-static json_t *drift_json(const fw_ladder *l) {
-    const fw_ladder_drift *d = &l->drift;
-    json_t *curve = json_array();
+static void drift_curve(fw_json *json, const fw_ladder_drift *d) {
+    static const char *const column[] = {"rotation_rad", "drift_m", "pole_m", "gap_left_m"};
+    fw_json_list(json, "columns");
+    for (int k = 0; k < 4; k++)
+        fw_json_text(json, NULL, column[k]);
+    fw_json_end(json);
+    fw_json_list(json, "curve");
     for (int i = 0; i < FW_DRIFT_POINTS; i++) {
         const fw_drift_point *p = &d->point[i];
-        json_array_append_new(curve,
-                              json_pack("[f,f,f,o]", p->rotation_rad, p->drift_m, p->pole_m,
-                                        d->surfaces.gap_m > 0 ? real(p->left_m) : json_null()));
+        fw_json_list(json, NULL);
+        real(json, NULL, p->rotation_rad);
+        real(json, NULL, p->drift_m);
+        real(json, NULL, p->pole_m);
+        real(json, NULL, d->surfaces.gap_m > 0 ? p->left_m : (double)NAN);
+        fw_json_end(json);
     }
-    return json_pack("{s:f, s:f, s:[o,o], s:[o,o], s:{s:f, s:f, s:f}, s:[s,s,s,s], s:o}", "gap_m",
-                     d->surfaces.gap_m, "aside_rad", d->surfaces.aside_rad, "contact_rad",
-                     real(d->contact_rad[0]), real(d->contact_rad[1]), "closing_N",
-                     real(d->closing_N[0]), real(d->closing_N[1]), "advice", "offset_m",
-                     d->advice.offset_m, "gap_m", d->advice.gap_m, "centred_gap_m",
-                     d->advice.centred_m, "columns", "rotation_rad", "drift_m", "pole_m",
-                     "gap_left_m", "curve", curve);
+    fw_json_end(json);
 }
 
-static json_t *compliance_json(const fw_flexure_result *r) {
-    json_t *rows = json_array();
-    for (int i = 0; i < 3; i++)
-        json_array_append_new(rows, json_pack("[f,f,f]", r->compliance[i][0], r->compliance[i][1],
-                                              r->compliance[i][2]));
-    return rows;
+static void drift_json(fw_json *json, const fw_ladder_drift *d) {
+    fw_json_object(json, "drift");
+    real(json, "gap_m", d->surfaces.gap_m);
+    real(json, "aside_rad", d->surfaces.aside_rad);
+    pair(json, "contact_rad", d->contact_rad[0], d->contact_rad[1]);
+    pair(json, "closing_N", d->closing_N[0], d->closing_N[1]);
+    fw_json_object(json, "advice");
+    real(json, "offset_m", d->advice.offset_m);
+    real(json, "gap_m", d->advice.gap_m);
+    real(json, "centred_gap_m", d->advice.centred_m);
+    fw_json_end(json);
+    drift_curve(json, d);
+    fw_json_end(json);
 }
 
-static json_t *hinge_json(const fw_ladders *all, const fw_ladder *l) {
+static void compliance_json(fw_json *json, const fw_flexure_result *r) {
+    fw_json_list(json, "compliance");
+    for (int i = 0; i < 3; i++) {
+        fw_json_list(json, NULL);
+        for (int k = 0; k < 3; k++)
+            real(json, NULL, r->compliance[i][k]);
+        fw_json_end(json);
+    }
+    fw_json_end(json);
+}
+
+static void same_as_json(fw_json *json, const fw_ladders *all, const fw_ladder *l) {
+    if (l->shared < 0) {
+        fw_json_null(json, "same_as");
+        return;
+    }
+    fw_json_object(json, "same_as");
+    fw_json_text(json, "id", fw_ladder_id(&all->item[l->shared]));
+    fw_json_text(json, "flow", all->item[l->shared].flow);
+    fw_json_end(json);
+}
+
+static void hinge_json(fw_json *json, const fw_ladders *all, const fw_ladder *l) {
     const fw_hinge *h = l->hinge;
     const fw_flexure_result *c = &h->closed_form;
-    json_t *levels = json_array();
+    fw_json_object(json, NULL);
+    fw_json_text(json, "id", fw_ladder_id(l));
+    fw_json_text(json, "flow", l->flow);
+    fw_json_list(json, "levels");
     for (int i = 0; i < l->rows; i++)
-        json_array_append_new(levels, level_json(&l->row[i]));
-    json_t *whole = json_pack(
-        "{s:s, s:s?, s:o, s:o, s:[f,f], s:f, s:f, s:f, s:f, s:f, s:o}", "id", fw_ladder_id(l),
-        "flow", l->flow, "levels", levels, "axis_rad", real(h->axis_rad), "axis_offset_m",
-        c->offset_m[0], c->offset_m[1], "youngs_Pa", c->youngs_Pa, "stress_per_rad_Pa",
-        c->stress_per_rad_Pa, "strain_bound_per_rad", c->strain_per_rad, "strain_fit_per_rad",
-        c->strain_fit_per_rad, "used_stiffness_Nm_per_rad",
-        l->mechanism->pin[h->pin].stiffness_Nm_per_rad, "compliance", compliance_json(c));
-    if (!whole) return NULL;
-    json_object_set_new(whole, "picked", picked_json(l, all->accuracy));
-    json_object_set_new(whole, "same_as",
-                        l->shared < 0
-                            ? json_null()
-                            : json_pack("{s:s, s:s?}", "id", fw_ladder_id(&all->item[l->shared]),
-                                        "flow", all->item[l->shared].flow));
-    json_object_set_new(whole, "drift", drift_json(l));
-    return whole;
+        level_json(json, &l->row[i]);
+    fw_json_end(json);
+    real(json, "axis_rad", h->axis_rad);
+    pair(json, "axis_offset_m", c->offset_m[0], c->offset_m[1]);
+    real(json, "youngs_Pa", c->youngs_Pa);
+    real(json, "stress_per_rad_Pa", c->stress_per_rad_Pa);
+    real(json, "strain_bound_per_rad", c->strain_per_rad);
+    real(json, "strain_fit_per_rad", c->strain_fit_per_rad);
+    real(json, "used_stiffness_Nm_per_rad", l->mechanism->pin[h->pin].stiffness_Nm_per_rad);
+    compliance_json(json, c);
+    picked_json(json, l, all->accuracy);
+    same_as_json(json, all, l);
+    drift_json(json, &l->drift);
+    fw_json_end(json);
 }
 
-static char *as_json(const fw_ladders *all) {
-    json_t *list = json_array();
+static fw_status document(const fw_ladders *all, fw_text *out) {
+    fw_json json = fw_json_new(out, FW_JSON_INDENTED);
+    fw_json_object(&json, NULL);
+    fw_json_text(&json, "schema", "flexwright.hinge/1");
+    real(&json, "accuracy_wanted", all->accuracy);
+    fw_json_list(&json, "hinges");
     for (int i = 0; i < all->count; i++)
-        json_array_append_new(list, hinge_json(all, &all->item[i]));
-    json_t *whole = json_pack("{s:s, s:f, s:o}", "schema", "flexwright.hinge/1", "accuracy_wanted",
-                              all->accuracy, "hinges", list);
-    char *text = whole ? json_dumps(whole, JSON_REAL_PRECISION(17) | JSON_INDENT(1)) : NULL;
-    json_decref(whole);
-    return text;
+        hinge_json(&json, all, &all->item[i]);
+    fw_json_end(&json);
+    fw_json_end(&json);
+    return fw_json_finish(&json, "");
 }
 
 /* ---- the command ---- */
 
-static fw_status save(fw_plan *plan, const fw_cli_options *options, const char *json,
+static fw_status save(fw_plan *plan, const fw_cli_options *options, const fw_text *json,
                       const fw_text *svg) {
     if (options->svg)
         FW_TRY(fw_output_single(plan->arena, options->svg, svg->data, svg->length, &plan->diags));
     if (!options->output) return FW_OK;
     fw_output *output;
     FW_TRY(fw_output_open(plan->arena, options->output, &plan->diags, &output));
-    fw_status status = fw_output_write(output, "hinge.json", json, strlen(json));
+    fw_status status = fw_output_write(output, "hinge.json", json->data, json->length);
     if (status == FW_OK) status = fw_output_write(output, "hinge.svg", svg->data, svg->length);
     if (status == FW_OK) status = fw_output_commit(output);
     fw_output_abort(output);
@@ -164,15 +225,14 @@ static fw_status run(fw_plan *plan, const fw_cli_options *options) {
     FW_TRY(fw_plan_ladders(plan, wanted(options), &all));
     say(plan, &all);
     if (options->svg || options->output) FW_TRY(picture(plan, &all, &svg));
-    char *json = options->json || options->output ? as_json(&all) : NULL;
-    if (!json && (options->json || options->output)) return FW_NOMEM;
-    fw_status status = save(plan, options, json, &svg);
+    fw_text json = fw_text_new(plan->arena);
+    if (options->json || options->output) FW_TRY(document(&all, &json));
+    fw_status status = save(plan, options, &json, &svg);
     if (status == FW_OK) status = decks(plan, options);
     if (status == FW_OK && options->json)
-        puts(json);
+        puts(json.data);
     else if (status == FW_OK && !options->quiet && !fw_session_file_on_stdout(options))
         status = fw_hinge_print(plan->arena, &all, wanted(options) == FW_LADDER_CHEAP);
-    free(json);
     return status;
 }
 

@@ -4,7 +4,6 @@
 #define FW_MASK_FINDINGS_H
 #include "mask/mask.h"
 
-void fw_mask_json_findings(fw_text *out, const fw_mask *mask); /* "[{...}, ...]" */
 /* the highest layer up to 60 that the table does not use */
 int fw_mask_marker_layer(const fw_mask_table *table);
 /* what a marker covers: the chord, edge, corner or window, and at least 1 um around it */

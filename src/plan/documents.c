@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Documents that span the flows of a plan; those of one flow are composed in its own room. */
+#include "base/json.h"
 #include "plan/ladder.h"
 #include "plan/stages.h"
 #include "report/json.h"
@@ -59,22 +60,23 @@ fw_status fw_plan_report_html(fw_plan *plan, fw_text *out) {
 }
 
 fw_status fw_plan_masks_json(fw_plan *plan, fw_text *out) {
-    fw_text_add(out, "{\"schema\":\"flexwright.masks/1\",\"masks\":[");
-    int written = 0;
+    fw_json json = fw_json_new(out, FW_JSON_COMPACT);
+    fw_json_object(&json, NULL);
+    fw_json_text(&json, "schema", "flexwright.masks/1");
+    fw_json_list(&json, "masks");
+    for (int i = 0; i < plan->nflow; i++) {
+        const fw_plan_flow *f = &plan->flow[i];
+        if (!f->mask) continue;
+        FW_TRY(fw_mask_write_certificate(f->mask, f->mask_sha256, fw_json_value(&json, NULL)));
+    }
+    fw_json_end(&json);
+    fw_json_list(&json, "violations");
     for (int i = 0; i < plan->nflow; i++)
-        if (plan->flow[i].mask) {
-            fw_text_add(out, written++ ? "," : "");
-            FW_TRY(fw_mask_write_certificate(plan->flow[i].mask, plan->flow[i].mask_sha256, out));
-        }
-    fw_text_add(out, "],\"violations\":[");
-    written = 0;
-    for (int i = 0; i < plan->nflow; i++)
-        if (plan->flow[i].violated) {
-            fw_text_add(out, written++ ? "," : "");
-            FW_TRY(fw_mask_write_findings(plan->flow[i].violated, out));
-        }
-    fw_text_add(out, "]}\n");
-    return fw_text_end(out);
+        if (plan->flow[i].violated)
+            FW_TRY(fw_mask_write_findings(plan->flow[i].violated, fw_json_value(&json, NULL)));
+    fw_json_end(&json);
+    fw_json_end(&json);
+    return fw_json_finish(&json, "\n");
 }
 
 fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *pf) {
@@ -88,23 +90,39 @@ fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *
                               .cut = pf->cut};
 }
 
+/* of a rejected device */
+static fw_status no_recipe(fw_text *out) {
+    fw_json json = fw_json_new(out, FW_JSON_COMPACT);
+    fw_json_object(&json, NULL);
+    fw_json_text(&json, "schema", "flexwright.recipe/1");
+    fw_json_null(&json, "flow");
+    fw_json_list(&json, "steps");
+    fw_json_end(&json);
+    fw_json_null(&json, "total_s");
+    fw_json_truth(&json, "rejected", true);
+    fw_json_text(&json, "banner", "REJECTED");
+    fw_json_end(&json);
+    return fw_json_finish(&json, "\n");
+}
+
+static fw_status recipe(const fw_plan *plan, int flow, fw_text *out) {
+    fw_recipe_header header = fw_plan_recipe_header(plan, &plan->flow[flow]);
+    return fw_recipe_write_json(plan->flow[flow].flow, &header, out);
+}
+
 /* one flow: its recipe; several: a document that holds them all */
 fw_status fw_plan_recipes_json(fw_plan *plan, fw_text *out) {
-    bool several = plan->nflow > 1;
     bool given = plan->verdict.decision != FW_REJECT || plan->options.force;
-    if (several) fw_text_add(out, "{\"schema\":\"flexwright.recipes/1\",\"recipes\":[");
-    int written = 0;
-    for (int i = 0; given && i < plan->nflow; i++) {
-        const fw_plan_flow *pf = &plan->flow[i];
-        if (!pf->flow) continue;
-        fw_recipe_header header = fw_plan_recipe_header(plan, pf);
-        fw_text_add(out, written++ ? "," : "");
-        FW_TRY(fw_recipe_write_json(pf->flow, &header, out));
-    }
-    if (several)
-        fw_text_add(out, "]}\n");
-    else if (!written)
-        fw_text_add(out, "{\"schema\":\"flexwright.recipe/1\",\"flow\":null,\"steps\":[],"
-                         "\"total_s\":null,\"rejected\":true,\"banner\":\"REJECTED\"}\n");
-    return fw_text_end(out);
+    if (plan->nflow == 1)
+        return given && plan->flow[0].flow ? recipe(plan, 0, out) : no_recipe(out);
+    if (plan->nflow == 0) return no_recipe(out);
+    fw_json json = fw_json_new(out, FW_JSON_COMPACT);
+    fw_json_object(&json, NULL);
+    fw_json_text(&json, "schema", "flexwright.recipes/1");
+    fw_json_list(&json, "recipes");
+    for (int i = 0; given && i < plan->nflow; i++)
+        if (plan->flow[i].flow) FW_TRY(recipe(plan, i, fw_json_value(&json, NULL)));
+    fw_json_end(&json);
+    fw_json_end(&json);
+    return fw_json_finish(&json, "\n");
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What all live requests have in common: reading them, and answers that never leak. */
-#include "base/members.h"
+#include "base/json.h"
 #include "plan/live_request.h"
 #include "report/preview.h"
 #include <math.h>
@@ -169,11 +169,14 @@ static fw_live_answer short_of_memory(void) {
 
 static fw_live_answer failure(fw_status status, const char *message, fw_text *out) {
     out->length = 0;
-    fw_text_add(out, "{\"error\":{");
-    fw_put_text(out, "message", message ? message : fw_status_text(status));
-    fw_put_text(out, "code", status == FW_USAGE ? "FW-D289" : NULL);
-    fw_text_add(out, "}}\n");
-    if (status == FW_NOMEM || fw_text_end(out) != FW_OK) return short_of_memory();
+    fw_json json = fw_json_new(out, FW_JSON_COMPACT);
+    fw_json_object(&json, NULL);
+    fw_json_object(&json, "error");
+    fw_json_text(&json, "message", message ? message : fw_status_text(status));
+    fw_json_text(&json, "code", status == FW_USAGE ? "FW-D289" : NULL);
+    fw_json_end(&json);
+    fw_json_end(&json);
+    if (fw_json_finish(&json, "\n") != FW_OK || status == FW_NOMEM) return short_of_memory();
     return (fw_live_answer){status, out->data, out->length};
 }
 

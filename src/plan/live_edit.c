@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Changes to the text of a description, asked for as JSON. */
-#include "base/members.h"
+#include "base/json.h"
 #include "plan/live_request.h"
 #include "report/preview.h"
 #include <string.h>
@@ -66,7 +66,7 @@ static fw_status changes_of(fw_live_request *r, fw_text_change **change, int *n)
     return FW_OK;
 }
 
-static fw_status edit(fw_live *live, fw_live_request *r, fw_text *out) {
+static fw_status edit(fw_live *live, fw_live_request *r, fw_text *answer) {
     (void)live;
     fw_text_change *change = NULL;
     int n = 0;
@@ -76,13 +76,16 @@ static fw_status edit(fw_live *live, fw_live_request *r, fw_text *out) {
     fw_status status =
         fw_device_edit(r->arena, "device.xml", r->text, r->length, change, n, &diags, &text);
     if (status != FW_OK && status != FW_INPUT) return status;
-    fw_text_printf(out, "{\"schema\":\"flexwright.edit/1\",\"status\":\"%s\",\n",
-                   status == FW_OK ? "ok" : "invalid");
+    fw_json json = fw_json_new(answer, FW_JSON_COMPACT), *out = &json;
+    fw_json_object(out, NULL);
+    fw_json_text(out, "schema", "flexwright.edit/1");
+    fw_json_text(out, "status", status == FW_OK ? "ok" : "invalid");
+    fw_json_line(out, 0);
     fw_report_preview_diagnostics(&diags, "device.xml", out);
-    fw_put_line(out);
-    fw_put_text(out, "text", status == FW_OK ? text.data : NULL);
-    fw_text_add(out, "}\n");
-    return fw_text_end(out);
+    fw_json_line(out, 0);
+    fw_json_text(out, "text", status == FW_OK ? text.data : NULL);
+    fw_json_end(out);
+    return fw_json_finish(out, "\n");
 }
 
 fw_live_answer fw_live_edit(fw_live *live, const char *request, size_t n) {

@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Poses for dragging. The mechanism that was posed last stays until another text comes: laying it
    out takes longer than all the rest. */
-#include "base/members.h"
+#include "base/json.h"
 #include "assembly/assembly.h"
 #include "base/hash.h"
 #include "plan/design_state.h"
 #include "plan/live_pose.h"
 #include "plan/live_request.h"
 #include "plan/stages.h"
-#include "report/json_common.h"
 #include "report/preview.h"
 #include <math.h>
 #include <string.h>
@@ -44,14 +43,54 @@ static fw_status build(fw_design *d, void *argument) {
     return FW_OK;
 }
 
-static fw_status key_of(const fw_live_request *r, char key[65]) {
+/* a value as it was read; the same values give the same text */
+static void copied(fw_json *json, const char *key, const json_t *value) {
+    const char *name;
+    const json_t *item;
+    size_t i;
+    switch (json_typeof(value)) {
+    case JSON_OBJECT:
+        fw_json_object(json, key);
+        json_object_foreach((json_t *)value, name, item) copied(json, name, item);
+        fw_json_end(json);
+        break;
+    case JSON_ARRAY:
+        fw_json_list(json, key);
+        json_array_foreach(value, i, item) copied(json, NULL, item);
+        fw_json_end(json);
+        break;
+    case JSON_STRING:
+        fw_json_text(json, key, json_string_value(value));
+        break;
+    case JSON_INTEGER:
+        fw_json_whole(json, key, json_integer_value(value));
+        break;
+    case JSON_REAL:
+        fw_json_real(json, key, json_real_value(value));
+        break;
+    case JSON_TRUE:
+    case JSON_FALSE:
+        fw_json_truth(json, key, json_is_true(value));
+        break;
+    case JSON_NULL:
+        fw_json_null(json, key);
+        break;
+    }
+}
+
+static fw_status key_of(fw_live_request *r, char key[65]) {
     fw_text all = fw_text_new(r->arena);
     fw_text_bytes(&all, r->text, r->length);
     fw_text_add(&all, "\n");
-    if (r->set) FW_TRY(fw_json_write(json_incref(r->set), false, &all));
-    fw_text_add(&all, "\n");
-    if (r->options) FW_TRY(fw_json_write(json_incref(r->options), false, &all));
-    FW_TRY(fw_text_end(&all));
+    fw_json json = fw_json_new(&all, FW_JSON_COMPACT);
+    fw_json_list(&json, NULL);
+    if (r->set) copied(&json, NULL, r->set);
+    fw_json_null(&json, NULL);
+    if (r->options) copied(&json, NULL, r->options);
+    fw_json_end(&json);
+    fw_status status = fw_json_finish(&json, "");
+    if (status == FW_INTERNAL) return fw_live_wrong(r, "nested too deeply:", "set or options");
+    FW_TRY(status);
     fw_sha256(all.data, all.length, key);
     return FW_OK;
 }
@@ -143,21 +182,21 @@ static fw_status flow_of(fw_live_request *r, const fw_plan *plan, int *flow) {
 
 /* ---- the answer ---- */
 
-static void triple(fw_text *out, const char *key, const double at[3]) {
+static void triple(fw_json *out, const char *key, const double at[3]) {
     static const char *const name[] = {"x_m", "y_m", "phi_rad"};
-    fw_put_line(out);
-    fw_put_open(out, key, '{');
+    fw_json_line(out, 0);
+    fw_json_object(out, key);
     for (int k = 0; k < 3; k++)
-        fw_put_number(out, name[k], at[k], 12);
-    fw_text_add(out, "}");
+        fw_json_number(out, name[k], at[k], 12);
+    fw_json_end(out);
 }
 
-static void numbers(fw_text *out, const char *key, const double *value, int n) {
-    fw_put_line(out);
-    fw_put_open(out, key, '[');
+static void numbers(fw_json *out, const char *key, const double *value, int n) {
+    fw_json_line(out, 0);
+    fw_json_list(out, key);
     for (int k = 0; k < n; k++)
-        fw_put_number(out, NULL, value[k], 15);
-    fw_text_add(out, "]");
+        fw_json_number(out, NULL, value[k], 15);
+    fw_json_end(out);
 }
 
 static double limit_of(const fw_mechanism *m, int pin) {
@@ -167,60 +206,60 @@ static double limit_of(const fw_mechanism *m, int pin) {
 }
 
 /* every hinge against its limit in this flow, and which is nearest to it */
-static void flow_json(fw_text *out, const fw_mechanism *m, const double *angle) {
+static void flow_json(fw_json *out, const fw_mechanism *m, const double *angle) {
     int governing = FW_NONE;
     double most = -1.0;
-    fw_put_open(out, NULL, '{');
-    fw_put_text(out, "name", m->variant->flow);
-    fw_put_open(out, "hinges", '[');
+    fw_json_object(out, NULL);
+    fw_json_text(out, "name", m->variant->flow);
+    fw_json_list(out, "hinges");
     for (int i = 0; i < m->npin; i++) {
         double limit = limit_of(m, i), used = fabs(angle[i]) / limit;
         if (isnan(limit)) continue;
         if (used > most) most = used, governing = i;
-        fw_put_open(out, NULL, '{');
-        fw_put_text(out, "id", m->pin[i].id);
-        fw_put_whole(out, "pin", i);
-        fw_put_number(out, "angle_rad", angle[i], 12);
-        fw_put_number(out, "limit_rad", limit, 9);
-        fw_put_number(out, "utilisation", used, 9);
-        fw_text_add(out, "}");
+        fw_json_object(out, NULL);
+        fw_json_text(out, "id", m->pin[i].id);
+        fw_json_whole(out, "pin", i);
+        fw_json_number(out, "angle_rad", angle[i], 12);
+        fw_json_number(out, "limit_rad", limit, 9);
+        fw_json_number(out, "utilisation", used, 9);
+        fw_json_end(out);
     }
-    fw_text_add(out, "]");
-    fw_put_text(out, "governing", governing == FW_NONE ? NULL : m->pin[governing].id);
-    fw_put_number(out, "utilisation", governing == FW_NONE ? (double)NAN : most, 9);
+    fw_json_end(out);
+    fw_json_text(out, "governing", governing == FW_NONE ? NULL : m->pin[governing].id);
+    fw_json_number(out, "utilisation", governing == FW_NONE ? (double)NAN : most, 9);
     if (governing == FW_NONE)
-        fw_put_null(out, "within_limits");
+        fw_json_null(out, "within_limits");
     else
-        fw_put_truth(out, "within_limits", most <= 1.0);
-    fw_text_add(out, "}");
+        fw_json_truth(out, "within_limits", most <= 1.0);
+    fw_json_end(out);
 }
 
-static void answer(fw_text *out, const fw_live_posed *posed, int flow, int body,
+static void answer(fw_json *out, const fw_live_posed *posed, int flow, int body,
                    const double asked[3], const fw_posed *p) {
     const fw_plan *plan = fw_design_plan(posed->design);
     const fw_mechanism *m = posed->mechanism[flow];
-    fw_put_line(out);
-    fw_put_text(out, "body", m->body[body].id);
-    fw_put_text(out, "how", p->closed_form ? "closed form" : "assembly");
-    fw_put_truth(out, "reachable", p->reachable);
-    fw_put_text(out, "reason", p->reason);
+    fw_json_line(out, 0);
+    fw_json_text(out, "body", m->body[body].id);
+    fw_json_text(out, "how", p->closed_form ? "closed form" : "assembly");
+    fw_json_truth(out, "reachable", p->reachable);
+    fw_json_text(out, "reason", p->reason);
     triple(out, "asked", asked);
     triple(out, "at", p->at);
-    fw_put_line(out);
-    fw_put_number(out, "share", p->share, 12);
+    fw_json_line(out, 0);
+    fw_json_number(out, "share", p->share, 12);
     numbers(out, "q", p->q, 3 * m->nbody);
     numbers(out, "angle_rad", p->angle_rad, m->npin);
-    fw_put_line(out);
-    fw_put_text(out, "flow", m->variant->flow);
-    fw_put_open(out, "flows", '[');
+    fw_json_line(out, 0);
+    fw_json_text(out, "flow", m->variant->flow);
+    fw_json_list(out, "flows");
     for (int i = 0; i < plan->nflow; i++) {
-        fw_put_line(out);
+        fw_json_line(out, 0);
         flow_json(out, posed->mechanism[i], p->angle_rad);
     }
-    fw_text_add(out, "]");
+    fw_json_end(out);
 }
 
-static fw_status pose(fw_live *live, fw_live_request *r, fw_text *out) {
+static fw_status pose(fw_live *live, fw_live_request *r, fw_text *text) {
     double asked[3];
     FW_TRY(asked_of(r, asked));
     FW_TRY(prepare(live, r));
@@ -237,14 +276,18 @@ static fw_status pose(fw_live *live, fw_live_request *r, fw_text *out) {
         status = fw_pose_solve(r->arena, posed->mechanism[flow], body, asked, from, &p);
         if (status == FW_NOMEM || status == FW_CANCELLED) return status;
     }
-    fw_text_printf(out, "{\"schema\":\"flexwright.pose/1\",\"status\":\"%s\",\n",
-                   status == FW_OK          ? "ok"
-                   : posed->status == FW_OK ? "failed"
-                                            : "invalid");
+    fw_json json = fw_json_new(text, FW_JSON_COMPACT), *out = &json;
+    fw_json_object(out, NULL);
+    fw_json_text(out, "schema", "flexwright.pose/1");
+    fw_json_text(out, "status",
+                 status == FW_OK          ? "ok"
+                 : posed->status == FW_OK ? "failed"
+                                          : "invalid");
+    fw_json_line(out, 0);
     fw_report_preview_diagnostics(&plan->diags, "device.xml", out);
     if (status == FW_OK) answer(out, posed, flow, body, asked, &p);
-    fw_text_add(out, "}\n");
-    return fw_text_end(out);
+    fw_json_end(out);
+    return fw_json_finish(out, "\n");
 }
 
 fw_live_answer fw_live_pose(fw_live *live, const char *request, size_t n) {

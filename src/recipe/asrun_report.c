@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Planned against actual: durations against their windows, waiting times against their limits,
    measured values against what is accepted. */
-#include "base/members.h"
+#include "base/json.h"
 #include "recipe/asrun.h"
 #include "recipe/words.h"
 #include <math.h>
@@ -168,17 +168,17 @@ fw_status fw_asrun_write_text(const fw_flow *flow, const fw_asrun *run, fw_text 
 }
 
 /* ---- JSON ---- */
-static void put_number(fw_text *out, const char *key, double value) {
-    fw_put_number(out, key, value, FW_PLAIN_DIGITS);
+static void put_number(fw_json *out, const char *key, double value) {
+    fw_json_number(out, key, value, FW_PLAIN_DIGITS);
 }
 
 /* what nobody wrote down is left out */
-static void put_text(fw_text *out, const char *key, const char *value) {
-    if (value) fw_put_text(out, key, value);
+static void put_text(fw_json *out, const char *key, const char *value) {
+    if (value) fw_json_text(out, key, value);
 }
 
 static void entry_json(const fw_flow *flow, const fw_asrun *run, const fw_asrun_entry *e,
-                       fw_text *out) {
+                       fw_json *out) {
     put_text(out, "start", e->start);
     put_text(out, "end", e->end);
     put_number(out, "actual_s", e->end_s - e->start_s);
@@ -188,69 +188,70 @@ static void entry_json(const fw_flow *flow, const fw_asrun *run, const fw_asrun_
     put_text(out, "tool", e->tool);
     put_text(out, "bath", e->bath);
     put_text(out, "note", e->note);
-    fw_put_open(out, "measured", '[');
+    fw_json_list(out, "measured");
     for (int i = 0; i < e->nmeasured; i++) {
         const fw_measured *m = &e->measured[i];
-        fw_put_open(out, NULL, '{');
-        fw_put_words(out, "measure", m->measure);
+        fw_json_object(out, NULL);
+        fw_json_text(out, "measure", m->measure);
         if (isnan(m->number))
             put_text(out, "value", m->value);
         else
             put_number(out, "value", m->number);
         const fw_accept *a = accept_of(e->step, m->measure);
         put_text(out, "unit", a->unit);
-        fw_put_truth(out, "accepted", accepted(a, m));
-        fw_text_add(out, "}");
+        fw_json_truth(out, "accepted", accepted(a, m));
+        fw_json_end(out);
     }
-    fw_text_add(out, "]");
-    fw_put_open(out, "waited", '[');
+    fw_json_end(out);
+    fw_json_list(out, "waited");
     for (int i = 0; i < e->step->nlag; i++) {
         const fw_lag *l = &e->step->lag[i];
         double wait = waited(flow, run, l, e);
-        fw_put_open(out, NULL, '{');
-        fw_put_words(out, "from", l->from);
+        fw_json_object(out, NULL);
+        fw_json_text(out, "from", l->from);
         put_number(out, "waited_s", wait);
         put_number(out, "min_s", l->min_s);
         put_number(out, "max_s", l->max_s);
         if (isnan(wait))
-            fw_put_null(out, "accepted");
+            fw_json_null(out, "accepted");
         else
-            fw_put_truth(out, "accepted", wait_is_fine(l, wait));
-        fw_text_add(out, "}");
+            fw_json_truth(out, "accepted", wait_is_fine(l, wait));
+        fw_json_end(out);
     }
-    fw_text_add(out, "]");
+    fw_json_end(out);
 }
 
-fw_status fw_asrun_write_json(const fw_flow *flow, const fw_asrun *run, fw_text *out) {
-    fw_put_open(out, NULL, '{');
+fw_status fw_asrun_write_json(const fw_flow *flow, const fw_asrun *run, fw_text *text) {
+    fw_json json = fw_json_new(text, FW_JSON_COMPACT), *out = &json;
+    fw_json_object(out, NULL);
     put_text(out, "schema", "flexwright.as-run/1");
     put_text(out, "flow", flow->id);
     put_text(out, "lot", run->lot);
     put_text(out, "plan_sha256", run->plan);
     put_text(out, "chain", run->chain);
-    fw_put_open(out, "steps", '[');
+    fw_json_list(out, "steps");
     for (int i = 0; i < flow->nstep; i++) {
         const fw_step *s = &flow->step[i];
         const fw_time *p = &s->time;
         int times;
         const fw_asrun_entry *e = last_of(run, s, &times);
-        fw_put_line(out);
-        fw_put_open(out, NULL, '{');
-        fw_put_words(out, "id", s->id);
+        fw_json_line(out, 0);
+        fw_json_object(out, NULL);
+        fw_json_text(out, "id", s->id);
         put_number(out, "planned_s", p->computable ? p->nominal_s : (double)NAN);
         put_number(out, "first_look_s", p->computable ? p->first_look_s : (double)NAN);
         put_number(out, "stop_s", p->computable ? p->stop_s : (double)NAN);
-        fw_put_whole(out, "times", times);
+        fw_json_whole(out, "times", times);
         if (e) entry_json(flow, run, e, out);
-        fw_text_add(out, "}");
+        fw_json_end(out);
     }
     total t = sum_up(flow, run);
-    fw_text_add(out, "]");
-    fw_put_whole(out, "logged", t.logged);
-    fw_put_whole(out, "repeated", t.repeated);
-    fw_put_whole(out, "outside", t.out);
+    fw_json_end(out);
+    fw_json_whole(out, "logged", t.logged);
+    fw_json_whole(out, "repeated", t.repeated);
+    fw_json_whole(out, "outside", t.out);
     put_number(out, "planned_s", t.planned_s);
     put_number(out, "actual_s", t.actual_s);
-    fw_text_add(out, "}\n");
-    return fw_text_end(out);
+    fw_json_end(out);
+    return fw_json_finish(out, "\n");
 }

@@ -48,13 +48,13 @@ void fw_put_plain(fw_text *out, double value) {
 }
 
 void fw_put_uncertainty(fw_text *out, double value) {
-    fw_text_number(out, value, 9);
+    fw_text_number(out, value, FW_UNCERTAINTY_DIGITS);
 }
 
 void fw_put_value(fw_text *out, double value) {
     double size = fabs(value);
     if (size >= 1e5 && size < 1e7 && floor(size) == size)
-        fw_text_number(out, value, 9);
+        fw_text_number(out, value, FW_UNCERTAINTY_DIGITS);
     else
         fw_text_number(out, value, size >= 100.0 && size < 1e6 ? 6 : 4);
 }

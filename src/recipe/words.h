@@ -19,7 +19,7 @@ fw_status fw_step_rows(fw_arena *arena, const fw_step *step, fw_row **row, int *
 double fw_row_uncertainty(const fw_quantity *q);
 /* shortest text of at most 12 digits: what arithmetic adds beyond them is no information. An
    uncertainty gets 9, since slopes by central difference hold about 1e-10. */
-enum { FW_PLAIN_DIGITS = 12 };
+enum { FW_PLAIN_DIGITS = 12, FW_UNCERTAINTY_DIGITS = 9 };
 void fw_put_plain(fw_text *out, double value);
 void fw_put_uncertainty(fw_text *out, double value);
 void fw_put_value(fw_text *out, double value); /* up to 6 significant digits */
@@ -27,10 +27,6 @@ void fw_put_value(fw_text *out, double value); /* up to 6 significant digits */
 void fw_put_unit(fw_text *out, const char *unit);
 const char *fw_missing_list(fw_arena *arena, const fw_time *time); /* NULL: no memory */
 
-/* "edges" of the recipe's JSON: bias, gaps and edges */
-void fw_recipe_edges_json(const fw_flow *flow, fw_text *out);
-/* a member of JSON (base/members.h); NULL is "" */
-void fw_put_words(fw_text *out, const char *key, const char *text);
 void fw_put_csv(fw_text *out, const char *text);     /* quoted where needed */
 void fw_put_moment(fw_text *out, double seconds);    /* "day 2, 13:05" */
 void fw_put_wafers(fw_text *out, const fw_run *run); /* "3" or "1-6" */

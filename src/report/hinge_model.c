@@ -1,63 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/hinge_model.h"
-#include "report/json_rest.h"
 #include <math.h>
 
 static bool stepped(const fw_level_step *s) {
     return s && !s->why_not;
-}
-
-/* ---- JSON ---- */
-
-static json_t *bodies(const fw_mechanism *m, const fw_level_step *s, bool *failed) {
-    json_t *o = json_object();
-    for (int b = 0; b < m->nbody; b++) {
-        json_t *triple = json_array();
-        for (int k = 3 * b; k < 3 * b + 3; k++)
-            fw_json_push(triple, fw_json_real(s->up.q[k] - s->at.q[k]), failed);
-        fw_json_put(o, m->body[b].id, triple, failed);
-    }
-    return o;
-}
-
-static json_t *hinges(const fw_mechanism *m, const fw_level_step *s, bool *failed) {
-    json_t *list = json_array();
-    for (int k = 0; k < m->nhinge; k++) {
-        int pin = m->hinge[k].pin;
-        json_t *o = json_object();
-        fw_json_put(o, "hinge", fw_json_text(m->pin[pin].id), failed);
-        fw_json_put(o, "angle_rad", fw_json_real(s->at.angle_rad[pin]), failed);
-        fw_json_put(o, "next_angle_rad", fw_json_real(s->up.angle_rad[pin]), failed);
-        fw_json_put(o, "strain", fw_json_real(s->at.strain[k]), failed);
-        fw_json_put(o, "next_strain", fw_json_real(s->up.strain[k]), failed);
-        fw_json_push(list, o, failed);
-    }
-    return list;
-}
-
-static json_t *step(const fw_mechanism *m, const fw_level_step *s, bool *failed) {
-    if (!s) return json_null();
-    json_t *o = json_object();
-    bool have = stepped(s);
-    fw_json_put(o, "next", fw_json_text(s->next == s->used ? NULL : fw_hinge_model_text(s->next)),
-                failed);
-    fw_json_put(o, "t_s", fw_json_real(s->t_s), failed);
-    fw_json_put(o, "relative", fw_json_real(s->relative), failed);
-    fw_json_put(o, "dq", have ? bodies(m, s, failed) : json_null(), failed);
-    fw_json_put(o, "hinges", have ? hinges(m, s, failed) : json_null(), failed);
-    fw_json_put(o, "why_not", fw_json_text(s->why_not), failed);
-    return o;
-}
-
-json_t *fw_json_hinge_model(const fw_mechanism *m, const fw_hinge_use *use,
-                            const fw_level_step *level, bool *failed) {
-    if (!use->why) return json_null();
-    json_t *o = json_object();
-    fw_json_put(o, "used", fw_json_text(fw_hinge_model_text(use->used)), failed);
-    fw_json_put(o, "why", fw_json_text(use->why), failed);
-    fw_json_put(o, "error", fw_json_real(use->error), failed);
-    fw_json_put(o, "step", step(m, level, failed), failed);
-    return o;
 }
 
 /* ---- text ---- */

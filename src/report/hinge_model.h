@@ -1,14 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How hinges were taken, and what the next level changes: JSON, text, a table of the page. */
+/* How hinges were taken, and what the next level changes: text, a table of the page. */
 #ifndef FW_REPORT_HINGE_MODEL_H
 #define FW_REPORT_HINGE_MODEL_H
-#include "report/json_common.h"
 #include "report/page.h"
 #include "statics/level.h"
 
-/* {"used", "why", "error", "step"}; null without hinges. level may be NULL */
-json_t *fw_json_hinge_model(const fw_mechanism *mechanism, const fw_hinge_use *use,
-                            const fw_level_step *level, bool *failed);
 /* lines for a terminal; none without hinges */
 void fw_report_hinge_model(const fw_mechanism *mechanism, const fw_hinge_use *use,
                            const fw_level_step *level, fw_text *out);

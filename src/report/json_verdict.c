@@ -1,90 +1,221 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "report/json_rest.h"
+/* The verdict as JSON: hinges as drawn and as the flows make them, flows, effects, advice. */
 #include "report/json.h"
-#include "report/hinge_model.h"
-#include "report/json_effects.h"
-#include "report/json_made.h"
+#include "report/json_parts.h"
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 static const char *word(fw_decision decision) {
     return decision == FW_ACCEPT ? "accept" : decision == FW_REJECT ? "reject" : "inconclusive";
 }
 
-/* which criterion governs, and what it rests on */
-static void limit(json_t *o, const fw_hinge_verdict *h, bool *failed) {
-    const fw_limit *l = h->limit;
-    fw_json_put(o, "criterion", fw_json_text(l ? l->criterion : NULL), failed);
-    fw_json_put(o, "limit_definition", fw_json_text(l ? l->definition : NULL), failed);
-    fw_json_put(o, "limit_Pa", fw_json_real(h->limit_Pa), failed);
-    fw_json_put(o, "limit_source", fw_json_text(l ? l->source : NULL), failed);
-    fw_json_put(o, "limit_status", fw_json_text(l ? fw_value_status_text(l->status) : NULL),
-                failed);
-    fw_json_put(o, "failure_probability", fw_json_real(h->failure_probability), failed);
-    fw_json_put(o, "fatigue_utilisation", fw_json_real(h->fatigue_utilisation), failed);
-    fw_json_put(o, "damage", fw_json_real(h->damage), failed);
-    fw_json_put(o, "cycles", fw_json_real(h->cycles), failed);
+/* ---- what the flows make of the device ---- */
+
+static void as_fabricated_input(fw_json *json, const fw_made_input *in) {
+    fw_quantity q = in->q;
+    const struct {
+        const char *key;
+        double value;
+    } number[] = {{"nominal", in->nominal}, {"low", in->low}, {"high", in->high}};
+    fw_json_object(json, NULL);
+    fw_json_text(json, "name", in->name);
+    fw_json_text(json, "unit", q.unit);
+    for (size_t i = 0; i < sizeof number / sizeof number[0]; i++) {
+        q.value = number[i].value;
+        fw_json_real(json, number[i].key, fw_quantity_in_unit(&q));
+    }
+    fw_json_text(json, "status", fw_value_status_text(q.status));
+    fw_json_text(json, "source", q.source);
+    fw_json_text(json, "not_known", in->unknown);
+    fw_json_end(json);
 }
 
-static json_t *hinge(const fw_hinge_verdict *h, bool *failed) {
-    json_t *o = json_object();
-    fw_json_put(o, "id", fw_json_text(h->id), failed);
-    fw_json_put(o, "peak_angle_rad", fw_json_real(h->peak_angle_rad), failed);
-    fw_json_put(o, "angle_error_rad", fw_json_real(h->angle_error_rad), failed);
-    fw_json_put(o, "limit_angle_rad", fw_json_real(h->limit_angle_rad), failed);
-    fw_json_put(o, "peak_strain", fw_json_real(h->peak_strain), failed);
-    fw_json_put(o, "strain_limit", fw_json_real(h->strain_limit), failed);
-    fw_json_put(o, "utilisation", fw_json_real(h->utilisation), failed);
-    fw_json_put(o, "force_share", fw_json_real(h->force_share), failed);
-    fw_json_put(o, "scene", fw_json_text(h->scene), failed);
-    fw_json_put(o, "t_s", fw_json_real(h->t_s), failed);
-    fw_json_put(o, "flow", fw_json_text(h->flow), failed);
-    fw_json_put(o, "utilisation_band",
-                fw_json_pair(h->utilisation_low, h->utilisation_high, failed), failed);
-    fw_json_put(o, "verdict", fw_json_text(word(h->decision)), failed);
-    limit(o, h, failed);
-    return o;
+static void corner(fw_json *json, const fw_made_corner *c, int nhinge) {
+    double most = 0.0;
+    for (int k = 0; k < nhinge; k++)
+        most = fmax(most, c->hinge[k].utilisation);
+    fw_json_object(json, NULL);
+    fw_json_text(json, "at", c->what);
+    fw_json_text(json, "verdict", fw_decision_text(c->decision));
+    fw_json_real(json, "utilisation", most > 0.0 ? most : (double)NAN);
+    fw_json_text(json, "why", c->why);
+    fw_json_end(json);
+}
+
+static void held(fw_json *json, const fw_variant_verdict *v) {
+    const fw_made_verdict *m = v->made;
+    if (m->held == FW_NONE) {
+        fw_json_null(json, "held");
+        return;
+    }
+    fw_quantity q = v->input[m->held].q;
+    fw_json_object(json, "held");
+    fw_json_text(json, "name", v->input[m->held].name);
+    q.value = m->held_low;
+    fw_json_real(json, "low", fw_quantity_in_unit(&q));
+    q.value = m->held_high;
+    fw_json_real(json, "high", fw_quantity_in_unit(&q));
+    fw_json_end(json);
+}
+
+/* of one flow; null where nothing was judged but the drawing */
+static void as_fabricated(fw_json *json, const fw_variant_verdict *v) {
+    const fw_made_verdict *m = v->made;
+    if (!m) {
+        fw_json_null(json, "as_fabricated");
+        return;
+    }
+    fw_json_object(json, "as_fabricated");
+    fw_json_text(json, "verdict", fw_decision_text(m->decision));
+    fw_json_list(json, "inputs");
+    for (int i = 0; i < v->ninput; i++)
+        as_fabricated_input(json, &v->input[i]);
+    fw_json_end(json);
+    fw_json_list(json, "corners");
+    for (int i = 0; i < m->ncorner; i++)
+        corner(json, &m->corner[i], v->nhinge);
+    fw_json_end(json);
+    fw_json_truth(json, "all_corners", m->all);
+    fw_json_real(json, "estimate_error", m->error);
+    fw_json_text(json, "reason", m->reason);
+    fw_json_text(json, "control", m->control);
+    held(json, v);
+    fw_json_real(json, "held_share", m->held_share);
+    fw_json_end(json);
+}
+
+static void contributions(fw_json *json, const fw_variant_verdict *v, const fw_made_hinge *h) {
+    fw_json_list(json, "contributions");
+    for (int i = 0; i < v->ninput; i++) {
+        fw_json_object(json, NULL);
+        fw_json_text(json, "name", v->input[i].name);
+        fw_json_real(json, "utilisation", h->share[i]);
+        fw_json_end(json);
+    }
+    fw_json_end(json);
+}
+
+static const fw_hinge_verdict *tightest(const fw_variant_verdict *v, int joint, int *at) {
+    for (int k = 0; v->made && k < v->nhinge; k++) {
+        if (v->hinge[k].joint != joint) continue;
+        const fw_hinge_verdict *h = &v->made->corner[v->made->hinge[k].corner].hinge[k];
+        *at = k;
+        return h->scene ? h : NULL;
+    }
+    return NULL;
+}
+
+/* of one hinge, the tightest of these flows */
+static void as_fabricated_hinge(fw_json *json, const fw_variant_verdict *variant, int nvariant,
+                                int joint) {
+    const fw_hinge_verdict *worst = NULL;
+    const fw_variant_verdict *v = NULL;
+    int k = 0;
+    for (int i = 0; i < nvariant; i++) {
+        int at = 0;
+        const fw_hinge_verdict *h = tightest(&variant[i], joint, &at);
+        if (h && (!worst || h->utilisation > worst->utilisation))
+            worst = h, v = &variant[i], k = at;
+    }
+    if (!worst) {
+        fw_json_null(json, "as_fabricated");
+        return;
+    }
+    const fw_made_hinge *h = &v->made->hinge[k];
+    fw_json_object(json, "as_fabricated");
+    fw_json_real(json, "utilisation", worst->utilisation);
+    fw_json_pair(json, "utilisation_band", worst->utilisation_low, worst->utilisation_high);
+    fw_json_text(json, "verdict", fw_decision_text(worst->decision));
+    fw_json_text(json, "corner", v->made->corner[h->corner].what);
+    fw_json_text(json, "flow", worst->flow);
+    fw_json_text(json, "scene", worst->scene);
+    fw_json_real(json, "peak_angle_rad", worst->peak_angle_rad);
+    fw_json_real(json, "limit_angle_rad", worst->limit_angle_rad);
+    fw_json_real(json, "most", h->most);
+    fw_json_real(json, "nominal", v->made->corner[0].hinge[k].utilisation);
+    fw_json_real(json, "sigma", h->sigma);
+    contributions(json, v, h);
+    fw_json_end(json);
+}
+
+/* ---- hinges ---- */
+
+/* which criterion governs, and what it rests on */
+static void limit(fw_json *json, const fw_hinge_verdict *h) {
+    const fw_limit *l = h->limit;
+    fw_json_text(json, "criterion", l ? l->criterion : NULL);
+    fw_json_text(json, "limit_definition", l ? l->definition : NULL);
+    fw_json_real(json, "limit_Pa", h->limit_Pa);
+    fw_json_text(json, "limit_source", l ? l->source : NULL);
+    fw_json_text(json, "limit_status", l ? fw_value_status_text(l->status) : NULL);
+    fw_json_real(json, "failure_probability", h->failure_probability);
+    fw_json_real(json, "fatigue_utilisation", h->fatigue_utilisation);
+    fw_json_real(json, "damage", h->damage);
+    fw_json_real(json, "cycles", h->cycles);
+}
+
+/* members of the object about one hinge */
+static void hinge(fw_json *json, const fw_hinge_verdict *h) {
+    fw_json_text(json, "id", h->id);
+    fw_json_real(json, "peak_angle_rad", h->peak_angle_rad);
+    fw_json_real(json, "angle_error_rad", h->angle_error_rad);
+    fw_json_real(json, "limit_angle_rad", h->limit_angle_rad);
+    fw_json_real(json, "peak_strain", h->peak_strain);
+    fw_json_real(json, "strain_limit", h->strain_limit);
+    fw_json_real(json, "utilisation", h->utilisation);
+    fw_json_real(json, "force_share", h->force_share);
+    fw_json_text(json, "scene", h->scene);
+    fw_json_real(json, "t_s", h->t_s);
+    fw_json_text(json, "flow", h->flow);
+    fw_json_pair(json, "utilisation_band", h->utilisation_low, h->utilisation_high);
+    fw_json_text(json, "verdict", word(h->decision));
+    limit(json, h);
 }
 
 /* with what these flows make of them */
-static json_t *hinges(const fw_hinge_verdict *item, int count, const fw_variant_verdict *variant,
-                      int nvariant, bool *failed) {
-    json_t *list = json_array();
+static void hinges(fw_json *json, const fw_hinge_verdict *item, int count,
+                   const fw_variant_verdict *variant, int nvariant) {
+    fw_json_list(json, "hinges");
     for (int i = 0; i < count; i++) {
-        json_t *o = hinge(&item[i], failed);
-        fw_json_put(o, "as_fabricated",
-                    fw_json_made_hinge(variant, nvariant, item[i].joint, failed), failed);
-        fw_json_push(list, o, failed);
+        fw_json_object(json, NULL);
+        hinge(json, &item[i]);
+        as_fabricated_hinge(json, variant, nvariant, item[i].joint);
+        fw_json_end(json);
     }
-    return list;
+    fw_json_end(json);
 }
 
-static json_t *governing(const fw_hinge_verdict *item, int count, int index, bool *failed) {
-    return index >= 0 && index < count ? hinge(&item[index], failed) : json_null();
+static void governing(fw_json *json, const fw_hinge_verdict *item, int count, int index) {
+    if (index < 0 || index >= count) {
+        fw_json_null(json, "governing");
+        return;
+    }
+    fw_json_object(json, "governing");
+    hinge(json, &item[index]);
+    fw_json_end(json);
 }
 
 /* ---- workspace: the required boxes; certified when all of them are ---- */
 
-static json_t *box(const fw_workspace_box *b, const fw_variant_verdict *v, bool reachable,
-                   bool *failed) {
-    json_t *o = json_object();
+static void box(fw_json *json, const fw_workspace_box *b, const fw_variant_verdict *v,
+                bool reachable) {
     double volume =
         (b->x_max_m - b->x_min_m) * (b->y_max_m - b->y_min_m) * (b->phi_max_rad - b->phi_min_rad);
-    fw_json_put(o, "flow", fw_json_text(v->variant ? v->variant->flow : NULL), failed);
-    fw_json_put(o, "x_m", fw_json_pair(b->x_min_m, b->x_max_m, failed), failed);
-    fw_json_put(o, "y_m", fw_json_pair(b->y_min_m, b->y_max_m, failed), failed);
-    fw_json_put(o, "phi_rad", fw_json_pair(b->phi_min_rad, b->phi_max_rad, failed), failed);
-    fw_json_put(o, "reachable", json_boolean(reachable), failed);
-    fw_json_put(o, "certified", json_boolean(v->workspace.certified), failed);
-    fw_json_put(o, "volume_m2_rad", fw_json_real(volume), failed);
-    return o;
+    fw_json_object(json, NULL);
+    fw_json_text(json, "flow", v->variant ? v->variant->flow : NULL);
+    fw_json_pair(json, "x_m", b->x_min_m, b->x_max_m);
+    fw_json_pair(json, "y_m", b->y_min_m, b->y_max_m);
+    fw_json_pair(json, "phi_rad", b->phi_min_rad, b->phi_max_rad);
+    fw_json_truth(json, "reachable", reachable);
+    fw_json_truth(json, "certified", v->workspace.certified);
+    fw_json_real(json, "volume_m2_rad", volume);
+    fw_json_end(json);
 }
 
-static json_t *workspace(const fw_report_input *in, bool *failed) {
-    json_t *list = json_array();
+static void workspace(fw_json *json, const fw_report_input *in) {
     bool certified = true, any = false;
     double volume = (double)NAN;
+    fw_json_object(json, "workspace");
+    fw_json_list(json, "required");
     for (int i = 0; i < in->verdict->nvariant; i++) {
         const fw_variant_verdict *v = &in->verdict->variant[i];
         if (!v->workspace.required) continue;
@@ -93,175 +224,178 @@ static json_t *workspace(const fw_report_input *in, bool *failed) {
         volume = fmin(volume, v->workspace.volume_m2_rad); /* fmin ignores the first NaN */
         for (int k = 0; k < in->device->nworkspace; k++)
             if (v->workspace.asked && v->workspace.asked[k])
-                fw_json_push(
-                    list, box(&in->device->workspace[k], v, v->workspace.box_reachable[k], failed),
-                    failed);
+                box(json, &in->device->workspace[k], v, v->workspace.box_reachable[k]);
     }
-    json_t *o = json_object();
-    fw_json_put(o, "required", list, failed);
-    fw_json_put(o, "certified", json_boolean(any && certified), failed);
-    fw_json_put(o, "volume", fw_json_real(volume), failed); /* least of the boxes, m2 rad */
-    return o;
+    fw_json_end(json);
+    fw_json_truth(json, "certified", any && certified);
+    fw_json_real(json, "volume", volume); /* least of the boxes, m2 rad */
+    fw_json_end(json);
 }
 
 /* ---- flows, effects, advice ---- */
 
-static json_t *flow(const fw_report_flow *f, bool *failed) {
+static void flow(fw_json *json, const fw_report_flow *f) {
     const fw_variant_verdict *v = f->variant;
     const char *id = f->flow ? f->flow->id : v && v->variant ? v->variant->flow : NULL;
-    json_t *o = json_object(), *reasons = json_array();
-    fw_json_put(o, "id", fw_json_text(id), failed);
-    bool known = f->flow && f->flow->manufacturable >= 0;
-    fw_json_put(o, "manufacturable", known ? json_boolean(f->flow->manufacturable) : json_null(),
-                failed);
+    fw_json_object(json, NULL);
+    fw_json_text(json, "id", id);
+    if (f->flow && f->flow->manufacturable >= 0)
+        fw_json_truth(json, "manufacturable", f->flow->manufacturable);
+    else
+        fw_json_null(json, "manufacturable");
+    fw_json_list(json, "reasons");
     for (int i = 0; f->flow && i < f->flow->nreason; i++)
-        fw_json_push(reasons, fw_json_text(f->flow->reason[i]), failed);
-    fw_json_put(o, "reasons", reasons, failed);
-    fw_json_put(o, "mask_error", fw_json_text(f->mask_error), failed);
+        fw_json_text(json, NULL, f->flow->reason[i]);
+    fw_json_end(json);
+    fw_json_text(json, "mask_error", f->mask_error);
     if (v) {
-        fw_json_put(o, "verdict", fw_json_text(word(v->decision)), failed);
-        fw_json_put(o, "governing", governing(v->hinge, v->nhinge, v->governing, failed), failed);
-        fw_json_put(o, "hinges", hinges(v->hinge, v->nhinge, v, 1, failed), failed);
-        fw_json_put(o, "drawn", fw_json_text(word(v->drawn)), failed);
-        fw_json_put(o, "as_fabricated", fw_json_made(v, failed), failed);
+        fw_json_text(json, "verdict", word(v->decision));
+        governing(json, v->hinge, v->nhinge, v->governing);
+        hinges(json, v->hinge, v->nhinge, v, 1);
+        fw_json_text(json, "drawn", word(v->drawn));
+        as_fabricated(json, v);
     }
-    return o;
+    fw_json_end(json);
 }
 
-static json_t *effects(const fw_report_input *in, bool *failed) {
-    json_t *list = json_array();
+static const char *flow_of(const fw_variant_verdict *v) {
+    return v->variant ? v->variant->flow : NULL;
+}
+
+static void effects(fw_json *json, const fw_report_input *in) {
+    fw_json_list(json, "effects");
     for (int i = 0; i < in->verdict->nvariant; i++) {
         const fw_variant_verdict *v = &in->verdict->variant[i];
         for (int k = 0; v->motion && k < in->device->nscene; k++)
             if (v->motion[k])
-                fw_json_effects(list, &v->motion[k]->ledger, in->device->scene[k].name,
-                                v->variant ? v->variant->flow : NULL, failed);
+                fw_json_effects(json, &v->motion[k]->ledger, in->device->scene[k].name, flow_of(v));
     }
-    return list;
+    fw_json_end(json);
 }
 
 /* of every scene with hinges, in every flow */
-static json_t *hinge_models(const fw_report_input *in, bool *failed) {
-    json_t *list = json_array();
+static void hinge_models(fw_json *json, const fw_report_input *in) {
+    fw_json_list(json, "hinge_model");
     for (int i = 0; i < in->verdict->nvariant; i++) {
         const fw_variant_verdict *v = &in->verdict->variant[i];
         for (int k = 0; v->motion && k < in->device->nscene; k++) {
             const fw_motion *x = v->motion[k];
             if (!x || !x->ledger.hinge.why) continue;
-            json_t *o = fw_json_hinge_model(v->mechanism, &x->ledger.hinge, x->level, failed);
-            fw_json_put(o, "model_error", fw_json_real(fw_motion_model_error(v->mechanism, x)),
-                        failed);
-            fw_json_put(o, "scene", fw_json_text(in->device->scene[k].name), failed);
-            fw_json_put(o, "flow", fw_json_text(v->variant ? v->variant->flow : NULL), failed);
-            fw_json_push(list, o, failed);
+            fw_json_object(json, NULL);
+            fw_json_hinge_model(json, v->mechanism, &x->ledger.hinge, x->level);
+            fw_json_real(json, "model_error", fw_motion_model_error(v->mechanism, x));
+            fw_json_text(json, "scene", in->device->scene[k].name);
+            fw_json_text(json, "flow", flow_of(v));
+            fw_json_end(json);
         }
     }
-    return list;
+    fw_json_end(json);
 }
 
-/* of every scene with comb drives */
-static json_t *pull_ins(const fw_report_input *in, bool *failed) {
-    json_t *list = json_array();
+/* of every scene with comb drives; nothing is written where no scene has any */
+static void pull_ins(fw_json *json, const fw_report_input *in) {
+    bool any = false;
     for (int i = 0; i < in->verdict->nvariant; i++) {
         const fw_variant_verdict *v = &in->verdict->variant[i];
         for (int k = 0; v->pull_in && k < in->device->nscene; k++) {
             if (!v->pull_in[k]) continue;
-            json_t *o = fw_json_pull_in(v->pull_in[k], failed);
-            fw_json_put(o, "scene", fw_json_text(in->device->scene[k].name), failed);
-            fw_json_put(o, "flow", fw_json_text(v->variant ? v->variant->flow : NULL), failed);
-            fw_json_push(list, o, failed);
+            if (!any) fw_json_list(json, "pull_in");
+            any = true;
+            fw_json_object(json, NULL);
+            fw_json_pull_in(json, v->pull_in[k]);
+            fw_json_text(json, "scene", in->device->scene[k].name);
+            fw_json_text(json, "flow", flow_of(v));
+            fw_json_end(json);
         }
     }
-    return list;
+    if (any) fw_json_end(json);
 }
 
-static json_t *reasons(const fw_verdict *v, bool *failed) {
-    json_t *list = json_array();
+static void reasons(fw_json *json, const fw_verdict *v) {
+    fw_json_list(json, "reasons");
     for (int i = 0; i < v->nvariant; i++)
         for (int k = 0; k < v->variant[i].nreason; k++) {
             const fw_reason *r = &v->variant[i].reason[k];
-            char code[16];
-            snprintf(code, sizeof code, "FW-D%03d", r->number);
-            json_t *o = json_object();
-            fw_json_put(o, "scene", fw_json_text(r->scene), failed);
-            fw_json_put(o, "flow", fw_json_text(r->flow), failed);
-            fw_json_put(o, "verdict", fw_json_text(word(r->decision)), failed);
-            fw_json_put(o, "code", fw_json_text(code), failed);
-            fw_json_put(o, "text", fw_json_text(r->text), failed);
-            fw_json_push(list, o, failed);
+            fw_json_object(json, NULL);
+            fw_json_text(json, "scene", r->scene);
+            fw_json_text(json, "flow", r->flow);
+            fw_json_text(json, "verdict", word(r->decision));
+            fw_json_textf(json, "code", "FW-D%03d", r->number);
+            fw_json_text(json, "text", r->text);
+            fw_json_end(json);
         }
-    return list;
+    fw_json_end(json);
 }
 
-static json_t *advice(const fw_verdict *v, bool *failed) {
-    json_t *list = json_array();
+static void accuracy(fw_json *json, const fw_verdict *v) {
+    fw_json_object(json, "accuracy");
+    fw_json_real(json, "wanted", v->accuracy_wanted);
+    fw_json_real(json, "estimated", v->accuracy_estimated);
+    fw_json_real(json, "left_out", v->accuracy_left_out);
+    fw_json_end(json);
+}
+
+static void advice(fw_json *json, const fw_verdict *v) {
+    fw_json_list(json, "advice");
     for (int i = 0; i < v->nadvice; i++) {
-        json_t *o = json_object();
-        fw_json_put(o, "set", fw_json_text(v->advice[i].set_path), failed);
-        fw_json_put(o, "value", fw_json_text(v->advice[i].value_text), failed);
-        fw_json_put(o, "value_SI", fw_json_real(v->advice[i].value), failed);
-        fw_json_put(o, "text", fw_json_text(v->advice[i].text), failed);
-        fw_json_push(list, o, failed);
+        fw_json_object(json, NULL);
+        fw_json_text(json, "set", v->advice[i].set_path);
+        fw_json_text(json, "value", v->advice[i].value_text);
+        fw_json_real(json, "value_SI", v->advice[i].value);
+        fw_json_text(json, "text", v->advice[i].text);
+        fw_json_end(json);
     }
-    return list;
+    fw_json_end(json);
 }
 
-static json_t *parameters(const fw_verdict *v, bool *failed) {
+static void parameters(fw_json *json, const fw_verdict *v) {
     static const char *const found[] = {"accepts", "none", "not looked at"};
-    json_t *list = json_array();
+    fw_json_list(json, "advice_parameters");
     for (int i = 0; i < v->nparameter; i++) {
         const fw_parameter_advice *p = &v->parameter[i];
-        json_t *o = json_object();
-        fw_json_put(o, "set", fw_json_text(p->name), failed);
-        fw_json_put(o, "found", fw_json_text(found[p->found]), failed);
-        fw_json_put(o, "value", fw_json_text(p->value_text), failed);
-        fw_json_put(o, "value_SI", fw_json_real(p->to), failed);
-        fw_json_put(o, "now_SI", fw_json_real(p->from), failed);
-        fw_json_put(o, "change", fw_json_real(p->change), failed);
-        fw_json_put(o, "from_SI", fw_json_real(p->low), failed);
-        fw_json_put(o, "to_SI", fw_json_real(p->high), failed);
-        fw_json_put(o, "text", fw_json_text(p->text), failed);
-        fw_json_push(list, o, failed);
+        fw_json_object(json, NULL);
+        fw_json_text(json, "set", p->name);
+        fw_json_text(json, "found", found[p->found]);
+        fw_json_text(json, "value", p->value_text);
+        fw_json_real(json, "value_SI", p->to);
+        fw_json_real(json, "now_SI", p->from);
+        fw_json_real(json, "change", p->change);
+        fw_json_real(json, "from_SI", p->low);
+        fw_json_real(json, "to_SI", p->high);
+        fw_json_text(json, "text", p->text);
+        fw_json_end(json);
     }
-    return list;
+    fw_json_end(json);
 }
 
 fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out) {
     const fw_verdict *v = input->verdict;
-    bool failed = false;
-    json_t *root = json_object();
-    fw_json_put(root, "schema", fw_json_text("flexwright.verdict/1"), &failed);
-    fw_json_put(root, "device", fw_json_text(input->device->name), &failed);
-    fw_json_put(root, "version", fw_json_text(input->version), &failed);
-    fw_json_put(root, "verdict", fw_json_text(word(v->decision)), &failed);
-    fw_json_put(root, "drawn", fw_json_text(word(v->drawn)), &failed);
-    if (v->decision == FW_REJECT) fw_json_put(root, "banner", fw_json_text("REJECTED"), &failed);
-    fw_json_put(root, "governing", governing(v->hinge, v->nhinge, v->governing, &failed), &failed);
-    fw_json_put(root, "hinges", hinges(v->hinge, v->nhinge, v->variant, v->nvariant, &failed),
-                &failed);
-    fw_json_put(root, "failure_probability", fw_json_real(v->failure_probability), &failed);
-    fw_json_put(root, "repetitions", fw_json_real(input->device->limits.cycles), &failed);
-    fw_json_put(root, "workspace", workspace(input, &failed), &failed);
-    json_t *flows = json_array();
+    fw_json json = fw_json_new(out, FW_JSON_INDENTED);
+    fw_json_object(&json, NULL);
+    fw_json_text(&json, "schema", "flexwright.verdict/1");
+    fw_json_text(&json, "device", input->device->name);
+    fw_json_text(&json, "version", input->version);
+    fw_json_text(&json, "verdict", word(v->decision));
+    fw_json_text(&json, "drawn", word(v->drawn));
+    if (v->decision == FW_REJECT) fw_json_text(&json, "banner", "REJECTED");
+    governing(&json, v->hinge, v->nhinge, v->governing);
+    hinges(&json, v->hinge, v->nhinge, v->variant, v->nvariant);
+    fw_json_real(&json, "failure_probability", v->failure_probability);
+    fw_json_real(&json, "repetitions", input->device->limits.cycles);
+    workspace(&json, input);
+    fw_json_list(&json, "flows");
     for (int i = 0; i < input->nflow; i++)
-        fw_json_push(flows, flow(&input->flow[i], &failed), &failed);
-    fw_json_put(root, "flows", flows, &failed);
-    fw_json_put(root, "effects", effects(input, &failed), &failed);
-    fw_json_put(root, "hinge_model", hinge_models(input, &failed), &failed);
-    json_t *pull_in = pull_ins(input, &failed); /* only where there are drives */
-    if (json_array_size(pull_in) > 0)
-        fw_json_put(root, "pull_in", pull_in, &failed);
-    else
-        json_decref(pull_in);
-    fw_json_put(root, "reasons", reasons(v, &failed), &failed);
-    json_t *accuracy = json_object();
-    fw_json_put(accuracy, "wanted", fw_json_real(v->accuracy_wanted), &failed);
-    fw_json_put(accuracy, "estimated", fw_json_real(v->accuracy_estimated), &failed);
-    fw_json_put(accuracy, "left_out", fw_json_real(v->accuracy_left_out), &failed);
-    fw_json_put(root, "accuracy", accuracy, &failed);
-    fw_json_put(root, "advice", advice(v, &failed), &failed);
-    fw_json_put(root, "advice_verified", json_boolean(v->advice_verified), &failed);
-    fw_json_put(root, "advice_note", fw_json_text(v->advice_note), &failed);
-    fw_json_put(root, "advice_parameters", parameters(v, &failed), &failed);
-    return fw_json_write(root, failed, out);
+        flow(&json, &input->flow[i]);
+    fw_json_end(&json);
+    effects(&json, input);
+    hinge_models(&json, input);
+    pull_ins(&json, input);
+    reasons(&json, v);
+    accuracy(&json, v);
+    advice(&json, v);
+    fw_json_truth(&json, "advice_verified", v->advice_verified);
+    fw_json_text(&json, "advice_note", v->advice_note);
+    parameters(&json, v);
+    fw_json_end(&json);
+    return fw_json_finish(&json, "\n");
 }

@@ -3,6 +3,7 @@
    which the script moves it. */
 #include "report/page.h"
 #include "base/constants.h"
+#include "base/json.h"
 #include <math.h>
 
 enum { FRAMES = 400, FEWEST_FRAMES = 30, NUMBERS = 60000 }; /* NUMBERS: in the whole page */
@@ -105,78 +106,99 @@ static void force_arrows(const fw_motion *motion, const fw_scene *scene, double 
 
 /* ---- numbers for the script: px and degrees, so that it needs no units ---- */
 
-static void plain(fw_text *out, double value, int decimals) {
-    fw_text_fixed(out, isfinite(value) ? value : 0.0, decimals);
+static void plain(fw_json *json, double value, int decimals) {
+    fw_json_fixed(json, NULL, isfinite(value) ? value : 0.0, decimals);
 }
 
-static void frames_data(const fw_page *page, const fw_motion *motion, int frames) {
-    fw_text *out = page->out;
+/* a length on the page, no farther away than anybody looks */
+static void px(fw_json *json, double value) {
+    plain(json, fmax(-1e6, fmin(1e6, value)), 2);
+}
+
+static void frames_data(fw_json *json, const fw_page *page, const fw_motion *motion, int frames) {
     double end = motion->t_s[motion->nsample - 1];
-    fw_text_add(out, "{\"t\":[");
-    for (int i = 0; i < frames; i++) {
-        fw_text_add(out, i ? "," : "");
-        fw_text_number(out, end * i / (frames - 1), 6);
-    }
-    fw_text_add(out, "],\n\"q\":[");
+    fw_json_list(json, "t");
+    for (int i = 0; i < frames; i++)
+        fw_json_number(json, NULL, end * i / (frames - 1), 6);
+    fw_json_end(json);
+    fw_json_line(json, 0);
+    fw_json_list(json, "q");
     for (int i = 0; i < frames; i++)
         for (int b = 0; b < motion->nbody; b++) {
             double pose[3];
             fw_report_pose_at(motion, b, end * i / (frames - 1), pose);
-            fw_text_add(out, i + b ? "," : "");
-            plain(out, fw_report_x(&page->view, pose[0]), 2);
-            fw_text_add(out, ",");
-            plain(out, fw_report_y(&page->view, pose[1]), 2);
-            fw_text_add(out, ",");
-            plain(out, FW_DEG_PER_RAD * pose[2], 4);
+            plain(json, fw_report_x(&page->view, pose[0]), 2);
+            plain(json, fw_report_y(&page->view, pose[1]), 2);
+            plain(json, FW_DEG_PER_RAD * pose[2], 4);
         }
-    fw_text_add(out, "],\n");
+    fw_json_end(json);
 }
 
-static void model_data(const fw_page *page, const fw_mechanism *mechanism,
+static void model_data(fw_json *json, const fw_page *page, const fw_mechanism *mechanism,
                        const fw_motion *motion) {
-    fw_text *out = page->out;
-    fw_text_add(out, "\"b\":[");
+    fw_json_line(json, 0);
+    fw_json_list(json, "b");
     for (int b = 0; b < motion->nbody; b++) {
         const fw_mass *m = &mechanism->body[b];
-        fw_markup(out, "{r}[{c},{c},", b ? "," : "", fw_report_x(&page->view, m->x_m),
-                  fw_report_y(&page->view, m->y_m));
-        plain(out, FW_DEG_PER_RAD * m->phi_rad, 4);
-        fw_text_add(out, "]");
+        fw_json_list(json, NULL);
+        px(json, fw_report_x(&page->view, m->x_m));
+        px(json, fw_report_y(&page->view, m->y_m));
+        plain(json, FW_DEG_PER_RAD * m->phi_rad, 4);
+        fw_json_end(json);
     }
-    fw_text_add(out, "],\n\"p\":[");
+    fw_json_end(json);
+    fw_json_line(json, 0);
+    fw_json_list(json, "p");
     for (int k = 0; k < motion->npin; k++) {
         const fw_pin *p = &mechanism->pin[k];
-        fw_markup(out, "{r}[{i},{i},", k ? "," : "", p->body_a, p->body_b);
-        plain(out, FW_DEG_PER_RAD * p->free_angle_rad, 6);
-        fw_text_add(out, ",");
-        plain(out, FW_DEG_PER_RAD * fw_report_pin_limit(mechanism, k), 6); /* 0: none */
-        fw_text_add(out, "]");
+        fw_json_list(json, NULL);
+        fw_json_whole(json, NULL, p->body_a);
+        fw_json_whole(json, NULL, p->body_b);
+        plain(json, FW_DEG_PER_RAD * p->free_angle_rad, 6);
+        plain(json, FW_DEG_PER_RAD * fw_report_pin_limit(mechanism, k), 6); /* 0: none */
+        fw_json_end(json);
     }
+    fw_json_end(json);
 }
 
-static void shape_data(const fw_page *page, const fw_report_bends *bends, const fw_scene *scene) {
-    fw_text *out = page->out;
-    const fw_report_view *view = &page->view;
-    fw_text_add(out, "],\n\"f\":[");
-    for (int i = 0; i < bends->count; i++) {
-        const fw_report_bend *bend = &bends->item[i];
-        fw_markup(out, "{r}[{i},{i},{i},{c},{c},[", i ? ",\n" : "", bend->joint, bend->lower,
-                  bend->upper, fw_report_x(view, bend->centre.x),
-                  fw_report_y(view, bend->centre.y));
-        for (int k = 0; k < bend->npoint; k++) {
-            fw_markup(out, "{r}{c},{c},", k ? "," : "", fw_report_x(view, bend->point[k].x_m),
-                      fw_report_y(view, bend->point[k].y_m));
-            plain(out, bend->point[k].weight, 3);
-        }
-        fw_text_add(out, "]]");
+static void bend_data(fw_json *json, const fw_report_view *view, const fw_report_bend *bend) {
+    fw_json_list(json, NULL);
+    fw_json_whole(json, NULL, bend->joint);
+    fw_json_whole(json, NULL, bend->lower);
+    fw_json_whole(json, NULL, bend->upper);
+    px(json, fw_report_x(view, bend->centre.x));
+    px(json, fw_report_y(view, bend->centre.y));
+    fw_json_list(json, NULL);
+    for (int k = 0; k < bend->npoint; k++) {
+        px(json, fw_report_x(view, bend->point[k].x_m));
+        px(json, fw_report_y(view, bend->point[k].y_m));
+        plain(json, bend->point[k].weight, 3);
     }
-    fw_text_add(out, "],\n\"a\":[");
+    fw_json_end(json);
+    fw_json_end(json);
+}
+
+static void shape_data(fw_json *json, const fw_page *page, const fw_report_bends *bends,
+                       const fw_scene *scene) {
+    const fw_report_view *view = &page->view;
+    fw_json_line(json, 0);
+    fw_json_list(json, "f");
+    for (int i = 0; i < bends->count; i++) {
+        if (i) fw_json_line(json, 0);
+        bend_data(json, view, &bends->item[i]);
+    }
+    fw_json_end(json);
+    fw_json_line(json, 0);
+    fw_json_list(json, "a");
     for (int i = 0; i < scene->nforce; i++) {
         const fw_force *f = &scene->force[i];
-        fw_markup(out, "{r}[{i},{c},{c}]", i ? "," : "", f->body, f->x_m * view->scale,
-                  f->y_m * view->scale);
+        fw_json_list(json, NULL);
+        fw_json_whole(json, NULL, f->body);
+        px(json, f->x_m * view->scale);
+        px(json, f->y_m * view->scale);
+        fw_json_end(json);
     }
-    fw_text_add(out, "],\n");
+    fw_json_end(json);
 }
 
 static int frames_of(const fw_page *page, const fw_motion *motion) {
@@ -231,11 +253,13 @@ fw_status fw_report_player(fw_page *page, const fw_variant_verdict *variant, int
     if (frames < 2) return fw_text_end(out);
     controls(out, number);
     fw_text_add(out, "<script type=\"application/json\">");
-    frames_data(page, motion, frames);
-    model_data(page, mechanism, motion);
-    shape_data(page, &bends, s);
-    fw_text_add(out, "\"at\":");
-    fw_text_number(out, worst.t_s, 6);
-    fw_text_add(out, "}</script>\n");
-    return fw_text_end(out);
+    fw_json json = fw_json_new(out, FW_JSON_COMPACT);
+    fw_json_object(&json, NULL);
+    frames_data(&json, page, motion, frames);
+    model_data(&json, page, mechanism, motion);
+    shape_data(&json, page, &bends, s);
+    fw_json_line(&json, 0);
+    fw_json_number(&json, "at", worst.t_s, 6);
+    fw_json_end(&json);
+    return fw_json_finish(&json, "</script>\n");
 }

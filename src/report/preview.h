@@ -4,6 +4,7 @@
    the other documents. */
 #ifndef FW_REPORT_PREVIEW_H
 #define FW_REPORT_PREVIEW_H
+#include "base/json.h"
 #include "report/report.h"
 
 typedef struct fw_report_left_out { /* what a quick answer is without */
@@ -36,7 +37,7 @@ typedef struct fw_report_preview {
 fw_status fw_report_preview_json(fw_arena *arena, const fw_report_preview *in, fw_text *out);
 
 /* parts of it that other documents have too, each with its key */
-fw_status fw_report_preview_shapes(fw_arena *arena, const fw_report_preview *in, fw_text *out);
+fw_status fw_report_preview_shapes(fw_arena *arena, const fw_report_preview *in, fw_json *out);
 /* "diagnostics": each once */
-void fw_report_preview_diagnostics(const fw_diags *diags, const char *file, fw_text *out);
+void fw_report_preview_diagnostics(const fw_diags *diags, const char *file, fw_json *out);
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What joins bodies beside hinges, and what drives them. Points are in the bodies' axes; of the
    ground, of the file. */
-#include "base/members.h"
+#include "base/json.h"
 #include "mechanism/mechanism.h"
 #include "report/page.h"
 #include "report/preview_parts.h"
@@ -9,88 +9,88 @@
 #include <string.h>
 
 /* bodies a and b with their points */
-static void between(fw_text *out, int a, int b, fw_vec2 on_a, fw_vec2 on_b) {
+static void between(fw_json *out, int a, int b, fw_vec2 on_a, fw_vec2 on_b) {
     fw_preview_bodies(out, "bodies", a, b);
     fw_preview_point(out, "on_a_um", on_a.x, on_a.y);
     fw_preview_point(out, "on_b_um", on_b.x, on_b.y);
 }
 
-static void ties(const fw_mechanism *m, fw_text *out) {
+static void ties(const fw_mechanism *m, fw_json *out) {
     static const char *const kind[] = {
         [FW_TIE_PRISMATIC] = "prismatic", [FW_TIE_DISTANCE] = "distance", [FW_TIE_WELD] = "weld"};
-    fw_put_open(out, "ties", '[');
+    fw_json_list(out, "ties");
     for (int i = 0; i < m->ntie; i++) {
         const fw_tie *t = &m->tie[i];
-        fw_put_open(out, NULL, '{');
-        fw_put_text(out, "id", t->id);
-        fw_put_text(out, "kind", kind[t->kind]);
+        fw_json_object(out, NULL);
+        fw_json_text(out, "id", t->id);
+        fw_json_text(out, "kind", kind[t->kind]);
         between(out, t->body_a, t->body_b, (fw_vec2){t->ax_m, t->ay_m},
                 (fw_vec2){t->bx_m, t->by_m});
         /* in the frame of a */
-        fw_put_number(out, "axis_rad", t->kind == FW_TIE_PRISMATIC ? t->axis_rad : (double)NAN, 9);
-        fw_text_add(out, "}");
+        fw_json_number(out, "axis_rad", t->kind == FW_TIE_PRISMATIC ? t->axis_rad : (double)NAN, 9);
+        fw_json_end(out);
     }
-    fw_text_add(out, "]");
+    fw_json_end(out);
 }
 
-static void springs(const fw_mechanism *m, fw_text *out) {
-    fw_put_open(out, "springs", '[');
+static void springs(const fw_mechanism *m, fw_json *out) {
+    fw_json_list(out, "springs");
     for (int i = 0; i < m->nspring; i++) {
         const fw_spring *s = &m->spring[i];
-        fw_put_open(out, NULL, '{');
-        fw_put_text(out, "id", s->id);
+        fw_json_object(out, NULL);
+        fw_json_text(out, "id", s->id);
         between(out, s->body_a, s->body_b, (fw_vec2){s->ax_m, s->ay_m},
                 (fw_vec2){s->bx_m, s->by_m});
-        fw_put_truth(out, "cable", s->cable);
+        fw_json_truth(out, "cable", s->cable);
         fw_preview_um(out, "length_um", s->length_m);
-        fw_text_add(out, "}");
+        fw_json_end(out);
     }
-    fw_text_add(out, "]");
+    fw_json_end(out);
 }
 
 /* ---- loads of the scene ---- */
 
-static void begin(fw_text *out, const char *kind) {
-    fw_put_open(out, NULL, '{');
-    fw_put_text(out, "kind", kind);
+static void begin(fw_json *out, const char *kind) {
+    fw_json_object(out, NULL);
+    fw_json_text(out, "kind", kind);
 }
 
-static void end(fw_text *out, const fw_law *law) {
-    fw_put_text(out, "law", law ? fw_law_name(law) : NULL);
-    fw_text_add(out, "}");
+static void end(fw_json *out, const fw_law *law) {
+    fw_json_text(out, "law", law ? fw_law_name(law) : NULL);
+    fw_json_end(out);
 }
 
-static void force(const fw_force *f, fw_text *out) {
+static void force(const fw_force *f, fw_json *out) {
     begin(out, "force");
-    fw_put_whole(out, "body", f->body);
+    fw_json_whole(out, "body", f->body);
     fw_preview_point(out, "at_um", f->x_m, f->y_m);
-    fw_put_open(out, "force_N", '[');
-    fw_put_number(out, NULL, f->fx_N, 6);
-    fw_put_number(out, NULL, f->fy_N, 6);
-    fw_text_add(out, "]");
+    fw_json_list(out, "force_N");
+    fw_json_number(out, NULL, f->fx_N, 6);
+    fw_json_number(out, NULL, f->fy_N, 6);
+    fw_json_end(out);
     end(out, f->law);
 }
 
-static void torque(const fw_torque *t, fw_text *out) {
+static void torque(const fw_torque *t, fw_json *out) {
     begin(out, "torque");
-    fw_put_whole(out, "body", t->body);
-    fw_put_number(out, "torque_Nm", t->value_Nm, 6);
+    fw_json_whole(out, "body", t->body);
+    fw_json_number(out, "torque_Nm", t->value_Nm, 6);
     end(out, t->law);
 }
 
-static void tendon(const fw_tendon *t, fw_text *out) {
+static void tendon(const fw_tendon *t, fw_json *out) {
     begin(out, "tendon");
-    fw_put_text(out, "id", t->id);
-    fw_put_open(out, "eyelets", '[');
+    fw_json_text(out, "id", t->id);
+    fw_json_list(out, "eyelets");
     for (int k = 0; k < t->neyelet; k++) {
-        fw_put_open(out, NULL, '{');
-        fw_put_whole(out, "body", t->eyelet[k].body);
+        fw_json_object(out, NULL);
+        fw_json_whole(out, "body", t->eyelet[k].body);
         fw_preview_point(out, "at_um", t->eyelet[k].x_m, t->eyelet[k].y_m);
-        fw_text_add(out, "}");
+        fw_json_end(out);
     }
-    fw_text_add(out, "]");
-    fw_put_number(out, "pull_N", t->pull_N, 6);
-    fw_put_number(out, "draw_m", t->draw_m, 6);
+    fw_json_end(out);
+    fw_json_number(out, "pull_N", t->pull_N, 6);
+    fw_json_number(out, "draw_m", t->draw_m, 6);
     end(out, t->law);
 }
 
@@ -122,17 +122,17 @@ static bool comb_drawn(const fw_report_preview *in, const fw_comb *c) {
     return false;
 }
 
-static void comb(const fw_report_preview *in, const fw_comb *c, fw_text *out) {
+static void comb(const fw_report_preview *in, const fw_comb *c, fw_json *out) {
     bool fingers = c->kind == FW_ELECTRODES_COMB;
     begin(out, "comb-drive");
-    fw_put_text(out, "id", c->id);
+    fw_json_text(out, "id", c->id);
     fw_preview_bodies(out, "bodies", c->body_a, c->body_b);
     fw_preview_point(out, "at_um", c->bx_m, c->by_m); /* of the rotor, bodies[1] */
-    fw_put_number(out, "direction_rad", c->direction_rad, 9);
-    fw_put_number(out, "voltage_V", c->voltage_V, 6);
-    fw_put_truth(out, "drawn", comb_drawn(in, c));
-    fw_put_text(out, "electrodes", fingers ? "comb" : "plate");
-    fw_put_whole(out, "fingers", fingers ? c->fingers : 0);
+    fw_json_number(out, "direction_rad", c->direction_rad, 9);
+    fw_json_number(out, "voltage_V", c->voltage_V, 6);
+    fw_json_truth(out, "drawn", comb_drawn(in, c));
+    fw_json_text(out, "electrodes", fingers ? "comb" : "plate");
+    fw_json_whole(out, "fingers", fingers ? c->fingers : 0);
     fw_preview_um(out, "gap_um", c->gap_m);
     fw_preview_um(out, "length_um", comb_length(c));
     fw_preview_um(out, "overlap_um", fingers ? c->overlap_m : 0.0);
@@ -140,27 +140,27 @@ static void comb(const fw_report_preview *in, const fw_comb *c, fw_text *out) {
     end(out, c->law);
 }
 
-static void loads(const fw_report_preview *in, fw_text *out) {
+static void loads(const fw_report_preview *in, fw_json *out) {
     const fw_scene *s = in->scene;
-    fw_put_open(out, "loads", '[');
+    fw_json_list(out, "loads");
     for (int i = 0; s && i < s->nforce; i++)
         force(&s->force[i], out);
     for (int i = 0; s && i < s->ntorque; i++)
         torque(&s->torque[i], out);
     for (int i = 0; s && i < s->ntendon; i++) {
-        if (i || s->nforce || s->ntorque) fw_put_line(out);
+        if (i || s->nforce || s->ntorque) fw_json_line(out, 0);
         tendon(&s->tendon[i], out);
     }
     for (int i = 0; s && i < s->ncomb; i++)
         comb(in, &s->comb[i], out);
-    fw_text_add(out, "]");
+    fw_json_end(out);
 }
 
-void fw_preview_attached(const fw_report_preview *in, fw_text *out) {
+void fw_preview_attached(const fw_report_preview *in, fw_json *out) {
     ties(in->mechanism, out);
-    fw_put_line(out);
+    fw_json_line(out, 0);
     springs(in->mechanism, out);
-    fw_put_line(out);
+    fw_json_line(out, 0);
     loads(in, out);
 }
 
@@ -175,23 +175,23 @@ static void law_at(const fw_law *law, const fw_motion *x, int row, double value[
 }
 
 /* a list for one load: its factor at every instant; null: always 1 */
-static void factor(const fw_law *law, const fw_motion *x, fw_text *out) {
+static void factor(const fw_law *law, const fw_motion *x, fw_json *out) {
     if (!law || fw_law_is_constant(law)) {
-        fw_put_null(out, NULL);
+        fw_json_null(out, NULL);
         return;
     }
-    fw_put_line(out);
-    fw_put_open(out, NULL, '[');
+    fw_json_line(out, 0);
+    fw_json_list(out, NULL);
     for (int i = 0; i < x->nsample; i++) {
         double value[3];
         law_at(law, x, i, value);
-        fw_put_number(out, NULL, value[0], 5);
+        fw_json_number(out, NULL, value[0], 5);
     }
-    fw_text_add(out, "]");
+    fw_json_end(out);
 }
 
-void fw_preview_factors(const fw_scene *s, const fw_motion *x, fw_text *out) {
-    fw_put_open(out, "load_factor", '[');
+void fw_preview_factors(const fw_scene *s, const fw_motion *x, fw_json *out) {
+    fw_json_list(out, "load_factor");
     for (int i = 0; s && i < s->nforce; i++)
         factor(s->force[i].law, x, out);
     for (int i = 0; s && i < s->ntorque; i++)
@@ -200,7 +200,7 @@ void fw_preview_factors(const fw_scene *s, const fw_motion *x, fw_text *out) {
         factor(s->tendon[i].law, x, out);
     for (int i = 0; s && i < s->ncomb; i++)
         factor(s->comb[i].law, x, out);
-    fw_text_add(out, "]");
+    fw_json_end(out);
 }
 
 /* ---- how much cables pull ---- */
@@ -255,23 +255,23 @@ static bool active(const fw_motion *x, const char *effect) {
 }
 
 fw_status fw_preview_tensions(fw_arena *arena, const fw_mechanism *m, const fw_scene *s,
-                              const fw_motion *x, fw_text *out) {
+                              const fw_motion *x, fw_json *out) {
     double *rest = fw_arena_array(arena, double, 3 * (size_t)m->nbody + 1), none;
     FW_NEED(rest);
     for (int b = 0; b < m->nbody; b++)
         rest[3 * b] = m->body[b].x_m, rest[3 * b + 1] = m->body[b].y_m,
                  rest[3 * b + 2] = m->body[b].phi_rad;
-    fw_put_open(out, "tension_N", '[');
+    fw_json_list(out, "tension_N");
     for (int i = 0; s && i < s->ntendon && active(x, "tendon"); i++) {
         const fw_tendon *t = &s->tendon[i];
         double rest_m = path_of(t, rest, NULL, &none) + (isnan(t->slack_m) ? 0.0 : t->slack_m);
-        fw_put_line(out);
-        fw_put_open(out, NULL, '[');
+        fw_json_line(out, 0);
+        fw_json_list(out, NULL);
         for (int row = 0; row < x->nsample; row++)
-            fw_put_number(out, NULL, tension(t, x, row, rest_m), 5);
-        fw_text_add(out, "]");
+            fw_json_number(out, NULL, tension(t, x, row, rest_m), 5);
+        fw_json_end(out);
     }
-    fw_text_add(out, "]");
+    fw_json_end(out);
     return FW_OK;
 }
 

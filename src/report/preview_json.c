@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/members.h"
-#include "report/json_effects.h"
+#include "base/json.h"
 #include "report/preview_parts.h"
 #include <math.h>
 #include <string.h>
@@ -26,35 +25,36 @@ static bool said(const fw_diags *diags, size_t i) {
     return false;
 }
 
-static void position(fw_text *out, const char *key, int value, bool known) {
+static void position(fw_json *out, const char *key, int value, bool known) {
     if (known && value > 0)
-        fw_put_whole(out, key, value);
+        fw_json_whole(out, key, value);
     else
-        fw_put_null(out, key);
+        fw_json_null(out, key);
 }
 
-void fw_report_preview_diagnostics(const fw_diags *diags, const char *file, fw_text *out) {
+void fw_report_preview_diagnostics(const fw_diags *diags, const char *file, fw_json *out) {
     static const char *const word[] = {
         [FW_NOTE] = "note", [FW_WARNING] = "warning", [FW_ERROR] = "error"};
-    fw_put_open(out, "diagnostics", '[');
+    fw_json_list(out, "diagnostics");
     for (size_t i = 0; diags && i < diags->count; i++) {
         const fw_diag *d = &diags->item[i];
         if (said(diags, i)) continue;
         const fw_diag_entry *entry = fw_diag_find(d->number);
-        fw_put_line(out);
-        fw_text_printf(out, "{\"severity\":\"%s\",\"code\":\"FW-D%03d\"", word[d->severity],
-                       d->number);
-        fw_put_text(out, "title", entry ? entry->title : NULL);
-        fw_put_text(out, "message", d->message);
-        fw_put_text(out, "file", d->place.file ? fw_place_file(d->place) : NULL);
-        fw_put_truth(out, "in_text", same(d->place.file, file));
+        fw_json_line(out, 0);
+        fw_json_object(out, NULL);
+        fw_json_text(out, "severity", word[d->severity]);
+        fw_json_textf(out, "code", "FW-D%03d", d->number);
+        fw_json_text(out, "title", entry ? entry->title : NULL);
+        fw_json_text(out, "message", d->message);
+        fw_json_text(out, "file", d->place.file ? fw_place_file(d->place) : NULL);
+        fw_json_truth(out, "in_text", same(d->place.file, file));
         position(out, "line", d->place.line, true);
         position(out, "column", d->place.column, d->place.line > 0);
-        fw_put_text(out, "explain", entry ? entry->text : NULL);
-        fw_text_add(out, "}");
+        fw_json_text(out, "explain", entry ? entry->text : NULL);
+        fw_json_end(out);
     }
-    fw_text_add(out, "]");
-    fw_put_whole(out, "diagnostics_dropped", diags ? (long)diags->dropped : 0);
+    fw_json_end(out);
+    fw_json_whole(out, "diagnostics_dropped", diags ? (long)diags->dropped : 0);
 }
 
 /* ---- parameters ---- */
@@ -74,8 +74,8 @@ static const char *written(fw_arena *arena, const fw_device *d, fw_place place) 
 }
 
 /* value, least and most in the unit that the file writes it in */
-static fw_status parameters(fw_arena *arena, const fw_device *d, fw_text *out) {
-    fw_put_open(out, "parameters", '[');
+static fw_status parameters(fw_arena *arena, const fw_device *d, fw_json *out) {
+    fw_json_list(out, "parameters");
     for (int i = 0; d && i < d->nparameter; i++) {
         const fw_parameter *p = &d->parameter[i];
         fw_unit unit = {.factor = 1.0};
@@ -83,58 +83,59 @@ static fw_status parameters(fw_arena *arena, const fw_device *d, fw_text *out) {
         const char *raw = written(arena, d, p->place), *const *names = NULL;
         size_t uses = 0;
         if (raw) FW_TRY(fw_expression_names(arena, raw, strlen(raw), &names, &uses));
-        fw_put_line(out);
-        fw_put_open(out, NULL, '{');
-        fw_put_text(out, "name", p->name);
-        fw_put_number(out, "value", fw_unit_from_si(&unit, p->value), 12);
-        fw_put_text(out, "unit", p->unit);
-        fw_put_number(out, "value_SI", p->value, 17);
-        fw_put_number(out, "minimum", fw_unit_from_si(&unit, p->min), 12);
-        fw_put_number(out, "maximum", fw_unit_from_si(&unit, p->max), 12);
-        fw_put_text(out, "doc", p->doc);
-        fw_put_text(out, "written", raw);
-        fw_put_truth(out, "derived", uses > 0);
-        fw_put_truth(out, "overridden", p->overridden);
-        fw_put_whole(out, "line", p->place.line);
-        fw_put_whole(out, "column", p->place.column);
+        fw_json_line(out, 0);
+        fw_json_object(out, NULL);
+        fw_json_text(out, "name", p->name);
+        fw_json_number(out, "value", fw_unit_from_si(&unit, p->value), 12);
+        fw_json_text(out, "unit", p->unit);
+        fw_json_number(out, "value_SI", p->value, 17);
+        fw_json_number(out, "minimum", fw_unit_from_si(&unit, p->min), 12);
+        fw_json_number(out, "maximum", fw_unit_from_si(&unit, p->max), 12);
+        fw_json_text(out, "doc", p->doc);
+        fw_json_text(out, "written", raw);
+        fw_json_truth(out, "derived", uses > 0);
+        fw_json_truth(out, "overridden", p->overridden);
+        fw_json_whole(out, "line", p->place.line);
+        fw_json_whole(out, "column", p->place.column);
         const char *path = fw_arena_printf(arena, "parameter[%s]/@value", p->name);
         FW_NEED(path);
-        fw_put_text(out, "path", path);
-        fw_text_add(out, "}");
+        fw_json_text(out, "path", path);
+        fw_json_end(out);
     }
-    fw_text_add(out, "]");
+    fw_json_end(out);
     return FW_OK;
 }
 
-static void scenes_and_flows(const fw_report_preview *in, fw_text *out) {
-    fw_put_open(out, "scenes", '[');
+static void scenes_and_flows(const fw_report_preview *in, fw_json *out) {
+    fw_json_list(out, "scenes");
     for (int i = 0; in->device && i < in->device->nscene; i++) {
         const fw_scene *s = &in->device->scene[i];
-        fw_put_open(out, NULL, '{');
-        fw_put_text(out, "name", s->name);
-        fw_put_text(out, "flow", s->flow);
-        fw_put_number(out, "duration_s", s->duration_s, DIGITS);
-        fw_text_add(out, "}");
+        fw_json_object(out, NULL);
+        fw_json_text(out, "name", s->name);
+        fw_json_text(out, "flow", s->flow);
+        fw_json_number(out, "duration_s", s->duration_s, DIGITS);
+        fw_json_end(out);
     }
-    fw_text_add(out, "]");
-    fw_put_line(out);
-    fw_put_open(out, "flows", '[');
+    fw_json_end(out);
+    fw_json_line(out, 0);
+    fw_json_list(out, "flows");
     for (int i = 0; i < in->nflow; i++) {
         const fw_report_flow *f = &in->flow[i];
         const fw_variant *v = f->variant ? f->variant->variant : NULL;
-        fw_put_open(out, NULL, '{');
-        fw_put_text(out, "name", v ? v->flow : NULL);
-        fw_put_text(out, "material", v ? v->material.name : NULL);
+        fw_json_object(out, NULL);
+        fw_json_text(out, "name", v ? v->flow : NULL);
+        fw_json_text(out, "material", v ? v->material.name : NULL);
         if (f->flow && f->flow->manufacturable >= 0)
-            fw_put_truth(out, "manufacturable", f->flow->manufacturable);
+            fw_json_truth(out, "manufacturable", f->flow->manufacturable);
         else
-            fw_put_null(out, "manufacturable");
-        fw_put_open(out, "reasons", '[');
+            fw_json_null(out, "manufacturable");
+        fw_json_list(out, "reasons");
         for (int k = 0; f->flow && k < f->flow->nreason; k++)
-            fw_put_text(out, NULL, f->flow->reason[k]);
-        fw_text_add(out, "]}");
+            fw_json_text(out, NULL, f->flow->reason[k]);
+        fw_json_end(out);
+        fw_json_end(out);
     }
-    fw_text_add(out, "]");
+    fw_json_end(out);
 }
 
 /* ---- motion ---- */
@@ -150,188 +151,196 @@ static int decimals(const fw_mechanism *m) {
     return (int)fmax(4.0, fmin(16.0, 8.0 - floor(log10(size))));
 }
 
-static void column(fw_text *out, const char *name, const double *value, int stride, int count) {
-    fw_put_open(out, name, '[');
+static void column(fw_json *out, const char *name, const double *value, int stride, int count) {
+    fw_json_list(out, name);
     for (int i = 0; i < count; i++)
-        fw_put_number(out, NULL, value[(size_t)i * (size_t)stride], 7);
-    fw_text_add(out, "]");
+        fw_json_number(out, NULL, value[(size_t)i * (size_t)stride], 7);
+    fw_json_end(out);
 }
 
 /* rows of the states: [x, y, phi, x, y, phi ...] and [angle ...] */
-static void states(const fw_mechanism *m, const fw_motion *x, fw_text *out) {
+static void states(const fw_mechanism *m, const fw_motion *x, fw_json *out) {
     int places = decimals(m), n = 3 * x->nbody;
-    fw_text_reserve(out, (size_t)x->nsample * (size_t)(16 * n + 14 * x->npin + 16));
+    fw_text_reserve(out->out, (size_t)x->nsample * (size_t)(16 * n + 14 * x->npin + 16));
     column(out, "t_s", x->t_s, 1, x->nsample);
-    fw_put_line(out);
-    fw_put_open(out, "q", '[');
+    fw_json_line(out, 0);
+    fw_json_list(out, "q");
     for (int i = 0; i < x->nsample; i++) {
-        fw_put_line(out);
-        fw_put_open(out, NULL, '[');
+        fw_json_line(out, 0);
+        fw_json_list(out, NULL);
         for (int k = 0; k < n; k++)
-            fw_put_fixed(out, NULL, x->q[(size_t)i * (size_t)n + (size_t)k],
-                         k % 3 == 2 ? 8 : places);
-        fw_text_add(out, "]");
+            fw_json_fixed(out, NULL, x->q[(size_t)i * (size_t)n + (size_t)k],
+                          k % 3 == 2 ? 8 : places);
+        fw_json_end(out);
     }
-    fw_text_add(out, "]");
-    fw_put_line(out);
-    fw_put_open(out, "angle_rad", '[');
+    fw_json_end(out);
+    fw_json_line(out, 0);
+    fw_json_list(out, "angle_rad");
     for (int i = 0; i < x->nsample; i++) {
-        fw_put_line(out);
-        fw_put_open(out, NULL, '[');
+        fw_json_line(out, 0);
+        fw_json_list(out, NULL);
         for (int k = 0; k < x->npin; k++)
-            fw_put_fixed(out, NULL, x->angle_rad[(size_t)i * (size_t)x->npin + (size_t)k], 8);
-        fw_text_add(out, "]");
+            fw_json_fixed(out, NULL, x->angle_rad[(size_t)i * (size_t)x->npin + (size_t)k], 8);
+        fw_json_end(out);
     }
-    fw_text_add(out, "]");
+    fw_json_end(out);
 }
 
 /* null of a row of equilibria, and where nobody asked */
-static void energies(const fw_motion *x, fw_text *out) {
+static void energies(const fw_motion *x, fw_json *out) {
     static const char *const name[] = {"kinetic_J", "potential_J", "dissipated_J", "work_J"};
     if (x->energy_J) {
-        fw_put_open(out, "energy", '{');
+        fw_json_object(out, "energy");
         for (int k = 0; k < 4; k++)
             column(out, name[k], x->energy_J + k, 4, x->nsample);
-        fw_text_add(out, "}");
-        fw_put_line(out);
+        fw_json_end(out);
+        fw_json_line(out, 0);
     } else
-        fw_put_null(out, "energy");
+        fw_json_null(out, "energy");
     if (x->constraint_norm)
         column(out, "constraint_norm", x->constraint_norm, 1, x->nsample);
     else
-        fw_put_null(out, "constraint_norm");
+        fw_json_null(out, "constraint_norm");
 }
 
-static void peaks(const fw_mechanism *m, const fw_motion *x, fw_text *out) {
-    fw_put_open(out, "peaks", '[');
+static void peaks(const fw_mechanism *m, const fw_motion *x, fw_json *out) {
+    fw_json_list(out, "peaks");
     for (int i = 0; i < x->npin; i++) {
-        fw_put_open(out, NULL, '{');
-        fw_put_text(out, "pin", m->pin[i].id);
-        fw_put_number(out, "angle_rad", x->peak[i].angle_rad, 17);
-        fw_put_number(out, "t_s", x->peak[i].t_s, DIGITS);
-        fw_put_number(out, "error_rad", x->peak[i].error_rad, DIGITS);
-        fw_text_add(out, "}");
+        fw_json_object(out, NULL);
+        fw_json_text(out, "pin", m->pin[i].id);
+        fw_json_number(out, "angle_rad", x->peak[i].angle_rad, 17);
+        fw_json_number(out, "t_s", x->peak[i].t_s, DIGITS);
+        fw_json_number(out, "error_rad", x->peak[i].error_rad, DIGITS);
+        fw_json_end(out);
     }
-    fw_text_add(out, "]");
+    fw_json_end(out);
 }
 
-static void stats(const fw_motion *x, fw_text *out) {
+static void stats(const fw_motion *x, fw_json *out) {
     const fw_motion_stats *s = &x->stats;
-    fw_put_key(out, "stats");
-    fw_text_printf(out,
-                   "{\"steps\":%ld,\"rejected\":%ld,\"rhs\":%ld,\"projections\":%ld,"
-                   "\"events\":%ld,\"jacobians\":%ld,\"factorisations\":%ld",
-                   s->steps, s->rejected, s->rhs, s->projections, s->events, s->jacobians,
-                   s->factorisations);
-    fw_put_number(out, "cpu_s", s->cpu_s, DIGITS);
-    fw_put_number(out, "estimate_cpu_s", s->estimate_cpu_s, DIGITS);
-    fw_put_number(out, "energy_error", s->energy_error, DIGITS);
-    fw_put_number(out, "largest_energy_J", s->largest_energy_J, DIGITS);
-    fw_put_number(out, "max_constraint_norm", s->max_constraint_norm, DIGITS);
-    fw_put_number(out, "max_velocity_norm", s->max_velocity_norm, DIGITS);
-    fw_text_add(out, "}");
+    fw_json_object(out, "stats");
+    fw_json_whole(out, "steps", s->steps);
+    fw_json_whole(out, "rejected", s->rejected);
+    fw_json_whole(out, "rhs", s->rhs);
+    fw_json_whole(out, "projections", s->projections);
+    fw_json_whole(out, "events", s->events);
+    fw_json_whole(out, "jacobians", s->jacobians);
+    fw_json_whole(out, "factorisations", s->factorisations);
+    fw_json_number(out, "cpu_s", s->cpu_s, DIGITS);
+    fw_json_number(out, "estimate_cpu_s", s->estimate_cpu_s, DIGITS);
+    fw_json_number(out, "energy_error", s->energy_error, DIGITS);
+    fw_json_number(out, "largest_energy_J", s->largest_energy_J, DIGITS);
+    fw_json_number(out, "max_constraint_norm", s->max_constraint_norm, DIGITS);
+    fw_json_number(out, "max_velocity_norm", s->max_velocity_norm, DIGITS);
+    fw_json_end(out);
 }
 
-static void ledger(const fw_motion *x, fw_text *out) {
-    fw_put_open(out, "ledger", '[');
+static void ledger(const fw_motion *x, fw_json *out) {
+    fw_json_list(out, "ledger");
     for (int i = 0; i < x->ledger.count; i++) {
         const fw_effect_entry *e = &x->ledger.item[i];
-        fw_put_line(out);
-        fw_put_open(out, NULL, '{');
-        fw_put_text(out, "id", e->id);
-        fw_put_truth(out, "called_for", e->called_for);
-        fw_put_truth(out, "active", e->active);
-        fw_put_number(out, "bound", e->bound, DIGITS);
-        fw_put_number(out, "cost", e->cost, DIGITS);
-        fw_put_text(out, "reason", e->reason);
-        fw_text_add(out, "}");
+        fw_json_line(out, 0);
+        fw_json_object(out, NULL);
+        fw_json_text(out, "id", e->id);
+        fw_json_truth(out, "called_for", e->called_for);
+        fw_json_truth(out, "active", e->active);
+        fw_json_number(out, "bound", e->bound, DIGITS);
+        fw_json_number(out, "cost", e->cost, DIGITS);
+        fw_json_text(out, "reason", e->reason);
+        fw_json_end(out);
     }
-    fw_text_add(out, "]");
-    fw_put_number(out, "ledger_left_out", x->ledger.left_out, DIGITS);
-    fw_put_text(out, "hinge_model", fw_hinge_model_text(x->ledger.hinge.used));
-    fw_put_text(out, "hinge_model_why", x->ledger.hinge.why);
+    fw_json_end(out);
+    fw_json_number(out, "ledger_left_out", x->ledger.left_out, DIGITS);
+    fw_json_text(out, "hinge_model", fw_hinge_model_text(x->ledger.hinge.used));
+    fw_json_text(out, "hinge_model_why", x->ledger.hinge.why);
 }
 
-static fw_status motion(fw_arena *arena, const fw_report_preview *in, fw_text *out) {
+static fw_status motion(fw_arena *arena, const fw_report_preview *in, fw_json *out) {
     const fw_motion *x = in->motion;
-    fw_put_key(out, "motion");
     if (!x || !in->mechanism || x->nsample < 1) {
-        fw_text_add(out, "null,\n\"ledger\":[],\"ledger_left_out\":null,\"hinge_model\":null,"
-                         "\"hinge_model_why\":null");
+        fw_json_null(out, "motion");
+        fw_json_line(out, 0);
+        fw_json_list(out, "ledger");
+        fw_json_end(out);
+        fw_json_null(out, "ledger_left_out");
+        fw_json_null(out, "hinge_model");
+        fw_json_null(out, "hinge_model_why");
         return FW_OK;
     }
-    fw_put_open(out, NULL, '{');
-    fw_put_text(out, "scene", in->scene ? in->scene->name : NULL);
-    fw_put_text(out, "flow", in->mechanism->variant ? in->mechanism->variant->flow : NULL);
-    fw_put_text(out, "method", x->method);
-    fw_put_text(out, "integrator", x->integrator);
-    fw_put_text(out, "reason", x->reason);
-    fw_put_text(out, "stabilise", x->stabilise);
-    fw_put_text(out, "method_report", x->method_report);
-    fw_put_number(out, "rtol", x->stats.rtol, DIGITS);
-    fw_put_truth(out, "ended", x->ended);
-    fw_put_number(out, "end_s", x->end_s, DIGITS);
-    fw_put_line(out);
+    fw_json_object(out, "motion");
+    fw_json_text(out, "scene", in->scene ? in->scene->name : NULL);
+    fw_json_text(out, "flow", in->mechanism->variant ? in->mechanism->variant->flow : NULL);
+    fw_json_text(out, "method", x->method);
+    fw_json_text(out, "integrator", x->integrator);
+    fw_json_text(out, "reason", x->reason);
+    fw_json_text(out, "stabilise", x->stabilise);
+    fw_json_text(out, "method_report", x->method_report);
+    fw_json_number(out, "rtol", x->stats.rtol, DIGITS);
+    fw_json_truth(out, "ended", x->ended);
+    fw_json_number(out, "end_s", x->end_s, DIGITS);
+    fw_json_line(out, 0);
     stats(x, out);
-    fw_put_line(out);
+    fw_json_line(out, 0);
     peaks(in->mechanism, x, out);
-    fw_put_line(out);
+    fw_json_line(out, 0);
     energies(x, out);
-    fw_put_line(out);
+    fw_json_line(out, 0);
     fw_preview_factors(in->scene, x, out);
-    fw_put_line(out);
+    fw_json_line(out, 0);
     FW_TRY(fw_preview_tensions(arena, in->mechanism, in->scene, x, out));
-    fw_put_line(out);
+    fw_json_line(out, 0);
     states(in->mechanism, x, out);
-    fw_text_add(out, "}");
-    fw_put_line(out);
+    fw_json_end(out);
+    fw_json_line(out, 0);
     ledger(x, out);
     return FW_OK;
 }
 
 /* ---- the document ---- */
 
-static void left_out(const fw_report_preview *in, fw_text *out) {
-    fw_put_open(out, "left_out", '[');
+static void left_out(const fw_report_preview *in, fw_json *out) {
+    fw_json_list(out, "left_out");
     for (int i = 0; i < in->nleft_out; i++) {
-        fw_put_open(out, NULL, '{');
-        fw_put_text(out, "what", in->left_out[i].what);
-        fw_put_text(out, "sentence", in->left_out[i].sentence);
-        fw_put_truth(out, "could_reject", in->left_out[i].could_reject);
-        fw_text_add(out, "}");
+        fw_json_object(out, NULL);
+        fw_json_text(out, "what", in->left_out[i].what);
+        fw_json_text(out, "sentence", in->left_out[i].sentence);
+        fw_json_truth(out, "could_reject", in->left_out[i].could_reject);
+        fw_json_end(out);
     }
-    fw_text_add(out, "]");
+    fw_json_end(out);
 }
 
-fw_status fw_report_preview_json(fw_arena *arena, const fw_report_preview *in, fw_text *out) {
-    fw_put_open(out, NULL, '{');
-    fw_put_text(out, "schema", "flexwright.preview/1");
-    fw_put_text(out, "status", in->status);
-    fw_put_whole(out, "exit_status", in->exit_status);
-    fw_put_text(out, "decision", in->verdict ? fw_decision_text(in->verdict->decision) : NULL);
-    fw_put_truth(out, "provisional", in->provisional);
-    fw_put_line(out);
+fw_status fw_report_preview_json(fw_arena *arena, const fw_report_preview *in, fw_text *text) {
+    fw_json json = fw_json_new(text, FW_JSON_COMPACT), *out = &json;
+    fw_json_object(out, NULL);
+    fw_json_text(out, "schema", "flexwright.preview/1");
+    fw_json_text(out, "status", in->status);
+    fw_json_whole(out, "exit_status", in->exit_status);
+    fw_json_text(out, "decision", in->verdict ? fw_decision_text(in->verdict->decision) : NULL);
+    fw_json_truth(out, "provisional", in->provisional);
+    fw_json_line(out, 0);
     left_out(in, out);
-    fw_put_line(out);
+    fw_json_line(out, 0);
     fw_report_preview_diagnostics(in->diags, in->file, out);
-    fw_put_text(out, "name", in->device ? in->device->name : NULL);
-    fw_put_truth(out, "six_bar", in->device && in->device->six_bar);
-    fw_put_line(out);
+    fw_json_text(out, "name", in->device ? in->device->name : NULL);
+    fw_json_truth(out, "six_bar", in->device && in->device->six_bar);
+    fw_json_line(out, 0);
     FW_TRY(parameters(arena, in->device, out));
-    fw_put_line(out);
+    fw_json_line(out, 0);
     scenes_and_flows(in, out);
-    fw_put_line(out);
+    fw_json_line(out, 0);
     FW_TRY(fw_report_preview_shapes(arena, in, out));
-    fw_put_line(out);
+    fw_json_line(out, 0);
     FW_TRY(motion(arena, in, out));
-    fw_put_line(out);
-    fw_put_key(out, "verdict");
-    fw_text_add(out, in->verdict_json ? in->verdict_json : "null");
-    fw_text_add(out, ",\n"); /* a document of its own ends in a line break */
-    fw_put_open(out, "cost", '{');
-    fw_put_number(out, "read_s", in->read_s, 4);
-    fw_put_number(out, "judge_s", in->judge_s, DIGITS);
-    fw_put_number(out, "simulate_s", in->simulate_s, DIGITS);
-    fw_text_add(out, "}}\n");
-    return fw_text_end(out);
+    fw_json_line(out, 0);
+    /* a document of its own, which ends in a line break */
+    fw_text_add(fw_json_value(out, "verdict"), in->verdict_json ? in->verdict_json : "null");
+    fw_json_line(out, 0);
+    fw_json_object(out, "cost");
+    fw_json_number(out, "read_s", in->read_s, 4);
+    fw_json_number(out, "judge_s", in->judge_s, DIGITS);
+    fw_json_number(out, "simulate_s", in->simulate_s, DIGITS);
+    fw_json_end(out);
+    fw_json_end(out);
+    return fw_json_finish(out, "\n");
 }

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Private to the preview's files. Lengths are in um with y up, to 1 nm; keys as in base/members.h.
+/* Private to the preview's files. Lengths are in um with y up, to 1 nm; keys as in base/json.h.
  */
 #ifndef FW_REPORT_PREVIEW_PARTS_H
 #define FW_REPORT_PREVIEW_PARTS_H
 #include "report/preview.h"
 
-void fw_preview_um(fw_text *out, const char *key, double metres);
-void fw_preview_point(fw_text *out, const char *key, double x_m, double y_m); /* [x, y] */
-void fw_preview_bodies(fw_text *out, const char *key, int a, int b);          /* -1: the ground */
+void fw_preview_um(fw_json *out, const char *key, double metres);
+void fw_preview_point(fw_json *out, const char *key, double x_m, double y_m); /* [x, y] */
+void fw_preview_bodies(fw_json *out, const char *key, int a, int b);          /* -1: the ground */
 /* what else joins bodies and what drives them: "ties", "springs", "loads" */
-void fw_preview_attached(const fw_report_preview *in, fw_text *out);
+void fw_preview_attached(const fw_report_preview *in, fw_json *out);
 /* "load_factor": of every load, in their order, its time law at the motion's instants */
-void fw_preview_factors(const fw_scene *scene, const fw_motion *motion, fw_text *out);
+void fw_preview_factors(const fw_scene *scene, const fw_motion *motion, fw_json *out);
 /* "tension_N": of every tendon of the scene, at the motion's instants; empty: none acts */
 fw_status fw_preview_tensions(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                              const fw_motion *motion, fw_text *out);
+                              const fw_motion *motion, fw_json *out);
 /* the box, where it holds anything, with springs and ties; with cables and electrodes of a scene */
 void fw_preview_attached_box(const fw_mechanism *mechanism, fw_box *box);
 void fw_preview_scene_box(const fw_mechanism *mechanism, const fw_scene *scene, fw_box *box);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Shapes of a mechanism in um with y up: bodies in their own axes (origin in the centre of mass,
    turned back by the drawn angle), what stands still and flexures in the axes of the file. */
-#include "base/members.h"
+#include "base/json.h"
 #include "base/constants.h"
 #include "flexure/path.h"
 #include "report/figure.h"
@@ -38,21 +38,22 @@ static void point(fw_text *out, const char *command, fw_vec2 p) {
     um(out, p.y);
 }
 
-void fw_preview_um(fw_text *out, const char *key, double metres) {
-    fw_put_key(out, key);
-    um(out, metres);
+void fw_preview_um(fw_json *out, const char *key, double metres) {
+    um(fw_json_value(out, key), metres);
 }
 
-void fw_preview_point(fw_text *out, const char *key, double x_m, double y_m) {
-    fw_put_open(out, key, '[');
+void fw_preview_point(fw_json *out, const char *key, double x_m, double y_m) {
+    fw_json_list(out, key);
     fw_preview_um(out, NULL, x_m);
     fw_preview_um(out, NULL, y_m);
-    fw_text_add(out, "]");
+    fw_json_end(out);
 }
 
-void fw_preview_bodies(fw_text *out, const char *key, int a, int b) {
-    fw_put_key(out, key);
-    fw_text_printf(out, "[%d,%d]", a, b);
+void fw_preview_bodies(fw_json *out, const char *key, int a, int b) {
+    fw_json_list(out, key);
+    fw_json_whole(out, NULL, a);
+    fw_json_whole(out, NULL, b);
+    fw_json_end(out);
 }
 
 /* y points up: counter-clockwise is SVG's positive sweep in these axes */
@@ -86,6 +87,14 @@ static void contour(fw_text *out, const frame *f, const fw_contour *c) {
     fw_text_add(out, "Z");
 }
 
+/* an outline as a string; no letter of a path needs an escape */
+static void path(fw_json *out, const char *key, const frame *f, const fw_contour *c) {
+    fw_text *text = fw_json_value(out, key);
+    fw_text_add(text, "\"");
+    contour(text, f, c);
+    fw_text_add(text, "\"");
+}
+
 /* ---- bodies ---- */
 
 typedef bool (*wanted)(const fw_piece *piece, int body);
@@ -104,81 +113,81 @@ static bool tether(const fw_piece *p, int body) {
     return p->role == FW_ROLE_TETHER;
 }
 
-static void outlines(fw_text *out, const char *key, const fw_layout *layout, const frame *f,
+static void outlines(fw_json *out, const char *key, const fw_layout *layout, const frame *f,
                      wanted want, int body) {
     bool first = true;
-    fw_put_open(out, key, '[');
+    fw_json_list(out, key);
     for (int i = 0; fw_report_drawn(layout) && i < layout->npiece; i++) {
         if (!want(&layout->piece[i], body)) continue;
-        fw_text_add(out, first ? "\"" : ",\n\"");
-        contour(out, f, &layout->piece[i].contour);
-        fw_text_add(out, "\"");
+        if (!first) fw_json_line(out, 0);
+        path(out, NULL, f, &layout->piece[i].contour);
         first = false;
     }
-    fw_text_add(out, "]");
+    fw_json_end(out);
 }
 
 /* what stands for a body that nobody has drawn: a line or hull through its joints */
-static void figure_outline(fw_text *out, const fw_figure *figure, int body) {
-    fw_put_open(out, "outline", '[');
+static void figure_outline(fw_json *out, const fw_figure *figure, int body) {
+    fw_json_list(out, "outline");
     for (int i = 0; i < figure->count; i++) {
         const fw_figure_part *p = &figure->part[i];
         if (p->role != FW_FIGURE_BODY || p->of != body) continue;
-        fw_put_key(out, NULL);
-        fw_text_add(out, "\"");
+        fw_text *text = fw_json_value(out, NULL);
+        fw_text_add(text, "\"");
         for (int k = 0; k < p->noutline; k++)
-            point(out, k ? "L" : "M", p->outline[k]);
+            point(text, k ? "L" : "M", p->outline[k]);
         if (p->noutline == 0) {
-            point(out, "M", (fw_vec2){p->end[0].x_m, p->end[0].y_m});
-            point(out, "L", (fw_vec2){p->end[1].x_m, p->end[1].y_m});
+            point(text, "M", (fw_vec2){p->end[0].x_m, p->end[0].y_m});
+            point(text, "L", (fw_vec2){p->end[1].x_m, p->end[1].y_m});
         }
-        fw_text_add(out, p->noutline > 2 ? "Z\"" : "\"");
+        fw_text_add(text, p->noutline > 2 ? "Z\"" : "\"");
     }
-    fw_text_add(out, "]");
+    fw_json_end(out);
 }
 
-static void body_json(const fw_report_preview *in, const fw_figure *figure, int b, fw_text *out) {
+static void body_json(const fw_report_preview *in, const fw_figure *figure, int b, fw_json *out) {
     const fw_mass *m = &in->mechanism->body[b];
     const frame f = frame_of(in->mechanism, b);
     bool drawn = fw_report_outlined(in->layout, b);
-    fw_put_open(out, NULL, '{');
-    fw_put_text(out, "id", m->id);
-    fw_put_truth(out, "fixed", false);
-    fw_put_truth(out, "platform", in->device->body[b].platform);
-    fw_put_truth(out, "drawn", drawn);
+    fw_json_object(out, NULL);
+    fw_json_text(out, "id", m->id);
+    fw_json_truth(out, "fixed", false);
+    fw_json_truth(out, "platform", in->device->body[b].platform);
+    fw_json_truth(out, "drawn", drawn);
     if (drawn)
         outlines(out, "outline", in->layout, &f, structure, b);
     else
         figure_outline(out, figure, b);
-    fw_put_open(out, "rest", '[');
-    fw_put_number(out, NULL, m->x_m, 9);
-    fw_put_number(out, NULL, m->y_m, 9);
-    fw_put_number(out, NULL, m->phi_rad, 9);
-    fw_text_add(out, "]");
-    fw_put_number(out, "mass_kg", m->mass_kg, 6);
-    fw_put_number(out, "inertia_kg_m2", m->inertia_kg_m2, 6);
-    fw_text_add(out, "}");
+    fw_json_list(out, "rest");
+    fw_json_number(out, NULL, m->x_m, 9);
+    fw_json_number(out, NULL, m->y_m, 9);
+    fw_json_number(out, NULL, m->phi_rad, 9);
+    fw_json_end(out);
+    fw_json_number(out, "mass_kg", m->mass_kg, 6);
+    fw_json_number(out, "inertia_kg_m2", m->inertia_kg_m2, 6);
+    fw_json_end(out);
 }
 
-static void bodies(const fw_report_preview *in, const fw_figure *figure, fw_text *out) {
+static void bodies(const fw_report_preview *in, const fw_figure *figure, fw_json *out) {
     const fw_layout *layout = in->layout;
-    fw_put_open(out, "bodies", '[');
+    fw_json_list(out, "bodies");
     for (int b = 0; b < in->mechanism->nbody; b++) {
-        fw_put_line(out);
+        fw_json_line(out, 0);
         body_json(in, figure, b, out);
     }
     const frame world = frame_of(in->mechanism, FW_GROUND);
-    fw_put_line(out);
-    fw_put_open(out, NULL, '{');
-    fw_put_text(out, "id", "ground");
-    fw_put_truth(out, "fixed", true);
-    fw_put_truth(out, "platform", false);
-    fw_put_truth(out, "drawn", fw_report_drawn(layout));
+    fw_json_line(out, 0);
+    fw_json_object(out, NULL);
+    fw_json_text(out, "id", "ground");
+    fw_json_truth(out, "fixed", true);
+    fw_json_truth(out, "platform", false);
+    fw_json_truth(out, "drawn", fw_report_drawn(layout));
     outlines(out, "outline", layout, &world, structure, FW_GROUND);
     outlines(out, "islands", layout, &world, structure, FW_ISLAND);
     outlines(out, "frame", layout, &world, chip, 0);
     outlines(out, "tethers", layout, &world, tether, 0);
-    fw_text_add(out, "}]");
+    fw_json_end(out);
+    fw_json_end(out);
 }
 
 /* ---- flexures ---- */
@@ -188,14 +197,14 @@ static const char *body_id(const fw_mechanism *m, int body) {
 }
 
 /* a frame fixed to a body, where one end of the centre line is, along which the line runs there */
-static void end_frame(fw_text *out, const fw_mechanism *m, int body, fw_pose at) {
+static void end_frame(fw_json *out, const fw_mechanism *m, int body, fw_pose at) {
     const frame f = frame_of(m, body);
     fw_vec2 p = into(&f, (fw_vec2){at.x_m, at.y_m});
-    fw_put_open(out, NULL, '{');
-    fw_put_text(out, "body", body_id(m, body));
+    fw_json_object(out, NULL);
+    fw_json_text(out, "body", body_id(m, body));
     fw_preview_point(out, "at_um", p.x, p.y);
-    fw_put_number(out, "angle_rad", at.angle_rad - (body >= 0 ? m->body[body].phi_rad : 0.0), 7);
-    fw_text_add(out, "}");
+    fw_json_number(out, "angle_rad", at.angle_rad - (body >= 0 ? m->body[body].phi_rad : 0.0), 7);
+    fw_json_end(out);
 }
 
 /* the centre line in the flexure's frame: from the root of `lower` to that of `upper` */
@@ -220,62 +229,59 @@ static fw_pose to_world(const fw_hinge_layout *h, fw_pose p) {
                      h->arc_centre.y + s * p.x_m + c * p.y_m, p.angle_rad + h->axis_rad};
 }
 
-static void line_of(const fw_report_preview *in, const fw_report_bend *bend, fw_text *out) {
+static void line_of(const fw_report_preview *in, const fw_report_bend *bend, fw_json *out) {
     enum { MOST = FW_STRIP_MOST + 2 };
     const fw_hinge_layout *h = &in->layout->hinge[bend->joint];
     const fw_flexure *flexure = &in->device->flexure[in->device->joint[bend->joint].flexure];
     fw_pose pose[MOST];
     int n = centre_line(flexure, h->fillet_m, pose, flexure->kind == FW_FLEXURE_PATH ? MOST : 25);
-    fw_put_key(out, "centre_line");
-    fw_text_add(out, "\"");
+    fw_text *text = fw_json_value(out, "centre_line");
+    fw_text_add(text, "\"");
     for (int i = 0; i < n; i++) {
         pose[i] = to_world(h, pose[i]);
-        point(out, i ? "L" : "M", (fw_vec2){pose[i].x_m, pose[i].y_m});
+        point(text, i ? "L" : "M", (fw_vec2){pose[i].x_m, pose[i].y_m});
     }
-    fw_text_add(out, "\"");
-    fw_put_open(out, "ends", '[');
+    fw_text_add(text, "\"");
+    fw_json_list(out, "ends");
     end_frame(out, in->mechanism, bend->lower, pose[0]);
     end_frame(out, in->mechanism, bend->upper, pose[n - 1]);
-    fw_text_add(out, "]");
+    fw_json_end(out);
     fw_preview_um(out, "width_um", flexure->width_m);
 }
 
-static void flexure_json(const fw_report_preview *in, const fw_report_bend *bend, fw_text *out) {
+static void flexure_json(const fw_report_preview *in, const fw_report_bend *bend, fw_json *out) {
     const fw_mechanism *m = in->mechanism;
     const fw_joint *joint = &in->device->joint[bend->joint];
     const frame world = frame_of(m, FW_GROUND);
-    fw_put_open(out, NULL, '{');
-    fw_put_text(out, "id", joint->id);
-    fw_put_whole(out, "pin", bend->joint);
-    fw_put_text(out, "flexure", in->device->flexure[joint->flexure].id);
-    fw_put_open(out, "between", '[');
-    fw_put_text(out, NULL, body_id(m, bend->lower));
-    fw_put_text(out, NULL, body_id(m, bend->upper));
-    fw_text_add(out, "]");
+    fw_json_object(out, NULL);
+    fw_json_text(out, "id", joint->id);
+    fw_json_whole(out, "pin", bend->joint);
+    fw_json_text(out, "flexure", in->device->flexure[joint->flexure].id);
+    fw_json_list(out, "between");
+    fw_json_text(out, NULL, body_id(m, bend->lower));
+    fw_json_text(out, NULL, body_id(m, bend->upper));
+    fw_json_end(out);
     fw_preview_bodies(out, "bodies", bend->lower, bend->upper);
-    fw_put_key(out, "path");
-    fw_text_add(out, "\"");
-    contour(out, &world, &bend->piece->contour);
-    fw_text_add(out, "\"");
+    path(out, "path", &world, &bend->piece->contour);
     fw_preview_point(out, "centre_um", bend->centre.x, bend->centre.y);
-    fw_put_open(out, "points", '[');
+    fw_json_list(out, "points");
     for (int k = 0; k < bend->npoint; k++) { /* x, y and the share of the upper body */
         fw_preview_um(out, NULL, bend->point[k].x_m);
         fw_preview_um(out, NULL, bend->point[k].y_m);
-        fw_put_fixed(out, NULL, bend->point[k].weight, 4);
+        fw_json_fixed(out, NULL, bend->point[k].weight, 4);
     }
-    fw_text_add(out, "]");
+    fw_json_end(out);
     line_of(in, bend, out);
-    fw_text_add(out, "}");
+    fw_json_end(out);
 }
 
-static void flexures(const fw_report_preview *in, const fw_report_bends *bends, fw_text *out) {
-    fw_put_open(out, "flexures", '[');
+static void flexures(const fw_report_preview *in, const fw_report_bends *bends, fw_json *out) {
+    fw_json_list(out, "flexures");
     for (int i = 0; i < bends->count; i++) {
-        fw_put_line(out);
+        fw_json_line(out, 0);
         flexure_json(in, &bends->item[i], out);
     }
-    fw_text_add(out, "]");
+    fw_json_end(out);
 }
 
 /* ---- pins ---- */
@@ -288,49 +294,49 @@ static double limit_in(const fw_report_preview *in, int flow, int joint) {
     return (double)NAN;
 }
 
-static void pins(const fw_report_preview *in, fw_text *out) {
+static void pins(const fw_report_preview *in, fw_json *out) {
     const fw_mechanism *m = in->mechanism;
-    fw_put_open(out, "pins", '[');
+    fw_json_list(out, "pins");
     for (int i = 0; i < m->npin; i++) {
         const fw_pin *p = &m->pin[i];
         fw_vec2 at = fw_pin_place(m, p, 0);
-        fw_put_line(out);
-        fw_put_open(out, NULL, '{');
-        fw_put_text(out, "id", p->id);
-        fw_put_text(out, "a", body_id(m, p->body_a));
-        fw_put_text(out, "b", body_id(m, p->body_b));
+        fw_json_line(out, 0);
+        fw_json_object(out, NULL);
+        fw_json_text(out, "id", p->id);
+        fw_json_text(out, "a", body_id(m, p->body_a));
+        fw_json_text(out, "b", body_id(m, p->body_b));
         fw_preview_bodies(out, "bodies", p->body_a, p->body_b);
         fw_preview_point(out, "at_um", at.x, at.y);
         fw_preview_point(out, "on_a_um", p->ax_m, p->ay_m);
         fw_preview_point(out, "on_b_um", p->bx_m, p->by_m);
-        fw_put_number(out, "free_angle_rad", p->free_angle_rad, 9);
-        fw_put_truth(out, "flexure", p->hinge != FW_NONE);
-        fw_put_open(out, "limit_rad", '[');
+        fw_json_number(out, "free_angle_rad", p->free_angle_rad, 9);
+        fw_json_truth(out, "flexure", p->hinge != FW_NONE);
+        fw_json_list(out, "limit_rad");
         for (int k = 0; k < in->nflow; k++)
-            fw_put_number(out, NULL, limit_in(in, k, i), 7);
-        fw_text_add(out, "]");
+            fw_json_number(out, NULL, limit_in(in, k, i), 7);
+        fw_json_end(out);
         /* in the flow of the motion */
-        fw_put_number(out, "shown_limit_rad", fw_report_pin_limit(m, i), 7);
-        fw_text_add(out, "}");
+        fw_json_number(out, "shown_limit_rad", fw_report_pin_limit(m, i), 7);
+        fw_json_end(out);
     }
-    fw_text_add(out, "]");
+    fw_json_end(out);
 }
 
-static void box_um(fw_text *out, const char *key, const fw_box *box) {
+static void box_um(fw_json *out, const char *key, const fw_box *box) {
     const double side[4] = {box->x0, box->y0, box->x1, box->y1};
     if (!(box->x1 >= box->x0 && box->y1 >= box->y0)) {
-        fw_put_null(out, key);
+        fw_json_null(out, key);
         return;
     }
-    fw_put_open(out, key, '[');
+    fw_json_list(out, key);
     for (int i = 0; i < 4; i++)
         fw_preview_um(out, NULL, side[i]);
-    fw_text_add(out, "]");
+    fw_json_end(out);
 }
 
 /* what a picture has to hold: everything drawn of bodies and ground but the frame; centres and
    pins where nothing is drawn; springs. And a picture of the scene: its cables and electrodes */
-static void boxes(const fw_report_preview *in, fw_text *out) {
+static void boxes(const fw_report_preview *in, fw_json *out) {
     const fw_mechanism *m = in->mechanism;
     fw_box box = fw_report_box_empty();
     for (int i = 0; fw_report_drawn(in->layout) && i < in->layout->npiece; i++) {
@@ -352,12 +358,17 @@ static void boxes(const fw_report_preview *in, fw_text *out) {
     box_um(out, "scene_box_um", &box);
 }
 
-fw_status fw_report_preview_shapes(fw_arena *arena, const fw_report_preview *in, fw_text *out) {
+fw_status fw_report_preview_shapes(fw_arena *arena, const fw_report_preview *in, fw_json *out) {
+    static const char *const empty[] = {"bodies", "flexures", "pins", "ties", "springs", "loads"};
     const fw_mechanism *m = in->mechanism;
     if (!m) {
-        fw_text_add(out, "\"box_um\":null,\"scene_box_um\":null,\"bodies\":[],\"flexures\":[],"
-                         "\"pins\":[],\"ties\":[],\"springs\":[],\"loads\":[]");
-        return fw_text_end(out);
+        fw_json_null(out, "box_um");
+        fw_json_null(out, "scene_box_um");
+        for (size_t i = 0; i < sizeof empty / sizeof empty[0]; i++) {
+            fw_json_list(out, empty[i]);
+            fw_json_end(out);
+        }
+        return FW_OK;
     }
     fw_figure figure = {0};
     fw_report_bends bends;
@@ -371,13 +382,13 @@ fw_status fw_report_preview_shapes(fw_arena *arena, const fw_report_preview *in,
     FW_TRY(fw_figure_make(arena, m, rest, 1, &figure));
     FW_TRY(fw_report_bends_make(arena, in->device, in->layout, &bends));
     boxes(in, out);
-    fw_put_line(out);
+    fw_json_line(out, 0);
     bodies(in, &figure, out);
-    fw_put_line(out);
+    fw_json_line(out, 0);
     flexures(in, &bends, out);
-    fw_put_line(out);
+    fw_json_line(out, 0);
     pins(in, out);
-    fw_put_line(out);
+    fw_json_line(out, 0);
     fw_preview_attached(in, out);
-    return fw_text_end(out);
+    return FW_OK;
 }

@@ -2,6 +2,7 @@
 /* The life of a job: queued, running in its process, finished; and of the process that packs its
    archive. What is asked by HTTP is in route_jobs.c. */
 #include "serve/jobs.h"
+#include "base/json.h"
 #include "serve/child.h"
 #include "serve/events.h"
 #include "serve/jobs_table.h"
@@ -44,16 +45,17 @@ double fw_job_seconds(const fw_job *job) {
 }
 
 static void tell(fw_server *server, fw_job *job) {
-    char seconds[64];
-    fw_text stage = fw_text_new(job->arena);
+    fw_text text = fw_text_new(job->arena);
     fw_mark mark = fw_arena_mark(job->arena);
-    fw_text_json(&stage, job->stage);
+    fw_json json = fw_json_new(&text, FW_JSON_SPACED);
     job->told_ms = fw_serve_now_ms();
-    if (fw_text_end(&stage) == FW_OK)
-        fw_events_send(server, "job",
-                       "{\"id\": %u, \"state\": \"%s\", \"stage\": %s, \"seconds\": %s}", job->id,
-                       fw_job_state_name(job->state), stage.data,
-                       fw_number_text(seconds, sizeof seconds, fw_job_seconds(job), 4));
+    fw_json_object(&json, NULL);
+    fw_json_whole(&json, "id", job->id);
+    fw_json_text(&json, "state", fw_job_state_name(job->state));
+    fw_json_text(&json, "stage", job->stage);
+    fw_json_number(&json, "seconds", fw_job_seconds(job), 4);
+    fw_json_end(&json);
+    if (fw_json_finish(&json, "") == FW_OK) fw_events_send(server, "job", "%s", text.data);
     fw_arena_rewind(job->arena, mark);
 }
 

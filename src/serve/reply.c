@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "serve/reply.h"
+#include "base/json.h"
 #include "serve/events.h"
 #include <stdio.h>
 #include <string.h>
@@ -61,15 +62,14 @@ void fw_reply_error(fw_request *r, unsigned status, const char *code, const char
     va_end(arguments);
     fw_reply_clean(message);
     fw_text text = fw_text_new(r->arena);
-    fw_text_add(&text, "{\"error\": {\"message\": ");
-    fw_text_json(&text, message);
-    fw_text_add(&text, ", \"code\": ");
-    if (code)
-        fw_text_json(&text, code);
-    else
-        fw_text_add(&text, "null");
-    fw_text_add(&text, "}}\n");
-    if (fw_text_end(&text) == FW_OK)
+    fw_json json = fw_json_new(&text, FW_JSON_SPACED);
+    fw_json_object(&json, NULL);
+    fw_json_object(&json, "error");
+    fw_json_text(&json, "message", message);
+    fw_json_text(&json, "code", code);
+    fw_json_end(&json);
+    fw_json_end(&json);
+    if (fw_json_finish(&json, "\n") == FW_OK)
         fw_reply_json(r, status, text.data, text.length);
     else
         fw_reply_json(r, 503, short_of_memory, sizeof short_of_memory - 1);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Jobs as they are asked for by HTTP. */
 #include "serve/jobs_table.h"
+#include "base/json.h"
 #include "serve/watch.h"
 #include <jansson.h>
 #include <stdlib.h>
@@ -50,7 +51,11 @@ static void begin(fw_request *r, const json_t *request, const char *text, size_t
     }
     if (status == FW_OK) {
         fw_text answer = fw_text_new(r->arena);
-        fw_text_printf(&answer, "{\"id\": %u}\n", job->id);
+        fw_json json = fw_json_new(&answer, FW_JSON_SPACED);
+        fw_json_object(&json, NULL);
+        fw_json_whole(&json, "id", job->id);
+        fw_json_end(&json);
+        if (fw_json_finish(&json, "\n") != FW_OK) answer.failed = 1;
         fw_reply_text(r, 202, &answer);
         return;
     }
@@ -86,44 +91,40 @@ static fw_job *job_of(fw_request *r, const char **rest) {
     return job;
 }
 
-static void describe_files(fw_text *text, const fw_job *job) {
-    fw_text_add(text, ", \"files\": [");
+static void describe_files(fw_json *json, const fw_job *job) {
+    fw_json_list(json, "files");
     for (size_t i = 0; i < job->files; i++) {
-        fw_text_add(text, i ? ", {\"path\": " : "{\"path\": ");
-        fw_text_json(text, job->file[i].path);
-        fw_text_printf(text, ", \"bytes\": %llu, \"type\": \"%s\"}",
-                       (unsigned long long)job->file[i].bytes, job->file[i].type);
+        fw_json_object(json, NULL);
+        fw_json_text(json, "path", job->file[i].path);
+        fw_json_whole(json, "bytes", (long long)job->file[i].bytes);
+        fw_json_text(json, "type", job->file[i].type);
+        fw_json_end(json);
     }
-    fw_text_add(text, "]");
+    fw_json_end(json);
 }
 
 static void describe(fw_request *r, const fw_job *job) {
     fw_text text = fw_text_new(r->arena);
-    fw_text_printf(&text,
-                   "{\"id\": %u, \"kind\": \"%s\", \"state\": \"%s\", \"exit_status\": ", job->id,
-                   job->kind, fw_job_state_name(job->state));
+    fw_json json = fw_json_new(&text, FW_JSON_SPACED);
+    fw_json_object(&json, NULL);
+    fw_json_whole(&json, "id", job->id);
+    fw_json_text(&json, "kind", job->kind);
+    fw_json_text(&json, "state", fw_job_state_name(job->state));
     if (job->exit_status >= 0)
-        fw_text_printf(&text, "%d", job->exit_status);
+        fw_json_whole(&json, "exit_status", job->exit_status);
     else
-        fw_text_add(&text, "null");
-    fw_text_add(&text, ", \"seconds\": ");
-    fw_text_fixed(&text, fw_job_seconds(job), 3);
-    fw_text_add(&text, ", \"stage\": ");
-    fw_text_json(&text, job->stage);
-    fw_text_add(&text, ", \"messages\": [");
-    for (size_t i = 0; i < job->messages; i++) {
-        if (i) fw_text_add(&text, ", ");
-        fw_text_json(&text, job->message[i]);
-    }
-    if (job->why) {
-        if (job->messages) fw_text_add(&text, ", ");
-        fw_text_json(&text, job->why);
-    }
-    fw_text_add(&text, "]");
-    describe_files(&text, job);
-    fw_text_add(&text, ", \"result\": ");
-    fw_text_add(&text, job->result ? job->result : "null");
-    fw_text_add(&text, "}\n");
+        fw_json_null(&json, "exit_status");
+    fw_json_fixed(&json, "seconds", fw_job_seconds(job), 3);
+    fw_json_text(&json, "stage", job->stage);
+    fw_json_list(&json, "messages");
+    for (size_t i = 0; i < job->messages; i++)
+        fw_json_text(&json, NULL, job->message[i]);
+    if (job->why) fw_json_text(&json, NULL, job->why);
+    fw_json_end(&json);
+    describe_files(&json, job);
+    fw_text_add(fw_json_value(&json, "result"), job->result ? job->result : "null");
+    fw_json_end(&json);
+    if (fw_json_finish(&json, "\n") != FW_OK) text.failed = 1;
     fw_reply_text(r, 200, &text);
 }
 
@@ -187,8 +188,12 @@ void fw_route_job_delete(fw_request *r) {
     fw_text text = fw_text_new(r->arena);
     bool ended = job->state != FW_JOB_QUEUED && job->state != FW_JOB_RUNNING;
     if (!ended) fw_job_cancel(r->server, job);
-    fw_text_printf(&text, "{\"id\": %u, \"state\": \"%s\"}\n", job->id,
-                   fw_job_state_name(job->state));
+    fw_json json = fw_json_new(&text, FW_JSON_SPACED);
+    fw_json_object(&json, NULL);
+    fw_json_whole(&json, "id", job->id);
+    fw_json_text(&json, "state", fw_job_state_name(job->state));
+    fw_json_end(&json);
+    if (fw_json_finish(&json, "\n") != FW_OK) text.failed = 1;
     fw_reply_text(r, 200, &text);
     if (ended) fw_job_forget(r->server, job);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The files of the page, the exchange of the one-time token, and what a session is told. */
 #include "serve/page.h"
+#include "base/json.h"
 #include "serve/server.h"
 #include "serve/watch.h"
 #include <string.h>
@@ -46,21 +47,22 @@ void fw_route_page(fw_request *r) {
 
 void fw_route_session(fw_request *r) {
     fw_text text = fw_text_new(r->arena);
-    fw_text_printf(&text,
-                   "{\"schema\": \"flexwright.session/1\", \"version\": \"%s\", \"token\": \"%s\", "
-                   "\"file\": ",
-                   FW_VERSION, r->server->guard.header);
-    const char *name = fw_watch_name(r->server->watch);
-    char *clean = fw_arena_strdup(r->arena, name);
-    if (clean) {
-        fw_reply_clean(clean);
-        fw_text_json(&text, clean);
-    } else
-        fw_text_add(&text, "null");
-    fw_text_printf(&text,
-                   ", \"limits\": {\"body_bytes\": %d, \"connections\": %d, \"streams\": %d, "
-                   "\"queued_jobs\": %d, \"preview_samples\": 2001}}\n",
-                   (int)FW_SERVE_MOST_BODY, (int)FW_SERVE_CONNECTIONS, (int)FW_SERVE_STREAMS,
-                   (int)FW_SERVE_QUEUED);
+    fw_json json = fw_json_new(&text, FW_JSON_SPACED);
+    char *clean = fw_arena_strdup(r->arena, fw_watch_name(r->server->watch));
+    if (clean) fw_reply_clean(clean);
+    fw_json_object(&json, NULL);
+    fw_json_text(&json, "schema", "flexwright.session/1");
+    fw_json_text(&json, "version", FW_VERSION);
+    fw_json_text(&json, "token", r->server->guard.header);
+    fw_json_text(&json, "file", clean);
+    fw_json_object(&json, "limits");
+    fw_json_whole(&json, "body_bytes", FW_SERVE_MOST_BODY);
+    fw_json_whole(&json, "connections", FW_SERVE_CONNECTIONS);
+    fw_json_whole(&json, "streams", FW_SERVE_STREAMS);
+    fw_json_whole(&json, "queued_jobs", FW_SERVE_QUEUED);
+    fw_json_whole(&json, "preview_samples", 2001);
+    fw_json_end(&json);
+    fw_json_end(&json);
+    if (fw_json_finish(&json, "\n") != FW_OK) text.failed = 1;
     fw_reply_text(r, 200, &text);
 }

@@ -2,6 +2,7 @@
 /* inotify on the directory, because editors put a new file in place of the old one; and a look
    every second, because network file systems tell nobody. */
 #include "serve/watch.h"
+#include "base/json.h"
 #include "base/hash.h"
 #include "base/output.h"
 #include "serve/events.h"
@@ -140,17 +141,23 @@ void fw_watch_run(fw_server *server) {
 
 static void reply_file(fw_request *r, unsigned status, const fw_watch *w, const char *text,
                        size_t n, const char *version) {
-    json_t *whole = json_pack("{s:s, s:s, s:s%, s:s, s:b}", "schema", "flexwright.file/1", "name",
-                              w->name, "text", text, n, "version", version, "writable",
-                              access(w->path, W_OK) == 0 && access(w->directory, W_OK) == 0);
-    char *json = whole ? json_dumps(whole, 0) : NULL;
-    const char *copy = json ? fw_arena_strdup(r->arena, json) : NULL;
-    if (copy)
-        fw_reply_json(r, status, copy, strlen(copy));
-    else
+    fw_text body = fw_text_new(r->arena);
+    fw_json json = fw_json_new(&body, FW_JSON_SPACED);
+    if (!fw_json_is_text(text, n)) {
         fw_reply_error(r, 422, NULL, "%s is not UTF-8 text", w->name);
-    free(json);
-    json_decref(whole);
+        return;
+    }
+    fw_json_object(&json, NULL);
+    fw_json_text(&json, "schema", "flexwright.file/1");
+    fw_json_text(&json, "name", w->name);
+    fw_json_text(&json, "text", text);
+    fw_json_text(&json, "version", version);
+    fw_json_truth(&json, "writable", access(w->path, W_OK) == 0 && access(w->directory, W_OK) == 0);
+    fw_json_end(&json);
+    if (fw_json_finish(&json, "") == FW_OK)
+        fw_reply_json(r, status, body.data, body.length);
+    else
+        fw_reply_error(r, 503, NULL, "out of memory");
 }
 
 static const char *first_message(const fw_diags *diags) {

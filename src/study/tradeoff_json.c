@@ -1,173 +1,187 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* tradeoff.json and tradeoff.csv: the same numbers. What is measured on this machine (times,
    counted instructions) stands in keys of its own. */
-#include "report/json_common.h"
+#include "base/json.h"
 #include "study/problem.h"
 #include <math.h>
 
 static const char *const state_text[] = {"done", "skipped", "failed"};
 
-static json_t *time_json(const fw_tradeoff_time *x, bool *failed) {
-    if (x->pairs == 0) return json_null();
-    json_t *o = json_object();
-    fw_json_put(o, "told", json_boolean(x->told), failed);
-    fw_json_put(o, "ratio", fw_json_real(x->told ? x->ratio : (double)NAN), failed);
-    fw_json_put(o, "low", fw_json_real(x->told ? x->low : (double)NAN), failed);
-    fw_json_put(o, "high", fw_json_real(x->told ? x->high : (double)NAN), failed);
-    fw_json_put(o, "pairs", json_integer(x->pairs), failed);
-    return o;
+static void time_json(fw_json *json, const fw_tradeoff_time *x) {
+    if (x->pairs == 0) {
+        fw_json_null(json, "time");
+        return;
+    }
+    fw_json_object(json, "time");
+    fw_json_truth(json, "told", x->told);
+    fw_json_real(json, "ratio", x->told ? x->ratio : (double)NAN);
+    fw_json_real(json, "low", x->told ? x->low : (double)NAN);
+    fw_json_real(json, "high", x->told ? x->high : (double)NAN);
+    fw_json_whole(json, "pairs", x->pairs);
+    fw_json_end(json);
 }
 
-static json_t *point_json(const fw_tradeoff_point *p, bool *failed) {
-    json_t *o = json_object();
-    fw_json_put(o, "method", fw_json_text(p->method), failed);
-    fw_json_put(o, "integrator", fw_json_text(p->integrator), failed);
-    fw_json_put(o, "rtol", fw_json_real(p->rtol), failed);
-    fw_json_put(o, "state", json_string(state_text[p->state]), failed);
+/* members of the object about one point */
+static void point_json(fw_json *json, const fw_tradeoff_point *p) {
+    fw_json_text(json, "method", p->method);
+    fw_json_text(json, "integrator", p->integrator);
+    fw_json_real(json, "rtol", p->rtol);
+    fw_json_text(json, "state", state_text[p->state]);
     if (p->state != FW_TRADEOFF_DONE) {
-        fw_json_put(o, "why", fw_json_text(p->why), failed);
-        return o;
+        fw_json_text(json, "why", p->why);
+        return;
     }
-    fw_json_put(o, "error", fw_json_real(p->error), failed);
-    fw_json_put(o, "at_most", json_boolean(p->floor), failed);
-    fw_json_put(o, "estimated", fw_json_real(p->estimated), failed);
-    fw_json_put(o, "utilisation", fw_json_real(p->utilisation), failed);
-    fw_json_put(o, "utilisation_error", fw_json_real(p->utilisation_error), failed);
-    fw_json_put(o, "steps", json_integer(p->steps), failed);
-    fw_json_put(o, "rejected", json_integer(p->rejected), failed);
-    fw_json_put(o, "rhs", json_integer(p->rhs), failed);
-    fw_json_put(o, "jacobians", json_integer(p->jacobians), failed);
-    fw_json_put(o, "factorisations", json_integer(p->factorisations), failed);
-    fw_json_put(o, "instructions", fw_json_real(p->instructions), failed);
-    fw_json_put(o, "instructions_by", json_string(fw_count_by_text(p->by)), failed);
-    fw_json_put(o, "front", json_boolean(p->front), failed);
-    fw_json_put(o, "time", time_json(&p->time, failed), failed);
-    return o;
+    fw_json_real(json, "error", p->error);
+    fw_json_truth(json, "at_most", p->floor);
+    fw_json_real(json, "estimated", p->estimated);
+    fw_json_real(json, "utilisation", p->utilisation);
+    fw_json_real(json, "utilisation_error", p->utilisation_error);
+    fw_json_whole(json, "steps", p->steps);
+    fw_json_whole(json, "rejected", p->rejected);
+    fw_json_whole(json, "rhs", p->rhs);
+    fw_json_whole(json, "jacobians", p->jacobians);
+    fw_json_whole(json, "factorisations", p->factorisations);
+    fw_json_real(json, "instructions", p->instructions);
+    fw_json_text(json, "instructions_by", fw_count_by_text(p->by));
+    fw_json_truth(json, "front", p->front);
+    time_json(json, &p->time);
 }
 
-static json_t *reference_json(const fw_tradeoff *t, bool *failed) {
+static void reference_json(fw_json *json, const fw_tradeoff *t) {
     const fw_tradeoff_reference *r = &t->reference;
-    json_t *o = json_object(), *runs = json_array();
+    fw_json_object(json, "reference");
+    fw_json_list(json, "runs");
     for (int i = 0; i < 2 && r->run[i]; i++) {
-        json_t *run = json_object(), *peaks = json_array();
-        fw_json_put(run, "method", fw_json_text(r->run[i]->method), failed);
-        fw_json_put(run, "integrator", fw_json_text(r->run[i]->integrator), failed);
-        fw_json_put(run, "rtol", fw_json_real(r->run[i]->rtol), failed);
-        fw_json_put(run, "estimated", fw_json_real(r->run[i]->estimated), failed);
-        fw_json_put(run, "utilisation", fw_json_real(r->run[i]->utilisation), failed);
+        fw_json_object(json, NULL);
+        fw_json_text(json, "method", r->run[i]->method);
+        fw_json_text(json, "integrator", r->run[i]->integrator);
+        fw_json_real(json, "rtol", r->run[i]->rtol);
+        fw_json_real(json, "estimated", r->run[i]->estimated);
+        fw_json_real(json, "utilisation", r->run[i]->utilisation);
+        fw_json_list(json, "peaks_rad");
         for (int k = 0; k < t->mechanism->npin; k++)
-            fw_json_push(peaks, fw_json_real(r->run[i]->peak_rad[k]), failed);
-        fw_json_put(run, "peaks_rad", peaks, failed);
-        fw_json_push(runs, run, failed);
+            fw_json_real(json, NULL, r->run[i]->peak_rad[k]);
+        fw_json_end(json);
+        fw_json_end(json);
     }
-    fw_json_put(o, "runs", runs, failed);
-    fw_json_put(o, "error", fw_json_real(r->error), failed);
-    fw_json_put(o, "utilisation_error", fw_json_real(r->utilisation_error), failed);
-    fw_json_put(o, "independent", json_boolean(r->independent), failed);
-    return o;
+    fw_json_end(json);
+    fw_json_real(json, "error", r->error);
+    fw_json_real(json, "utilisation_error", r->utilisation_error);
+    fw_json_truth(json, "independent", r->independent);
+    fw_json_end(json);
 }
 
-static json_t *curves_json(const fw_tradeoff *t, bool *failed) {
-    json_t *all = json_array();
+static void curves_json(fw_json *json, const fw_tradeoff *t) {
+    fw_json_list(json, "curves");
     for (int i = 0; i < t->ncurve; i++) {
-        json_t *o = json_object();
-        fw_json_put(o, "method", fw_json_text(t->curve[i].method), failed);
-        fw_json_put(o, "integrator", fw_json_text(t->curve[i].integrator), failed);
-        fw_json_put(o, "order_seen", fw_json_real(t->curve[i].order), failed);
-        fw_json_push(all, o, failed);
+        fw_json_object(json, NULL);
+        fw_json_text(json, "method", t->curve[i].method);
+        fw_json_text(json, "integrator", t->curve[i].integrator);
+        fw_json_real(json, "order_seen", t->curve[i].order);
+        fw_json_end(json);
     }
-    return all;
+    fw_json_end(json);
 }
 
-static json_t *models_json(const fw_tradeoff *t, bool *failed) {
-    json_t *all = json_array();
+static void models_json(fw_json *json, const fw_tradeoff *t) {
+    fw_json_list(json, "models");
     for (int i = 0; i < t->nmodel; i++) {
         const fw_tradeoff_model *m = &t->model[i];
-        json_t *o = json_object();
-        fw_json_put(o, "kind", json_string(m->kind), failed);
-        fw_json_put(o, "name", fw_json_text(m->name), failed);
-        fw_json_put(o, "chosen", json_boolean(m->chosen), failed);
-        fw_json_put(o, "state", json_string(state_text[m->state]), failed);
-        fw_json_put(o, "why", fw_json_text(m->state == FW_TRADEOFF_DONE ? NULL : m->why), failed);
-        fw_json_put(o, "change", fw_json_real(m->change), failed);
-        fw_json_put(o, "bound", fw_json_real(m->bound), failed);
-        fw_json_put(o, "utilisation", fw_json_real(m->utilisation), failed);
-        fw_json_put(o, "instructions", fw_json_real(m->instructions), failed);
-        fw_json_push(all, o, failed);
+        fw_json_object(json, NULL);
+        fw_json_text(json, "kind", m->kind);
+        fw_json_text(json, "name", m->name);
+        fw_json_truth(json, "chosen", m->chosen);
+        fw_json_text(json, "state", state_text[m->state]);
+        fw_json_text(json, "why", m->state == FW_TRADEOFF_DONE ? NULL : m->why);
+        fw_json_real(json, "change", m->change);
+        fw_json_real(json, "bound", m->bound);
+        fw_json_real(json, "utilisation", m->utilisation);
+        fw_json_real(json, "instructions", m->instructions);
+        fw_json_end(json);
     }
-    return all;
+    fw_json_end(json);
 }
 
-static json_t *masks_json(const fw_tradeoff *t, bool *failed) {
-    json_t *all = json_array();
+static void masks_json(fw_json *json, const fw_tradeoff *t) {
+    fw_json_list(json, "masks");
     for (int i = 0; i < t->nmask; i++) {
         const fw_tradeoff_mask *m = &t->mask[i];
-        json_t *o = json_object();
-        fw_json_put(o, "tolerance_m", fw_json_real(m->tolerance_m), failed);
-        fw_json_put(o, "edge_m", fw_json_real(m->edge_m), failed);
-        fw_json_put(o, "vertices", json_integer(m->vertices), failed);
-        fw_json_put(o, "bytes", json_integer(m->bytes), failed);
-        fw_json_put(o, "deflection_bound", fw_json_real(m->deflection), failed);
-        fw_json_put(o, "usual", json_boolean(m->usual), failed);
-        fw_json_push(all, o, failed);
+        fw_json_object(json, NULL);
+        fw_json_real(json, "tolerance_m", m->tolerance_m);
+        fw_json_real(json, "edge_m", m->edge_m);
+        fw_json_whole(json, "vertices", m->vertices);
+        fw_json_whole(json, "bytes", m->bytes);
+        fw_json_real(json, "deflection_bound", m->deflection);
+        fw_json_truth(json, "usual", m->usual);
+        fw_json_end(json);
     }
-    return all;
+    fw_json_end(json);
 }
 
-static json_t *chosen_json(const fw_tradeoff *t, bool *failed) {
-    json_t *o = point_json(&t->point[0], failed);
-    fw_json_put(o, "reason", fw_json_text(t->chosen_why), failed);
-    fw_json_put(o, "quasi_static", json_boolean(t->row), failed);
-    fw_json_put(o, "equilibria_only", json_boolean(t->rows_only), failed);
-    fw_json_put(o, "over_cheapest", fw_json_real(t->over_cheapest), failed);
-    json_t *cheapest = json_null();
-    if (t->cheapest >= 0) cheapest = point_json(&t->point[t->cheapest], failed);
-    fw_json_put(o, "cheapest", cheapest, failed);
-    fw_json_put(o, "cpu_s", fw_json_real(t->chosen_cpu_s), failed);
-    fw_json_put(o, "cpu_low_s", fw_json_real(t->chosen_cpu_low_s), failed);
-    fw_json_put(o, "cpu_high_s", fw_json_real(t->chosen_cpu_high_s), failed);
-    return o;
+static void chosen_json(fw_json *json, const fw_tradeoff *t) {
+    fw_json_object(json, "chosen");
+    point_json(json, &t->point[0]);
+    fw_json_text(json, "reason", t->chosen_why);
+    fw_json_truth(json, "quasi_static", t->row);
+    fw_json_truth(json, "equilibria_only", t->rows_only);
+    fw_json_real(json, "over_cheapest", t->over_cheapest);
+    if (t->cheapest >= 0) {
+        fw_json_object(json, "cheapest");
+        point_json(json, &t->point[t->cheapest]);
+        fw_json_end(json);
+    } else
+        fw_json_null(json, "cheapest");
+    fw_json_real(json, "cpu_s", t->chosen_cpu_s);
+    fw_json_real(json, "cpu_low_s", t->chosen_cpu_low_s);
+    fw_json_real(json, "cpu_high_s", t->chosen_cpu_high_s);
+    fw_json_end(json);
 }
 
-static json_t *summary_json(const fw_tradeoff *t, bool *failed) {
-    json_t *o = json_object(), *honesty = json_object();
-    fw_json_put(o, "digit_here", fw_json_real(t->digit_here), failed);
-    fw_json_put(o, "digit_overall", fw_json_real(t->digit_overall), failed);
-    fw_json_put(o, "floor", fw_json_real(t->floor), failed);
-    fw_json_put(o, "floor_what", fw_json_text(t->floor_what), failed);
-    fw_json_put(honesty, "judged", json_integer(t->judged), failed);
-    fw_json_put(honesty, "not_below", json_integer(t->honest), failed);
-    fw_json_put(honesty, "least", fw_json_real(t->honesty[0]), failed);
-    fw_json_put(honesty, "median", fw_json_real(t->honesty[1]), failed);
-    fw_json_put(honesty, "largest", fw_json_real(t->honesty[2]), failed);
-    fw_json_put(o, "honesty", honesty, failed);
-    return o;
+static void summary_json(fw_json *json, const fw_tradeoff *t) {
+    fw_json_object(json, "summary");
+    fw_json_real(json, "digit_here", t->digit_here);
+    fw_json_real(json, "digit_overall", t->digit_overall);
+    fw_json_real(json, "floor", t->floor);
+    fw_json_text(json, "floor_what", t->floor_what);
+    fw_json_object(json, "honesty");
+    fw_json_whole(json, "judged", t->judged);
+    fw_json_whole(json, "not_below", t->honest);
+    fw_json_real(json, "least", t->honesty[0]);
+    fw_json_real(json, "median", t->honesty[1]);
+    fw_json_real(json, "largest", t->honesty[2]);
+    fw_json_end(json);
+    fw_json_end(json);
 }
 
 fw_status fw_tradeoff_json(const fw_tradeoff *t, fw_text *out) {
-    bool failed = false;
-    json_t *root = json_object(), *points = json_array();
-    fw_json_put(root, "schema", json_string("flexwright.tradeoff/1"), &failed);
-    fw_json_put(root, "device", fw_json_text(t->device), &failed);
-    fw_json_put(root, "flow", fw_json_text(t->flow), &failed);
-    fw_json_put(root, "scene", fw_json_text(t->scene->name), &failed);
-    fw_json_put(root, "accuracy_wanted", fw_json_real(t->accuracy), &failed);
-    fw_json_put(root, "hinges_as", fw_json_text(t->level), &failed);
-    fw_json_put(root, "hinges_why", fw_json_text(t->level_why), &failed);
-    fw_json_put(root, "budget_s", fw_json_real(t->budget_s), &failed);
-    fw_json_put(root, "reference", reference_json(t, &failed), &failed);
-    fw_json_put(root, "chosen", chosen_json(t, &failed), &failed);
-    fw_json_put(root, "summary", summary_json(t, &failed), &failed);
-    for (int i = 1; i < t->npoint; i++)
-        fw_json_push(points, point_json(&t->point[i], &failed), &failed);
-    fw_json_put(root, "points", points, &failed);
-    fw_json_put(root, "curves", curves_json(t, &failed), &failed);
-    fw_json_put(root, "models", models_json(t, &failed), &failed);
-    fw_json_put(root, "masks", masks_json(t, &failed), &failed);
-    fw_json_put(root, "masks_why", fw_json_text(t->mask_why), &failed);
-    fw_json_put(root, "instructions_why", fw_json_text(t->instructions_why), &failed);
-    fw_json_put(root, "times_why", fw_json_text(t->times_why), &failed);
-    return fw_json_write(root, failed, out);
+    fw_json document = fw_json_new(out, FW_JSON_INDENTED), *json = &document;
+    fw_json_object(json, NULL);
+    fw_json_text(json, "schema", "flexwright.tradeoff/1");
+    fw_json_text(json, "device", t->device);
+    fw_json_text(json, "flow", t->flow);
+    fw_json_text(json, "scene", t->scene->name);
+    fw_json_real(json, "accuracy_wanted", t->accuracy);
+    fw_json_text(json, "hinges_as", t->level);
+    fw_json_text(json, "hinges_why", t->level_why);
+    fw_json_real(json, "budget_s", t->budget_s);
+    reference_json(json, t);
+    chosen_json(json, t);
+    summary_json(json, t);
+    fw_json_list(json, "points");
+    for (int i = 1; i < t->npoint; i++) {
+        fw_json_object(json, NULL);
+        point_json(json, &t->point[i]);
+        fw_json_end(json);
+    }
+    fw_json_end(json);
+    curves_json(json, t);
+    models_json(json, t);
+    masks_json(json, t);
+    fw_json_text(json, "masks_why", t->mask_why);
+    fw_json_text(json, "instructions_why", t->instructions_why);
+    fw_json_text(json, "times_why", t->times_why);
+    fw_json_end(json);
+    return fw_json_finish(json, "\n");
 }
 
 /* ---- CSV ---- */
