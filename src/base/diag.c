@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/diag.h"
+#include "base/sort.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -107,9 +108,9 @@ static void show_line(fw_text *out, const char *source, size_t n, fw_place place
 
 static int in_file_order(const void *left, const void *right) {
     const fw_diag *a = *(const fw_diag *const *)left, *b = *(const fw_diag *const *)right;
-    if (a->place.line != b->place.line) return a->place.line < b->place.line ? -1 : 1;
-    if (a->place.column != b->place.column) return a->place.column < b->place.column ? -1 : 1;
-    return a < b ? -1 : a > b;
+    int order = fw_order_wholes(a->place.line, b->place.line);
+    if (!order) order = fw_order_wholes(a->place.column, b->place.column);
+    return order ? order : (a > b) - (a < b);
 }
 
 void fw_diags_print(const fw_diags *diags, fw_text *out, const char *file, const char *source,
@@ -127,7 +128,8 @@ void fw_diags_print(const fw_diags *diags, fw_text *out, const char *file, const
         fw_text_printf(out, "%s%s%s%s: %s [FW-D%03d]\n", d->place.file ? " " : "",
                        colour ? paint[d->severity] : "", word[d->severity], colour ? "\033[0m" : "",
                        d->message, d->number);
-        if (source && d->place.line > 0 && d->place.file && strcmp(d->place.file, file) == 0) show_line(out, source, n, d->place);
+        if (source && d->place.line > 0 && d->place.file && strcmp(d->place.file, file) == 0)
+            show_line(out, source, n, d->place);
     }
     if (diags->dropped) fw_text_printf(out, "%zu more not shown\n", diags->dropped);
 }

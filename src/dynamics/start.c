@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What must be known before the first step. */
 #include "dynamics/run.h"
+#include "base/sort.h"
 #include "quantity/law_kind.h"
 #include <float.h>
 #include <math.h>
@@ -12,11 +13,6 @@ static const char *scene_name(const fw_run *r) {
 }
 
 /* ---- smooth pieces between the breaks of all laws ---- */
-
-static int by_size(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 static int law_count(const fw_run *r, const fw_terms *terms) {
     int count = terms->ntimed + r->mechanism->ndriver + (terms->stretch.law != NULL);
@@ -50,7 +46,7 @@ static fw_status look_at_laws(fw_run *r, const fw_terms *terms, double *at, int 
         const fw_law *law = law_of(r, terms, i, &coordinate);
         fw_law_strides *own = &r->stride[r->nstride];
         int breaks = fw_law_breaks(law, end, at + have, count - have);
-        qsort(at + have, (size_t)breaks, sizeof *at, by_size);
+        fw_sort_doubles(at + have, (size_t)breaks);
         FW_TRY(fw_law_look(r->arena, law, coordinate, end, at + have, breaks, own));
         have += breaks;
         bool limits = false;
@@ -78,7 +74,7 @@ static fw_status pieces(fw_run *r, const fw_terms *terms) {
     double *at;
     FW_NEED(at = fw_arena_array(r->arena, double, (size_t)have + 1));
     FW_TRY(look_at_laws(r, terms, at, have));
-    if (have > 1) qsort(at, (size_t)have, sizeof *at, by_size);
+    fw_sort_doubles(at, (size_t)have);
     int kept = 0;
     for (int i = 0; i < have; i++)
         if (at[i] > 0 && at[i] < end && (kept == 0 || at[i] > at[kept - 1])) at[kept++] = at[i];

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Inertia against a motion that is a row of equilibria. Theory: docs/theory/effects/inertia.md. */
 #include "effects/effect.h"
+#include "base/sort.h"
 #include "effects/envelope.h"
 #include "effects/modal.h"
 #include "quantity/law_kind.h"
@@ -68,11 +69,6 @@ static double smooth_variation(const fw_law *law, const fw_law_strides *strides,
     return looked_variation(law, strides, a, b, end_s);
 }
 
-static int by_size(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Jumps and the variation of the slope of a law over (0, end_s). Exact for steps, ramps, tables,
    sines and half sines; any other law by midpoint sums with a hundredth on top. */
 static fw_status look_at_law(fw_arena *arena, const fw_law *law, double end_s, unrest *out) {
@@ -83,7 +79,7 @@ static fw_status look_at_law(fw_arena *arena, const fw_law *law, double end_s, u
     double *at, value[3], next[3];
     FW_NEED(at = fw_arena_array(arena, double, (size_t)count + 1));
     count = fw_law_breaks(law, end_s, at, count);
-    if (count > 1) qsort(at, (size_t)count, sizeof *at, by_size);
+    fw_sort_doubles(at, (size_t)count);
     const fw_quantity_law_wave wave = fw_quantity_law_wave_of(law);
     if (!(wave.fastest_Hz > 0)) FW_TRY(fw_law_look(arena, law, false, end_s, at, count, &strides));
     at[count] = end_s;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What pushes the modes over a scene, and how much of it there is. */
 #include "effects/modal.h"
+#include "base/sort.h"
 #include "quantity/law_kind.h"
 #include <float.h>
 #include <math.h>
@@ -29,11 +30,6 @@ void fw_push_at(const fw_modal *o, const fw_pushes *p, const fw_push *push, doub
         force[j] += value[0] * push->mode[j];
 }
 
-static int by_size(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return x < y ? -1 : x > y;
-}
-
 static bool gather(const fw_law *law, double end_s, double *t_s, int *have) {
     int more = fw_law_breaks(law, end_s, t_s + *have, BREAKS_MOST - *have);
     if (more > BREAKS_MOST - *have) return false;
@@ -53,7 +49,7 @@ static int pieces(const fw_push *push, int count, double end_s, double *t_s) {
     int have = 0, kept = 0;
     for (int i = 0; i < count; i++)
         if (!breaks_of(&push[i], end_s, t_s, &have)) return -1;
-    if (have > 1) qsort(t_s, (size_t)have, sizeof *t_s, by_size);
+    fw_sort_doubles(t_s, (size_t)have);
     for (int i = 0; i < have; i++)
         if (t_s[i] > 0 && t_s[i] < end_s && (kept == 0 || t_s[i] > t_s[kept - 1]))
             t_s[kept++] = t_s[i];

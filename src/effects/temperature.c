@@ -5,6 +5,7 @@
    a hinge needs another shape, and hinges keep their free angles: the difference bends them.
    Theory: docs/theory/effects/temperature.md. */
 #include "effects/effect.h"
+#include "base/sort.h"
 #include "effects/envelope.h"
 #include <math.h>
 #include <stdlib.h>
@@ -60,11 +61,6 @@ static fw_status unknown(const fw_temperature *t, fw_diags *diags, const char *w
                          what, attribute);
 }
 
-static int by_size(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* a time where the law jumps within the scene; NaN: it does not */
 static fw_status jump(fw_arena *arena, const fw_law *law, double end_s, double *at_s) {
     *at_s = (double)NAN;
@@ -73,7 +69,7 @@ static fw_status jump(fw_arena *arena, const fw_law *law, double end_s, double *
     fw_mark mark = fw_arena_mark(arena);
     FW_NEED(at = fw_arena_array(arena, double, (size_t)n + 2));
     fw_law_breaks(law, end_s, at + 1, n);
-    qsort(at + 1, (size_t)n, sizeof *at, by_size);
+    fw_sort_doubles(at + 1, (size_t)n);
     at[n + 1] = end_s;
     for (int i = 1; i <= n && isnan(*at_s); i++) {
         fw_law_value(law, at[i], 0.5 * (at[i - 1] + at[i]), before);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "geometry/slice.h"
+#include "base/sort.h"
 #include "geometry/segment.h"
 #include <stdlib.h>
 
@@ -75,7 +76,7 @@ static void slice_arc(fw_cut_line line, const fw_segment *arc, crossings *list) 
 
 static int by_place(const void *left, const void *right) {
     const crossing *p = left, *q = right;
-    return (p->s_m > q->s_m) - (p->s_m < q->s_m);
+    return fw_order_doubles(p->s_m, q->s_m);
 }
 
 /* The line's crossings with every segment, sorted; the pieces between the first and the second, the
@@ -118,8 +119,8 @@ typedef struct end {
 
 static int by_end(const void *left, const void *right) {
     const end *p = left, *q = right;
-    if (p->s_m != q->s_m) return p->s_m < q->s_m ? -1 : 1;
-    return p->of - q->of;
+    int order = fw_order_doubles(p->s_m, q->s_m);
+    return order ? order : fw_order_wholes(p->of, q->of);
 }
 
 static int ends_of(fw_slices p, int of, end *list) {

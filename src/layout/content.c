@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The test die: frame, bars with what stands on them, fill, title, marks and lane. */
 #include "layout/content.h"
+#include "base/sort.h"
 #include "layout/draw.h"
 #include "layout/text.h"
 #include <math.h>
@@ -106,7 +107,7 @@ fw_status fw_content_fill(fw_bench *b) {
 
 static int from_right(const void *left, const void *right) {
     const fw_segment *p = left, *q = right;
-    return p->a.x < q->a.x ? 1 : p->a.x > q->a.x ? -1 : 0;
+    return fw_order_doubles(q->a.x, p->a.x);
 }
 
 /* feet at height y, from the right */

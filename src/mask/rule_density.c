@@ -12,14 +12,10 @@
    with the worst window. Error: relative 1e-14 of the window. Cost O(edges x windows their piece
    reaches). Source: Green's theorem. Test: test_rule_seeded.c. */
 #include "mask/rule.h"
+#include "base/sort.h"
 #include <stdlib.h>
 
 enum { MOST_WINDOWS = 1000000 };
-
-static int by_size(const void *left, const void *right) {
-    double p = *(const double *)left, q = *(const double *)right;
-    return (p > q) - (p < q);
-}
 
 /* parameters where an edge crosses x = c or y = c */
 static int crossings(const fw_segment *s, bool x, double c, double *t) {
@@ -58,7 +54,7 @@ static double edge_area(const fw_segment *s, fw_box w) {
     n += crossings(s, true, w.x1, t + n);
     n += crossings(s, false, w.y0, t + n);
     n += crossings(s, false, w.y1, t + n);
-    qsort(t, (size_t)n, sizeof *t, by_size);
+    fw_sort_doubles(t, (size_t)n);
     double sum = 0;
     for (int i = 0; i + 1 < n; i++) {
         fw_vec2 m = fw_segment_point(s, 0.5 * (t[i] + t[i + 1]));

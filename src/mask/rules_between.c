@@ -4,6 +4,7 @@
    ulp of the coordinates). Which pairs: shapes by a sweep along x over the boxes of both layers,
    then edges by theirs. Cost O(n log n + pairs of neighbours). Test: test_rule_seeded.c. */
 #include "mask/rule.h"
+#include "base/sort.h"
 #include <stdlib.h>
 
 typedef struct entry {
@@ -14,8 +15,9 @@ typedef struct entry {
 
 static int by_left(const void *left, const void *right) {
     const entry *p = left, *q = right;
-    if (p->range->box.x0 != q->range->box.x0) return p->range->box.x0 < q->range->box.x0 ? -1 : 1;
-    return p->side != q->side ? p->side - q->side : p->index - q->index;
+    int order = fw_order_doubles(p->range->box.x0, q->range->box.x0);
+    if (!order) order = fw_order_wholes(p->side, q->side);
+    return order ? order : fw_order_wholes(p->index, q->index);
 }
 
 static void look_at_edges(fw_rule_search *out, const fw_rule_edge *p, const fw_rule_edge *q,

@@ -2,6 +2,7 @@
 /* The boundary of the union on one layer: every segment that is no joint, shape by shape, and where
    it turns. */
 #include "mask/rules_search.h"
+#include "base/sort.h"
 #include "base/constants.h"
 #include <stdint.h>
 #include <stdlib.h>
@@ -89,8 +90,8 @@ static void mark_corners(fw_rule_search *in) {
 
 static int by_left(const void *left, const void *right) {
     const fw_rule_range *p = left, *q = right;
-    if (p->box.x0 != q->box.x0) return p->box.x0 < q->box.x0 ? -1 : 1;
-    return p->first - q->first;
+    int order = fw_order_doubles(p->box.x0, q->box.x0);
+    return order ? order : fw_order_wholes(p->first, q->first);
 }
 
 typedef struct entry { /* an edge to be */
@@ -101,8 +102,8 @@ typedef struct entry { /* an edge to be */
 
 static int by_left_entry(const void *left, const void *right) {
     const entry *p = left, *q = right;
-    if (p->box.x0 != q->box.x0) return p->box.x0 < q->box.x0 ? -1 : 1;
-    return p->segment - q->segment;
+    int order = fw_order_doubles(p->box.x0, q->box.x0);
+    return order ? order : fw_order_wholes(p->segment, q->segment);
 }
 
 /* they come in the order of segments */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mask/solid.h"
+#include "base/sort.h"
 #include <stdlib.h>
 
 static const double UNKNOWN_M = 1e-6; /* where nobody said how thick the device is */
@@ -19,9 +20,9 @@ static int by_place(const void *left, const void *right) {
     const side *a = left, *b = right;
     int order = by_point(a->low, b->low);
     if (order == 0) order = by_point(a->high, b->high);
-    if (order == 0) order = (a->layer > b->layer) - (a->layer < b->layer);
-    if (order == 0) order = (a->piece > b->piece) - (a->piece < b->piece);
-    return order ? order : (a->edge > b->edge) - (a->edge < b->edge);
+    if (order == 0) order = fw_order_wholes(a->layer, b->layer);
+    if (order == 0) order = fw_order_wholes(a->piece, b->piece);
+    return order ? order : fw_order_wholes(a->edge, b->edge);
 }
 
 static side side_of(const fw_solid *solid, int piece, int edge) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "process/films.h"
+#include "base/sort.h"
 #include "process/lint.h"
 #include "process/wear.h"
 #include <math.h>
@@ -451,8 +452,8 @@ bool fw_step_changes(const fw_step *step) {
 
 static int by_height(const void *left, const void *right) {
     const fw_film *p = left, *q = right;
-    if (p->bottom_m != q->bottom_m) return p->bottom_m < q->bottom_m ? -1 : 1;
-    return (int)q->in[FW_STACK_STRUCTURE] - (int)p->in[FW_STACK_STRUCTURE];
+    int order = fw_order_doubles(p->bottom_m, q->bottom_m);
+    return order ? order : fw_order_wholes(q->in[FW_STACK_STRUCTURE], p->in[FW_STACK_STRUCTURE]);
 }
 
 /* Every change of every step up to `index`, in order. Heights add up from the first film, the back

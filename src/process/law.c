@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "process/law.h"
+#include "base/sort.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -145,8 +146,8 @@ typedef struct share {
 static int by_size(const void *a, const void *b) {
     const share *s = a, *t = b;
     double ds = fabs(s->part), dt = fabs(t->part);
-    if (ds != dt) return ds > dt ? -1 : 1;
-    return strcmp(s->name, t->name);
+    int order = fw_order_doubles(dt, ds);
+    return order ? order : strcmp(s->name, t->name);
 }
 
 /* u_t = sqrt(sum_i ((dt/dx_i) u_i)^2), first order; inputs are independent, but for one quantity in

@@ -6,6 +6,7 @@
    hide each other by their order in the plane (block.c), and the ceilings lie above all of them.
    The two cut faces are nearer than all else and come last. Heights as in the sections. */
 #include "recipe/block.h"
+#include "base/sort.h"
 #include "base/svg.h"
 #include "recipe/words.h"
 #include <math.h>
@@ -188,11 +189,6 @@ static fw_status draw_ceiling(fw_slicer *slicer, const view *v, const fw_film *f
     return FW_OK;
 }
 
-static int by_number(const void *left, const void *right) {
-    const double *p = left, *q = right;
-    return (*p > *q) - (*p < *q);
-}
-
 static fw_status draw_layers(fw_slicer *slicer, const view *v, const fw_films *films) {
     double tolerance_m = TOLERANCE_PX / v->k;
     double *level = fw_arena_array(slicer->arena, double, 2 * (size_t)films->n);
@@ -201,7 +197,7 @@ static fw_status draw_layers(fw_slicer *slicer, const view *v, const fw_films *f
         level[2 * i] = films->film[i].bottom_m;
         level[2 * i + 1] = films->film[i].top_m;
     }
-    qsort(level, 2 * (size_t)films->n, sizeof *level, by_number);
+    fw_sort_doubles(level, 2 * (size_t)films->n);
     for (int i = 0; i + 1 < 2 * films->n; i++) {
         layer l = {films, level[i], level[i + 1]};
         if (l.high_m - l.low_m <= 1e-12) continue;

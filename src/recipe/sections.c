@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The section after every step as one picture and as numbers. */
 #include "recipe/sections.h"
+#include "base/sort.h"
 #include "base/svg.h"
 #include "geometry/segment.h"
 #include "recipe/words.h"
@@ -14,7 +15,7 @@ static const double WIDTH = 860.0, MARGIN = 30.0;
 
 static int by_place(const void *left, const void *right) {
     const fw_section_part *p = left, *q = right;
-    return (p->from_m > q->from_m) - (p->from_m < q->from_m);
+    return fw_order_doubles(p->from_m, q->from_m);
 }
 
 static fw_status list_parts(fw_slicer *slicer, fw_section_plan *plan) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/figure.h"
+#include "base/sort.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -136,8 +137,8 @@ static void rails(maker *k) {
 
 static int by_place(const void *a, const void *b) {
     const fw_vec2 *p = a, *q = b;
-    if (p->x != q->x) return p->x < q->x ? -1 : 1;
-    return (p->y > q->y) - (p->y < q->y);
+    int order = fw_order_doubles(p->x, q->x);
+    return order ? order : fw_order_doubles(p->y, q->y);
 }
 
 static double cross(fw_vec2 a, fw_vec2 b, fw_vec2 c) {

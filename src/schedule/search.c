@@ -2,6 +2,7 @@
 /* Every rule once, then small changes of the best order, kept where they are no worse. The random
    numbers are always the same, so that the same shop gives the same schedule. */
 #include "schedule/bound.h"
+#include "base/sort.h"
 #include "schedule/place.h"
 #include <math.h>
 #include <stdint.h>
@@ -116,8 +117,9 @@ static fw_status room(fw_arena *arena, search *s) {
 
 static int by_start(const void *a, const void *b) {
     const fw_run *r = a, *s = b;
-    if (r->start_s != s->start_s) return r->start_s < s->start_s ? -1 : 1;
-    return r->task != s->task ? r->task - s->task : r->first - s->first;
+    int order = fw_order_doubles(r->start_s, s->start_s);
+    if (!order) order = fw_order_wholes(r->task, s->task);
+    return order ? order : fw_order_wholes(r->first, s->first);
 }
 
 /* spans that overlap at most K times can always be given to K people, first come first served */

@@ -13,6 +13,7 @@
    where something is found. Source: Lagrange and Dirichlet's theorem; Thompson and Hunt, A General
    Theory of Elastic Stability 1973. Test: test_poise.c. */
 #include "statics/poise.h"
+#include "base/sort.h"
 #include "base/constants.h"
 #include "base/cancel.h"
 #include "quantity/law_kind.h"
@@ -38,11 +39,6 @@ typedef struct looker {
 } looker;
 
 /* ---- when ---- */
-
-static int by_size(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 static const fw_law *law_at(const fw_terms *t, const fw_mechanism *m, int i) {
     if (i < t->ntimed) return t->timed[i].law;
@@ -79,7 +75,7 @@ static fw_status find_pieces(looker *k, const fw_terms *terms) {
             fw_law_breaks(law_at(terms, k->w.mechanism, i), end, k->at + count, have + 1 - count);
         count += found < have + 1 - count ? found : have + 1 - count;
     }
-    qsort(k->at, (size_t)count, sizeof *k->at, by_size);
+    fw_sort_doubles(k->at, (size_t)count);
     int kept = 1;
     for (int i = 1; i < count; i++)
         if (k->at[i] > k->at[kept - 1] && k->at[i] < end) k->at[kept++] = k->at[i];

@@ -5,6 +5,7 @@
    continuation, Allgower and Georg 1990, ch. 2; Hermite interpolation, Stoer and Bulirsch, 2.1.
    Test: test_quasi.c. */
 #include "statics/row.h"
+#include "base/sort.h"
 #include "base/cancel.h"
 #include "quantity/law_kind.h"
 #include "statics/quasi.h"
@@ -110,11 +111,6 @@ static double miss(const fw_row *r) {
 
 /* ---- steps ---- */
 
-static int by_size(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static const fw_law *law_at(const fw_row *r, const fw_terms *terms, int i) {
     return i < terms->ntimed ? terms->timed[i].law : &r->w.mechanism->driver[i - terms->ntimed].law;
 }
@@ -138,14 +134,14 @@ static fw_status look_at_laws(fw_row *r, const fw_terms *terms) {
     for (int i = 0, first = 0; i < laws; i++) {
         const fw_law *law = law_at(r, terms, i);
         int count = fw_law_breaks(law, end, at + first, have - first);
-        if (count > 1) qsort(at + first, (size_t)count, sizeof *at, by_size);
+        fw_sort_doubles(at + first, (size_t)count);
         if (!isfinite(own_step(law)) && !fw_quantity_law_is_straight(law))
             FW_TRY(fw_law_look(r->w.arena, law, i >= terms->ntimed, end, at + first, count,
                                &r->look[r->nlook++]));
         first += count;
         r->law_step_s = fmin(r->law_step_s, own_step(law));
     }
-    if (have > 1) qsort(at, (size_t)have, sizeof *at, by_size);
+    fw_sort_doubles(at, (size_t)have);
     for (int i = 0; i < have; i++)
         if (at[i] > 0 && at[i] < end && (kept == 0 || at[i] > at[kept - 1])) at[kept++] = at[i];
     at[kept++] = end;

@@ -3,6 +3,7 @@
    one dump is written behind each. Exactly repeatable, and the same whatever else the machine does.
  */
 #include "continuum/continuum.h"
+#include "base/sort.h"
 #include "continuum/external.h"
 #include "study/problem.h"
 #include <math.h>
@@ -42,9 +43,9 @@ typedef struct order {
 
 static int before(const void *a, const void *b) {
     const order *x = a, *y = b;
-    if (x->rank != y->rank) return x->rank - y->rank;
-    if (x->instructions != y->instructions) return x->instructions < y->instructions ? -1 : 1;
-    return x->at - y->at;
+    int first = fw_order_wholes(x->rank, y->rank);
+    if (!first) first = fw_order_doubles(x->instructions, y->instructions);
+    return first ? first : fw_order_wholes(x->at, y->at);
 }
 
 static int tightest(const fw_tradeoff *t, const fw_tradeoff_curve *c) {

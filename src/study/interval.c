@@ -1,12 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/interval.h"
+#include "base/sort.h"
 #include <math.h>
 #include <stdlib.h>
-
-static int ascending(const void *a, const void *b) {
-    const double *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
 
 int fw_median_rank(int n) {
     double term = pow(0.5, n), below = 0; /* P(fewer than k of n samples lie below the median) */
@@ -22,7 +18,7 @@ int fw_median_rank(int n) {
 fw_median fw_median_of(double *sample, int n) {
     fw_median m = {(double)NAN, (double)NAN, (double)NAN};
     if (n < 1) return m;
-    qsort(sample, (size_t)n, sizeof *sample, ascending);
+    fw_sort_doubles(sample, (size_t)n);
     m.value = 0.5 * (sample[(n - 1) / 2] + sample[n / 2]);
     int k = fw_median_rank(n);
     if (k < 1) return m;

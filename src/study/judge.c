@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the measured settings say together: errors, front, orders, what a digit costs, honesty. */
 #include "study/front.h"
+#include "base/sort.h"
 #include "study/problem.h"
 #include <math.h>
 #include <stdlib.h>
@@ -27,11 +28,6 @@ bool fw_tradeoff_good(const fw_tradeoff *t, const fw_tradeoff_point *p) {
     return !(used > 10 * t->accuracy); /* NaN: no hinge has a limit */
 }
 
-static int ascending(const void *a, const void *b) {
-    const double *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
 /* estimated over true error, where the true one is known */
 static fw_status honesty(fw_arena *arena, fw_tradeoff *t) {
     double *ratio;
@@ -47,7 +43,7 @@ static fw_status honesty(fw_arena *arena, fw_tradeoff *t) {
         t->honest += p->estimated >= p->error;
     }
     if (t->judged == 0) return FW_OK;
-    qsort(ratio, (size_t)t->judged, sizeof *ratio, ascending);
+    fw_sort_doubles(ratio, (size_t)t->judged);
     t->honesty[0] = ratio[0];
     t->honesty[1] = 0.5 * (ratio[(t->judged - 1) / 2] + ratio[t->judged / 2]);
     t->honesty[2] = ratio[t->judged - 1];
