@@ -112,9 +112,9 @@ static bool read_piece(fw_reader *r, const fw_record *record, double before, fw_
     if (before == UNKNOWN && !(w[0] > 0)) return false;
     if (before > 0 && fabs(w[0] - before) > 1e-12) {
         fw_diag_error(r->diags, 263, fw_place_of(record, "width"),
-                      "%s: begins %s wide where the path so far ends %s wide; a step is a notch "
-                      "that beam theory knows nothing of: leave width out, or set width-end before "
-                      "(at the first piece: width of the flexure)",
+                      "%s: begins %s wide where the path so far ends %s wide; beam theory does "
+                      "not cover the stress concentration of such a step: leave width out, or "
+                      "set width-end before (at the first piece: width of the flexure)",
                       fw_label(record, label), fw_in_unit(a, w[0], "um"),
                       fw_in_unit(b, before, "um"));
         return false;
@@ -257,6 +257,7 @@ static fw_status flexure_of(fw_reader *r, int at, fw_flexure *f) {
                       .width_middle_m = fw_number_or(record, "width-middle", 0.0),
                       .gap_m = fw_number_or(record, "gap", 0.0),
                       .fillet_m = fw_number_of(record, "fillet"),
+                      .fillet_place = fw_place_of(record, "fillet"),
                       .length_given = length,
                       .radius_given = fw_given(record, "radius"),
                       .place = record->element->place,

@@ -54,7 +54,8 @@ static fw_body body_of(fw_reader *r, const fw_record *record) {
                  .plate_x_m = (double)NAN,
                  .plate_y_m = (double)NAN,
                  .plate_angle_rad = fw_number_or(record, "plate-angle", 0.0),
-                 .place = record->element->place};
+                 .place = record->element->place,
+                 .width_place = fw_place_of(record, "width")};
     if (wide && high) {
         b.plate_x_m = fw_number_or(record, "plate-x", b.x_m);
         b.plate_y_m = fw_number_or(record, "plate-y", b.y_m);

@@ -110,7 +110,10 @@ static void build_die(fw_device *d, const fw_record *record) {
                       .clearance_m = fw_number_of(record, "clearance"),
                       .title = fw_text_of(record, "title"),
                       .tethers = !tethers || strcmp(tethers, "no") != 0,
-                      .fill = fill && strcmp(fill, "yes") == 0};
+                      .fill = fill && strcmp(fill, "yes") == 0,
+                      .width_place = fw_place_of(record, "width"),
+                      .height_place = fw_place_of(record, "height"),
+                      .title_place = fw_place_of(record, "title")};
     d->release_pitch_m = fw_number_of(record, "release-pitch");
     d->release_hole_m = fw_number_of(record, "release-hole");
 }
@@ -131,7 +134,12 @@ fw_status fw_build_parts(fw_reader *r) {
     d->limits = (fw_limits_asked){.cycles = nan_, .failure_probability = nan_};
     d->thickness_m = nan_;
     d->orientation_rad = nan_;
-    d->die = (fw_die){nan_, nan_, nan_, nan_, nan_, NULL, true, false};
+    d->die = (fw_die){.width_m = nan_,
+                      .height_m = nan_,
+                      .frame_m = nan_,
+                      .lane_m = nan_,
+                      .clearance_m = nan_,
+                      .tethers = true};
     FW_TRY(build_material(r, NULL));
     FW_TRY(build_flows(r));
     size_t boxes = (size_t)fw_count(r, "workspace");
@@ -152,8 +160,9 @@ fw_status fw_build_parts(fw_reader *r) {
     const fw_quantity *stated = &d->material.strength;
     if (!stated->unknown && !isnan(d->limits.failure_probability))
         fw_diag_warning(r->diags, 236, d->limits.probability_place,
-                        "failure-probability has no meaning for the device's own material, whose "
-                        "strength is stated (line %d) and rules alone; remove one of the two",
+                        "failure-probability has no meaning for the device's own material, "
+                        "because its strength is stated as a plain number (line %d) without a "
+                        "statistical distribution; remove one of the two",
                         stated->place.line);
     return r->diags->failed ? FW_NOMEM : FW_OK;
 }

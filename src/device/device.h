@@ -51,7 +51,7 @@ typedef struct fw_flexure { /* <flexure id kind radius|length angle width gap fi
     double flare_m; /* of a section as made: half of what one face of the layer is wider than the
                        other, width_m being their mean; 0 as drawn */
     bool length_given, radius_given; /* in the file: what advice should name */
-    fw_place place, length_place;
+    fw_place place, length_place, fillet_place;
 } fw_flexure;
 
 /* the pieces of any kind, one of a csfh or leaf; returns how many, at most FW_STRIP_MOST */
@@ -69,7 +69,7 @@ typedef struct fw_body { /* <body>, or a link of <six-bar> */
     double plate_width_m, plate_height_m; /* a rectangle about plate_x, plate_y; NaN: none */
     double plate_x_m, plate_y_m, plate_angle_rad;
     bool platform;
-    fw_place place;
+    fw_place place, width_place;
 } fw_body;
 
 typedef struct fw_joint { /* <revolute>, or a hinge of <six-bar> */
@@ -297,6 +297,7 @@ typedef struct fw_die { /* <die>; NaN: from the drawn mechanism */
     const char *title;
     bool tethers;
     bool fill; /* what the flow has for the window: thief and fill */
+    fw_place width_place, height_place, title_place;
 } fw_die;
 
 typedef enum fw_wafer_side {

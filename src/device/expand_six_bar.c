@@ -123,6 +123,7 @@ static fw_body body_of(fw_reader *r, const parts *p, int i) {
     b.place = record->element->place;
     if (i != PLATFORM) {
         b.width_m = fw_number_of(record, "width");
+        b.width_place = fw_place_of(record, "width");
         b.x_m = fw_number_or(record, "x", heavy ? (first->x_m + second->x_m) / 2 : none);
         b.y_m = fw_number_or(record, "y", heavy ? (first->y_m + second->y_m) / 2 : none);
         check_link(r, record);

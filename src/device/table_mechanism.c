@@ -58,7 +58,9 @@ static const fw_attribute_row body_rows[] = {
     {"x", PLACE, REQUIRED, .sentence = "Centre of mass; local coordinates start here."},
     {"y", PLACE, REQUIRED, .sentence = "Centre of mass; local coordinates start here."},
     {"phi", TURNS, .fallback = "0 deg", .sentence = "Angle of the body's own axes."},
-    {"width", SIZE, .fallback = "not drawn", .sentence = "Of the bars that join its hinges."},
+    {"width", SIZE, .fallback = "not drawn", 
+     .sentence = "Of the bars that join its hinges. A plate has no bars: there it bounds the width "
+                 "of the necks that lead into the plate."},
     {"plate-width", SIZE, .fallback = "no plate", .sentence = "Of a rectangle; with plate-height."},
     {"plate-height", SIZE, .fallback = "no plate", .sentence = "Of a rectangle; with plate-width."},
     {"plate-x", PLACE, .fallback = "x", .sentence = "Centre of the rectangle, as drawn."},

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One outline per body: bars and plate, cut free of the hinges, united with its own hinge heads. */
-#include "geometry/segment.h"
 #include "base/constants.h"
+#include "geometry/segment.h"
 #include "layout/draw.h"
 #include <math.h>
 
-enum { MOST_JOINTS = 16, MOST_PARTS = 3 * MOST_JOINTS + 8 };
+enum { MOST_JOINTS = 16, ROUNDS = 64, MOST_PARTS = 3 * MOST_JOINTS + 8 };
 
 typedef struct parts {
     fw_contour item[MOST_PARTS];
@@ -22,18 +22,35 @@ static const fw_side *side_of(const fw_drawing *d, int joint, int body) {
 }
 
 /* One end of a bar: it starts inside the neck, crosses the neck's edges at a small angle and widens
-   to its full width. Fills the edge from the hinge outwards; returns the number of points. */
-static int bar_end(const fw_side *side, double half, double length, fw_vec2 *p) {
-    double from = fmax(side->neck_end_m - 72e-6, side->solid_m);
-    double slope = 6e-6 / (side->neck_end_m - from);
-    double widen = fmin(half - side->neck_m + 4e-6, slope * (length - from));
-    p[0] = fw_v(from, side->neck_m - 4e-6);
-    p[1] = fw_v(from + widen / slope, side->neck_m - 4e-6 + widen);
-    return 2;
+   to its full width. Where that gentle slope does not reach the stated width, a steeper shoulder
+   beyond the neck does, as gentle as leaves the bar its full width on the share of it that the
+   rules ask for. Fills the edge from the hinge outwards; returns the number of points, 0 where even
+   the steepest shoulder does not reach: then *most_half_m is what does. The base has no stated
+   width and is as wide as it gets. */
+static int bar_end(const fw_side *side, double length, fw_vec2 p[3], double *most_half_m) {
+    const fw_layout_rules *rule = &fw_layout_rule;
+    double half = side->half_width_m, end = side->neck_end_m;
+    double from = fmax(end - rule->bar_overlap_m, side->solid_m);
+    double slope = rule->bar_rise_m / (end - from), start = side->neck_m - rule->bar_inset_m;
+    double widen = half - side->neck_m + rule->bar_inset_m, gentle = slope * (length - from);
+    p[0] = fw_v(from, start);
+    if (side->body < 0 || widen <= gentle) {
+        widen = fmin(widen, gentle);
+        p[1] = fw_v(from + widen / slope, start + widen);
+        return 2;
+    }
+    double room = (1.0 - rule->bar_full_share) * (length - end), at_end = start + rule->bar_rise_m;
+    *most_half_m = fmax(start + gentle, at_end + rule->bar_steepest * room);
+    if (half > *most_half_m) return 0;
+    p[1] = fw_v(end, at_end);
+    p[2] = fw_v(end + room, half);
+    return 3;
 }
 
+enum { EDGE = 8 }; /* most points of one edge of a bar */
+
 /* mirrors the n points of one edge to the other and closes the outline; local x along the bar */
-static fw_status close_bar(fw_drawing *d, fw_vec2 w, fw_vec2 direction, fw_vec2 *p, int n,
+static fw_status close_bar(fw_drawing *d, fw_vec2 w, fw_vec2 direction, fw_vec2 p[2 * EDGE], int n,
                            fw_contour *bar) {
     fw_local local = {w, direction.x, direction.y, false};
     for (int i = 0; i < n; i++)
@@ -41,25 +58,54 @@ static fw_status close_bar(fw_drawing *d, fw_vec2 w, fw_vec2 direction, fw_vec2 
     return fw_layout_polygon(d->arena, &local, p, 2 * n, -1, bar);
 }
 
+/* the stated width does not fit on `length_m` beyond one of the body's hinges */
+static fw_status refuse_width(fw_drawing *d, int body, int joint, double length_m, double most_m) {
+    const fw_body *b = &d->device->body[body];
+    char wide[32], length[32], most[32];
+    const char *label = fw_body_label(d, body);
+    FW_NEED(label);
+    fw_diag_error(
+        d->diags, 137, b->width_place,
+        "%s: a bar %s um wide cannot be drawn: at hinge %s it has %s um, on which the "
+        "layout widens it from the hinge's neck by 45 degrees at most and leaves half of "
+        "the bar its full width; write a width of %s um or less, or move the hinges apart",
+        label, fw_layout_um(wide, b->width_m), d->device->joint[joint].id,
+        fw_layout_um(length, length_m), fw_layout_um(most, floor(most_m * 1e7) / 1e7));
+    return FW_GEOMETRY;
+}
+
 /* from hinge to `end` on the hinge's own direction, square end */
 static fw_status draw_spoke(fw_drawing *d, int joint, const fw_side *side, double half, double end,
                             fw_contour *bar) {
-    fw_vec2 p[8];
-    int n = bar_end(side, half, end, p);
+    fw_vec2 p[2 * EDGE];
+    double most = 0.0;
+    int n = bar_end(side, end, p, &most);
+    if (n == 0) return refuse_width(d, side->body, joint, end, 2.0 * most);
     p[n++] = fw_v(end, half);
     return close_bar(d, fw_joint_point(d->device, joint), side->direction, p, n, bar);
 }
 
-/* bar between two hinges of a body */
+/* Bar between two hinges of a body, its ends meeting half-way between the hinges or, where the two
+   necks leave too little there, half-way between the necks. */
 static fw_status draw_link(fw_drawing *d, int body, const int joint[2], fw_contour *bar) {
-    fw_vec2 p[8], w = fw_joint_point(d->device, joint[0]), far[2];
-    const fw_side *a = side_of(d, joint[0], body), *b = side_of(d, joint[1], body);
+    const fw_side *side[2] = {side_of(d, joint[0], body), side_of(d, joint[1], body)};
+    fw_vec2 p[2 * EDGE], w = fw_joint_point(d->device, joint[0]), far[3];
     double length = fw_norm(fw_sub(fw_joint_point(d->device, joint[1]), w));
-    int n = bar_end(a, a->half_width_m, 0.5 * length, p);
-    bar_end(b, b->half_width_m, 0.5 * length, far);
-    for (int i = 1; i >= 0; i--)
-        p[n++] = fw_v(length - far[i].x, far[i].y);
-    return close_bar(d, w, a->direction, p, n, bar);
+    double part[2] = {0.5 * length, 0.5 * length}, most[2];
+    int n = bar_end(side[0], part[0], p, &most[0]), m = bar_end(side[1], part[1], far, &most[1]);
+    if (n != 2 || m != 2) {
+        part[0] = 0.5 * (length + side[0]->neck_end_m - side[1]->neck_end_m);
+        part[1] = length - part[0];
+        n = bar_end(side[0], part[0], p, &most[0]);
+        m = bar_end(side[1], part[1], far, &most[1]);
+    }
+    if (n == 0 || m == 0) {
+        int at = n > 0 || (m == 0 && most[1] < most[0]);
+        return refuse_width(d, body, joint[at], part[at], 2.0 * most[at]);
+    }
+    while (m-- > 0)
+        p[n++] = fw_v(length - far[m].x, far[m].y);
+    return close_bar(d, w, side[0]->direction, p, n, bar);
 }
 
 /* cuts the keep-out discs of the given hinges (all but those in `skip`) out of a part of a body;
@@ -75,7 +121,7 @@ static fw_status cut_free(fw_drawing *d, int body, const fw_contour *part, const
         if (own) continue;
         fw_contour disc;
         double radius = h->keep_out_m;
-        if (h->lower == body || h->upper == body) radius += fw_head_wider(side_of(d, j, body));
+        if (h->lower == body || h->upper == body) radius += side_of(d, j, body)->form.wider_m;
         FW_TRY(fw_contour_disc(d->arena, h->centre, radius, &disc));
         if (!fw_contour_contains(part, h->centre) &&
             fw_contour_distance_below(part, &disc, 1e-9, NULL, NULL) > 0.0)
@@ -127,7 +173,8 @@ fw_vec2 fw_body_hub(const fw_drawing *d, int body) {
     if (!d->beside || !d->beside[body]) return hub;
     double size = fw_norm(along);
     fw_vec2 out = size > 0.0 ? fw_left(fw_v(along.x / size, along.y / size)) : fw_v(0.0, 1.0);
-    return fw_add(hub, (fw_dot(out, others) > 0.0 ? -1.0 : 1.0) * (clear + 100e-6), out);
+    return fw_add(
+        hub, (fw_dot(out, others) > 0.0 ? -1.0 : 1.0) * (clear + fw_layout_rule.hub_clear_m), out);
 }
 
 static fw_status bar_parts(fw_drawing *d, int body, const int *joint, int njoint, parts *out) {
@@ -148,7 +195,7 @@ static fw_status bar_parts(fw_drawing *d, int body, const int *joint, int njoint
     if (njoint == 1 && body < 0) { /* the pedestal takes over before the frame */
         const fw_side *side = side_of(d, joint[0], body);
         double begin = side->neck_end_m, cut = fw_base_reach(d, joint[0]);
-        hub = fw_add(hub, begin + 0.6 * (cut - begin), side->direction);
+        hub = fw_add(hub, begin + fw_layout_rule.pedestal_reach * (cut - begin), side->direction);
     }
     for (int i = 0; i < njoint; i++) {
         const fw_side *side = side_of(d, joint[i], body);
@@ -158,7 +205,7 @@ static fw_status bar_parts(fw_drawing *d, int body, const int *joint, int njoint
     }
     if (njoint > 2) { /* a hub under the inner ends */
         fw_contour disc;
-        FW_TRY(fw_contour_disc(d->arena, hub, 1.3 * half, &disc));
+        FW_TRY(fw_contour_disc(d->arena, hub, fw_layout_rule.hub_radii * half, &disc));
         FW_TRY(cut_free(d, body, &disc, NULL, 0, out));
     }
     return FW_OK;
@@ -180,8 +227,8 @@ fw_status fw_body_unite(fw_drawing *d, int body, const fw_contour *part, int npa
         for (int i = 0; i < region.count; i++)
             hole = hole || fw_contour_area(&region.contour[i]) < 0.0;
         fw_diag_error(d->diags, 123, fw_body_place(d, body),
-                      "%s would %s; a body must be one outline without holes: move its plate or "
-                      "hinges, or change the width of its bars",
+                      "%s would %s; the layout draws a body as one outline without holes: move "
+                      "its plate or hinges, or change the width of its bars",
                       label, hole ? "enclose a hole" : "fall apart where hinges cut it");
         return FW_GEOMETRY;
     }
@@ -193,7 +240,8 @@ fw_status fw_body_unite(fw_drawing *d, int body, const fw_contour *part, int npa
    Fillets at the roots and conjugate surfaces meet their neighbours smoothly or keep their arcs. */
 fw_status fw_body_round(fw_drawing *d, int body, const fw_contour *in, fw_contour *out,
                         double *radius_m, fw_vec2 *where) {
-    for (double radius = FW_CORNER_M; radius > 1e-6; radius *= 0.5) {
+    for (double radius = fw_layout_rule.corner_m; radius > fw_layout_rule.least_corner_m;
+         radius *= 0.5) {
         fw_status status = fw_contour_round(d->arena, in, radius, radius, out, where);
         *radius_m = radius;
         if (status != FW_GEOMETRY) return status;
@@ -202,8 +250,9 @@ fw_status fw_body_round(fw_drawing *d, int body, const fw_contour *in, fw_contou
     const char *label = fw_body_label(d, body);
     FW_NEED(label);
     fw_diag_error(d->diags, 126, fw_body_place(d, body),
-                  "%s has a corner at (%s, %s) um that cannot be rounded by even 0.3 um; parts of "
-                  "it nearly coincide: change a width or a position slightly",
+                  "%s has a corner at (%s, %s) um where edges of two parts nearly coincide, so "
+                  "that it cannot be rounded by even 1.25 um, the least radius of the layout: "
+                  "change a width or a position nearby by a few micrometres",
                   label, fw_layout_um(x, where->x), fw_layout_um(y, where->y));
     return FW_GEOMETRY;
 }
@@ -230,10 +279,11 @@ static fw_status unite_all(fw_drawing *d, const work *w) {
     FW_TRY(fw_body_unite(d, w->body, all->item, all->count, &d->raw[w->slot]));
     d->nlug = w->first_lug;
     if (w->body < 0 || !d->device->body[w->body].platform) return FW_OK;
-    static const double shift_m[] = {0.0, 14e-6, -14e-6, 28e-6, -28e-6};
+    static const double shift[] = {0.0, 1.0, -1.0, 2.0, -2.0}; /* nearest first */
     fw_contour lug[4];
     int nlug = 0;
-    FW_TRY(fw_platform_lugs(d, w->body, shift_m[w->lug_shift], lug, &nlug));
+    FW_TRY(
+        fw_platform_lugs(d, w->body, shift[w->lug_shift] * fw_layout_rule.lug_shift_m, lug, &nlug));
     for (int i = 0; i < nlug; i++) {
         fw_contour pair[2] = {d->raw[w->slot], lug[i]};
         FW_TRY(fw_body_unite(d, w->body, pair, 2, &d->raw[w->slot]));
@@ -242,15 +292,28 @@ static fw_status unite_all(fw_drawing *d, const work *w) {
 }
 enum { LUG_SHIFTS = 5 };
 
-/* least width or space over its limit, and where; HUGE_VAL and nowhere above the limit */
-static double share(const fw_contour *c, bool inside, double limit_m, fw_vec2 *where) {
+/* how far an outline is from what a mask can show, and where it is worst */
+typedef struct flaw {
+    double value_m, limit_m;
+    const char *what;
+    fw_vec2 where;
+} flaw;
+
+static double share(const flaw *f) {
+    return f->value_m / f->limit_m;
+}
+
+/* least width or space where that is below the limit; else the limit's share is without bound */
+static flaw narrowest(const fw_contour *c, bool inside, double limit_m) {
     int i, j;
+    flaw f = {HUGE_VAL, limit_m, inside ? "width" : "space", {0.0, 0.0}};
     double least = fw_contour_clearance_below(c, inside, limit_m, &i, &j);
-    if (i < 0) return HUGE_VAL;
+    if (i < 0) return f;
     fw_vec2 other;
-    *where = c->segment[i].a;
-    if (i != j) fw_segment_distance(&c->segment[i], &c->segment[j], where, &other);
-    return least / limit_m;
+    f.value_m = least;
+    f.where = c->segment[i].a;
+    if (i != j) fw_segment_distance(&c->segment[i], &c->segment[j], &f.where, &other);
+    return f;
 }
 
 /* least radius of an arc: where it turns by more than 45 degrees its neighbours nearly face each
@@ -261,28 +324,29 @@ static double arc_limit(const fw_contour *c, int i) {
     unsigned beside = c->segment[(i + 1) % n].flags | c->segment[(i + n - 1) % n].flags;
     bool hollow = s->sweep_rad < 0.0;
     bool tight = fabs(s->sweep_rad) > 0.25 * FW_PI;
-    if (tight && !(beside & FW_SEGMENT_JOINT)) return hollow ? FW_OWN_BEND_M : FW_OWN_TIP_M;
-    return hollow ? FW_OWN_HOLLOW_M : 1e-9;
+    if (tight && !(beside & FW_SEGMENT_JOINT))
+        return hollow ? fw_layout_rule.own_bend_m : fw_layout_rule.own_tip_m;
+    return hollow ? fw_layout_rule.own_hollow_m : 1e-9;
 }
 
-/* How far an outline is from what a mask can show: the least of width, space and radius, each over
-   its limit; >= 1 is good, and says nothing more. */
-double fw_body_soundness(const fw_contour *c, fw_vec2 *where) {
-    fw_vec2 slit = *where;
-    double least = share(c, true, FW_OWN_WIDTH_M, where);
-    double space = share(c, false, FW_OWN_SPACE_M, &slit);
-    if (space < least) {
-        least = space;
-        *where = slit;
-    }
+static flaw worst_of(const fw_contour *c) {
+    flaw worst = narrowest(c, true, fw_layout_rule.own_width_m);
+    flaw space = narrowest(c, false, fw_layout_rule.own_space_m);
+    if (share(&space) < share(&worst)) worst = space;
     for (int i = 0; i < c->count; i++) {
         const fw_segment *s = &c->segment[i];
-        double here = s->radius / arc_limit(c, i);
-        if (s->kind != FW_ARC || !(here < least)) continue;
-        least = here;
-        *where = s->a;
+        flaw arc = {s->radius, arc_limit(c, i), "radius", s->a};
+        if (s->kind == FW_ARC && share(&arc) < share(&worst)) worst = arc;
     }
-    return least;
+    return worst;
+}
+
+/* The least of width, space and radius, each over its limit; >= 1 is good, and says nothing more.
+ */
+double fw_body_soundness(const fw_contour *c, fw_vec2 *where) {
+    flaw worst = worst_of(c);
+    if (isfinite(worst.value_m)) *where = worst.where;
+    return share(&worst);
 }
 
 static int nearest_joint(const fw_drawing *d, const work *w, fw_vec2 p) {
@@ -297,8 +361,8 @@ static int nearest_joint(const fw_drawing *d, const work *w, fw_vec2 p) {
 static bool near_lug(const fw_drawing *d, const work *w, fw_vec2 p) {
     for (int i = w->first_lug; i < d->nlug; i++) {
         fw_box b = fw_contour_box(&d->lug[i]);
-        if (p.x > b.x0 - 8e-6 && p.x < b.x1 + 8e-6 && p.y > b.y0 - 8e-6 && p.y < b.y1 + 8e-6)
-            return true;
+        double q = fw_layout_rule.lug_near_m;
+        if (p.x > b.x0 - q && p.x < b.x1 + q && p.y > b.y0 - q && p.y < b.y1 + q) return true;
     }
     return false;
 }
@@ -325,7 +389,7 @@ static fw_status quiet_attempt(fw_drawing *d, const work *w, double *sound, fw_v
 
 static fw_status choose_heads(fw_drawing *d, const work *w, const int *choice) {
     for (int i = 0; i < w->njoint; i++)
-        if (side_of(d, w->joint[i], w->body)->choice != choice[i])
+        if (side_of(d, w->joint[i], w->body)->attempt != choice[i])
             FW_TRY(fw_head_draw(d, w->joint[i], w->body, choice[i]));
     return FW_OK;
 }
@@ -335,7 +399,7 @@ static bool vary(const fw_drawing *d, work *w, fw_vec2 where, int *choice) {
     if (isnan(where.x)) {
         bool exist = true;
         for (int i = 0; i < w->njoint; i++)
-            exist = fw_head_exists(++choice[i]) && exist;
+            exist = ++choice[i] < fw_layout_rule.form_attempts && exist;
         return exist;
     }
     if (near_lug(d, w, where) && w->lug_shift + 1 < LUG_SHIFTS) {
@@ -344,19 +408,38 @@ static bool vary(const fw_drawing *d, work *w, fw_vec2 where, int *choice) {
     }
     int near = nearest_joint(d, w, where);
     for (int i = 0; i < w->njoint; i++)
-        if (w->joint[i] == near && !fw_head_exists(++choice[i])) return false;
+        if (w->joint[i] == near && ++choice[i] >= fw_layout_rule.form_attempts) return false;
     return true;
+}
+
+static const double SOUND_ENOUGH = 1e-3; /* of a limit: 10 nm, below what a mask writer places */
+
+/* no head, and no place of the eyelets, that was tried makes the outline sound */
+static fw_status say_flaw(fw_drawing *d, const work *w) {
+    flaw f = worst_of(&d->plain[w->slot]);
+    char x[32], y[32], value[32], limit[32];
+    const char *label = fw_body_label(d, w->body);
+    FW_NEED(label);
+    if (d->said) return FW_OK;
+    fw_diag_warning(d->diags, 138, fw_body_place(d, w->body),
+                    "the outline of %s has a %s of only %s um at (%s, %s) um; the layout's own rule is "
+                    "%s um, so that every mask shows it, and no other neck or root block of the "
+                    "hinge there does better: change a width, a fillet or a position nearby, or see "
+                    "whether the rules of the mask accept it",
+                    label, f.what, fw_layout_um(value, f.value_m), fw_layout_um(x, f.where.x),
+                    fw_layout_um(y, f.where.y), fw_layout_um(limit, f.limit_m));
+    return FW_OK;
 }
 
 /* Where edges of parts nearly coincide, the united outline has steps, teeth or slits that no mask
    can show. Then the free dimensions of the head (or the eyelets) next to the worst place are
-   changed, row by row, until it is sound; else the best of the attempts stands, the first one
-   unless another is better by 5 %. test_layout_sweep.c */
+   changed (fw_layout_head_form) until it is sound; else the best of the attempts stands, the first
+   one unless another is better by 5 %, and what is wrong with it is said. test_layout_sweep.c */
 static fw_status draw_soundly(fw_drawing *d, work *w) {
     int choice[MOST_JOINTS] = {0}, best[MOST_JOINTS] = {0}, best_shift = 0;
     double most = 0.0, sound;
     fw_vec2 where;
-    for (int round = 0; round < 4 * MOST_JOINTS; round++) {
+    for (int round = 0; round < ROUNDS; round++) {
         fw_status heads = choose_heads(d, w, choice);
         if (heads == FW_GEOMETRY) break; /* no such head: what was drawn before stands */
         FW_TRY(heads);
@@ -374,12 +457,14 @@ static fw_status draw_soundly(fw_drawing *d, work *w) {
     FW_TRY(choose_heads(d, w, best));
     size_t errors = d->diags->errors;
     fw_status status = attempt(d, w, &sound, &where);
+    if (status == FW_OK && sound < 1.0 - SOUND_ENOUGH) return say_flaw(d, w);
     if (status != FW_GEOMETRY || d->diags->errors > errors) return status;
     const char *label = fw_body_label(d, w->body);
     FW_NEED(label);
     fw_diag_error(d->diags, 126, fw_body_place(d, w->body),
-                  "%s: parts of it run along each other at almost no distance; change a width or a "
-                  "position slightly",
+                  "%s: edges of two of its parts nearly coincide over some length, so that the "
+                  "parts cannot be united to one outline; change a width or a position by a few "
+                  "micrometres",
                   label);
     return FW_GEOMETRY;
 }

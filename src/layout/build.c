@@ -173,8 +173,8 @@ static fw_status draw(fw_drawing *d) {
     FW_TRY(add_bodies(d));
     FW_TRY(fw_actuators_add(d));
     fw_layout *l = d->layout;
-    FW_TRY(fw_layout_annotate(d->arena, device, l->window, l->die, &l->piece, &l->npiece,
-                              &d->capacity));
+    FW_TRY(fw_layout_annotate(d->arena, device, l->window, l->die, d->said ? NULL : d->diags,
+                              &l->piece, &l->npiece, &d->capacity));
     return fw_actuators_letters(d);
 }
 
@@ -194,6 +194,14 @@ static void say_ties(const fw_device *device, fw_diags *diags) {
                     device->ntie > 1 ? ", and so are the other joints that do not turn" : "");
 }
 
+/* warnings and notes of a drawing, which are not repeated when the device is drawn again */
+static bool comments_drawing(int number) {
+    static const int of_drawing[] = {131, 138, 139, 189, 255, 258};
+    for (size_t i = 0; i < sizeof of_drawing / sizeof of_drawing[0]; i++)
+        if (number == of_drawing[i]) return true;
+    return false;
+}
+
 fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *diags,
                           const fw_layout **layout) {
     fw_layout *l;
@@ -208,8 +216,7 @@ fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *di
         fw_drawing d = {.arena = arena, .device = device, .diags = diags, .layout = l};
         say_ties(device, diags);
         for (size_t i = 0; i < diags->count; i++)
-            d.said = d.said || diags->item[i].number == 131 || diags->item[i].number == 255 ||
-                     diags->item[i].number == 258 || diags->item[i].number == 189;
+            d.said = d.said || comments_drawing(diags->item[i].number);
         FW_TRY(draw(&d));
         l->drawn = true;
     }

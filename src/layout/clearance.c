@@ -243,7 +243,7 @@ double fw_layout_free_rotation(fw_vec2 w, const fw_contour *p, const fw_contour 
 
 /* smallest gap that was asked for between two bodies; else the least space */
 static double allowed(const fw_drawing *d, int a, int b) {
-    double limit = FW_LEAST_SPACE_M;
+    double limit = fw_layout_rule.least_space_m;
     for (int j = 0; j < d->device->njoint; j++) {
         const fw_joint *t = &d->device->joint[j];
         double gap = d->device->flexure[t->flexure].gap_m;
@@ -295,7 +295,7 @@ static bool holds(const part *outer, const part *inner) {
 /* What is farther apart than the rule and the least gap found so far changes nothing. */
 static fw_status check_pair(fw_drawing *d, const part *p, const part *q, bool *bad) {
     double *narrowest = &d->layout->narrowest_gap_m, gap = fw_box_gap(p->box, q->box);
-    if (gap >= fmax(FW_LEAST_SPACE_M, *narrowest)) return FW_OK; /* no rule asks for more */
+    if (gap >= fmax(fw_layout_rule.least_space_m, *narrowest)) return FW_OK; /* no rule asks for more */
     double limit = allowed(d, p->body, q->body);
     fw_vec2 at_p = fw_v(0.0, 0.0);
     double far =

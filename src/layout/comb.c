@@ -152,7 +152,7 @@ static fw_status stator_crosses(fw_drawing *d, const fw_contour *c, int rotor, d
     if (!*what && fw_body_joints(d->device, FW_GROUND, joint, 3) == 2) {
         fw_contour bar;
         FW_TRY(fw_contour_bar(d->arena, fw_joint_point(d->device, joint[0]),
-                              fw_joint_point(d->device, joint[1]), FW_BASE_WIDTH_M + 40e-6, &bar));
+                              fw_joint_point(d->device, joint[1]), fw_layout_rule.base_width_m + 40e-6, &bar));
         if (close_by(c, &bar, LEAST_M, &at)) FW_TRY(name(d, at, "", "the base", what));
     }
     return FW_OK;
@@ -210,7 +210,7 @@ static fw_status unite(fw_arena *arena, const fw_contour *electrode, const fw_co
         FW_TRY(status);
         whole = both.contour[0];
     }
-    fw_status status = fw_contour_round(arena, &whole, FW_CORNER_M, FW_CORNER_M, out, &where);
+    fw_status status = fw_contour_round(arena, &whole, fw_layout_rule.corner_m, fw_layout_rule.corner_m, out, &where);
     *good = status == FW_OK;
     return status == FW_GEOMETRY ? FW_OK : status;
 }
@@ -292,7 +292,7 @@ static fw_status impossible(fw_drawing *d, const fw_comb_plan *p, const char **w
     } else if (c->kind == FW_ELECTRODES_COMB && c->fingers > FINGERS_MOST) {
         *why = "more than 100 fingers of one comb are computed, but not drawn";
     } else if (c->kind == FW_ELECTRODES_COMB &&
-               p->length_m - c->overlap_m < FW_CORNER_M * (1.0 - 1e-9)) {
+               p->length_m - c->overlap_m < fw_layout_rule.corner_m * (1.0 - 1e-9)) {
         FW_NEED(*why = fw_arena_printf(d->arena,
                                        "its fingers end %s um before the root of the others, and "
                                        "10 um are needed for the corners there: make them longer",

@@ -2,6 +2,7 @@
 /* What goes on the frame of a device's die: marks of the flow's table, and the die's id. The
    drawing of the device does not know the flow, so they are added to a copy of its list of pieces.
  */
+#include "geometry/segment.h"
 #include "layout/content.h"
 #include "layout/text.h"
 #include <math.h>
@@ -178,5 +179,241 @@ fw_status fw_content_die_id(fw_arena *arena, const fw_layout *device, const char
         FW_TRY(fw_layout_text(arena, line, origin, HIGH_M, STROKE_M, FW_ROLE_TEXT, "die id", piece,
                               npiece, capacity));
     }
+    return FW_OK;
+}
+
+/* Thief and fill in the window of a device's die. Both grow out of straight edges of the frame: the
+   edge is replaced by the way around what stands on it, so that frame, thief and fill are one
+   outline, no boolean is needed and nothing comes loose. Everything else keeps the keep-out, from
+   where it is drawn; what moves farther than that needs a larger one.
+
+   In: the pieces of a drawn device; dimensions of the rows, m. Out: other outlines of the frame's
+   pieces. All coordinates are multiples of 1 nm. Cost: cells of the window times pieces whose boxes
+   are near. Test: test_content_window.c. */
+
+static const double CELL_M = 20e-6; /* along the thief's edges */
+static const double ROOM_M = 20e-6; /* of an edge's ends: corners, stubs and cuts of the frame */
+
+typedef struct edge { /* of the frame, with the window on its right */
+    fw_vec2 a, along, out;
+    double length_m;
+} edge;
+
+typedef struct window {
+    fw_arena *arena;
+    const fw_layout *device;
+    fw_piece *piece;
+    int npiece;
+    double thief_m; /* depth of the thief; 0: none */
+    fw_vec2 *path;  /* (npath) what stands on the edge in hand */
+    int npath, room;
+} window;
+
+static fw_vec2 place_on(const edge *e, double t, double depth) {
+    fw_vec2 p = vec_along(vec_along(e->a, t, e->along), depth, e->out);
+    return (fw_vec2){fw_layout_to_grid(p.x), fw_layout_to_grid(p.y)};
+}
+
+static fw_box cell_of(const edge *e, double t0, double t1, double d0, double d1) {
+    fw_vec2 p = place_on(e, t0, d0), q = place_on(e, t1, d1);
+    return (fw_box){fmin(p.x, q.x), fmin(p.y, q.y), fmax(p.x, q.x), fmax(p.y, q.y)};
+}
+
+static bool is_frame(const fw_piece *p) {
+    return p->role == FW_ROLE_FRAME;
+}
+
+/* lettering and marks lie within the frame, or on what is in the way itself */
+static bool is_in_the_way(const fw_piece *p) {
+    return p->role == FW_ROLE_STRUCTURE || p->role == FW_ROLE_FLEXURE || p->role == FW_ROLE_TETHER;
+}
+
+/* in nobody's way: `keep` from the device, `from_frame` from the frame, both outlines apart */
+static fw_status is_clear(const window *w, fw_box box, double keep, double from_frame,
+                          bool *clear) {
+    fw_contour place;
+    fw_mark mark = fw_arena_mark(w->arena);
+    *clear = true;
+    FW_TRY(fw_contour_rectangle(w->arena, box, &place));
+    for (int i = 0; i < w->npiece && *clear; i++) {
+        const fw_contour *c = &w->piece[i].contour;
+        double far = is_frame(&w->piece[i]) ? from_frame : is_in_the_way(&w->piece[i]) ? keep : 0;
+        if (far <= 0 || fw_box_gap(box, fw_contour_box(c)) >= far) continue;
+        *clear = fw_contour_distance_below(&place, c, far, NULL, NULL) >= far &&
+                 !fw_contour_contains(c, place.segment[0].a) &&
+                 !fw_contour_contains(&place, c->segment[0].a);
+    }
+    fw_arena_rewind(w->arena, mark);
+    return FW_OK;
+}
+
+static fw_status go_to(window *w, fw_vec2 p) {
+    if (w->npath == w->room) {
+        int more = w->room ? 2 * w->room : 256;
+        FW_NEED(w->path = fw_arena_grow(w->arena, w->path, (size_t)w->npath, (size_t)more,
+                                        sizeof *w->path));
+        w->room = more;
+    }
+    w->path[w->npath++] = p;
+    return FW_OK;
+}
+
+/* ---- the thief: cells along the edge that are clear, runs of them are one rectangle ---- */
+static fw_status add_thief(window *w, const edge *e, const fw_pattern *p) {
+    double width = fw_layout_to_grid(p->value[0]), keep = p->value[1], run = -1;
+    const fw_box *b = &w->device->window;
+    for (double t = ROOM_M; t <= e->length_m - ROOM_M + 1e-12; t += CELL_M) {
+        fw_box cell = cell_of(e, t, t + CELL_M, 1e-6, width);
+        bool clear = t + CELL_M <= e->length_m - ROOM_M + 1e-12;
+        if (e->out.x == 0) /* the rims of two sides do not meet in a corner */
+            clear = clear && cell.x0 >= b->x0 + 2 * width && cell.x1 <= b->x1 - 2 * width;
+        else
+            clear = clear && cell.y0 >= b->y0 + 2 * width && cell.y1 <= b->y1 - 2 * width;
+        if (clear) FW_TRY(is_clear(w, cell, keep, 0, &clear));
+        if (clear && run < 0) run = t;
+        if (clear || run < 0) continue;
+        if (t - run >= 2 * CELL_M - 1e-12) {
+            FW_TRY(go_to(w, place_on(e, run, 0)));
+            FW_TRY(go_to(w, place_on(e, run, width)));
+            FW_TRY(go_to(w, place_on(e, t, width)));
+            FW_TRY(go_to(w, place_on(e, t, 0)));
+        }
+        run = -1;
+    }
+    return FW_OK;
+}
+
+/* ---- the fill: chains of squares on columns that the lower and the upper edge share ---- */
+typedef struct chain {
+    double square, stem, gap, keep;
+    double t; /* along the edge, of the square's middle */
+    int count;
+} chain;
+
+/* out along one side of it and back along the other */
+static fw_status draw_chain(window *w, const edge *e, const chain *c) {
+    double s = 0.5 * c->square, n = 0.5 * c->stem;
+    for (int side = -1; side <= 1; side += 2)
+        for (int i = 0; i < c->count; i++) {
+            int k = side < 0 ? i : c->count - 1 - i;
+            double low = c->gap + k * (c->square + c->gap), high = low + c->square;
+            double foot = k > 0 ? low - c->gap : 0;
+            const double t[4] = {c->t + side * n, c->t + side * n, c->t + side * s,
+                                 c->t + side * s};
+            const double d[4] = {foot, low, low, high};
+            for (int m = 0; m < 4; m++) {
+                int at = side < 0 ? m : 3 - m;
+                FW_TRY(go_to(w, place_on(e, t[at], d[at])));
+            }
+        }
+    return FW_OK;
+}
+
+/* how many squares stand clear in the column, away from the edge, up to the middle of the window:
+   chains from below and from above meet there, so that none hangs farther than it must */
+static fw_status count_squares(window *w, const edge *e, chain *c) {
+    const fw_box *b = &w->device->window;
+    bool up = e->out.y > 0, clear = true;
+    double pitch = c->square + c->gap, s = 0.5 * c->square, middle = 0.5 * (b->y0 + b->y1);
+    for (c->count = 0; clear; c->count += clear) {
+        double low = c->gap + c->count * pitch;
+        fw_box box = cell_of(e, c->t - s, c->t + s, low, low + c->square);
+        clear = up ? box.y1 <= middle - 0.5 * c->gap : box.y0 >= middle + 0.5 * c->gap;
+        if (clear) FW_TRY(is_clear(w, box, c->keep, c->gap - 2e-9, &clear));
+    }
+    return FW_OK;
+}
+
+static fw_status add_fill(window *w, const edge *e, const fw_pattern *p) {
+    chain c = {.square = 2 * fw_layout_to_grid(0.5 * p->value[0]),
+               .stem = 2 * fw_layout_to_grid(0.5 * p->value[1]),
+               .keep = p->value[3]};
+    const fw_box *b = &w->device->window;
+    if (e->out.y == 0) return FW_OK; /* the uprights have none */
+    c.gap = fw_layout_to_grid(fw_fill_gap_m(c.square, c.stem, p->value[2]));
+    if (!(c.gap > 0)) return FW_OK;
+    double pitch = c.square + c.gap;
+    int columns = (int)floor((b->x1 - b->x0 - c.gap) / pitch);
+    bool right = e->along.x > 0;
+    for (int i = 0; i < columns; i++) {
+        int column = right ? i : columns - 1 - i; /* the edge is walked along */
+        double x = fw_layout_to_grid(b->x0 + c.gap + 0.5 * c.square + column * pitch);
+        c.t = (x - e->a.x) * e->along.x;
+        if (c.t - 0.5 * pitch < 0 || c.t + 0.5 * pitch > e->length_m) continue;
+        FW_TRY(count_squares(w, e, &c));
+        if (c.count > 0) FW_TRY(draw_chain(w, e, &c));
+    }
+    return FW_OK;
+}
+
+/* ---- edges ---- */
+
+/* a straight edge of the window or of the thief: along an axis, the window's inside on its right */
+static bool edge_of(const window *w, const fw_segment *s, edge *e) {
+    const fw_box *b = &w->device->window;
+    fw_vec2 d = vec_sub(s->b, s->a);
+    if (s->kind != FW_LINE || s->flags & FW_SEGMENT_JOINT || (d.x != 0 && d.y != 0)) return false;
+    *e = (edge){s->a, vec_unit(d), {0, 0}, vec_length(d)};
+    e->out = (fw_vec2){e->along.y, -e->along.x};
+    double depth = e->out.y > 0   ? s->a.y - b->y0
+                   : e->out.y < 0 ? b->y1 - s->a.y
+                   : e->out.x > 0 ? s->a.x - b->x0
+                                  : b->x1 - s->a.x;
+    return e->length_m > 2 * ROOM_M && (fabs(depth) < 1e-10 || fabs(depth - w->thief_m) < 1e-10);
+}
+
+typedef struct growing { /* an outline */
+    fw_contour contour;
+    int room;
+} growing;
+
+static fw_status append(window *w, growing *g, fw_segment s) {
+    if (s.kind == FW_LINE && vec_same(s.a, s.b)) return FW_OK;
+    if (g->contour.count == g->room) {
+        int more = g->room ? 2 * g->room : 256;
+        FW_NEED(g->contour.segment =
+                    fw_arena_grow(w->arena, g->contour.segment, (size_t)g->contour.count,
+                                  (size_t)more, sizeof *g->contour.segment));
+        g->room = more;
+    }
+    g->contour.segment[g->contour.count++] = s;
+    return FW_OK;
+}
+
+typedef fw_status (*add_to)(window *w, const edge *e, const fw_pattern *p);
+
+/* the outline of one piece of the frame with what stands on its edges */
+static fw_status grow(window *w, fw_piece *piece, add_to add, const fw_pattern *p) {
+    growing out = {{NULL, 0}, 0};
+    for (int i = 0; i < piece->contour.count; i++) {
+        fw_segment s = piece->contour.segment[i];
+        edge e;
+        w->npath = 0;
+        if (edge_of(w, &s, &e)) FW_TRY(add(w, &e, p));
+        fw_segment part = s;
+        for (int k = 0; k < w->npath; k++) {
+            part.b = w->path[k];
+            FW_TRY(append(w, &out, part));
+            part.a = part.b;
+        }
+        part.b = s.b;
+        FW_TRY(append(w, &out, part));
+    }
+    piece->contour = out.contour;
+    return FW_OK;
+}
+
+fw_status fw_content_in_window(fw_arena *arena, const fw_layout *device, const fw_pattern *pattern,
+                               int npattern, fw_piece *piece, int npiece) {
+    window w = {.arena = arena, .device = device, .piece = piece, .npiece = npiece};
+    for (int round = 0; round < 2; round++) /* the fill stands on the thief, whatever their order */
+        for (int k = 0; k < npattern; k++) {
+            bool thief = pattern[k].kind == &fw_pattern_window_thief;
+            if (!pattern[k].kind->in_window || thief != (round == 0)) continue;
+            for (int i = 0; i < npiece; i++)
+                if (is_frame(&piece[i]))
+                    FW_TRY(grow(&w, &piece[i], thief ? add_thief : add_fill, &pattern[k]));
+            if (thief) w.thief_m = fw_layout_to_grid(pattern[k].value[0]);
+        }
     return FW_OK;
 }

@@ -4,28 +4,8 @@
 #define FW_LAYOUT_DRAW_H
 #include "flexure/flexure.h"
 #include "layout/layout.h"
+#include "layout/rules.h"
 #include <math.h>
-
-/* drawing rules, m and rad */
-#define FW_LEAST_SPACE_M 8e-6   /* between parts that move apart, unless a gap is set smaller */
-#define FW_CORNER_M      10e-6  /* radius of rounded corners */
-#define FW_OWN_WIDTH_M   4.4e-6 /* within one outline: width, */
-#define FW_OWN_SPACE_M   7e-6   /* space (a mask rule of 4 um and a bias of 1.1 um per edge), */
-#define FW_OWN_HOLLOW_M  1.6e-6 /* hollow radius, */
-#define FW_OWN_BEND_M    4e-6   /* and where a hollow arc turns by more than 45 degrees */
-#define FW_OWN_TIP_M     2.7e-6 /* convex radius where an arc turns by more than 45 degrees */
-#define FW_RING_M        40e-6  /* thickness of the rings that carry the conjugate surfaces */
-#define FW_BESIDE_RING_M 20e-6  /* free width around the outer ring */
-#define FW_FREE_RAD      0.56   /* rotation that rings and blocks leave free where they can */
-#define FW_BASE_WIDTH_M  200e-6 /* bar between the ground hinges */
-#define FW_NECK_WIDTH_M  120e-6 /* between a plate and its hinge, where the body has no width */
-#define FW_FRAME_M       250e-6
-#define FW_LANE_M        100e-6
-#define FW_CLEARANCE_M   150e-6 /* mechanism to frame */
-#define FW_STUB_M        20e-6 /* of the frame towards the base, so that the cut has square sides */
-#define FW_TETHER_M      20e-6
-#define FW_TETHER_NECK_M 8e-6  /* at the body, where it breaks */
-#define FW_TETHER_STUB_M 12e-6 /* of the frame; longer than its rounded corners, as at the base */
 
 /* ---- small vectors ---- */
 static inline fw_vec2 fw_v(double x, double y) {
@@ -111,14 +91,15 @@ bool fw_hinge_shape_path(const fw_flexure *flexure, double fillet_m, fw_hinge_sh
 /* elastic centre from O, by the same function as the mechanics use */
 double fw_hinge_centre(const fw_flexure *flexure, double fillet_m);
 
-/* dimensions of a head that are free within limits; row 0 is drawn unless edges nearly coincide */
-typedef struct fw_head_choice {
-    double neck;     /* share of the neck's half width */
+/* dimensions of a head that are free within limits */
+typedef struct fw_head_form {
+    double neck;     /* share of the neck's greatest half width */
     double behind;   /* block behind the root, in flexure widths */
     double longer_m; /* neck */
     double wider_m;  /* disc cut out of the body's own plate */
     bool plain;      /* the neck does not widen towards a plate's corner */
-} fw_head_choice;
+} fw_head_form;
+fw_head_form fw_layout_head_form(int attempt); /* 0: as wanted; then others, without end */
 
 typedef struct fw_side { /* one body at one hinge */
     int body;
@@ -135,7 +116,8 @@ typedef struct fw_side { /* one body at one hinge */
     double solid_m;    /* from there on the neck is as wide as neck_m on both sides */
     fw_local local;
     fw_contour head; /* root block, ring and neck */
-    int choice;      /* row of the head's free dimensions */
+    int attempt;     /* at the head's free dimensions, */
+    fw_head_form form; /* which are these */
 } fw_side;
 
 typedef struct fw_hinge_plan {
@@ -230,15 +212,18 @@ fw_status fw_attachment_add(fw_drawing *d, const fw_attachment *item);
 fw_vec2 fw_body_hub(const fw_drawing *d, int body); /* of a body with more than two hinges */
 fw_status fw_hinges_plan(fw_drawing *d);
 fw_status fw_flexure_draw(fw_arena *arena, const fw_flexure *flexure, fw_hinge_plan *plan);
-/* a head that comes nearer than FW_OWN_SPACE_M to its own flexure beyond the root; and of a path,
+/* a head that comes nearer than own_space_m to its own flexure beyond the root; and of a path,
    whose roots may point anywhere, one that crosses itself. Of an arc or a leaf, as wide everywhere
    or not, block and ring may overlap: they become one when the body is united, with another head
    where that is unsound */
 bool fw_path_in_the_way(const fw_flexure *flexure, const fw_hinge_plan *plan);
-/* draws a head with other free dimensions; false: there is no such row */
-bool fw_head_exists(int choice);
-double fw_head_wider(const fw_side *side); /* radius added to the disc in its own plate */
-fw_status fw_head_draw(fw_drawing *d, int joint, int body, int choice);
+/* draws a head with other free dimensions */
+fw_status fw_head_draw(fw_drawing *d, int joint, int body, int attempt);
+/* where the root's face, extended outwards, meets the circle of radius q about W */
+fw_vec2 fw_layout_ring_foot(const fw_hinge_shape *shape, double q);
+/* half width and end of the neck; then block, ring and neck in the body's own frame */
+void fw_layout_neck_choose(fw_side *side, double keep_out_m);
+fw_status fw_layout_head_draw(fw_arena *arena, const fw_hinge_shape *shape, fw_side *side);
 /* joint: the only one of several bases, or FW_NONE */
 fw_status fw_body_draw(fw_drawing *d, int body, int joint, const fw_contour *extra, int nextra);
 fw_status fw_body_round(fw_drawing *d, int body, const fw_contour *in, fw_contour *out,

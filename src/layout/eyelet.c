@@ -62,7 +62,7 @@ fw_status fw_eyelet_ring(fw_drawing *d, const fw_eyelet_plan *e, int body, const
     }
     if (*why) return FW_OK;
     FW_TRY(fw_contour_disc(d->arena, e->at, radius, &disc));
-    FW_TRY(fw_actuator_crosses(d, &disc, body, FW_LEAST_SPACE_M, d->ncomb, why));
+    FW_TRY(fw_actuator_crosses(d, &disc, body, fw_layout_rule.least_space_m, d->ncomb, why));
     if (*why) return in_the_way(d, why);
     bool inside = fw_contour_contains(raw, e->at);
     double far = fw_contour_distance(&disc, raw, NULL, NULL);
@@ -79,7 +79,7 @@ fw_status fw_eyelet_ring(fw_drawing *d, const fw_eyelet_plan *e, int body, const
         fw_vec2 to;
         fw_vec2 u = fw_towards(e->at, to = nearest(raw, e->at));
         FW_TRY(fw_contour_bar(d->arena, e->at, fw_add(to, 0.5 * radius, u), 1.6 * radius, &stem));
-        FW_TRY(fw_actuator_crosses(d, &stem, body, FW_LEAST_SPACE_M, d->ncomb, why));
+        FW_TRY(fw_actuator_crosses(d, &stem, body, fw_layout_rule.least_space_m, d->ncomb, why));
         if (*why) return in_the_way(d, why);
         FW_TRY(unite(d->arena, raw, &stem, &joined, &one));
     }
@@ -212,4 +212,90 @@ fw_status fw_eyelet_hole(fw_drawing *d, const fw_eyelet_plan *e, const fw_contou
         return FW_OK;
     }
     return splice(d->arena, raw, e, way, best, out, cap);
+}
+
+/* Tendon eyelets: open rings on short stems at the platform's edge. A closed eye would be a hole in
+   the outline; the tendon is hooked in through the opening, which faces along the edge, across the
+   pull. */
+/* local: origin on the edge, +y outwards, the eye opens towards +x */
+static fw_status draw_lug(fw_drawing *d, const fw_local *local, fw_contour *lug) {
+    const fw_layout_rules *rule = &fw_layout_rule;
+    double eye = rule->eye_m, outer = rule->eye_outer_m, stem = rule->eye_stem_m;
+    double height = rule->eye_height_m, in = rule->eye_foot_m, foot = -acos(stem / outer);
+    double from = rule->eye_open_from_rad, to = from + rule->eye_open_rad;
+    fw_vec2 c = fw_v(0.0, height);
+    fw_vec2 right = fw_v(stem, height + outer * sin(foot)), left = fw_v(-stem, right.y);
+    fw_sketch k = fw_sketch_start(d->arena, local, fw_v(-stem, -in));
+    fw_sketch_line(&k, fw_v(stem, -in), 0);
+    fw_sketch_line(&k, right, 0);
+    fw_sketch_arc(&k, c, from - foot, fw_add(c, outer, fw_polar(from)));
+    fw_sketch_line(&k, fw_add(c, eye, fw_polar(from)), 0);
+    fw_sketch_arc(&k, c, -(2.0 * FW_PI - (to - from)), fw_add(c, eye, fw_polar(to)));
+    fw_sketch_line(&k, fw_add(c, outer, fw_polar(to)), 0);
+    fw_sketch_arc(&k, c, FW_PI - foot - to, left);
+    return fw_sketch_close(&k, lug);
+}
+
+static bool has_room(const fw_drawing *d, fw_vec2 centre) {
+    for (int j = 0; j < d->device->njoint; j++) {
+        const fw_hinge_layout *h = &d->layout->hinge[j];
+        double clear = h->keep_out_m + fw_layout_rule.eye_outer_m + fw_layout_rule.eye_clear_m;
+        if (fw_norm(fw_sub(centre, h->centre)) < clear) return false;
+    }
+    return true;
+}
+
+/* None where tendons of the file say where the platform's eyelets are (eyelet.c). In pairs, as far
+   as there is room beside the hinges, at most four: two on the edge that faces away from the
+   mechanism, two on the opposite edge, two on the short edges. Mirrored places, so that two tendons
+   of a pair pull evenly. */
+fw_status fw_platform_lugs(fw_drawing *d, int body, double shift_m, fw_contour *lug, int *nlug) {
+    const fw_layout_rules *rule = &fw_layout_rule;
+    const fw_body *b = &d->device->body[body];
+    double stem = rule->eye_stem_m;
+    *nlug = 0;
+    if (isnan(b->plate_width_m) || fw_eyelets_on(d, body)) return FW_OK;
+    double w = 0.5 * b->plate_width_m, h = 0.5 * b->plate_height_m;
+    fw_vec2 middle = fw_v(b->plate_x_m, b->plate_y_m);
+    fw_vec2 x = fw_polar(b->plate_angle_rad), y = fw_left(x);
+    if (fw_dot(fw_sub(d->centre, middle), y) > 0.0) { /* y away from the rest */
+        x = fw_v(-x.x, -x.y);
+        y = fw_v(-y.x, -y.y);
+    }
+    const struct {
+        fw_vec2 edge, out; /* for the right lug of the pair */
+    } place[] = {
+        {{rule->eye_far_share * w - shift_m, h}, {0.0, 1.0}},
+        {{rule->eye_near_share * w - shift_m, -h}, {0.0, -1.0}},
+        {{w, h - stem - rule->eye_from_corner_m - shift_m}, {1.0, 0.0}},
+    };
+    for (size_t i = 0; i < sizeof place / sizeof place[0] && *nlug < 4; i++) {
+        bool upright = place[i].out.x > 0.0;
+        double middle_room = rule->eye_near_share * w - shift_m;
+        bool fits = upright ? h >= 2.0 * stem
+                            : rule->eye_between_share * w >= stem &&
+                                  middle_room >= rule->eye_outer_m + rule->eye_pair_m;
+        if (!fits) continue;
+        fw_local local[2];
+        bool room = true;
+        for (int k = 0; k < 2; k++) {
+            double sign = k == 0 ? -1.0 : 1.0;
+            fw_vec2 at = fw_add(fw_add(middle, sign * place[i].edge.x, x), place[i].edge.y, y);
+            fw_vec2 out = fw_add(fw_v(sign * place[i].out.x * x.x, sign * place[i].out.x * x.y),
+                                 place[i].out.y, y);
+            /* local y is `out`; local x, to which the eye opens, is towards the pair's middle, on
+               the short edges towards -y */
+            fw_vec2 open = upright ? fw_v(-y.x, -y.y) : fw_v(-sign * x.x, -sign * x.y);
+            bool mirror = fw_dot(fw_left(open), out) < 0.0;
+            local[k] = (fw_local){at, open.x, open.y, mirror};
+            room = room && has_room(d, fw_add(at, rule->eye_height_m, out));
+        }
+        for (int k = 0; k < 2 && room; k++) {
+            FW_TRY(draw_lug(d, &local[k], &lug[*nlug]));
+            FW_NEED(d->lug = fw_arena_grow(d->arena, d->lug, (size_t)d->nlug, (size_t)d->nlug + 1,
+                                           sizeof *d->lug));
+            d->lug[d->nlug++] = lug[(*nlug)++];
+        }
+    }
+    return FW_OK;
 }

@@ -63,21 +63,33 @@ static void enclose(fw_box *box, fw_box other) {
     box->y1 = fmax(box->y1, other.y1);
 }
 
-static fw_status one_axis(fw_drawing *d, double low, double high, double die, const char *name,
-                          double frame, double lane, double clearance, double *w0, double *w1) {
-    double rim = frame + lane;
-    if (isnan(die)) {
+/* One axis of the window: around what lies between `low` and `high` or, in a die of stated size,
+   what frame and lane leave of it, at no less than the clearance: the stated one, else what a
+   tether needs at least. */
+static fw_status one_axis(fw_drawing *d, double low, double high, bool wide, double frame,
+                          double lane, double *w0, double *w1) {
+    const fw_die *die = &d->device->die;
+    const fw_layout_rules *rule = &fw_layout_rule;
+    bool stated = !isnan(die->clearance_m);
+    double clearance = stated ? die->clearance_m : rule->clearance_m, rim = frame + lane;
+    double size = wide ? die->width_m : die->height_m;
+    if (isnan(size)) {
         *w0 = fw_layout_to_grid(low - clearance);
         *w1 = fw_layout_to_grid(high + clearance);
         return FW_OK;
     }
-    double half = 0.5 * die - rim, need = high - low + 2.0 * fmin(clearance, 60e-6) + 2.0 * rim;
-    if (die < need) {
-        char a[32], b[32];
-        fw_diag_error(d->diags, 124, (fw_place){d->device->file, 0, 0},
-                      "die %s is %s um, but the drawn mechanism with frame, lane and 60 um of "
-                      "clearance needs %s um; enlarge the die or leave %s out",
-                      name, fw_layout_um(a, die), fw_layout_um(b, need), name);
+    double least = stated ? clearance : rule->clearance_least_m;
+    double half = 0.5 * size - rim, need = high - low + 2.0 * least + 2.0 * rim;
+    if (size < need) {
+        char a[32], b[32], c[32];
+        const char *name = wide ? "width" : "height";
+        fw_diag_error(d->diags, 124, wide ? die->width_place : die->height_place,
+                      "a die %s of %s um is too small: the drawn mechanism with frame, dicing lane "
+                      "and %s um of clearance on either side (%s) needs %s um; enlarge the die, or "
+                      "leave %s out, which then follows from the mechanism",
+                      name, fw_layout_um(a, size), fw_layout_um(c, least),
+                      stated ? "as the file asks" : "the least that the layout takes",
+                      fw_layout_um(b, need), name);
         return FW_GEOMETRY;
     }
     double middle = fw_layout_to_grid(0.5 * (low + high));
@@ -101,14 +113,11 @@ fw_status fw_window_choose(fw_drawing *d) {
         double q = h->keep_out_m;
         enclose(&box, (fw_box){h->centre.x - q, h->centre.y - q, h->centre.x + q, h->centre.y + q});
     }
-    double frame = fw_layout_to_grid(isnan(die->frame_m) ? FW_FRAME_M : die->frame_m);
-    double lane = fw_layout_to_grid(isnan(die->lane_m) ? FW_LANE_M : die->lane_m);
-    double clearance = isnan(die->clearance_m) ? FW_CLEARANCE_M : die->clearance_m,
-           rim = frame + lane;
-    fw_status x = one_axis(d, box.x0, box.x1, die->width_m, "width", frame, lane, clearance,
-                           &l->window.x0, &l->window.x1);
-    fw_status y = one_axis(d, box.y0, box.y1, die->height_m, "height", frame, lane, clearance,
-                           &l->window.y0, &l->window.y1);
+    double frame = fw_layout_to_grid(isnan(die->frame_m) ? fw_layout_rule.frame_m : die->frame_m);
+    double lane = fw_layout_to_grid(isnan(die->lane_m) ? fw_layout_rule.lane_m : die->lane_m);
+    double rim = frame + lane;
+    fw_status x = one_axis(d, box.x0, box.x1, true, frame, lane, &l->window.x0, &l->window.x1);
+    fw_status y = one_axis(d, box.y0, box.y1, false, frame, lane, &l->window.y0, &l->window.y1);
     FW_TRY(x);
     FW_TRY(y);
     l->die = (fw_box){fw_layout_to_grid(l->window.x0 - rim), fw_layout_to_grid(l->window.y0 - rim),
@@ -188,7 +197,7 @@ fw_status fw_frame_draw(fw_drawing *d) {
         fw_vec2 where;
         FW_TRY(fw_outline_close(&o, &raw));
         FW_TRY(fw_actuators_on_frame(d, &raw));
-        FW_TRY(fw_contour_round(d->arena, &raw, 0.0, FW_CORNER_M, &round, &where));
+        FW_TRY(fw_contour_round(d->arena, &raw, 0.0, fw_layout_rule.corner_m, &round, &where));
         FW_TRY(fw_drawing_add(d, FW_ROLE_FRAME, FW_GROUND, FW_NONE,
                               low ? "frame, lower half" : "frame, upper half", &round));
     }

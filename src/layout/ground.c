@@ -27,7 +27,7 @@ double fw_base_reach(const fw_drawing *d, int joint) {
     fw_vec2 w = fw_joint_point(d->device, joint);
     const fw_box *b = &d->layout->window;
     double x = out.x > 0.0 ? b->x1 - w.x : w.x - b->x0, y = out.y > 0.0 ? b->y1 - w.y : w.y - b->y0;
-    return (fabs(out.x) > fabs(out.y) ? x : y) - FW_STUB_M;
+    return (fabs(out.x) > fabs(out.y) ? x : y) - fw_layout_rule.stub_m;
 }
 
 /* where the pedestal leaves the base: the middle of the bar between two ground hinges, or the end
@@ -46,8 +46,9 @@ static foot choose_foot(const fw_drawing *d, const int *joint, int n) {
     f.half = side->half_width_m;
     if (n == 1) {
         double begin = side->neck_end_m, cut = fw_base_reach(d, joint[0]);
-        f.middle = fw_add(f.middle, begin + 0.3 * (cut - begin), side->direction);
-        f.half = 1.5 * side->half_width_m;
+        f.middle = fw_add(f.middle, begin + fw_layout_rule.pedestal_share * (cut - begin),
+                          side->direction);
+        f.half = fw_layout_rule.pedestal_widths * side->half_width_m;
     }
     if (n == 2) {
         fw_vec2 between =
@@ -55,8 +56,8 @@ static foot choose_foot(const fw_drawing *d, const int *joint, int n) {
         double length = fw_norm(between), q = fmax(d->layout->hinge[joint[0]].keep_out_m,
                                                    d->layout->hinge[joint[1]].keep_out_m);
         f.axis = side->direction;
-        f.reach = 0.5 * length - q - 40e-6;
-        f.half = fmin(0.3 * length, f.reach);
+        f.reach = 0.5 * length - q - fw_layout_rule.pedestal_clear_m;
+        f.half = fmin(fw_layout_rule.pedestal_bar_share * length, f.reach);
     }
     return f;
 }
@@ -91,12 +92,12 @@ static fw_status draw_base(fw_drawing *d, const int *joint, int n, int only) {
             slope = o / t;
             half = fmin(half, f.reach * fabs(t));
         }
-        if (half < 0.5 * FW_TETHER_M) continue;
+        if (half < 0.5 * fw_layout_rule.tether_m) continue;
         fw_attachment a = {.body = FW_GROUND};
         double at = fw_layout_to_grid(along);
         double low = across + slope * (at - half - along),
                high = across + slope * (at + half - along);
-        FW_TRY(fw_strip_draw(d, side, low, high, at, half, FW_STUB_M, &a));
+        FW_TRY(fw_strip_draw(d, side, low, high, at, half, fw_layout_rule.stub_m, &a));
         bool clear;
         FW_TRY(clear_of_all(d, &a.finger, &clear));
         if (!clear) continue;

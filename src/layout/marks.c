@@ -138,8 +138,27 @@ static fw_status add_text(const sheet *s, const char *string, double x, double y
                           label, s->piece, s->npiece, s->capacity);
 }
 
+/* a stated title that does not fit in the lower bar of the frame; shown: what is drawn of it */
+static void say_title(const fw_die *die, const char *shown, double need_m, double room_m,
+                      fw_diags *diags) {
+    char need[32], room[32];
+    fw_number_text(need, sizeof need, need_m * 1e6, 5);
+    fw_number_text(room, sizeof room, room_m * 1e6, 5);
+    if (*shown)
+        fw_diag_warning(diags, 139, die->title_place,
+                        "the title \"%s\" is %s um long in the smallest lettering, but the lower "
+                        "bar of the frame is %s um long, so it is drawn as \"%s\"; shorten it, or "
+                        "make the die wider",
+                        die->title, need, room, shown);
+    else
+        fw_diag_warning(diags, 139, die->title_place,
+                        "the title \"%s\" is not drawn: the smallest lettering is %s um high, and "
+                        "the lower bar of the frame has %s um for it; make the frame wider",
+                        die->title, need, room);
+}
+
 /* title left and version right in the lower bar; the version goes first when both do not fit */
-static fw_status add_title(const sheet *s, const char *title) {
+static fw_status add_title(const sheet *s, const fw_die *die, const char *title, fw_diags *diags) {
     double length = s->window.x1 - s->window.x0;
     double y0 = s->die.y0 + s->lane + MARGIN_M, band = s->window.y0 - MARGIN_M - y0;
     const char *version = "FLEXWRIGHT " FW_VERSION;
@@ -148,13 +167,18 @@ static fw_status add_title(const sheet *s, const char *title) {
            (HIGH * stroke > band ||
             width_of(title, stroke) + width_of(version, stroke) + 12 * stroke > length))
         stroke -= UM;
-    if (HIGH * stroke > band) return FW_OK;
+    if (HIGH * stroke > band) {
+        if (die->title && diags) say_title(die, "", HIGH * stroke, band, diags);
+        return FW_OK;
+    }
     char *shown = fw_arena_strdup(s->arena, title);
     FW_NEED(shown);
     for (size_t n = strlen(shown); n > 0 && width_of(shown, stroke) > length; n--) {
         shown[n - 1] = '\0';
         if (n > 1) shown[n - 2] = '+';
     }
+    if (die->title && diags && strcmp(shown, title) != 0)
+        say_title(die, shown, width_of(title, stroke), length, diags);
     double y = y0 + 0.5 * (band - HIGH * stroke);
     FW_TRY(add_text(s, shown, s->window.x0, y, stroke, "title"));
     double width = width_of(version, stroke);
@@ -238,7 +262,7 @@ static fw_status add_parameters(const sheet *s, const fw_device *device) {
 }
 
 fw_status fw_layout_annotate(fw_arena *arena, const fw_device *device, fw_box window, fw_box die,
-                             fw_piece **piece, int *npiece, int *capacity) {
+                             fw_diags *diags, fw_piece **piece, int *npiece, int *capacity) {
     sheet s = {arena, piece, npiece, capacity, window, die, device->die.lane_m};
     double bar = narrowest_bar(&window, &die);
     if (isnan(s.lane)) s.lane = fmin(DEFAULT_LANE_M, 0.4 * bar);
@@ -246,6 +270,7 @@ fw_status fw_layout_annotate(fw_arena *arena, const fw_device *device, fw_box wi
     if (!inside || !(s.lane >= 0 && s.lane <= bar)) return FW_GEOMETRY;
     FW_TRY(add_lane(&s));
     FW_TRY(add_marks(&s));
-    FW_TRY(add_title(&s, device->die.title ? device->die.title : device->name));
+    const char *title = device->die.title ? device->die.title : device->name;
+    FW_TRY(add_title(&s, &device->die, title, diags));
     return add_parameters(&s, device);
 }

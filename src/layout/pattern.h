@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Test patterns: what is on a plate beside the device, to be measured. A kind is one file and a row
-   of pattern.c; which patterns a flow has, and their sizes, are rows of masks/FLOW.xml.
+/* Test patterns: what is on a plate beside the device, to be measured. A kind is a section of one of
+   the files pattern_*.c and a row of pattern.c; which patterns a flow has, and their sizes, are rows of masks/FLOW.xml.
 
    A pattern is drawn in a box of its own: x to the right from 0, y up from the top edge of the bar
    that it stands on. Whatever touches y = 0 has a foot there (JOINT segments), so that it is joined
@@ -74,7 +74,7 @@ typedef struct fw_pattern_kind { /* a row of pattern.c */
     fw_status (*draw)(fw_pen *pen);
     int on_frame;   /* on the frame of every die, so often; 0: on the test die */
     bool fills;     /* takes what the others leave of a row: drawn by content.c */
-    bool in_window; /* of the device's own die, where it asks for fill: content_window.c */
+    bool in_window; /* of the device's own die, where it asks for fill: content_frame.c */
 } fw_pattern_kind;
 
 const fw_pattern_kind *fw_pattern_kind_at(size_t i); /* NULL behind the last row */
@@ -103,7 +103,7 @@ fw_status fw_pen_chord(fw_pen *pen, const char *name, double x0, double y0, doub
 void fw_pen_figure(fw_pen *pen, const char *name, double value, const char *unit);
 double fw_pen_value(const fw_pen *pen, int parameter);
 
-/* one draw function per file pattern_*.c */
+/* one row per kind: pattern_etch.c, pattern_plating.c, pattern_print.c */
 extern const fw_pattern_kind fw_pattern_ladder, fw_pattern_slots, fw_pattern_pads,
     fw_pattern_pointer, fw_pattern_cantilevers, fw_pattern_van_der_pauw, fw_pattern_cd_lines,
     fw_pattern_resolution, fw_pattern_vernier, fw_pattern_back_mark, fw_pattern_contact,
@@ -115,9 +115,9 @@ fw_status fw_back_cross_draw(fw_pen *pen, double middle_m, double cross_m, doubl
                              double window_m);
 
 /* ---- closed forms of what the patterns tell; each beside its drawing ---- */
-/* turn of the rotating pointer per strain, 1 (pattern_pointer.c) */
+/* turn of the rotating pointer per strain, 1 (pattern_etch.c) */
 double fw_pointer_turn_per_strain(double arm_m, double offset_m, double width_m);
-/* farthest way from an opening within a plate with holes in a square grid, m (pattern_holes.c) */
+/* farthest way from an opening within a plate with holes in a square grid, m (pattern_etch.c) */
 double fw_holes_reach_m(double pitch_m, double hole_m, bool round);
 /* gap between squares joined in chains for a share of covered area; NAN: there is none */
 double fw_fill_gap_m(double square_m, double stem_m, double density);

@@ -61,7 +61,8 @@ static bool leaves_once(const fw_drawing *d, const fw_attachment *a, fw_vec2 fro
         double known = -1.0; /* up to there nothing changes */
         for (double s = 0.0; s < length; s += 2e-6) {
             if (s < known) continue;
-            fw_vec2 p = fw_add(fw_add(from, s, out), edge * (0.5 * FW_TETHER_M + 8e-6), side);
+            fw_vec2 p =
+                fw_add(fw_add(from, s, out), edge * (0.5 * fw_layout_rule.tether_m + 8e-6), side);
             bool in = p.x >= box.x0 && p.x <= box.x1 && p.y >= box.y0 && p.y <= box.y1 &&
                       fw_contour_contains(body, p);
             if (in && !inside) return false;
@@ -94,7 +95,7 @@ static double edge_depth(const fw_drawing *d, const fw_attachment *a, double alo
    stay straight, so that the cut is square. Exact for a straight edge. test_layout.c
    tethers_break_at_the_body */
 static double neck_depth(const fw_drawing *d, const fw_attachment *a, double at, double deep) {
-    double r = d->corner_m[a->body], far = 0.5 * FW_TETHER_NECK_M + r;
+    double r = d->corner_m[a->body], far = 0.5 * fw_layout_rule.tether_neck_m + r;
     double low = edge_depth(d, a, at - far, deep), high = edge_depth(d, a, at + far, deep);
     double middle = edge_depth(d, a, at, deep), slope = (high - low) / (2.0 * far);
     double cut = fmin(middle, fmin(low, high)) - r * hypot(1.0, slope) - 2e-6;
@@ -104,7 +105,8 @@ static double neck_depth(const fw_drawing *d, const fw_attachment *a, double at,
 /* the tether's own outline: 4 um of neck, widened to the finger on 12 um, to the frame's stub */
 static fw_status draw_tether(fw_drawing *d, double at, double cut, fw_attachment *a) {
     const fw_local world = {{0.0, 0.0}, 1.0, 0.0, false};
-    double neck = 0.5 * FW_TETHER_NECK_M, wide = cut - 4e-6 - (FW_TETHER_M - FW_TETHER_NECK_M);
+    double neck = 0.5 * fw_layout_rule.tether_neck_m,
+           wide = cut - 4e-6 - (fw_layout_rule.tether_m - fw_layout_rule.tether_neck_m);
     double along[8] = {at - neck, at - neck, a->low_m,  a->low_m,
                        a->high_m, a->high_m, at + neck, at + neck};
     double depth[8] = {cut, cut - 4e-6, wide, a->stub_m, a->stub_m, wide, cut - 4e-6, cut};
@@ -119,14 +121,15 @@ static fw_status draw_tether(fw_drawing *d, double at, double cut, fw_attachment
             fw_sketch_line(&sketch, p, i == 4 || i == 8 ? FW_SEGMENT_JOINT : 0);
     }
     FW_TRY(fw_sketch_close(&sketch, &sharp));
-    return fw_contour_round(d->arena, &sharp, FW_CORNER_M, FW_CORNER_M, &a->tether, &where);
+    return fw_contour_round(d->arena, &sharp, fw_layout_rule.corner_m, fw_layout_rule.corner_m,
+                            &a->tether, &where);
 }
 
 /* body with one more stub, rounded as without it; not done when the stub does not fit there */
 static fw_status add_stub(fw_drawing *d, int body, double at, double cut, double deep,
                           fw_window_side side, bool *done) {
     const fw_local world = {{0.0, 0.0}, 1.0, 0.0, false};
-    double neck = 0.5 * FW_TETHER_NECK_M, r = d->corner_m[body];
+    double neck = 0.5 * fw_layout_rule.tether_neck_m, r = d->corner_m[body];
     fw_vec2 p[4] = {fw_window_point(d->layout, side, at - neck, deep),
                     fw_window_point(d->layout, side, at - neck, cut),
                     fw_window_point(d->layout, side, at + neck, cut),
@@ -153,7 +156,8 @@ static fw_status try_finger(fw_drawing *d, int body, fw_window_side side, fw_vec
     bool up = side == FW_LEFT || side == FW_RIGHT;
     double start = up ? from.x : from.y, along = up ? from.y : from.x;
     *done = false;
-    FW_TRY(fw_strip_draw(d, side, start, start, along, 0.5 * FW_TETHER_M, FW_TETHER_STUB_M, &a));
+    FW_TRY(fw_strip_draw(d, side, start, start, along, 0.5 * fw_layout_rule.tether_m,
+                         fw_layout_rule.tether_stub_m, &a));
     if (!leaves_once(d, &a, from) || !finger_is_clear(d, &a.finger, body)) return FW_OK;
     fw_vec2 edge = fw_window_point(d->layout, side, along, 0.0);
     double at = fw_layout_to_grid(along), deep = fw_norm(fw_sub(edge, from));
@@ -249,8 +253,10 @@ fw_status fw_tethers_draw(fw_drawing *d) {
         const char *label = fw_body_label(d, b);
         FW_NEED(label);
         fw_diag_warning(d->diags, 127, d->device->body[b].place,
-                        "%s has no tether: none of the window's sides is reached without "
-                        "crossing another part; handle the released device with care",
+                        "%s has no tether: no straight finger of the frame reaches it without "
+                        "crossing another part, so that nothing holds it between release and "
+                        "use; handle the released device with care, or leave it free access to "
+                        "one side",
                         label);
     }
     return FW_OK;

@@ -38,7 +38,7 @@ fw_status fw_layout_add(fw_arena *arena, fw_piece item, fw_piece **piece, int *n
    corners by JOINT segments), all between `window` and `die`. What does not fit with strokes of
    5 um is left out: text loses its last items (then ends in '+'), marks need 80 um of bar beside
    the lane. FW_GEOMETRY when the window is not inside the die. */
-fw_status fw_layout_annotate(fw_arena *arena, const fw_device *device, fw_box window, fw_box die,
+fw_status fw_layout_annotate(fw_arena *arena, const fw_device *device, fw_box window, fw_box die, fw_diags *diags,
                              fw_piece **piece, int *npiece, int *capacity);
 
 #endif

@@ -21,7 +21,7 @@ static fw_device device(fw_parameter *parameter, int n) {
 
 static fw_status annotate(sheet *s, const fw_device *d, fw_box inner, fw_box outer) {
     *s = (sheet){.arena = fw_arena_new(0)};
-    return fw_layout_annotate(s->arena, d, inner, outer, &s->piece, &s->n, &s->capacity);
+    return fw_layout_annotate(s->arena, d, inner, outer, NULL, &s->piece, &s->n, &s->capacity);
 }
 
 static double area_of(const sheet *s, fw_role role) {
@@ -192,7 +192,7 @@ static void short_memory(void **state) {
     for (long at = 1; status != FW_OK && at < 5000; at += 7) {
         sheet s = {.arena = fw_arena_new(0)};
         fw_arena_fail_at(at, 1);
-        status = fw_layout_annotate(s.arena, &d, window, die, &s.piece, &s.n, &s.capacity);
+        status = fw_layout_annotate(s.arena, &d, window, die, NULL, &s.piece, &s.n, &s.capacity);
         fw_arena_fail_at(0, 0);
         assert_true(status == FW_OK || status == FW_NOMEM);
         fw_arena_free(s.arena);

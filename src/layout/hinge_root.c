@@ -1,13 +1,118 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Flexures whose centre line is any path or whose width varies: both roots, and the strip between
-   the cuts. docs/theory/layout.md, section 2. */
+/* The flexure of a hinge and its two roots: circular arcs, straight leaves, and any path or varying
+   width; the strip between the two cuts. docs/theory/layout.md, section 2. */
 #include "flexure/path.h"
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include "layout/draw.h"
+#include <math.h>
+
+double fw_hinge_centre(const fw_flexure *flexure, double fillet_m) {
+    /* of a uniform modulus: one drawing serves every flow; what a crystal moves is the mechanism's
+       business (fw_flexure_result.offset_m) */
+    const fw_flexure_input in = fw_flexure_input_of(flexure, fillet_m);
+    fw_flexure_shape shape;
+    fw_flexure_shape_of(&in, &shape);
+    return shape.centre_m;
+}
+
+/* circular arc, half-angle a, centre-line radius r, width t, from O; W at (centre_m, 0):
+     outer fillet centre at r + t/2 + rho, offset asin(rho/(r + t/2 + rho)) from the root face,
+     inner one at r - t/2 - rho, offset g = asin(rho/(r - t/2 - rho)), the larger:
+       the cut is at a - g
+     inner corner of the root block: 40 um or 4 t inside the centre line, at most r/2, but the two
+       blocks keep the least space, and the face keeps 1 um flat:
+       rho <= (ri^2 - (corner + 1 um)^2)/(2 ri)
+   in: flexure (m, rad), shape->fillet_m wanted; out: shape in the hinge frame; false: no room
+   docs/theory/layout.md, section 2; test_layout.c hinge_is_exact */
+bool fw_hinge_shape_csfh(const fw_flexure *flexure, fw_hinge_shape *shape) {
+    const fw_layout_rules *rule = &fw_layout_rule;
+    double flat = rule->root_flat_m;
+    double r = flexure->radius_m, t = flexure->width_m, a = 0.5 * flexure->angle_rad;
+    double ri = r - 0.5 * t, ro = r + 0.5 * t, sa = sin(a), ca = cos(a);
+    if (!(ri > 0.0 && sa > 0.0)) return false;
+
+    double least = (rule->half_space_share * rule->least_space_m + flat * fmax(0.0, -ca)) / sa;
+    double depth = fmax(rule->block_depth_m, rule->block_depth_widths * t);
+    double corner = fmax(fmax(r - depth, rule->block_depth_radii * r), least);
+    double room = ri * ri - (least + flat) * (least + flat);
+    if (!(room > 0.0)) return false;
+    double rho = fmin(shape->fillet_m, fmin(room / (2.0 * ri), rule->fillet_radii * ri));
+    if (!(rho > rule->fillet_least_widths * t)) return false;
+    double face_end = sqrt(ri * ri - 2.0 * ri * rho);
+    if (corner > face_end - flat) corner = face_end - flat;
+
+    double inner = asin(rho / (ri - rho)), outer = asin(rho / (ro + rho)), cut = a - inner;
+    if (!(cut > rule->cut_least_rad)) return false;
+    double far_end = sqrt((ro + rho) * (ro + rho) - rho * rho);
+    fw_vec2 o = fw_v(-fw_hinge_centre(flexure, rho), 0.0), e = fw_v(ca, sa);
+
+    shape->arc_centre = o;
+    shape->strip_sweep_rad = 2.0 * cut;
+    shape->fillet_m = rho;
+    shape->cut_flags = FW_SEGMENT_JOINT;
+    shape->width_m = t;
+    shape->size_m = r;
+    shape->joint_in = fw_add(o, ri, fw_polar(cut));
+    shape->joint_out = fw_add(o, ro, fw_polar(cut));
+    shape->edge_centre = o;
+    shape->edge_sweep_rad = inner - outer;
+    shape->inner_end = shape->joint_in;
+    shape->outer_start = fw_add(o, ro, fw_polar(a - outer));
+    shape->outer_centre = fw_add(o, ro + rho, fw_polar(a - outer));
+    shape->outer_end = fw_add(o, far_end, e);
+    shape->outer_sweep_rad = -(0.5 * FW_PI - outer);
+    shape->inner_start = fw_add(o, face_end, e);
+    shape->inner_centre = fw_add(o, ri - rho, fw_polar(cut));
+    shape->inner_sweep_rad = -(0.5 * FW_PI + inner);
+    shape->root = fw_add(o, r, e);
+    shape->face = e;
+    shape->into = fw_left(e);
+    shape->inner_corner = fw_add(o, corner, e);
+    shape->reach_m = fmax(fw_norm(shape->outer_end), fabs(o.x + ro));
+    return true;
+}
+
+/* straight leaf along y of the hinge frame, W in its middle: root faces at y = +-L/2, fillets of
+   radius rho tangent to both, cut at L/2 - rho
+   in: flexure (m), shape->fillet_m wanted; out: shape in the hinge frame; false: no room
+   docs/theory/layout.md, section 2; test_layout.c leaf_is_exact */
+bool fw_hinge_shape_leaf(const fw_flexure *flexure, fw_hinge_shape *shape) {
+    const fw_layout_rules *rule = &fw_layout_rule;
+    double L = flexure->length_m, t = flexure->width_m, y = 0.5 * L, x = 0.5 * t;
+    double rho = fmin(shape->fillet_m, rule->fillet_lengths * L), cut = y - rho;
+    if (!(L > rule->leaf_spaces * rule->least_space_m && t > 0.0)) return false;
+    if (!(rho > rule->fillet_least_widths * t)) return false;
+
+    shape->arc_centre = fw_v(0.0, 0.0);
+    shape->strip_sweep_rad = 0.0;
+    shape->fillet_m = rho;
+    shape->cut_flags = FW_SEGMENT_JOINT;
+    shape->width_m = t;
+    shape->size_m = y;
+    shape->joint_in = fw_v(-x, cut);
+    shape->joint_out = fw_v(x, cut);
+    shape->edge_sweep_rad = 0.0;
+    shape->inner_end = shape->joint_in;
+    shape->outer_start = shape->joint_out;
+    shape->outer_centre = fw_v(x + rho, cut);
+    shape->outer_end = fw_v(x + rho, y);
+    shape->outer_sweep_rad = -0.5 * FW_PI;
+    shape->inner_start = fw_v(-x - rho, y);
+    shape->inner_centre = fw_v(-x - rho, cut);
+    shape->inner_sweep_rad = -0.5 * FW_PI;
+    shape->root = fw_v(0.0, y);
+    shape->face = fw_v(1.0, 0.0);
+    shape->into = fw_v(0.0, 1.0);
+    shape->inner_corner =
+        fw_v(-fmax(rule->block_depth_m, x + rho + rule->block_depth_widths * t), y);
+    shape->reach_m = fw_norm(shape->outer_end);
+    return true;
+}
+
+/* ---- any path ---- */
 
 enum { PLACES = 48 };
-static const double beyond_fillet_m = 1e-6;
 
 /* the strip in the hinge frame, W at the origin */
 static void lay(const fw_flexure *f, double fillet_m, fw_course *p) {
@@ -114,15 +219,19 @@ static void edge_part(const fw_segment *edge, fw_vec2 from, fw_vec2 to, fw_vec2 
 /* how far the block may reach inside the centre line: 40 um or 4 t, half the radius, and no nearer
    to the other block than half the least space from the axis */
 static double block_depth(const fw_strip_piece *last, fw_vec2 root, fw_vec2 left, double rho) {
-    double t = last->width_m[2], depth = fmax(FW_RING_M, 4.0 * t);
-    if (last->curvature_per_m == 0) depth = fmax(FW_RING_M, 0.5 * t + rho + 4.0 * t);
-    if (last->curvature_per_m > 0) depth = fmin(depth, 0.5 / last->curvature_per_m);
-    if (left.y < 0) depth = fmin(depth, (root.y - 0.525 * FW_LEAST_SPACE_M) / -left.y);
+    const fw_layout_rules *rule = &fw_layout_rule;
+    double t = last->width_m[2], wide = rule->block_depth_widths * t;
+    double half_space = rule->half_space_share * rule->least_space_m;
+    double depth = fmax(rule->block_depth_m, wide);
+    if (last->curvature_per_m == 0) depth = fmax(rule->block_depth_m, 0.5 * t + rho + wide);
+    if (last->curvature_per_m > 0)
+        depth = fmin(depth, rule->block_depth_radii / last->curvature_per_m);
+    if (left.y < 0) depth = fmin(depth, (root.y - half_space) / -left.y);
     return depth;
 }
 
 static bool root_shape(const fw_course *p, double rho, fw_hinge_shape *s) {
-    const double flat = 1e-6;
+    const fw_layout_rules *rule = &fw_layout_rule;
     const fw_strip_shape *last = &p->shape[p->n - 1];
     fw_pose end = p->start[p->n];
     fw_vec2 into = {cos(end.angle_rad), sin(end.angle_rad)}, left = vec_left(into);
@@ -136,9 +245,10 @@ static bool root_shape(const fw_course *p, double rho, fw_hinge_shape *s) {
     in.back_m = back_of(p, in.on_edge), out.back_m = back_of(p, out.on_edge);
     double depth = block_depth(&last->piece, root, left, rho);
     /* on the edges themselves, which run through it: the bias then moves both pieces alike */
-    double cut = fmax(in.back_m, out.back_m) + beyond_fillet_m;
-    if (!(in.face_m < depth - flat && in.back_m > 0 && out.back_m > 0)) return false;
-    if (!(cut < (p->n == 1 ? 0.45 : 0.95) * last->piece.length_m)) return false;
+    double cut = fmax(in.back_m, out.back_m) + rule->beyond_fillet_m;
+    if (!(in.face_m < depth - rule->root_flat_m && in.back_m > 0 && out.back_m > 0)) return false;
+    double share = p->n == 1 ? rule->cut_share_only : rule->cut_share_last;
+    if (!(cut < share * last->piece.length_m)) return false;
 
     *s = (fw_hinge_shape){.fillet_m = rho, .width_m = t, .strip_sweep_rad = 0};
     s->cut_flags = FW_SEGMENT_JOINT | FW_SEGMENT_THROUGH;
@@ -179,12 +289,13 @@ static double size_of(const fw_flexure *f, const fw_course *p, double reach) {
 
 bool fw_hinge_shape_path(const fw_flexure *f, double fillet_m, fw_hinge_shape shape[2]) {
     fw_course up, low;
-    double rho = fillet_m, least = 0.02 * fw_flexure_narrowest_m(f);
-    for (; rho > least; rho *= 0.95) { /* both roots alike; W moves with the fillet */
+    const fw_layout_rules *rule = &fw_layout_rule;
+    double rho = fillet_m, least = rule->fillet_least_widths * fw_flexure_narrowest_m(f);
+    for (; rho > least; rho *= rule->fillet_step) { /* both roots alike; W moves with the fillet */
         lay(f, rho, &up);
         turned(&up, &low);
-        if (up.start[up.n].y_m < FW_LEAST_SPACE_M || low.start[low.n].y_m < FW_LEAST_SPACE_M)
-            return false;
+        double nearest = fmin(up.start[up.n].y_m, low.start[low.n].y_m);
+        if (nearest < rule->least_space_m) return false;
         if (root_shape(&up, rho, &shape[1]) && root_shape(&low, rho, &shape[0])) break;
     }
     if (!(rho > least)) return false;
@@ -283,7 +394,9 @@ static double distance_to(const fw_contour *c, fw_vec2 from) {
    to that body? on 49 places of each edge and piece */
 static bool near_head(const fw_course *p, const fw_hinge_plan *plan, int upper) {
     const fw_side *side = &plan->side[upper];
-    double whole = 0, before = 0, clear = plan->shape[upper].cut_m + 3 * FW_LEAST_SPACE_M;
+    const fw_layout_rules *rule = &fw_layout_rule;
+    double whole = 0, before = 0;
+    double clear = plan->shape[upper].cut_m + rule->path_clear_spaces * rule->least_space_m;
     for (int i = 0; i < p->n; i++)
         whole += p->shape[i].piece.length_m;
     for (int i = 0; i < p->n; before += p->shape[i++].piece.length_m)
@@ -293,7 +406,7 @@ static bool near_head(const fw_course *p, const fw_hinge_plan *plan, int upper) 
             for (int sign = -1; sign <= 1; sign += 2) {
                 fw_vec2 q = fw_path_edge(p, i, (double)k / PLACES, sign);
                 q = fw_local_point(&plan->side[1].local, q);
-                if (distance_to(&side->head, q) < FW_OWN_SPACE_M ||
+                if (distance_to(&side->head, q) < rule->own_space_m ||
                     fw_contour_contains(&side->head, q))
                     return true;
             }
