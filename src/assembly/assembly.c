@@ -165,9 +165,9 @@ static void say_moved(const fw_mechanism *m, const fw_joint_gap *gap, const doub
     char before[96], way[96], text[400];
     const fw_place place = {.file = m->device ? m->device->file : NULL};
     snprintf(text, sizeof text,
-             "the poses that the description states leave joints open by up to %s; they are taken "
-             "as a guess, and bodies were moved by up to %s to close them; `flexwright assemble` "
-             "shows it",
+             "the poses that the description states leave joints open by up to %s; they are "
+             "used as an initial guess, and bodies were moved by up to %s to close the joints; "
+             "`flexwright assemble` lists the closed poses",
              amount(before, sizeof before, open, askew, size, unit),
              amount(way, sizeof way, moved, turned, size, unit));
     if (fmax(moved, turned * size) > 1e-6 * size)

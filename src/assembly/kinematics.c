@@ -180,7 +180,7 @@ static fw_status contradict(const state *s, double t, const char *what) {
     char time[32];
     fw_status status = fw_diag_error(
         s->diags, 118, (fw_place){0},
-        "at %s s the drivers ask for %s that the joints do not allow; the position is "
+        "at %s s the drivers prescribe %s that the joints do not allow; the position is "
         "singular there, or two drivers contradict each other",
         fw_number_text(time, sizeof time, t * s->m->scale.time_s, 6), what);
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
@@ -325,7 +325,7 @@ static fw_status lost(const state *s, const fw_scene *scene, double t) {
     fw_status status = fw_diag_error(
         s->diags, 118, scene->place,
         "the mechanism cannot follow its drivers in scene %s beyond %s s: no position near the "
-        "last one has the values that they ask for",
+        "last one has the values that they prescribe",
         scene_text(scene), fw_number_text(time, sizeof time, t * s->m->scale.time_s, 6));
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }

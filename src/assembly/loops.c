@@ -251,8 +251,9 @@ static fw_status blame_driver(const fw_mechanism *mechanism, const fw_closure *c
             fw_length_text(text[i], sizeof asked, shown[i], unit);
     return fw_diag_error(
         diags, 116, d->place,
-        "driver %s cannot have the value that it asks for at the start: it asks "
-        "for %s, and the nearest that the joints allow from this guess is %s (%s off)",
+        "driver %s cannot have its prescribed value at the start: it prescribes %s, and the "
+        "nearest value that the joints allow from this initial guess is %s (%s off); correct "
+        "its value or the positions of the bodies",
         name_of(d->id), asked, best, less);
 }
 

@@ -386,11 +386,11 @@ static const fw_option_row table[] = {
     {"memory", 0, "MIB", "most memory that the design may take, in MiB; default 512", FW_OPT_PLAN,
      take_memory},
     {"effects", 0, "WHICH",
-     "auto (leaves out what provably changes less than the accuracy wanted), all, none, or a list "
-     "like inertia,gravity,joint-damping (without inertia: a row of equilibria); whatever the "
-     "choice, stiffness, springs, stops within reach, loads, tendons, comb drives and initial "
-     "velocities stay, and weight and the motion of the base where nothing else moves the device: "
-     "without them there would be nothing to judge",
+     "auto (leaves out what provably changes less than the accuracy wanted), all, none, or a "
+     "list like inertia,gravity,joint-damping (without inertia: a quasi-static sequence of "
+     "equilibria); whatever the choice, stiffness, springs, stops within reach, loads, tendons, "
+     "comb drives and initial velocities stay, and weight and the motion of the base where "
+     "nothing else moves the device: without them there would be nothing to judge",
      FW_OPT_PLAN, take_effects},
     {"corners", 0, "WHICH",
      "auto: the verdict holds for what each flow may make of the device, at the corners of its "
@@ -398,8 +398,8 @@ static const fw_option_row table[] = {
      "(edges, etch, thickness, modulus); none: for the drawn geometry only",
      FW_OPT_PLAN, take_corners},
     {"advice", 0, "WHICH",
-     "auto: for a design that is not accepted, the smallest changes that would be are looked for, "
-     "each one run; none: the verdict only, in a fraction of the time",
+     "auto: for a design that is not accepted, the smallest changes that would be are searched "
+     "for, each one computed; none: the verdict only, in a fraction of the time",
      FW_OPT_VERDICT, take_advice},
     {"flow", 0, "NAME", "only this process flow", FW_OPT_PLAN, take_flow},
     {"hinge-model", 0, "MODEL",

@@ -147,7 +147,7 @@ static void check_comb(fw_reader *r, const fw_record *record, const fw_comb *c) 
     else if (c->voltage_V == 0)
         fw_diag_error(
             r->diags, 76, fw_place_of(record, "voltage"),
-            "%s: with voltage 0 V it pulls at nothing; give a voltage, or remove the drive", label);
+            "%s: with voltage 0 V it exerts no force; give a voltage, or remove the drive", label);
     if (c->body_a == c->body_b && c->body_b >= 0)
         fw_diag_error(r->diags, 62, fw_place_of(record, "against"),
                       "%s: rotor and stator are both on '%s' and never move against each other; "
@@ -164,8 +164,9 @@ static void check_comb(fw_reader *r, const fw_record *record, const fw_comb *c) 
     fw_needed(r, record, 76, of_comb + 1, 1, "by which the fingers are engaged");
     if (c->overlap_m > c->length_m * (1 + 1e-12))
         fw_diag_error(r->diags, 76, fw_place_of(record, "overlap"),
-                      "%s: the overlap %s is more than the fingers' length %s; they would run into "
-                      "the other side",
+                      "%s: the overlap %s is more than the fingers' length %s; the fingers "
+                      "would touch the opposite electrode; make the overlap shorter or the "
+                      "fingers longer",
                       label, fw_in_unit(a, c->overlap_m, "um"), fw_in_unit(b, c->length_m, "um"));
 }
 
@@ -205,8 +206,8 @@ fw_status fw_build_base_motion(fw_scene_reader *s, int at) {
     if (b.ax_m_per_s2 == 0 && b.ay_m_per_s2 == 0)
         fw_diag_error(
             s->r->diags, 93, b.place,
-            "<base-motion> without acceleration shakes nothing; give ax or ay, for example "
-            "ax=\"100 m/s^2\", or remove it");
+            "<base-motion> needs an acceleration; give ax or ay, for example ax=\"100 m/s^2\", "
+            "or remove it");
     FW_TRY(fw_time_law(s->r, record, &b.law));
     s->scene->base[s->scene->nbase++] = b;
     return FW_OK;

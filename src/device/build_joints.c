@@ -56,8 +56,7 @@ static void check_stops(fw_reader *r, const fw_record *record, const fw_joint *j
     if (j->stop_stiffness_Nm_per_rad == 0)
         fw_diag_error(
             r->diags, 64, fw_place_of(record, "stop-stiffness"),
-            "%s: a stop with stop-stiffness 0 stops nothing; make it stiff, or remove the "
-            "stop",
+            "%s: a stop needs a stop-stiffness above 0; increase it, or remove the stop",
             label);
 }
 

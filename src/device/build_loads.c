@@ -7,7 +7,8 @@ static void needs_size(fw_scene_reader *s, const fw_record *record, const char *
                        const char *x, const char *y, const char *example) {
     if (fw_given(record, x) || fw_given(record, y)) return;
     fw_diag_error(s->r->diags, 93, record->element->place,
-                  "<%s> without a size does nothing; give %s or %s, for example %s, or remove it",
+                  "<%s> has no magnitude and therefore no effect; give %s or %s, for example "
+                  "%s, or remove it",
                   element, x, y, example);
 }
 

@@ -23,8 +23,8 @@ static void check_what_slides(fw_reader *r, const fw_record *record, const fw_fr
     if (f->tie != FW_NONE && d->tie[f->tie].kind != FW_TIE_PRISMATIC)
         fw_diag_error(
             r->diags, 77, fw_place_of(record, "on"),
-            "%s is a %s joint, which nothing slides in; name a revolute or a prismatic, or "
-            "use damping",
+            "%s is a %s joint, in which no surfaces slide; name a revolute or a prismatic "
+            "joint, or use damping",
             label, tie_text[d->tie[f->tie].kind]);
     else if (f->tie != FW_NONE)
         fw_refused(r, record, 77, radius, 1,
@@ -46,8 +46,8 @@ static void check_friction(fw_reader *r, const fw_record *record, const fw_scene
     if (f->static_coefficient < f->coefficient)
         fw_diag_error(
             r->diags, 77, fw_place_of(record, "static-coefficient"),
-            "%s: static-coefficient %s is below coefficient %s; what sticks holds at least "
-            "as much as what slides: exchange them",
+            "%s: static-coefficient %s is below coefficient %s; static friction is at least as "
+            "large as sliding friction: exchange them",
             label, fw_in_unit(low, f->static_coefficient, "1"),
             fw_in_unit(high, f->coefficient, "1"));
     for (int i = 0; i < s->nfriction && (f->joint != FW_NONE || f->tie != FW_NONE); i++)
@@ -126,8 +126,8 @@ static void check_points(fw_reader *r, const fw_record *record, fw_contact_use *
                "is that of a hinge's surfaces; for two points write distance instead");
     if (c->side == FW_CONTACT_OUTSIDE && c->distance_m == 0)
         fw_diag_error(r->diags, 78, fw_place_of(record, "distance"),
-                      "%s: two things side by side touch at a distance above 0, their radii "
-                      "together",
+                      "%s: two circles side by side touch at the sum of their radii, so that "
+                      "distance must be above 0",
                       fw_label(record, label));
     if (fw_given(record, "a") && fw_given(record, "b") && c->body_a == c->body_b &&
         c->body_a != FW_NOWHERE)

@@ -26,8 +26,8 @@ fw_status fw_build_temperature(fw_scene_reader *s, int at) {
     double part = t.change_K * t.modulus_change_per_K;
     if (part <= -1)
         fw_diag_error(s->r->diags, 93, fw_place_of(record, "modulus-change"),
-                      "%s: change times modulus-change is %s, so that nothing is left of Young's "
-                      "modulus; it must stay above -1",
+                      "%s: change times modulus-change is %s, so that Young's modulus would be "
+                      "0 or negative; the product must stay above -1",
                       fw_label(record, label), fw_in_unit(whole, part, "1"));
     s->scene->temperature[s->scene->ntemperature++] = t;
     return FW_OK;

@@ -270,9 +270,10 @@ static void tell(fw_reader *r, const row *worst, double gap_m, double gap_rad, d
                  double turned_rad) {
     char gap[FW_LABEL], tilt[FW_LABEL], moved[FW_LABEL], turned[FW_LABEL];
     fw_diag_note(r->diags, 132, worst->place,
-                 "as written, joints are open by up to %s (%s) and %s, which is what rounded "
-                 "numbers leave; bodies are moved by up to %s and turned by up to %s, the least "
-                 "that closes all of them, for drawing and motion alike",
+                 "the stated positions leave joints open by up to %s (%s) and %s, as rounded "
+                 "numbers do; for drawing and motion alike, bodies are moved by up to %s and "
+                 "turned by up to %s, the smallest change that closes all joints; write more "
+                 "digits to avoid it",
                  fw_in_unit(gap, gap_m, "nm"), worst->id ? worst->id : "",
                  fw_in_unit(tilt, gap_rad, "deg"), fw_in_unit(moved, moved_m, "nm"),
                  fw_in_unit(turned, turned_rad, "deg"));

@@ -121,7 +121,8 @@ int fw_reference(fw_reader *r, const fw_record *record, const char *name) {
     if (strcmp(id, "ground") == 0 && row->space == FW_SPACE_BODY) {
         if (row->ground) return FW_GROUND;
         char label[FW_LABEL];
-        fw_diag_error(r->diags, 46, cell->given->place, "%s: the ground does not move; name a body",
+        fw_diag_error(r->diags, 46, cell->given->place, "%s: the ground is fixed and cannot be "
+                                                        "used here; name a body",
                       fw_label(record, label));
         return FW_NOWHERE;
     }

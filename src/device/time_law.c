@@ -219,7 +219,8 @@ static void check_start(fw_reader *r, const fw_record *record, const fw_law *law
     char label[FW_LABEL], end[FW_LABEL];
     if (!(late || empty) || isnan(end_s)) return;
     fw_diag_warning(r->diags, 99, fw_place_of(record, late ? "start" : law->kind->may_be_nothing),
-                    "%s: its law is 0 until the scene ends at %s, so it never acts",
+                    "%s: its law is 0 until the scene ends at %s, so that it has no effect; let "
+                    "it begin earlier, or make the scene longer",
                     fw_label(record, label), fw_in_unit(end, end_s, "ms"));
 }
 

@@ -310,8 +310,9 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
         char deep[32], far[32], at[32];
         if (!(past > drawn_closed)) continue;
         fw_diag_warning(diags, 134, use->place,
-                        "contact %s is pressed %s um deep in the drawn pose: its points are %s um "
-                        "apart and touch at %s um; correct the points, the distance or the side",
+                        "contact %s overlaps by %s um in the drawn pose: its points are %s um "
+                        "apart and touch at a distance of %s um; correct the points, the "
+                        "distance or the side",
                         use->id ? use->id : "(unnamed)",
                         fw_number_text(deep, sizeof deep, 1e6 * past, 4),
                         fw_number_text(far, sizeof far, 1e6 * apart, 4),

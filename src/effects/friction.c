@@ -70,8 +70,9 @@ static fw_status unknown_radius(const fw_effect_case *c, const fw_friction_use *
     const char *id = c->mechanism->pin[u->joint].id;
     if (!c->diags) return FW_INPUT;
     return fw_diag_error(c->diags, 245, u->place,
-                         "friction of joint %s needs the radius of what slides: the joint has no "
-                         "conjugate surfaces to take it from; give radius on <friction>",
+                         "friction of joint %s needs the radius of the sliding surface, and the "
+                         "joint has no conjugate surfaces that define one; give radius on "
+                         "<friction>",
                          id ? id : "(unnamed)");
 }
 

@@ -275,8 +275,9 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     *value = (double)INFINITY;
     if (keep) {
         FW_NEED(*reason = fw_arena_printf(c->arena,
-                                          "masses resist changes of motion, and nothing "
-                                          "bounds what a row of equilibria would miss: kept (%s)",
+                                          "masses resist changes of motion, and no bound is "
+                                          "known on the error of a quasi-static sequence of "
+                                          "equilibria: kept (%s)",
                                           keep));
         return FW_OK;
     }
@@ -297,8 +298,8 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     fw_arena_rewind(c->arena, mark);
     *value = most / least;
     *reason =
-        "masses resist changes of motion: jumps of the loads and changes of their slope, against "
-        "a row of equilibria";
+        "masses resist changes of motion: jumps of the loads and changes of their slope, "
+        "compared with a quasi-static sequence of equilibria";
     return FW_OK;
 }
 
@@ -316,7 +317,8 @@ static fw_status leave_out(const fw_effect_case *c, fw_terms *terms) {
 
 const fw_effect_row fw_effect_inertia = {
     .id = "inertia",
-    .summary = "masses resist changes of motion; without, the motion is a row of equilibria",
+    .summary = "masses resist changes of motion; without it, the motion is a quasi-static "
+               "sequence of equilibria",
     .called_for = called_for,
     .bound = bound,
     .add = add,

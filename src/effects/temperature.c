@@ -92,8 +92,9 @@ static fw_status check_law(const fw_effect_case *c, const fw_temperature *t, int
     FW_TRY(jump(c->arena, t->law, c->scene->duration_s, &at));
     if (isnan(at)) return FW_OK;
     return fw_diag_error(diags, 252, t->place,
-                         "the temperature jumps at %s s: no body becomes warm at once; give it a "
-                         "ramp",
+                         "the temperature jumps at %s s, but the joints on the ground move with "
+                         "it and cannot jump; use law=\"ramp\" with a rise, or another law "
+                         "without jumps",
                          fw_number_text(time, sizeof time, at, 6));
 }
 
@@ -113,8 +114,10 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
         least -= fabs(soft) * fw_law_largest(t->law, c->scene->duration_s);
         if (!(least > 0))
             return fw_diag_error(diags, 252, t->place,
-                                 "the flexures could lose all their stiffness by this temperature: "
-                                 "a linear modulus-change does not reach that far");
+                                 "at this temperature the linear modulus-change would reduce "
+                                 "the stiffness of the flexures to 0 or below; it is valid for "
+                                 "small changes only: lower the change of temperature or "
+                                 "modulus-change");
     }
     return FW_OK;
 }

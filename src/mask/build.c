@@ -121,9 +121,10 @@ static fw_status tell_wavy(const fw_mask_shape *shape, const fw_wavy_arc *wavy, 
     double up_nm = ceil(wavy->next_m * 1e12) * 1e-3; /* to the next pm, so that it does */
     return fw_diag_error(
         diags, 136, nowhere,
-        "%s: with a tolerance of %s nm its arc of radius %s um through %s deg at %s gets chords so "
-        "short that rounding to the 1 nm grid bends them the wrong way; %s nm takes one chord less "
-        "for it, and from 1.42 nm on every arc is safe",
+        "%s: with a tolerance of %s nm its arc of radius %s um through %s deg at %s gets chords "
+        "so short that rounding to the 1 nm grid can reverse the sense of its curvature; use a "
+        "tolerance of %s nm, with one chord fewer on this arc, or of 1.42 nm or more, which is "
+        "safe for every arc",
         shape->piece->label, fw_number_text(eps, sizeof eps, tolerance_m * 1e9, 6),
         fw_number_text(radius, sizeof radius, wavy->arc.radius * 1e6, 6),
         fw_number_text(sweep, sizeof sweep, fabs(wavy->arc.sweep_rad) * 180 / FW_PI, 4), at,

@@ -184,9 +184,9 @@ static void say_left_out(const fw_builder *b, const fw_flexure *f, const fw_join
     if (!(drift > 1e-9 || coupling > 0.01) || fw_said_already(b->diags, 265, f->place)) return;
     fw_diag_warning(
         b->diags, 265, f->place,
-        "hinge %s: its path is not its own mirror image; up to %s deg the law of hinges that "
-        "give leaves out %s um of drift along its axis and a coupling of %s between "
-        "the two directions of force; make the path symmetric if that matters",
+        "hinge %s: its path is not its own mirror image; up to %s deg the model of compliant "
+        "hinges neglects %s um of drift along its axis and a coupling of %s between the two "
+        "directions of force; make the path symmetric if that matters",
         fw_name_or_none(joint->id), fw_number_text(degrees, sizeof degrees, most * 180 / FW_PI, 3),
         fw_number_text(um, sizeof um, 1e6 * drift, 2),
         fw_number_text(share, sizeof share, coupling, 2));

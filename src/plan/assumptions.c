@@ -80,8 +80,8 @@ static fw_status strength_override(fw_plan *plan) {
     fw_number_text(mine, sizeof mine, own->value * 1e-9, 3);
     fw_number_text(theirs, sizeof theirs, pack->strength.value * 1e-9, 3);
     fw_diag_note(&plan->diags, 231, own->place,
-                 "strength of %s is stated as %s GPa, the pack has %s GPa (%s): the verdict rests "
-                 "on it, so measure it on beams of the same wafer",
+                 "strength of %s is stated as %s GPa, the pack has %s GPa (%s): the verdict "
+                 "depends on it, so measure it on beams of the same wafer",
                  pack->id, mine, theirs, pack->strength.source ? pack->strength.source : "");
     return fw_plan_assume(
         plan,

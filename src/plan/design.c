@@ -313,7 +313,8 @@ int fw_design_read(fw_design *design, const char *path) {
 int fw_design_read_memory(fw_design *design, const char *name, const void *xml, size_t n) {
     if (!design) return FW_STATUS_USAGE;
     if (!xml)
-        return (int)fw_design_usage(design, "read_memory needs the fw_bytes of a description");
+        return (int)fw_design_usage(design, "fw_design_read_memory needs the text of a "
+                                            "description: the pointer is NULL or the length is 0");
     if (n > SIZE_MAX / 2)
         return (int)fw_design_usage(design, "read_memory: the length is not possible");
     return read_from(design, (fw_bytes){name ? name : "memory", xml, n});

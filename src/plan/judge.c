@@ -62,7 +62,7 @@ const fw_scene *fw_plan_scene(fw_plan *plan) {
         if (wanted ? strcmp(scene->name, wanted) == 0 : loaded(plan, scene->flow)) {
             if (loaded(plan, scene->flow)) return scene;
             fw_diag_error(&plan->diags, 229, scene->place,
-                          "scene '%s' holds in flow %s only, and --flow asks for %s", scene->name,
+                          "scene '%s' applies to flow %s only, and --flow selects %s", scene->name,
                           scene->flow, plan->options.flow);
             return NULL;
         }

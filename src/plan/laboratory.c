@@ -50,7 +50,7 @@ fw_status fw_plan_lab_used(fw_plan *plan) {
     for (int i = 0; i < plan->nlab; i++)
         if (!plan->lab[i].used)
             fw_diag_warning(&plan->diags, 211, (fw_place){.file = plan->lab[i].file},
-                            "nothing of this laboratory pack is used: it is for no flow that is "
+                            "this laboratory pack has no effect: it is for a flow that is not "
                             "planned here");
     return plan->diags.failed ? FW_NOMEM : FW_OK;
 }

@@ -74,9 +74,11 @@ static int leave_out(const fw_plan *plan, bool judged, fw_report_left_out *item)
             "not run.",
             true};
     if (!plan->options.verdict.with_advice)
-        item[n++] = (fw_report_left_out){"advice", "No change that accepts was looked for.", false};
+        item[n++] = (fw_report_left_out){"advice", "No change that would be accepted was "
+                                                   "searched for.", false};
     item[n++] = (fw_report_left_out){
-        "masks", "No mask was made, hence no design rule checked; the verdict is of hinges.",
+        "masks", "No mask was computed, so no design rule was checked; the verdict covers the "
+                 "hinges only.",
         false};
     return n;
 }

@@ -93,8 +93,9 @@ fw_status fw_coupon_give(fw_coupon_work *w, const char *id, double value, double
                                id, w->flow->id);
     if (p < least_probability)
         return fw_diag_error(w->diags, 212, w->row[0]->place,
-                             "%s contradicts its own law: chi square %s with %d degrees of freedom "
-                             "has a probability of %s; %s is not calibrated from it",
+                             "the values of %s scatter more around their model than their "
+                             "uncertainties allow: chi square %s with %d degrees of freedom has "
+                             "a probability of %s; %s is not calibrated from it",
                              coupon, number(a, fit->chi_square, 4), fit->freedom, number(b, p, 2),
                              id);
     if (!(uncertainty > 0.0) || !isfinite(value) || !isfinite(uncertainty))
@@ -141,8 +142,8 @@ static fw_status check_row(fw_diags *diags, const fw_measurement *r) {
                              r->coupon);
     if (kind->at && !(r->at > 0.0))
         return fw_diag_error(diags, 211, r->place,
-                             "%s needs the columns at, u_at and at_unit: under which time, depth, "
-                             "charge or speed",
+                             "%s needs the columns at, u_at and at_unit: the time, depth, "
+                             "charge or speed at which it was measured",
                              r->coupon);
     return FW_OK;
 }

@@ -316,8 +316,8 @@ static fw_status tell(fw_arena *arena, const fw_flow *flow, fw_diags *diags) {
         }
     FW_TRY(fw_text_end(&text));
     fw_diag_note(diags, 176, flow->place,
-                 "%d of %d steps of '%s' are NOT COMPUTABLE (%s): what is missing is named in the "
-                 "run sheet; enter it in a laboratory pack",
+                 "%d of %d steps of '%s' are NOT COMPUTABLE (%s), because values are missing: "
+                 "the run sheet lists them; enter them in a laboratory pack",
                  flow->not_computable, flow->nstep, flow->id, text.data);
     return FW_OK;
 }

@@ -152,8 +152,8 @@ static fw_status anisotropy_known(fw_judge *j, const fw_cut *c) {
     if (weight == FW_ANSWER_NO)
         fw_diag_warning(
             j->diags, 184, c->step->place,
-            "in flow %s step %s takes the top edge of the narrowest flexure away: %s um "
-            "drawn, %s um left at A = %s",
+            "in flow %s step %s etches the top edge of the narrowest flexure away: %s um drawn, "
+            "%s um left at A = %s",
             j->flow->id, c->step->id, fw_judge_um(&t, w), fw_judge_um(&t, top),
             fw_judge_number(&t, c->anisotropy, 4));
     fw_numbers n = {0};
@@ -188,8 +188,9 @@ static fw_status not_through(fw_judge *j, const fw_cut *c, const fw_edge_class *
     fw_numbers t = {0};
     double times = k->reach_m / c->planned_m;
     fw_diag_warning(j->diags, 183, c->step->place,
-                    "in flow %s the %s (%s um drawn, %s um in the masking layer) is not through in "
-                    "the whole time of step %s: it needs %s times the planned time",
+                    "in flow %s the %s (%s um drawn, %s um in the masking layer) is not etched "
+                    "through within the time of step %s, over-etch included: it needs %s times "
+                    "the planned time; widen it or plan the step for the narrowest opening",
                     j->flow->id, k->name, fw_judge_um(&t, k->drawn_m),
                     fw_judge_um(&t, k->opening_m), c->step->id, fw_judge_number(&t, times, 4));
     return fw_judge_say(

@@ -50,8 +50,9 @@ static fw_status replace(fw_arena *arena, fw_flow *flow, fw_diags *diags, const 
     if (!old) return no_such(flow, diags, id);
     if (computed_id(old))
         return fw_diag_error(diags, 211, id->place,
-                             "'%s' is computed from this device's mask or by a step; a laboratory "
-                             "gives what goes in, not what comes out",
+                             "'%s' is computed from this device's mask or by a step, so that a "
+                             "laboratory pack cannot replace it; state the quantities that it "
+                             "is computed from",
                              id->value);
     if (!fw_dimension_equal(old->dimension, new->dimension)) {
         const char *is = fw_dimension_text(arena, new->dimension),
@@ -119,8 +120,8 @@ fw_status fw_lab_apply(fw_arena *arena, const char *file, const char *xml, size_
     const fw_attribute *of = fw_xml_attribute(root, "flow");
     if (!of)
         return fw_diag_error(diags, 211, root->place,
-                             "a laboratory pack says for which flow its values are: add "
-                             "flow=\"%s\" to <process>",
+                             "a laboratory pack must state the flow to which its values apply: "
+                             "add flow=\"%s\" to <process>",
                              flow->id);
     if (strcmp(of->value, flow->id) != 0) return FW_OK; /* of another flow of the device */
     FW_TRY(replace_all(arena, root, flow, diags));

@@ -62,7 +62,9 @@ static fw_status lint_loss(fw_arena *arena, fw_flow *flow, int index, const fw_e
     fw_number_text(u, sizeof u, q->uncertainty * unit, 3);
     fw_number_text(needed, sizeof needed, q->value * unit * (x->rate ? 1.0 / share : share), 4);
     if (loss >= least)
-        fw_diag_warning(diags, 270, x->place, "step %s takes %s um of %s, which is %s um thick",
+        fw_diag_warning(diags, 270, x->place, "step %s removes %s um of %s, but that layer is "
+                                              "only %s um thick; use a thicker layer or a "
+                                              "better selectivity",
                         s->id, lost, name, have);
     const char *of = x->rate ? "rate" : "selectivity", *gap = strcmp(q->unit, "1") ? " " : "";
     const char *why = fw_arena_printf(
@@ -93,7 +95,8 @@ static fw_status lint_mould(fw_arena *arena, fw_flow *flow, int index, const fw_
     char up[32], high[32];
     fw_number_text(up, sizeof up, grown * 1e6, 4);
     fw_number_text(high, sizeof high, height * 1e6, 4);
-    fw_diag_warning(diags, 273, c->place, "step %s plates %s um into a mould of %s um",
+    fw_diag_warning(diags, 273, c->place, "step %s plates up to %s um into a mould only %s um "
+                                          "high; use a higher mould or plate less",
                     flow->step[index].id, up, high);
     return fw_flow_add_reason(
         arena, flow, 0,

@@ -16,7 +16,7 @@ static void lint_acid(fw_pack *pack) {
             if (!named || strcmp(fw_pack_text(h, "buddy"), "no") == 0) continue;
             if (!fw_pack_get(h, "buddy"))
                 fw_diag_error(pack->diags, 174, h->place,
-                              "hazard '%s' speaks of hydrofluoric acid: say buddy=\"yes\", or "
+                              "hazard '%s' mentions hydrofluoric acid: state buddy=\"yes\", or "
                               "buddy=\"no\" where nobody handles the acid itself",
                               fw_pack_text(h, "id"));
             else if (!antidote)

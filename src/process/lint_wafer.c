@@ -57,9 +57,9 @@ static fw_status lint_attack(fw_pack *pack, int index, const fw_hazard *hazard,
     }
     if (open)
         fw_diag_error(pack->diags, 269, s->place,
-                      "step %s: '%s' attacks '%s', which is open there, and nothing says how fast; "
-                      "add <exposed material=\"%s\" rate=\"...\"/> (the rate may be unknown), or "
-                      "cover it",
+                      "step %s: '%s' attacks '%s', which is exposed there, and the pack states "
+                      "no rate for it; add <exposed material=\"%s\" rate=\"...\"/> (the rate "
+                      "may be unknown), or cover it",
                       s->id, hazard->id, material, material);
     return FW_OK;
 }
@@ -78,8 +78,8 @@ fw_status fw_lint_attacked(fw_pack *pack) {
             if (!fw_stack_open(f, &before, s->exposed[x].material) &&
                 !fw_stack_open(f, &after, s->exposed[x].material))
                 fw_diag_error(pack->diags, 269, s->exposed[x].place,
-                              "step %s: '%s' is not open at this step, so nothing takes it; remove "
-                              "<exposed>",
+                              "step %s: '%s' is not exposed at this step, so that it is not "
+                              "attacked; remove <exposed>",
                               s->id, s->exposed[x].material);
         }
     }
@@ -106,8 +106,9 @@ static void lint_hot(fw_pack *pack, const fw_step *s, const fw_stack *stack,
         fw_number_text(at, sizeof at, set->q->value - FW_ICE_POINT_K, 5);
         fw_number_text(bears, sizeof bears, m->highest_K->value - FW_ICE_POINT_K, 5);
         fw_diag_error(pack->diags, 271, s->place,
-                      "step %s: %s is %s Cel, and '%s' on the wafer bears %s Cel; remove it "
-                      "before, or stay below",
+                      "step %s: %s is %s Cel, but '%s' on the wafer tolerates at most %s Cel "
+                      "(its highest-temperature in the pack); remove it before this step, or "
+                      "stay below that temperature",
                       s->id, set->name, at, m->id, bears);
     }
 }

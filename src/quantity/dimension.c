@@ -42,6 +42,7 @@ static const named known[] = {
     {{2, 1, -3, -1, 0, 0, 0}, "voltage", "V"},
     {{2, 1, -3, -2, 0, 0, 0}, "electric resistance", "ohm"},
     {{-2, -1, 4, 2, 0, 0, 0}, "capacitance", "pF"},
+    {{0, 1, -2, -1, 0, 0, 0}, "magnetic flux density", "mT"},
     {{0, 1, 0, 0, 0, -1, 0}, "molar mass", "g/mol"},
     {{-3, 0, 0, 0, 0, 1, 0}, "concentration", "mol/L"},
     {{2, 1, -2, 0, 0, -1, 0}, "molar energy", "kJ/mol"},
@@ -183,6 +184,8 @@ const char *fw_unit_suggestion(const char *symbol, size_t n, const char *usual) 
         {"KG", "kg"},
         {"MM", "mm"},
         {"v", "V"},
+        {"Tesla", "T"},
+        {"tesla", "T"},
     };
     for (size_t i = 0; i < sizeof other / sizeof other[0]; i++)
         if (strlen(other[i][0]) == n && memcmp(other[i][0], symbol, n) == 0) return other[i][1];

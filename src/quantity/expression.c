@@ -127,7 +127,9 @@ static bool unknown_name(parser *p, const fw_token *name) {
     int n = (int)name->length;
     if (fw_unit_symbol(text, name->length))
         return fail(p, name->start, 22,
-                    fw_arena_printf(p->arena, "the unit '%.*s' needs a number in front: '1 %.*s'",
+                    fw_arena_printf(p->arena, "the unit '%.*s' stands without a number; write "
+                                              "'1 %.*s'; a compound unit has no parentheses: "
+                                              "0.3 kg/A/s^2, not 0.3 kg/(A s^2)",
                                     n, text, n, text));
     if (fw_function_find(text, name->length) >= 0)
         return fail(
@@ -411,8 +413,8 @@ static fw_status no_unit(fw_arena *arena, const char *text, size_t n, fw_dimensi
     error->offset = first;
     if (unit && fw_number_parse(text + first, last - first, &ignored))
         error->message = fw_arena_printf(arena,
-                                         "'%.*s' has no unit, and %s is wanted; write for example "
-                                         "'%.*s %s'",
+                                         "'%.*s' has no unit, and %s is wanted; write for "
+                                         "example '%.*s %s'",
                                          (int)(last - first), text + first, kind,
                                          (int)(last - first), text + first, unit);
     else

@@ -46,6 +46,8 @@
     { 2, 1, -3, -1, 0, 0, 0 }
 #define RESISTANCE                                                                                 \
     { 2, 1, -3, -2, 0, 0, 0 }
+#define FLUX_DENSITY                                                                               \
+    { 0, 1, -2, -1, 0, 0, 0 }
 #define CAPACITANCE                                                                                \
     { -2, -1, 4, 2, 0, 0, 0 }
 
@@ -128,6 +130,9 @@
     X("nF", 1e-9, 0.0, CAPACITANCE)                                                                \
     X("pF", 1e-12, 0.0, CAPACITANCE)                                                               \
     X("fF", 1e-15, 0.0, CAPACITANCE)                                                               \
+    X("T", 1.0, 0.0, FLUX_DENSITY)                                                                 \
+    X("mT", 1e-3, 0.0, FLUX_DENSITY)                                                               \
+    X("uT", 1e-6, 0.0, FLUX_DENSITY)                                                               \
     X("K", 1.0, 0.0, TEMPERATURE)                                                                  \
     X("mK", 1e-3, 0.0, TEMPERATURE)                                                                \
     X("Cel", 1.0, FW_ICE_POINT_K, TEMPERATURE)                                                     \

@@ -180,8 +180,8 @@ static fw_status read_entry(const reader *r, const char *words, size_t n, char s
 /* ---- the log ---- */
 static fw_status damaged(const reader *r, const char *why) {
     return fw_diag_error(r->diags, 280, r->place,
-                         "the log is not what was written: %s. Keep the file as it is, and begin a "
-                         "new log that says so in a note",
+                         "the log was changed or damaged after it was written: %s. Keep the "
+                         "file as it is, and begin a new log with a note about this",
                          why);
 }
 

@@ -83,7 +83,7 @@ static void freedom(const fw_rank *r, fw_text *out) {
         fw_text_add(out, "  the gap between them is small: the position is close to a singular "
                          "one, and the count may be that of the singular position\n");
     if (r->nredundant == 0) return;
-    fw_text_add(out, "  says nothing that other joints do not say, here at least:");
+    fw_text_add(out, "  redundant here, because other joints already impose it:");
     for (int i = 0; i < r->nredundant; i++)
         fw_text_printf(out, " %s", r->redundant[i]);
     fw_text_add(out, "\n");

@@ -67,8 +67,8 @@ void fw_report_made_text(fw_text *out, const fw_verdict *verdict) {
 /* ---- page ---- */
 
 static void ranges(fw_text *out, const fw_variant_verdict *v) {
-    fw_text_add(out, "<div class=\"wide\"><table><caption>What is not made exactly as drawn"
-                     "</caption><thead><tr><th scope=\"col\">Input</th><th scope=\"col\" "
+    fw_text_add(out, "<div class=\"wide\"><table><caption>What is not fabricated exactly as "
+                     "drawn</caption><thead><tr><th scope=\"col\">Input</th><th scope=\"col\" "
                      "class=\"n\">Nominal</th><th scope=\"col\" class=\"n\">From</th><th "
                      "scope=\"col\" class=\"n\">To</th><th scope=\"col\">Status</th><th "
                      "scope=\"col\">Source</th></tr></thead><tbody>\n");
@@ -161,7 +161,7 @@ fw_status fw_report_section_made(fw_page *page) {
         any = any || v->variant[i].made;
     if (!any)
         fw_text_add(page->out, v->drawn != FW_ACCEPT
-                                   ? "<p>Not looked at: the drawn geometry is not accepted.</p>\n"
+                                   ? "<p>Not examined: the drawn geometry is not accepted.</p>\n"
                                    : "<p>Only the drawn geometry was judged.</p>\n");
     for (int i = 0; i < v->nvariant; i++)
         if (v->variant[i].made) one_flow(page->out, &v->variant[i]);

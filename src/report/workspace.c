@@ -118,6 +118,6 @@ fw_status fw_report_section_workspace(fw_page *page) {
         if (v->workspace.reachable) peaks(page, v);
         FW_TRY(reachable(page, v));
     }
-    if (!any) fw_text_add(page->out, "<p>The description asks for no workspace.</p>\n");
+    if (!any) fw_text_add(page->out, "<p>The description states no required workspace.</p>\n");
     return fw_text_end(page->out);
 }

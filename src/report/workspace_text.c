@@ -114,7 +114,7 @@ static void required(fw_text *out, const fw_device *d, const fw_report_workspace
         return;
     }
     if (!p->proved) {
-        fw_text_add(out, "  reachable at every pose looked at; NOT PROVED\n");
+        fw_text_add(out, "  reachable at every sampled pose; NOT PROVED\n");
         return;
     }
     fw_text_printf(out, "  every pose can be assembled on the drawn branch (proved, %ld boxes)\n",

@@ -116,7 +116,7 @@ static fw_status next_terms(fw_arena *arena, const fw_mechanism *m, const fw_sce
     /* what they do to a flexure that gives is not in the terms of a pin */
     bool warm = acts(ledger, "temperature") || acts(ledger, "residual-stress");
     if (3 * m->nbody > FW_LEVEL_MOST)
-        step->why_not = "the mechanism is too large to look";
+        step->why_not = "the mechanism is too large to be examined";
     else if (step->next == step->used)
         step->why_not = step->used == FW_HINGE_ELASTICA ? "exact beams are the highest level here"
                                                         : "no hinge has a law of its own";

@@ -321,8 +321,8 @@ static fw_status at_rest(fw_rest *w, fw_modes *out) {
     if (held && out->out_of_rest < 1e-9) return FW_OK;
     char text[32];
     fw_diag_warning(w->diags, 114, w->scene->place,
-                    "the assembled pose is not in equilibrium (%s%s): its modes are those of the "
-                    "mechanism held there; --at equilibrium computes them where it comes to rest",
+                    "the assembled pose is not in equilibrium (%s%s): its modes are those of "
+                    "the mechanism held there; --at equilibrium computes them at its equilibrium",
                     held ? "which lies some " : "nothing holds it",
                     held ? fw_number_text(text, sizeof text, out->out_of_rest, 2) : "");
     return FW_OK;

@@ -239,14 +239,15 @@ static fw_status say(looker *k, fw_diags *diags) {
                    out->body, fw_number_text(fold, sizeof fold, 1e3 / out->rate_per_s, 3));
     if (out->pin != FW_NONE)
         fw_text_printf(
-            &text, ", and falls to where joint %s is turned by %s deg",
+            &text, ", and moves to an equilibrium with joint %s turned by %s deg",
             w->mechanism->pin[out->pin].id,
             fw_number_text(turned, sizeof turned, degree * fabs(out->angle_rad[out->pin]), 4));
     else if (!out->angle_rad)
-        fw_text_add(&text, ", and no equilibrium was found that it would come to rest in");
+        fw_text_add(&text, ", and no stable equilibrium was found that it would move to");
     fw_text_add(&text,
                 "; only the exact symmetry of the description keeps it there. Lower the load, "
-                "stiffen the joints, or load it a little beside the symmetry to see it fall");
+                "stiffen the joints, or apply the load with a small eccentricity to compute "
+                "that motion");
     FW_TRY(fw_text_end(&text));
     out->text = text.data;
     fw_diag_warning(diags, 259, w->scene->place, "%s", out->text);
@@ -277,7 +278,8 @@ fw_status fw_poise_find(fw_arena *arena, const fw_mechanism *mechanism, const fw
         return FW_OK;
     if (3 * mechanism->nbody > FW_POISE_MOST) {
         fw_diag_note(diags, 259, scene->place,
-                     "whether scene %s is stable was not looked at: more than %d bodies",
+                     "the stability of scene %s was not examined: the mechanism has more than "
+                     "%d bodies",
                      scene->name ? scene->name : "(unnamed)", FW_POISE_MOST / 3);
         return diags->failed ? FW_NOMEM : FW_OK;
     }

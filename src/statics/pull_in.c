@@ -405,7 +405,8 @@ fw_status fw_pull_in_find(fw_arena *arena, const fw_mechanism *mechanism, const 
     if (!driven) return FW_OK;
     if (3 * mechanism->nbody > FW_PULL_IN_MOST) {
         fw_diag_note(diags, 249, scene->comb[0].place,
-                     "the pull-in voltage of scene %s is not looked for: more than %d bodies",
+                     "the pull-in voltage of scene %s was not computed: the mechanism has more "
+                     "than %d bodies",
                      scene->name ? scene->name : "(unnamed)", FW_PULL_IN_MOST / 3);
         return diags->failed ? FW_NOMEM : FW_OK;
     }

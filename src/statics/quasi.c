@@ -53,11 +53,11 @@ static void say_cost(const fw_scene *scene, const fw_effect_ledger *ledger, doub
     if (!entry || entry->bound < accuracy) return;
     fw_number_text(text, sizeof text, 100 * entry->bound, 2);
     fw_diag_warning(diags, 254, scene->place,
-                    "scene %s is a row of equilibria, because inertia is not among the effects "
-                    "asked for: deflections may be wrong by %s%s",
+                    "scene %s is computed as a quasi-static sequence of equilibria, because "
+                    "--effects excludes inertia: deflections may be wrong by %s%s",
                     scene->name ? scene->name : "(unnamed)",
-                    isinf(entry->bound) ? "any amount" : text,
-                    isinf(entry->bound) ? "; --effects all or auto knows better" : " %");
+                    isinf(entry->bound) ? "an amount that is not bounded" : text,
+                    isinf(entry->bound) ? "; use --effects all or auto to include it" : " %");
 }
 
 static fw_status move(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
@@ -81,8 +81,8 @@ static fw_status move(fw_arena *arena, const fw_mechanism *mechanism, const fw_s
             }
             if (options->effects.mode != FW_EFFECTS_AUTO)
                 fw_diag_warning(diags, 254, scene->place,
-                                "scene %s cannot do without inertia, though it was not among the "
-                                "effects asked for: %s",
+                                "scene %s was computed with inertia, although --effects "
+                                "excludes it: %s",
                                 scene->name ? scene->name : "(unnamed)", why);
         }
         keep_inertia(&ledger, &terms, why);
@@ -139,7 +139,7 @@ static fw_status too_many_beams(fw_arena *arena, const fw_mechanism *m,
     *own = **motion;
     *motion = own;
     const char *why = fw_arena_printf(
-        arena, "would take some %.0e exact beams: ask for --hinge-model elastica", beams);
+        arena, "would take some %.0e exact beams: request it with --hinge-model elastica", beams);
     FW_NEED(why);
     return fw_level_stays(arena, step, why, &own->ledger.hinge);
 }

@@ -222,7 +222,8 @@ static fw_status walk(fw_row *r, double end, double *h) {
             r->rejected++;
             *h = (t - r->from.t) * (status == FW_OK ? fmax(0.1, fmin(0.7, grow)) : 0.25);
             if (*h < fw_least * r->duration)
-                return cannot(r, r->from.t, "the row of equilibria ends, as at a snap,");
+                return cannot(r, r->from.t, "the sequence of equilibria ends, as at a "
+                                            "snap-through,");
             continue;
         }
         r->worst = fmax(r->worst, off);
@@ -295,7 +296,7 @@ fw_status fw_row_of_equilibria(fw_arena *arena, const fw_mechanism *mechanism,
     r.why = not_at_rest(terms);
     *why = r.why;
     if (r.why) return FW_SOLVER;
-    *why = "the assembled pose has no model at rest: inertia acts";
+    *why = "the assembled pose has no static model: inertia acts";
     r.w.ledger = *ledger;
     r.tolerance = fmax(1e-9, options->rtol > 0 ? 10 * options->rtol : 0.02 * accuracy);
     FW_TRY(fw_rest_in_time(&r.w, terms));

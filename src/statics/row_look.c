@@ -292,7 +292,7 @@ void fw_row_finish(fw_row *r) {
                                  .largest_energy_J = r->elastic * unit.mass_kg * speed * speed,
                                  .assembly_moved_m = r->options->moved_m};
     m->method = m->integrator = m->stabilise = "quasi-static";
-    m->reason = "inertia is left out: the motion is a row of equilibria";
+    m->reason = "inertia is left out: the motion is a quasi-static sequence of equilibria";
     m->accuracy = r->options->accuracy > 0 ? r->options->accuracy : 1e-3;
     m->tolerance =
         "as many equilibria as keep what is read off between them to a fiftieth of the accuracy";

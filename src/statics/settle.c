@@ -86,15 +86,15 @@ static fw_status cannot_follow(walker *k, double s) {
     fw_status status;
     if (count > 0)
         status = fw_diag_error(w->diags, 118, w->scene->place,
-                               "the drivers of scene %s contradict %s from load factor %s of their "
-                               "way on: %s ask%s for what the joints do not allow%s",
+                               "the drivers of scene %s contradict %s from load factor %s on: "
+                               "%s prescribe%s values that the joints do not allow%s",
                                fw_rest_scene_name(w), count > 1 ? "each other" : "the joints", at,
                                names.data, count > 1 ? "" : "s", count > 1 ? " together" : "");
     else
         status = fw_diag_error(
             w->diags, 118, w->scene->place,
-            "the mechanism cannot follow its drivers in scene %s beyond load factor %s of their "
-            "way: joint %s cannot be kept; it is at the end of its reach",
+            "the mechanism cannot follow its drivers in scene %s beyond load factor %s: joint "
+            "%s cannot be kept closed, because the mechanism cannot reach any farther",
             fw_rest_scene_name(w), at,
             stuck >= 0 ? fw_block_name(w->mechanism, &m->block[stuck]) : "(unnamed)");
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;

@@ -34,13 +34,15 @@ static void say(const fw_problem *p, const fw_tradeoff *t) {
             t->instructions_why);
     if (!r->run[1])
         fw_diag_warning(d, 292, p->scene->place,
-                        "there is no second tight run to compare the reference with: what errors "
-                        "mean is not known; a larger --budget may find one");
+                        "there is no second run at a tight tolerance to compare the reference "
+                        "with, so the stated errors are unconfirmed; a larger --budget may "
+                        "allow one");
     else if (!r->independent)
         fw_diag_warning(
             d, 292, p->scene->place,
-            "the two reference runs share a method or an integrator with each other or "
-            "with what is measured (%s + %s, %s + %s): a mistake of that would not show",
+            "the two reference runs share a method or an integrator with each other or with "
+            "what is measured (%s + %s, %s + %s): an error of that method or integrator would "
+            "not be noticed",
             r->run[0]->method, r->run[0]->integrator, r->run[1]->method, r->run[1]->integrator);
 }
 

@@ -180,6 +180,6 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
     FW_TRY(as_made(arena, device, *layout, options, verdict));
     if (verdict->decision == FW_ACCEPT) return FW_OK;
     if (options->with_advice) return fw_verdict_advise(arena, device, options, verdict);
-    verdict->advice_note = "no change that would be accepted was looked for";
+    verdict->advice_note = "no change that would be accepted was searched for";
     return FW_OK;
 }

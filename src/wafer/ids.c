@@ -231,6 +231,7 @@ fw_status fw_wafer_ids(fw_wafer_maker *m) {
     }
     if (n > 0)
         fw_diag_warning(m->diags, 193, w->device->wafer.place,
-                        "<wafer>: no place on the frame for die ids; only the map has them");
+                        "<wafer>: the frame has no free place for die ids that all dies share, "
+                        "so that only the map shows them; a wider frame provides one");
     return FW_OK;
 }

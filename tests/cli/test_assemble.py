@@ -199,7 +199,7 @@ class Assemble(unittest.TestCase):
 
         result = run("check", "-v", typed(0.1))
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertRegex(result.stderr, r"note: as written, joints are open by up to 141\.421 nm \(B\).*FW-D132")
+        self.assertRegex(result.stderr, r"note: the stated positions leave joints open by up to 141\.421 nm \(B\).*FW-D132")
         self.assertNotIn("FW-D206", result.stderr)
         result = run("assemble", typed(0.1))
         self.assertIn("after what rounding left open was closed", result.stdout)

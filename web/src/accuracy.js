@@ -41,7 +41,7 @@ export class Accuracy {
             h("div", { class: "recipe-facts" },
                 digitFact(t.summary),
                 fact("no digit helps below", t.summary.floor === null ? "–" : percent(t.summary.floor, 2), t.summary.floor === null ? "" : `the model is off by more: ${FLOORS[t.summary.floor_what] ?? t.summary.floor_what}`),
-                fact("chosen by itself", c.quasi_static ? "a row of equilibria" : `${c.method}, ${c.integrator}`, `true error ${share(c.error)}; it says at most ${share(c.estimated)}`),
+                fact("chosen by itself", c.quasi_static ? "a quasi-static sequence of equilibria" : `${c.method}, ${c.integrator}`, `true error ${share(c.error)}; it says at most ${share(c.estimated)}`),
                 fact("which costs", c.over_cheapest === null ? "–" : `${number(c.over_cheapest, 3)} ×`, "the cheapest setting that is good enough")),
             h("h3", {}, "What each digit costs"),
             table("What each digit costs", ["error at most", "work", "", "", "CPU time", "cheapest that reaches it", ""], digitRows(t), "digits"),
@@ -117,7 +117,7 @@ function digitRows(t) {
     });
 }
 
-const settingOf = (p) => (p.quasi_static ? "a row of equilibria" : `${p.method}, ${p.integrator}, ${number(p.rtol, 1)}`);
+const settingOf = (p) => (p.quasi_static ? "a quasi-static sequence of equilibria" : `${p.method}, ${p.integrator}, ${number(p.rtol, 1)}`);
 
 /** CPU time where it was measured: its ratio to the chosen setting's, times that one's. */
 const timeOf = (t, p) => (p.time?.told && t.chosen.cpu_s !== null ? si(p.time.ratio * t.chosen.cpu_s, "s", 2) : "–");

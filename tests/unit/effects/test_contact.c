@@ -327,7 +327,7 @@ static void pressed_as_drawn(void **state) {
         assert_int_equal(r.diags.count, i / 2 == 2);
         if (i / 2 == 2) {
             assert_int_equal(r.diags.item[0].number, 134);
-            assert_non_null(strstr(r.diags.item[0].message, "pressed 20 um"));
+            assert_non_null(strstr(r.diags.item[0].message, "overlaps by 20 um"));
         }
         fw_arena_free(r.arena);
     }

@@ -34,14 +34,14 @@ static void mistakes_of_a_flow(void **state) {
         {SILICON, "<exposed material=\"aluminium\" selectivity=\"rie.selectivity\"/>", "", 269,
          "step S18"},
         {COPPER, "<exposed material=\"copper-plated\" rate=\"seed.R\"/>", "", 269,
-         "'copper-plated', which is open"},
+         "'copper-plated', which is exposed"},
         /* below the displacement film, which has holes */
         {COPPER, "<exposed material=\"porous-silicon\" rate=\"develop.R-porous\"/>", "", 269,
          "'porous-silicon'"},
         {SILICON, "<exposed material=\"carrier-wax\" rate=\"rie.R-wax\"/>",
          "<exposed material=\"carrier-wax\" rate=\"rie.R-wax\"/>"
          "<exposed material=\"resist\" rate=\"rie.R-wax\"/>",
-         269, "'resist' is not open at this step"},
+         269, "'resist' is not exposed at this step"},
         {SILICON, "<exposed material=\"aluminium\" rate=\"develop.al\"/>",
          "<exposed material=\"aluminium\"/>", 162, "either 'rate' or 'selectivity'"},
         {SILICON, "<exposed material=\"aluminium\" rate=\"develop.al\"/>",
@@ -122,7 +122,7 @@ static void shared_hazards(void **state) {
         int number;
         const char *says;
     } bad[] = {
-        {"ghs=\"GHS02 GHS05 GHS06\" buddy=\"yes\"", "ghs=\"GHS02 GHS05 GHS06\"", 174, "say buddy"},
+        {"ghs=\"GHS02 GHS05 GHS06\" buddy=\"yes\"", "ghs=\"GHS02 GHS05 GHS06\"", 174, "state buddy"},
         {"calcium gluconate gel until help arrives. Eyes: rinse 15 min or longer. Inhaled",
          "cream until help arrives. Eyes: rinse 15 min or longer. Inhaled", 0, ""},
         {"<waste stream=\"solvent\">solvent can", "<waste stream=\"acid-oxidiser\">solvent can",
