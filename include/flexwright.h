@@ -96,7 +96,7 @@ typedef struct fw_design_options {
                             "none": for the drawn geometry only */
     const char *hinge_model;  /* how flexures enter the mechanism: "auto" (default, by accuracy),
                                  "revolute", "compliance" or "elastica" */
-    const char *mask_formats; /* "gds,svg" (default), with oasis, dxf, stl and obj where named, or
+    const char *mask_formats; /* "gds,svg" (default), with oasis, dxf and stl where named, or
                                  "all"; GDSII and KLayout's files are always written */
     int32_t mask_vertices;    /* most of one GDSII boundary: 199, 4094 (default) or 8190; larger
                                  outlines are cut at vertices */

@@ -134,7 +134,7 @@ static const char *take_mask_format(fw_cli_options *o, const char *v) {
     o->design.mask_formats = v;
     return fw_mask_formats(v, &set)
                ? NULL
-               : "needs gds, svg, outlines, oasis, dxf, stl, obj with commas between, or all";
+               : "needs gds, svg, outlines, oasis, dxf, stl with commas between, or all";
 }
 
 static const char *take_mask_flatten(fw_cli_options *o, const char *v) {
@@ -415,7 +415,7 @@ static const fw_option_row table[] = {
      "the area of the arc)",
      FW_OPT_FABRICATE, take_mask_flatten},
     {"mask-format", 0, "LIST",
-     "gds, svg, outlines, oasis, dxf, stl, obj with commas between, or all; default "
+     "gds, svg, outlines, oasis, dxf, stl with commas between, or all; default "
      "gds,svg,outlines (GDSII is always written)",
      FW_OPT_FABRICATE, take_mask_format},
     {"mask-vertices", 0, "N",

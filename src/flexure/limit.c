@@ -1,41 +1,187 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "flexure/limit_kinds.h"
+#include "flexure/limit.h"
 #include <math.h>
 #include <string.h>
 
-static const fw_limit_row table[FW_LIMITS] = {
-    {"strength", "the strength that the device file states, alone", fw_limit_stated},
-    {"fracture", "the strength of what breaks: plain, or at a failure probability",
-     fw_limit_fracture},
-    {"yield", "the proportional limit of metals; for survival the 0.2 % offset", fw_limit_yield},
-    {"fatigue", "the amplitude that lasts a number of cycles", fw_limit_fatigue},
-};
-
-const fw_limit_row *fw_limit_rows(size_t *count) {
-    *count = FW_LIMITS;
-    return table;
-}
-
-bool fw_limit_known(const fw_quantity *q) {
+/* a quantity that was never filled has no id */
+static bool known(const fw_quantity *q) {
     return q->id && !q->unknown;
 }
 
-bool fw_limit_brittle(const fw_material *material) {
+/* the material's criterion says that it fractures */
+static bool brittle(const fw_material *material) {
     return material->criterion && strncmp(material->criterion, "fracture", 8) == 0;
 }
 
-void fw_limit_plain(const fw_quantity *q, const char *definition, fw_limit *limit) {
+/* from one quantity, as it is */
+static void take_plain(const fw_quantity *q, const char *definition, fw_limit *limit) {
     limit->allowable_Pa = q->value;
     limit->status = q->status;
     limit->source = q->source ? q->source : "";
     limit->definition = definition;
 }
 
-fw_value_status fw_limit_weakest(const fw_quantity *const *q, int n) {
+static fw_value_status weakest(const fw_quantity *const *q, int n) {
     fw_value_status worst = FW_MEASURED;
     for (int i = 0; i < n; i++)
         if (q[i]->status > worst) worst = q[i]->status;
     return worst;
+}
+
+/* ---- the criteria ---- */
+
+/* what the device file states of its own material */
+static bool stated(const fw_limit_input *in, fw_limits *all, fw_limit *limit) {
+    (void)all;
+    if (!in->material->strength_stated) return false;
+    take_plain(&in->material->strength, "strength as the device file states it, which rules alone",
+               limit);
+    return true;
+}
+
+/* What breaks: its plain strength, or, where a failure probability P of the whole device is asked
+   for, the stress at which one of its n flexures in series breaks with 1 - (1 - P)^(1/n):
+     sigma = sigma0 ((A0/A_eff) ln(1/(1 - P))/n)^(1/m)
+   source: Weibull (1951), docs/theory/limits-of-materials.md eq. 1-3; test_weibull.c */
+static bool fracture(const fw_limit_input *in, fw_limits *all, fw_limit *limit) {
+    const fw_material *m = in->material;
+    const fw_limit_data *d = &m->limit;
+    if (!brittle(m)) return false;
+    double probability = in->asked->failure_probability;
+    bool asked = probability > 0;
+    if (known(&d->weibull_strength) && known(&d->weibull_modulus) && known(&d->weibull_area))
+        all->weibull =
+            (fw_weibull){.known = true,
+                         .strength_Pa = d->weibull_strength.value,
+                         .modulus = d->weibull_modulus.value,
+                         .area_m2 = d->weibull_area.value,
+                         .effective_m2 = fw_weibull_area_m2(in->flexure, d->weibull_modulus.value)};
+    if (asked && all->weibull.known) {
+        const fw_quantity *const used[] = {&d->weibull_strength, &d->weibull_modulus,
+                                           &d->weibull_area};
+        limit->definition =
+            "fracture of one flexure of the device at the failure probability asked "
+            "for (Weibull, with the stressed surface)";
+        limit->source = d->weibull_strength.source;
+        limit->status = weakest(used, 3);
+        limit->allowable_Pa =
+            fw_weibull_stress_Pa(&all->weibull, fw_series_share(probability, in->nhinge));
+        return true;
+    }
+    if (asked) {
+        all->missing = "weibull-strength, weibull-modulus and weibull-area";
+        all->missing_place = in->asked->probability_place;
+    }
+    if (!known(&m->strength)) return false;
+    take_plain(&m->strength, "fracture strength of the material's data, without a probability",
+               limit);
+    return true;
+}
+
+/* 0.2 % offset of a film of thickness t: A + B (t/1 um)^-n, up to the thickness that the law was
+   found for. in: Pa, Pa, 1, t m; out: Pa; source: Yu and Spaepen (2004) for copper on polymer;
+   test_limits.c film_law */
+static bool film(const fw_limit_input *in, fw_quantity *offset) {
+    const fw_limit_data *d = &in->material->limit;
+    const fw_quantity *const used[] = {&d->film_yield, &d->film_yield_rise, &d->film_exponent,
+                                       &d->film_thickest};
+    double t = in->flexure->depth_m;
+    for (int i = 0; i < 4; i++)
+        if (!known(used[i])) return false;
+    if (!(t <= d->film_thickest.value)) return false;
+    *offset = d->film_yield;
+    offset->value += d->film_yield_rise.value * pow(t / 1e-6, -d->film_exponent.value);
+    offset->status = weakest(used, 4);
+    return true;
+}
+
+static bool from_device(const fw_quantity *q) {
+    return known(q) && q->source && strcmp(q->source, "device file") == 0;
+}
+
+/* What yields, for position accuracy: the proportional limit. It is, in this order, factor x the
+   0.2 % offset value that the device file states, or that the thickness law gives; the material's
+   own strength, unless that is of fracture; factor x the material's 0.2 % offset. For survival: the
+   0.2 % offset itself, and where only a strength is known that. */
+static bool yielding(const fw_limit_input *in, fw_limits *all, fw_limit *limit) {
+    (void)all;
+    const fw_material *m = in->material;
+    const fw_limit_data *d = &m->limit;
+    fw_quantity offset = d->offset_yield;
+    bool own = from_device(&d->offset_yield), law = !own && film(in, &offset);
+    bool have = known(&offset);
+    bool strength = !brittle(m) && known(&m->strength);
+    if (in->asked->survival && have) {
+        take_plain(&offset,
+                   law ? "0.2 % offset yield of a film this thick (survival only)"
+                       : "0.2 % offset yield (survival only)",
+                   limit);
+        return true;
+    }
+    if (have && (own || law || !strength) && known(&d->proportional_factor)) {
+        const fw_quantity *const used[] = {&offset, &d->proportional_factor};
+        take_plain(&offset,
+                   law ? "proportional limit, a share of the 0.2 % offset yield of a film this "
+                         "thick"
+                       : "proportional limit, a share of the 0.2 % offset yield",
+                   limit);
+        limit->allowable_Pa *= d->proportional_factor.value;
+        limit->status = weakest(used, 2);
+        return true;
+    }
+    if (!strength) return false;
+    take_plain(&m->strength, "strength of the material's data, taken as proportional limit", limit);
+    return true;
+}
+
+/* amplitude that lasts the cycles asked for, once per repetition; the law itself goes to the
+   verdict, which counts the cycles of a motion. Data: strain_life.h */
+static bool fatigue_life(const fw_limit_input *in, fw_limits *all, fw_limit *limit) {
+    const fw_limit_data *d = &in->material->limit;
+    if (!(in->asked->cycles > 0)) return false;
+    const fw_quantity *const used[] = {&d->fatigue_strength, &d->fatigue_cycles,
+                                       &d->fatigue_exponent, &d->ductility, &d->ductility_exponent};
+    bool plastic = known(&d->ductility) && known(&d->ductility_exponent);
+    all->life = (fw_strain_life){.known = true,
+                                 .amplitude_Pa = d->fatigue_strength.value,
+                                 .cycles = d->fatigue_cycles.value,
+                                 .exponent = d->fatigue_exponent.value,
+                                 .youngs_Pa = in->flexure->youngs_Pa,
+                                 .ductility = plastic ? d->ductility.value : 0,
+                                 .ductility_exponent = plastic ? d->ductility_exponent.value : 0};
+    for (int i = 0; i < 3; i++)
+        all->life.known = all->life.known && known(used[i]);
+    if (!all->life.known) {
+        all->missing = "fatigue-strength, fatigue-cycles and fatigue-exponent";
+        all->missing_place = in->asked->cycles_place;
+        return false;
+    }
+    if (!(fw_strain_life_elastic_Pa(&all->life) > 0)) {
+        all->life.known = false;
+        all->missing = "a ductility that leaves some of fatigue-strength elastic";
+        all->missing_place = in->asked->cycles_place;
+        return false;
+    }
+    limit->definition =
+        plastic ? "amplitude at life (Basquin, Manson and Coffin)" : "amplitude at life (Basquin)";
+    limit->source = d->fatigue_strength.source;
+    limit->status = weakest(used, plastic ? 5 : 3);
+    limit->allowable_Pa = fw_strain_life_amplitude_Pa(&all->life, in->asked->cycles);
+    return true;
+}
+
+/* ---- all of them ---- */
+
+static const fw_limit_row table[FW_LIMITS] = {
+    {"strength", "the strength that the device file states, alone", stated},
+    {"fracture", "the strength of what breaks: plain, or at a failure probability", fracture},
+    {"yield", "the proportional limit of metals; for survival the 0.2 % offset", yielding},
+    {"fatigue", "the amplitude that lasts a number of cycles", fatigue_life},
+};
+
+const fw_limit_row *fw_limit_rows(size_t *count) {
+    *count = FW_LIMITS;
+    return table;
 }
 
 /* Material -> what it allows this flexure. A stated strength is the only static one.
@@ -45,7 +191,7 @@ void fw_limits_of(const fw_limit_input *in, fw_limits *limits) {
     *limits = (fw_limits){.governing = FW_NONE, .fatigue = FW_NONE};
     for (size_t i = 0; i < FW_LIMITS; i++) {
         fw_limit found = {.criterion = table[i].name};
-        bool fatigue = table[i].of == fw_limit_fatigue;
+        bool fatigue = table[i].of == fatigue_life;
         if (limits->count > 0 && in->material->strength_stated && !fatigue) continue;
         if (!table[i].of(in, limits, &found)) continue;
         int k = limits->count++;

@@ -37,7 +37,7 @@ typedef struct fw_limit_input {
     int nhinge; /* of the whole device: in series, each may break it */
 } fw_limit_input;
 
-typedef struct fw_limit_row { /* adding a criterion is one file and one row */
+typedef struct fw_limit_row { /* adding a criterion is one function and one row */
     const char *name, *summary;
     /* true: *limit is what it allows. May say in `all` what it found beside, or missed */
     bool (*of)(const fw_limit_input *in, fw_limits *all, fw_limit *limit);

@@ -12,7 +12,6 @@ static const fw_mask_format table[] = {
     {"oasis", ".oas", fw_mask_write_oasis, .usual = false},
     {"dxf", ".dxf", fw_mask_write_dxf, .usual = false},
     {"stl", ".stl", fw_mask_write_stl, .usual = false},
-    {"obj", ".obj", fw_mask_write_obj, .usual = false},
 };
 enum { NFORMAT = sizeof table / sizeof table[0] };
 

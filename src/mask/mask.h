@@ -207,7 +207,6 @@ const char *fw_mask_dxf_layer(fw_arena *arena, const fw_mask *mask, int k);
 fw_status fw_mask_write_dxf(const fw_mask *mask, fw_text *out);
 /* the solid of the biased layers, walls vertical; pieces are one where they share an edge */
 fw_status fw_mask_write_stl(const fw_mask *mask, fw_text *out);
-fw_status fw_mask_write_obj(const fw_mask *mask, fw_text *out);
 fw_status fw_mask_write_lyt(const fw_mask *mask, fw_text *out);
 
 typedef struct fw_mask_format { /* a row of format.c */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The solid that the polygons of the biased layers stand for: each drawn up from z = 0 to the
-   device's thickness. Private to the room: stl.c, obj.c. */
+   device's thickness. Private to the room: stl.c. */
 #ifndef FW_MASK_SOLID_H
 #define FW_MASK_SOLID_H
 #include "mask/mask.h"

@@ -91,7 +91,7 @@ static const char *wrong_option(const fw_design_options *o) {
         return "hinge_model must be \"auto\", \"revolute\", \"compliance\" or \"elastica\"";
     unsigned formats;
     if (!fw_mask_formats(o->mask_formats, &formats))
-        return "mask_formats must name some of gds, svg, oasis, dxf, stl and obj, with commas, or "
+        return "mask_formats must name some of gds, svg, oasis, dxf and stl, with commas, or "
                "be \"all\"";
     fw_flattening flattening;
     if (!fw_mask_flattening_named(o->mask_flatten, &flattening))
