@@ -134,7 +134,8 @@ static void test_six_bar_reactions(void **state) {
 }
 
 /* nearly a point mass: m r^2/J up to 1e13. Released level, it swings through half a turn, whatever
- * J. */
+   J. At 1e14 round-off decides (a J one unit in the last place away has made one kernel 327 rad
+   wrong and another right to 1e-9 rad): there the estimate of the error must say so, no more. */
 static void test_tiny_inertia(void **state) {
     (void)state;
     fixture f = begin();
@@ -149,7 +150,7 @@ static void test_tiny_inertia(void **state) {
             r.scene.duration_s = 2.0 * (1.0 + J);
             const fw_motion *m = simulate(&f, &r, tolerance[i], 2);
             assert_near(fabs(m->peak[0].angle_rad), acos(-1.0), m->peak[0].error_rad);
-            assert_true(m->peak[0].error_rad < 1e-3);
+            if (J > 5e-14) assert_true(m->peak[0].error_rad < 1e-3);
             assert_true(m->stats.steps < 200000);
         }
     }
