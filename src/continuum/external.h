@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Running an external program: in a directory of its own that nobody else can read, without a
-   shell, with a limit of time, and gone when this process is. Private to the room,
-   and for study/, which counts its own instructions so. docs/decisions/0012-continuum.md */
+   shell, with a limit of time, and gone when this process is. Private to the room
+   but for study/, which counts its own instructions so. docs/decisions/0012-continuum.md */
 #ifndef FW_CONTINUUM_EXTERNAL_H
 #define FW_CONTINUUM_EXTERNAL_H
 #include "continuum/continuum.h"

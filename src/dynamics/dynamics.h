@@ -23,8 +23,8 @@ typedef void (*fw_observer)(void *context, const fw_instant *instant);
 enum { FW_INSTANTS = 12 };
 
 typedef struct fw_motion_options {
-    const char *method;     /* one of fw_method_table; NULL: chain */
-    const char *integrator; /* one of fw_integrator_table; NULL: auto */
+    const char *method;     /* a name of fw_method_at; NULL: chain */
+    const char *integrator; /* a name of fw_integrator_at; NULL: auto */
     const char *stabilise;  /* "projection" (NULL), "baumgarte", "none" */
     double rtol;            /* relative tolerance of the integrator; 0: from `accuracy` */
     double accuracy;        /* relative error wanted on the peak hinge deflection; default 1e-3 */

@@ -68,7 +68,7 @@ double fw_friction_press(const fw_model *m, int i);
 bool fw_friction_hold(struct fw_frictions *s, int count, const int *which);
 void fw_friction_holding(struct fw_frictions *s, int count, const int *which, const double *right,
                          double *x);
-/* box.c: flags and torques of the entries at rest for the limits of the `press` that they have;
+/* friction_box.c: flags and torques of the entries at rest for the limits of the `press` that they have;
    the others keep their torques */
 bool fw_friction_box(struct fw_frictions *s);
 double fw_friction_coordinate(const fw_model *m, int i, const double *u);

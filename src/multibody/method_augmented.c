@@ -4,7 +4,7 @@
        [ I   A^T ] [ w      ]   [ w0 ]
        [ A  -eps ] [ lambda ] = [ b + eps lambda_before ]
 
-   in mass-weighted coordinates (dynamics/dense.h), swept until A w = b. The matrix is symmetric and
+   in mass-weighted coordinates (multibody/dense.h), swept until A w = b. The matrix is symmetric and
    quasi-definite whatever the rank of A, so that it always has a factorisation. Bunch and Kaufman's
    L D L^T, once per evaluation. Error: round-off times 1/sqrt(eps), refined by the sweeps. Cost
    (n + rows)^3/3. Source: Lagrange multipliers in index-1 form, Haug 1989, ch. 11; quasi-definite

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* block-least-squares: Gauss' principle and the constraints as one stacked least-squares problem in
-   mass-weighted coordinates (dynamics/dense.h),
+   mass-weighted coordinates (multibody/dense.h),
 
        min over w of  | [ A / sqrt(eps) ]     [ b / sqrt(eps) ] |
                       | [ I             ] w - [ w0            ] | ,

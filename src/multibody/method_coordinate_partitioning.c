@@ -5,7 +5,7 @@
        A = [ A_u  A_v ]        w_u = c - X w_v,   X = A_u^-1 A_v,   c = A_u^-1 b_1,
            [ A_lu A_lv ]       (I + X^T X) w_v = w0_v - X^T (w0_u - c)
 
-   in mass-weighted coordinates (dynamics/dense.h), where B = [-X; I] spans the null space of the
+   in mass-weighted coordinates (multibody/dense.h), where B = [-X; I] spans the null space of the
    first rows and B^T B is the reduced mass matrix. The partition stays until it degrades: until the
    ratio of the smallest to the largest pivot of A_u is a tenth of what it was when it was chosen,
    or below 1e-3. (X says nothing about that: it stays bounded at a singular position, while A_u^-1

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* minimal: the angles of the bodies that turn freely (dynamics/minimal.h) are the coordinates; all
+/* minimal: the angles of the bodies that turn freely (multibody/minimal.h) are the coordinates; all
    other bodies follow one after another. With P the velocity that a pin's point has from the placed
    body, e the vector from there to the other pin of a body and J e = (-e_y, e_x),
 

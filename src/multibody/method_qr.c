@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* qr: A^T P = [Q_1 Q_2] [R; 0] with column pivoting. N = M^-1/2 Q_2 spans the null space of G and
    carries the independent rates c_2 = Q_2^T w0, whose reduced mass matrix N^T M N is I in
-   mass-weighted coordinates (dynamics/dense.h). In the range, w = Q_1 y, the constraints ask
+   mass-weighted coordinates (multibody/dense.h). In the range, w = Q_1 y, the constraints ask
    R^T y = P^T b, y closest to Q_1^T w0:
 
        y += R dl,   (R^T R + eps) dl = P^T b - R^T y,   lambda = -P sum dl,

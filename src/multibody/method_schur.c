@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* schur: A^T A = W diag(mu) W^T, the Schur form of a symmetric matrix. Columns of W with mu = 0
    span the null space of A (zero eigenvalue theorem) and carry the independent rates, whose reduced
-   mass matrix is I in mass-weighted coordinates (dynamics/dense.h); the others carry what the
+   mass matrix is I in mass-weighted coordinates (multibody/dense.h); the others carry what the
    constraints prescribe:
 
        z_i = (w_i . A^T b) / mu_i  where constrained,   z_i = w_i . w0  where independent,
        w = W z,   lambda = A W diag(1/mu) W^T (w0 - w) .
 
-   1/mu is share(mu) of dynamics/dense.h. As mu is s^2, singular values below 1e-7 of the largest
+   1/mu is share(mu) of multibody/dense.h. As mu is s^2, singular values below 1e-7 of the largest
    drown in round-off: those mu count as 0 (their share would be below 1e-5). Vectors turn by
    round-off/mu; a second pass with the residuals w0 - w - A^T lambda and b - A w takes out what
    that leaves. Error: round-off times (s_1/s_r)^2 before the second pass. Cost rows n^2 + 9 n^3.

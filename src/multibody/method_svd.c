@@ -7,7 +7,7 @@
        z_i = (u_i . b) / s_i  where constrained,   z_i = v_i . w0  where independent,   w = V z,
        lambda = sum u_i (v_i . w0 - z_i) / s_i .
 
-   A rate with small s is a weighted mean of the two (share f = s^2 share(s^2) of dynamics/dense.h),
+   A rate with small s is a weighted mean of the two (share f = s^2 share(s^2) of multibody/dense.h),
    one below round-off is free.
    Error: round-off times s_1/s_r. Cost about 4 rows^2 n + 20 rows^3 + 4 n^3. Source: Singh and
    Likins, J. Appl. Mech. 52 (1985) 943-948; Mani, Haug and Atkinson, J. Mech. Transm. Autom. Des.

@@ -4,7 +4,7 @@
        a = a0 + M^-1/2 (G M^-1/2)^+ (-gamma - G a0),   lambda = -(A A^T)^+ (b - A w0)
 
    with the Moore-Penrose inverse from the singular value decomposition A = U diag(s) V^T: the
-   reciprocal of s is s * share(s^2) (dynamics/dense.h), which is 1/s to round-off where s > 1e-3
+   reciprocal of s is s * share(s^2) (multibody/dense.h), which is 1/s to round-off where s > 1e-3
    and 0 where s is round-off, without a jump between the two. Balancing the rows changes
    neither a nor, at full rank, lambda. Error: round-off times s_1/s_r. Cost about 6 rows^2 n +
    20 rows^3 by QR iteration. Source: Udwadia and Kalaba, Proc. R. Soc. A 439 (1992) 407-410.

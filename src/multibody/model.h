@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The compiled scene: everything of one mechanism and its active effects in plain arrays, scaled by
-   the scene's own length, mass and time, constraints in the order of elimination. Private to
-   dynamics/.
+   the scene's own length, mass and time, constraints in the order of elimination. Read by
+   assembly/, dynamics/ and statics/, too.
 
    State y = (u, v, dissipated, worked): displacements u (3 nbody) from the assembled pose,
    velocities v (3 nbody), then, where something needs them, the dissipated energy and the work of

@@ -3,7 +3,7 @@
    -> report. One plan owns everything it computed until it is freed; plans do not share state.
 
    Usage: fw_plan_new, fw_plan_load, then fw_plan_judge and what is wanted of fw_plan_fabricate and
-   fw_plan_write. Every stage returns FW_OK or what went wrong; diagnostics are in fw_plan_diags. */
+   fw_plan_write. Every stage returns FW_OK or what went wrong; diagnostics are in its `diags`. */
 #ifndef FW_PLAN_PLAN_H
 #define FW_PLAN_PLAN_H
 #include "assembly/kinematics.h"

@@ -76,7 +76,7 @@ struct fw_request {
     bool suspended, answered;
     bool gone;          /* the client went away */
     fw_request *next;   /* waiting for a worker */
-    unsigned compute;   /* what the worker is to do: a row of live_rows.c */
+    unsigned compute;   /* what the worker is to do: an fw_compute */
     struct fw_job *job; /* whose archive is awaited */
     fw_stream *stream;
 };
