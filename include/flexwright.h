@@ -318,10 +318,9 @@ FW_API const fw_diagnostic *fw_design_diagnostic(fw_design *design, size_t i);
 /* ---- cancelling ---- */
 
 /* Asks the work to stop; the running call returns FW_STATUS_CANCELLED soon (integration looks at it
-   at each step). Async-signal-safe, and callable from any thread while the design is at work. Today
-   the flag is one for the whole process: it stops every design, also those started later, until
-   fw_design_cancel_clear. Call with the design meant, so that your code stays right when the flag
-   becomes the design's own. NULL is allowed. */
+   at each step), and so does every later call until fw_design_cancel_clear. Other designs are not
+   touched. Async-signal-safe, and callable from any thread while the design is at work, but not
+   while or after it is freed. NULL is allowed. */
 FW_API void fw_design_cancel(fw_design *design);
 
 /* Takes the request back; call it before work after a cancel. Async-signal-safe. */

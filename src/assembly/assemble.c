@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The position problem from any guess: descent, restarts, the pose nearest to the guess, a polish
    to round-off. */
-#include "base/cancel.h"
 #include "base/constants.h"
 #include "assembly/closure.h"
 #include "assembly/solved.h"
@@ -131,7 +130,7 @@ static fw_status close_up(fw_arena *arena, const fw_mechanism *mechanism, const 
         FW_TRY(try_restarts(arena, mechanism, guess, diags, &c, &search, &r, &good));
         out->restarts = r.restarts;
         out->iterations = (int)c.iterations;
-        if (fw_cancel_requested()) return FW_CANCELLED;
+        if (fw_arena_cancelled(arena)) return FW_CANCELLED;
         c.left = 1000;
         if (!good || !fw_closure_descend(&c, 100))
             return give_up(arena, mechanism, guess, diags, &search, &r, out);

@@ -2,7 +2,6 @@
 /* Descent onto Psi(q) = 0, and along it to the pose nearest to the guess. */
 #include "assembly/closure.h"
 #include "base/constants.h"
-#include "base/cancel.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -25,7 +24,7 @@ static void find_kept(fw_closure *c) {
 
 fw_status fw_closure_new(fw_arena *arena, fw_model *m, fw_closure *c) {
     size_t n = (size_t)m->nq, k = (size_t)m->nblock;
-    *c = (fw_closure){.model = m, .goal = 4 * DBL_EPSILON * m->size, .left = 2000};
+    *c = (fw_closure){.arena = arena, .model = m, .goal = 4 * DBL_EPSILON * m->size, .left = 2000};
     FW_NEED(c->u = fw_arena_array(arena, double, n));
     FW_NEED(c->trial = fw_arena_array(arena, double, n));
     FW_NEED(c->step = fw_arena_array(arena, double, n));
@@ -145,7 +144,7 @@ bool fw_closure_descend(fw_closure *c, int most) {
         double before = value;
         double taken = newton_step(c, mu[level]) ? line_search(c, &value) : 0;
         c->iterations++, c->left--;
-        if (fw_cancel_requested()) c->left = 0;
+        if (fw_arena_cancelled(c->arena)) c->left = 0;
         if (taken == 0 && level + 1 == levels) break;
         if (taken < 0.25 && level + 1 < levels)
             level++; /* short steps zigzag across a valley: damp */

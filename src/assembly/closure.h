@@ -8,6 +8,7 @@
 
 /* ---- closure.c ---- */
 typedef struct fw_closure {
+    const fw_arena *arena; /* whose request to stop ends the descent */
     fw_model *model;
     double *u;                           /* (3 nbody) displacements from the guess */
     double *trial, *step, *psi, *lambda; /* work */

@@ -20,6 +20,7 @@ struct fw_arena {
     chunk *last;
     size_t cap, total, peak; /* bytes handed out, and the most ever */
     size_t held;             /* bytes asked of malloc */
+    const fw_cancel *cancel;
 };
 
 /* of the process, so that a test can fail the n-th of any arena; atomic since designs run in
@@ -52,6 +53,24 @@ fw_arena *fw_arena_new(size_t cap_bytes) {
     fw_arena *arena = calloc(1, sizeof *arena);
     if (arena) arena->cap = cap_bytes ? cap_bytes : FW_ARENA_USUAL;
     return arena;
+}
+
+void fw_arena_stop_with(fw_arena *arena, const fw_cancel *cancel) {
+    arena->cancel = cancel;
+}
+
+const fw_cancel *fw_arena_request(const fw_arena *arena) {
+    return arena->cancel;
+}
+
+fw_arena *fw_arena_part(const fw_arena *whole, size_t cap_bytes) {
+    fw_arena *arena = fw_arena_new(cap_bytes);
+    if (arena) arena->cancel = whole->cancel;
+    return arena;
+}
+
+bool fw_arena_cancelled(const fw_arena *arena) {
+    return fw_cancel_requested(arena->cancel) != 0;
 }
 
 void fw_arena_free(fw_arena *arena) {

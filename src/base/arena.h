@@ -3,7 +3,9 @@
    Memory is zeroed. A failed or capped allocation gives NULL, never an abort. */
 #ifndef FW_BASE_ARENA_H
 #define FW_BASE_ARENA_H
+#include "base/cancel.h"
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 typedef struct fw_arena fw_arena;
@@ -16,6 +18,13 @@ typedef struct fw_mark {
 /* cap_bytes 0 means FW_ARENA_USUAL; NULL when memory is short */
 fw_arena *fw_arena_new(size_t cap_bytes);
 void fw_arena_free(fw_arena *arena); /* NULL allowed */
+
+/* The arena of a design is what all of its work has in hand, so it carries the request to stop that
+   work. A new arena has none; an arena for a part of the work has that of the whole. */
+void fw_arena_stop_with(fw_arena *arena, const fw_cancel *cancel); /* NULL: never stopped */
+fw_arena *fw_arena_part(const fw_arena *whole, size_t cap_bytes);  /* as fw_arena_new */
+const fw_cancel *fw_arena_request(const fw_arena *arena);          /* or NULL */
+bool fw_arena_cancelled(const fw_arena *arena);
 
 /* count * size bytes, zeroed, aligned to 64; NULL on overflow, cap or failure. count 0 gives a
    valid pointer. */

@@ -2,6 +2,7 @@
 /* The command line, parsed by one table that also feeds --help and the reference page. */
 #ifndef FW_CLI_OPTIONS_H
 #define FW_CLI_OPTIONS_H
+#include "base/cancel.h"
 #include "base/text.h"
 #include "device/device.h"
 #include <flexwright.h>
@@ -25,6 +26,7 @@ typedef struct fw_cli_options {
     double budget_s;
     bool no_time;
     char **argv; /* as it was started, for tradeoff, which starts it again under callgrind */
+    const fw_cancel *interrupted; /* set by SIGINT and SIGTERM: every design here stops then */
     bool json, quiet, verbose, no_progress, help, version;
     int colour; /* -1 auto, 0 never, 1 always */
 } fw_cli_options;

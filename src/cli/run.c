@@ -187,10 +187,12 @@ static int unknown_command(const char *name) {
                         near ? "; did you mean " : "", near ? near : "", near ? "?" : "");
 }
 
-/* the first signal asks to stop, the second one stops */
+/* the first signal asks to stop, the second one stops; a handler sees nothing but what is static */
+static fw_cancel interrupted;
+
 static void on_signal(int number) {
-    if (fw_cancel_requested()) _exit(128 + number);
-    fw_cancel_request(number);
+    if (fw_cancel_requested(&interrupted)) _exit(128 + number);
+    fw_cancel_request(&interrupted, number);
 }
 
 static void catch_signals(void) {
@@ -228,7 +230,10 @@ int fw_cli_run(int argc, char **argv) {
     }
     const fw_command *command = find_command(name);
     if (!command) return unknown_command(name);
-    fw_cli_options options = {.design = fw_design_options_default(), .colour = -1, .argv = argv};
+    fw_cli_options options = {.design = fw_design_options_default(),
+                              .colour = -1,
+                              .argv = argv,
+                              .interrupted = &interrupted};
     options.design.data_directory = getenv("FLEXWRIGHT_DATA");
     int status;
     if (!fw_cli_parse(command, argc, argv, &options))

@@ -57,6 +57,7 @@ int fw_command_serve(fw_cli_options *options) {
                                     .port = options->port,
                                     .ipv6 = options->ipv6,
                                     .ready = ready,
-                                    .context = options};
+                                    .context = options,
+                                    .interrupted = options->interrupted};
     return fw_serve_run(&serve);
 }

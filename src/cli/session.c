@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/arena.h"
-#include "base/cancel.h"
 #include "cli/session.h"
+#include "plan/design.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,6 +27,7 @@ fw_design *fw_session_open(fw_cli_options *options, int *exit_status) {
         *exit_status = fw_status_exit(FW_NOMEM);
         return NULL;
     }
+    fw_design_cancel_with(design, options->interrupted);
     int status = FW_STATUS_OK;
     for (int i = 0; status == FW_STATUS_OK && i < options->nset; i++)
         status = fw_design_set(design, options->set[i].path, options->set[i].value);
@@ -107,8 +108,8 @@ int fw_session_close(fw_design *design, const fw_cli_options *options, int statu
     bool said = print(design, options, FW_DOCUMENT_DIAGNOSTICS_TEXT, stderr) == FW_STATUS_OK &&
                 error_was_said(design);
     int exit_status = status == FW_STATUS_OK ? result_if_ok : fw_status_exit((fw_status)status);
-    if (status == FW_STATUS_CANCELLED && fw_cancel_requested())
-        exit_status = 128 + fw_cancel_requested();
+    int number = fw_cancel_requested(options->interrupted);
+    if (status == FW_STATUS_CANCELLED && number) exit_status = 128 + number;
     if (status == FW_STATUS_NOMEM)
         fprintf(stderr,
                 "flexwright: error: out of memory: a design may take %zu MiB; nothing was written; "

@@ -219,7 +219,7 @@ fw_status fw_solid_solve(fw_arena *arena, const fw_solid_device *device,
     }
     result->installed = true;
     FW_NEED(result->body = fw_arena_array(arena, fw_solid_pose, (size_t)device->nbody));
-    fw_arena *scratch = fw_arena_new((size_t)2 << 30);
+    fw_arena *scratch = fw_arena_part(arena, (size_t)2 << 30);
     FW_NEED(scratch);
     fw_status status = solve(scratch, program, device, options, diags, result);
     fw_arena_free(scratch);

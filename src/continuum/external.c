@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "continuum/external.h"
-#include "base/cancel.h"
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -31,7 +30,8 @@ const char *fw_continuum_program(fw_arena *arena, const char *name) {
     return NULL;
 }
 
-fw_status fw_external_room_open(fw_external_room *room) {
+fw_status fw_external_room_open(const fw_arena *work, fw_external_room *room) {
+    room->work = work;
     const char *base = getenv("TMPDIR");
     if (!base || *base != '/' || strlen(base) > 400) base = "/tmp";
     snprintf(room->path, sizeof room->path, "%s/flexwright-XXXXXX", base);
@@ -97,7 +97,8 @@ static double now_s(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static fw_status wait_for(pid_t child, double timeout_s, fw_external_run *run) {
+static fw_status wait_for(const fw_arena *work, pid_t child, double timeout_s,
+                          fw_external_run *run) {
     double start = now_s();
     struct timespec nap = {0, 1000000};
     struct rusage used = {0};
@@ -109,7 +110,7 @@ static fw_status wait_for(pid_t child, double timeout_s, fw_external_run *run) {
         if (got == child) break;
         if (got < 0 && errno != EINTR) return FW_IO;
         if (killed) continue;
-        if (fw_cancel_requested())
+        if (fw_arena_cancelled(work))
             run->end = FW_EXTERNAL_CANCELLED;
         else if (now_s() - start > timeout_s)
             run->end = FW_EXTERNAL_TIMEOUT;
@@ -147,7 +148,7 @@ static fw_status call(const fw_external_room *room, const char *directory, char 
     if (child == 0) become(directory, words, environment, null, out, parent);
     if (null >= 0) close(null);
     if (out >= 0) close(out);
-    return child < 0 ? FW_IO : wait_for(child, timeout_s, run);
+    return child < 0 ? FW_IO : wait_for(room->work, child, timeout_s, run);
 }
 
 fw_status fw_external_call(const fw_external_room *room, const char *const *argv, const char *log,

@@ -8,6 +8,7 @@
 
 typedef struct fw_external_room { /* a private temporary directory */
     char path[512];
+    const fw_arena *work; /* a request to stop it ends the program that runs here */
 } fw_external_room;
 
 typedef enum fw_external_end {
@@ -24,7 +25,7 @@ typedef struct fw_external_run {
 } fw_external_run;
 
 /* below $TMPDIR or /tmp; FW_IO */
-fw_status fw_external_room_open(fw_external_room *room);
+fw_status fw_external_room_open(const fw_arena *work, fw_external_room *room);
 void fw_external_room_close(fw_external_room *room); /* removes it and all that is in it */
 fw_status fw_external_write(const fw_external_room *room, const char *name, const char *data,
                             size_t n);

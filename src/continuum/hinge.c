@@ -120,8 +120,9 @@ static fw_status one_mesh(job *j, double refinement, bool large, fw_continuum_re
 }
 
 /* one run with memory of its own: results of a fine mesh are far larger than what is kept */
-static fw_status with_scratch(job *j, double refinement, bool large, fw_continuum_result *r) {
-    FW_NEED(j->arena = fw_arena_new((size_t)2 << 30));
+static fw_status with_scratch(const fw_arena *whole, job *j, double refinement, bool large,
+                              fw_continuum_result *r) {
+    FW_NEED(j->arena = fw_arena_part(whole, (size_t)2 << 30));
     fw_status status = one_mesh(j, refinement, large, r);
     fw_arena_free(j->arena);
     return status;
@@ -160,10 +161,10 @@ fw_status fw_continuum_hinge(fw_arena *arena, const fw_continuum_shape *shape,
     }
     result->installed = true;
     double refinement = options->refinement > 0.0 ? options->refinement : 1.0;
-    FW_TRY(with_scratch(&j, refinement, options->large, result));
+    FW_TRY(with_scratch(arena, &j, refinement, options->large, result));
     if (options->one_mesh) return FW_OK;
     fw_continuum_result coarse = {0};
-    FW_TRY(with_scratch(&j, refinement / coarser, false, &coarse));
+    FW_TRY(with_scratch(arena, &j, refinement / coarser, false, &coarse));
     estimate(&coarse, coarser, result);
     result->cpu_s += coarse.cpu_s;
     return FW_OK;

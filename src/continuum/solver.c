@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "continuum/solver.h"
-#include "base/cancel.h"
 #include "base/output.h"
 #include "continuum/external.h"
 #include <math.h>
@@ -96,8 +95,8 @@ fw_status fw_solver_run(fw_arena *arena, const fw_solver_call *call, fw_diags *d
     *result = (fw_solver_result){.cpu_s = 0.0};
     if (call->nstep > FW_RESULT_STEPS || call->nnode > FW_RESULT_NODES) return FW_LIMIT;
     FW_TRY(fw_text_end(call->deck));
-    if (fw_cancel_requested()) return FW_CANCELLED;
-    if (fw_external_room_open(&room) != FW_OK) {
+    if (fw_arena_cancelled(arena)) return FW_CANCELLED;
+    if (fw_external_room_open(arena, &room) != FW_OK) {
         fw_diag_error(diags, 215, call->place,
                       "no private directory could be made below TMPDIR or /tmp");
         return FW_IO;

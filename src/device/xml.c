@@ -5,6 +5,7 @@
 #include <libxml/parser.h>
 #include <libxml/parserInternals.h>
 #include <limits.h>
+#include <pthread.h>
 #include <string.h>
 
 typedef struct node { /* an element while it is being read */
@@ -341,6 +342,8 @@ static fw_status parse(reader *r) {
     const char *start = r->xml.data + r->body;
     size_t n = r->xml.n - r->body;
     if (n > INT_MAX) return FW_LIMIT;
+    static pthread_once_t once = PTHREAD_ONCE_INIT; /* designs are read in parallel */
+    pthread_once(&once, xmlInitParser);
     r->parser = xmlCreateMemoryParserCtxt(start, (int)n);
     FW_NEED(r->parser);
     xmlSAXHandler sax = {.initialized = XML_SAX2_MAGIC,

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The loop over steps, smooth pieces and events. */
-#include "base/cancel.h"
 #include "dynamics/run.h"
 #include <float.h>
 #include <math.h>
@@ -299,7 +298,7 @@ fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks) {
         if (piece > 0) FW_TRY(next_piece(r, s, piece));
         const double end = r->end[piece];
         while (s->t < end && !ended) {
-            if (fw_cancel_requested()) return FW_CANCELLED;
+            if (fw_arena_cancelled(r->arena)) return FW_CANCELLED;
             if (s->t >= s->t_end) fw_run_start(r, s, s->t, s->y, end); /* no event after all */
             limit_step(r, s, s->t);
             fw_kinks_limit(r, s);

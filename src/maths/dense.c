@@ -5,6 +5,7 @@
 #include <gsl/gsl_linalg.h>
 #include <lapacke.h>
 #include <math.h>
+#include <pthread.h>
 #include <string.h>
 
 /* |a x - b| against the sizes of its terms, in the maximum norm; allowed 1e-9 */
@@ -61,6 +62,16 @@ static fw_status least_squares(fw_arena *arena, int n, const double *a, double *
     return info == 0 ? FW_OK : FW_SOLVER;
 }
 
+static void set_handler_off(void) {
+    gsl_set_error_handler_off();
+}
+
+/* the handler is one for the process, and designs run in parallel: it is written once */
+void fw_maths_gsl_quiet(void) {
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, set_handler_off);
+}
+
 /* LU with partial pivoting by GSL, which needs no memory of its own; false: exactly singular */
 static bool lu(int n, double *copy, size_t *order, double *x) {
     size_t m = (size_t)n;
@@ -68,7 +79,7 @@ static bool lu(int n, double *copy, size_t *order, double *x) {
     gsl_matrix_view a = gsl_matrix_view_array(copy, m, m);
     gsl_vector_view right = gsl_vector_view_array(x, m);
     gsl_permutation permutation = {m, order};
-    gsl_set_error_handler_off(); /* statuses, not aborts */
+    fw_maths_gsl_quiet();
     return gsl_linalg_LU_decomp(&a.matrix, &permutation, &sign) == GSL_SUCCESS &&
            gsl_linalg_LU_svx(&a.matrix, &permutation, &right.vector) == GSL_SUCCESS;
 }

@@ -12,4 +12,7 @@
 fw_status fw_dense_solve_symmetric(fw_arena *arena, int n, const double *a, const double *b,
                                    double *x, bool *consistent);
 
+/* GSL answers by statuses from here on: its own handler of errors would end the process */
+void fw_maths_gsl_quiet(void);
+
 #endif

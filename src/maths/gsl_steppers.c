@@ -19,6 +19,7 @@
    gsl-bsimp allocates: GSL's LU takes and returns one small block per factorisation. GSL does not
    check every allocation in the creation of bsimp and in that LU.
    Source: GSL reference manual, chapter Ordinary Differential Equations. Tests: test_ode_*.c */
+#include "maths/dense.h"
 #include "maths/ode_implicit.h"
 #include <float.h>
 #include <gsl/gsl_errno.h>
@@ -117,7 +118,7 @@ static fw_status create(fw_arena *arena, const fw_ode *ode, const gsl_odeiv2_ste
     FW_NEED(s->node = fw_arena_array(arena, double, 2 * (PIECES + 1) * width));
     if (type == gsl_odeiv2_step_bsimp)
         FW_NEED(s->j = fw_arena_array(arena, double, n *(size_t)ode->controlled));
-    gsl_set_error_handler_off(); /* statuses, not aborts */
+    fw_maths_gsl_quiet();
     s->history = type == gsl_odeiv2_step_msadams;
     s->extrapolates = type == gsl_odeiv2_step_bsimp;
     s->system = (gsl_odeiv2_system){function, jacobian, n, s};

@@ -4,6 +4,7 @@
 #include "maths/lapack.h"
 #include <lapacke.h>
 #include <math.h>
+#include <pthread.h>
 #include <sys/mman.h>
 
 static const int column_major = LAPACK_COL_MAJOR;
@@ -39,12 +40,16 @@ static bool take_buffer(void) {
 }
 
 fw_status fw_lapack_ready(void) {
-    static _Atomic bool ready;
-    if (ready) return FW_OK;
-    one_thread();
-    if (!take_buffer()) return FW_NOMEM;
-    ready = true;
-    return FW_OK;
+    static pthread_mutex_t alone = PTHREAD_MUTEX_INITIALIZER; /* designs run in parallel */
+    static bool ready;
+    pthread_mutex_lock(&alone);
+    if (!ready) {
+        one_thread();
+        ready = take_buffer();
+    }
+    bool good = ready;
+    pthread_mutex_unlock(&alone);
+    return good ? FW_OK : FW_NOMEM;
 }
 
 static fw_status space_of(fw_arena *arena, int info, double ask, fw_lapack_space *space) {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The public library: order of calls, arguments and ownership; the work is the plan's. */
-#include "base/cancel.h"
 #include "plan/design_state.h"
 #include "plan/stages.h"
 #include <locale.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -207,6 +207,7 @@ fw_design *fw_design_new(const fw_design_options *options) {
     fw_design *design = plan ? fw_arena_one(plan->arena, fw_design) : NULL;
     if (design) {
         *design = (fw_design){.plan = plan};
+        fw_arena_stop_with(plan->arena, &design->cancel);
         if (fill(design, options) == FW_OK) return design;
     }
     fw_plan_free(plan);
@@ -468,11 +469,13 @@ const fw_diagnostic *fw_design_diagnostic(fw_design *design, size_t i) {
 }
 
 void fw_design_cancel(fw_design *design) {
-    (void)design; /* the flag is the process's today */
-    fw_cancel_request(2);
+    if (design) fw_cancel_request(&design->cancel, SIGINT);
 }
 
 void fw_design_cancel_clear(fw_design *design) {
-    (void)design;
-    fw_cancel_clear();
+    if (design) fw_cancel_clear(&design->cancel);
+}
+
+void fw_design_cancel_with(fw_design *design, const fw_cancel *above) {
+    design->cancel.above = above;
 }

@@ -13,7 +13,8 @@ enum { NTRADEOFF = FW_DOCUMENT_TRADEOFF_SVG - FW_DOCUMENT_TRADEOFF_JSON + 1 };
 struct fw_tradeoff;
 
 struct fw_design {
-    fw_plan *plan; /* its arena holds this struct too */
+    fw_plan *plan;    /* its arena holds this struct too */
+    fw_cancel cancel; /* of this design; its arenas carry it */
     locale_t locale;
     unsigned done;
     bool tried; /* a description was given, read or not */
@@ -32,8 +33,8 @@ struct fw_design {
     fw_status (*tradeoff_document[NTRADEOFF])(const struct fw_tradeoff *t, fw_text *out);
     fw_terminal_style style;
     double read_s, judge_s, simulate_s; /* CPU time of these stages */
-    fw_text document[NDOCUMENT]; /* data NULL: not composed, or out of date */
-    fw_diagnostic *diagnostic;   /* (FW_DIAG_MOST) */
+    fw_text document[NDOCUMENT];        /* data NULL: not composed, or out of date */
+    fw_diagnostic *diagnostic;          /* (FW_DIAG_MOST) */
 };
 
 typedef struct fw_bytes {

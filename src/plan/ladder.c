@@ -31,7 +31,7 @@ fw_status fw_ladder_climb(const fw_ladder_case *c, const fw_ladder_level *of, bo
          batch *= 2) {
         fw_ladder_case fresh = *c;
         fw_status status = FW_OK;
-        FW_NEED(fresh.arena = fw_arena_new(0));
+        FW_NEED(fresh.arena = fw_arena_part(c->arena, 0));
         double began = now_s();
         for (int i = 0; i < batch && status == FW_OK; i++, done++)
             status = of->work(&fresh, row);

@@ -148,6 +148,7 @@ fw_status fw_live_design(const fw_live *live, fw_live_request *r, fw_design **de
     options.memory_cap = live->settings.memory_cap;
     FW_TRY(read_options(r, &options, &r->full));
     FW_NEED(*design = fw_design_new(&options));
+    fw_design_cancel_with(*design, live->settings.cancel);
     fw_verdict_options *judge = &fw_design_plan(*design)->options.verdict;
     judge->with_advice = false;
     judge->at_a_glance = !r->full;
@@ -187,6 +188,7 @@ fw_live_answer fw_live_call(fw_live *live, const char *json, size_t n, const cha
     fw_arena_free(live->answer);
     live->answer = fw_arena_new(live->settings.memory_cap);
     if (!live->answer) return short_of_memory();
+    fw_arena_stop_with(live->answer, live->settings.cancel);
     fw_text out = fw_text_new(live->answer);
     if (keys) status = fw_live_request_read(live->answer, json, n, keys, &request);
     if (status == FW_OK) status = work(live, &request, &out);

@@ -7,12 +7,14 @@
    Documents (docs/reference/json.md): flexwright.table/1, preview/1, pose/1, edit/1. */
 #ifndef FW_PLAN_LIVE_H
 #define FW_PLAN_LIVE_H
+#include "base/cancel.h"
 #include "base/status.h"
 #include <stddef.h>
 
 typedef struct fw_live_settings { /* zero: the defaults */
     const char *data_directory;   /* holds processes/ and masks/; NULL: as installed */
     size_t memory_cap;            /* most bytes of one request; 0: 512 MiB */
+    const fw_cancel *cancel;      /* stops the answer that is computed; may be NULL */
 } fw_live_settings;
 
 typedef struct fw_live fw_live;

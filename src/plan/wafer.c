@@ -66,6 +66,7 @@ static fw_status run_step(fw_plan *plan, int v, double *value, const char **why)
     options.verdict.with_advice = false;
     fw_plan *step = plan->step[v] = fw_plan_new(&options);
     FW_NEED(step);
+    fw_arena_stop_with(step->arena, fw_arena_request(plan->arena));
     fw_status status =
         fw_plan_load_memory(step, plan->source_file, plan->source, plan->source_length);
     if (status == FW_OK) status = fw_plan_judge(step);
@@ -199,7 +200,7 @@ fw_status fw_plan_count_dies(fw_plan *plan) {
     const fw_wafer_asked *w = &plan->device->wafer;
     plan->dies = plan->options.dies > 0 ? plan->options.dies : 1;
     if (plan->options.dies > 0 || !w->asked || !plan->layout || !plan->layout->drawn) return FW_OK;
-    fw_arena *scratch = fw_arena_new(plan->options.memory_cap);
+    fw_arena *scratch = fw_arena_part(plan->arena, plan->options.memory_cap);
     FW_NEED(scratch);
     fw_box die = plan->layout->die;
     fw_status status = FW_OK;

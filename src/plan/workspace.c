@@ -41,7 +41,7 @@ static fw_status one_flow(fw_plan *plan, const fw_plan_flow *pf, fw_report_works
         if (!p->proved) continue;
         const fw_box3 box = {{p->low[0], p->low[1], p->low[2]},
                              {p->high[0], p->high[1], p->high[2]}};
-        FW_TRY(fw_required_survey(&map->loop, &box, &singular[k]));
+        FW_TRY(fw_required_survey(plan->arena, &map->loop, &box, &singular[k]));
     }
     warn(plan, f);
     return FW_OK;

@@ -246,7 +246,7 @@ static fw_status write_all(writer *w, unsigned what) {
 }
 
 fw_status fw_plan_write(fw_plan *plan, const char *directory, unsigned what) {
-    writer w = {.plan = plan, .scratch = fw_arena_new(plan->options.memory_cap)};
+    writer w = {.plan = plan, .scratch = fw_arena_part(plan->arena, plan->options.memory_cap)};
     FW_NEED(w.scratch);
     w.empty = fw_arena_mark(w.scratch);
     plan->files_written = 0;

@@ -3,6 +3,7 @@
    all that computes runs in processes of its own with limits (worker.h, jobs.h). */
 #ifndef FW_SERVE_SERVE_H
 #define FW_SERVE_SERVE_H
+#include "base/cancel.h"
 #include <stdbool.h>
 
 typedef struct fw_serve_options {
@@ -14,6 +15,7 @@ typedef struct fw_serve_options {
        that is started by a command line, which others can read; NULL: it could not be written */
     void (*ready)(const char *url, const char *page, void *context);
     void *context;
+    const fw_cancel *interrupted; /* ends the server; may be NULL */
 } fw_serve_options;
 
 /* serves until SIGINT or SIGTERM; what went wrong is said on standard error. Returns the exit

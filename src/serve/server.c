@@ -105,8 +105,11 @@ static void announce(const fw_server *server) {
     server->options.ready(url, page, server->options.context);
 }
 
+/* the terminal was closed; a handler sees nothing but what is static */
+static fw_cancel closed_terminal;
+
 static void hung_up(int number) {
-    fw_cancel_request(number);
+    fw_cancel_request(&closed_terminal, number);
 }
 
 static fw_status serve(fw_server *server) {
@@ -118,7 +121,8 @@ static fw_status serve(fw_server *server) {
     if (diags.count) say(server, &diags);
     if (status == FW_OK) {
         announce(server);
-        while (!fw_cancel_requested())
+        while (!fw_cancel_requested(server->options.interrupted) &&
+               !fw_cancel_requested(&closed_terminal))
             round_once(server);
     } else if (!diags.count)
         fprintf(stderr, "flexwright: error: %s\n", fw_status_text(status));

@@ -12,8 +12,11 @@
 
 enum { CHANNEL = 3, QUESTION_CPU_S = 20, MEMORY_CAP = 1024 * 1024 * 1024 };
 
+/* nobody waits for the answer any more; a handler sees nothing but what is static */
+static fw_cancel unwanted;
+
 static void stop(int number) {
-    fw_cancel_request(number);
+    fw_cancel_request(&unwanted, number);
 }
 
 /* so much processor time for the next question; beyond it the system ends this process */
@@ -96,7 +99,7 @@ static bool one(void *state) {
     fw_arena *arena = fw_arena_new(0);
     char *request = arena ? fw_arena_array(arena, char, (size_t)head.n + 1) : NULL;
     bool ok = request && read_all(request, head.n);
-    fw_cancel_clear();
+    fw_cancel_clear(&unwanted);
     ration();
     ok = ok && compute(state, head.what, request, head.n);
     fw_arena_free(arena);
@@ -108,7 +111,8 @@ int fw_worker_main(const char *data_directory) {
     sigaction(SIGINT, &cancel, NULL);
     sigaction(SIGTERM, &end, NULL);
     fw_live_settings settings = {.data_directory = *data_directory ? data_directory : NULL,
-                                 .memory_cap = MEMORY_CAP};
+                                 .memory_cap = MEMORY_CAP,
+                                 .cancel = &unwanted};
     fw_live *live = fw_live_new(&settings);
     if (!live) return fw_status_exit(FW_NOMEM);
     while (one(live)) {

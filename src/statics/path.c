@@ -8,7 +8,6 @@
 
    the second row asking for the length along the tangent. It is solved by elimination around the
    mode of least |mu|, so that a single mu through zero, as at a fold, does no harm. */
-#include "base/cancel.h"
 #include "statics/rest.h"
 #include "maths/brent.h"
 #include <float.h>
@@ -357,7 +356,7 @@ static fw_status walk(follower *f) {
     double length = fw_first_length;
     bool ended = false;
     while (!ended && f->path->count < f->most && !out_of_reach(f)) {
-        if (fw_cancel_requested()) return FW_CANCELLED;
+        if (fw_arena_cancelled(f->w->arena)) return FW_CANCELLED;
         fw_status status = correct(f, &f->at, length, &f->next);
         if (status != FW_OK && status != FW_SOLVER) return status;
         if (status != FW_OK || !acceptable(f, length) || may_have_crossed(f, length)) {

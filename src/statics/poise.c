@@ -15,7 +15,6 @@
 #include "statics/poise.h"
 #include "base/sort.h"
 #include "base/constants.h"
-#include "base/cancel.h"
 #include "quantity/law_kind.h"
 #include "statics/rest.h"
 #include <math.h>
@@ -147,7 +146,7 @@ static fw_status look_along(looker *k) {
     for (int p = 0; p < k->pieces; p++) {
         double from = k->at[p], h = (k->at[p + 1] - from) / (each - 1);
         for (int i = 0; i < each; i++) {
-            if (fw_cancel_requested()) return FW_CANCELLED;
+            if (fw_arena_cancelled(k->w.arena)) return FW_CANCELLED;
             FW_TRY(look(k, from + i * h, 0.5 * (from + k->at[p + 1]),
                         i == 0 || i == each - 1 ? 0.5 * h : h));
         }

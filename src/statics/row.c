@@ -6,7 +6,6 @@
    Test: test_quasi.c. */
 #include "statics/row.h"
 #include "base/sort.h"
-#include "base/cancel.h"
 #include "quantity/law_kind.h"
 #include "statics/quasi.h"
 #include <math.h>
@@ -209,7 +208,7 @@ static void swap_ends(fw_row *r) {
 static fw_status walk(fw_row *r, double end, double *h) {
     long most = r->options->most_steps > 0 ? r->options->most_steps : fw_usual_steps;
     while (r->from.t < end && !r->motion->ended) {
-        if (fw_cancel_requested()) return FW_CANCELLED;
+        if (fw_arena_cancelled(r->w.arena)) return FW_CANCELLED;
         if (r->solved > most) return too_many(r, most);
         double step = fmin(*h, longest_step(r, r->from.t)), left = end - r->from.t;
         double before = r->size, t = step >= 0.999 * left ? end : r->from.t + fmin(step, left / 2);

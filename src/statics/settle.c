@@ -9,7 +9,6 @@
    radian that a driver turns. Source: predictor-corrector continuation, Allgower and Georg 1990,
    ch. 2. Test: test_statics.c (turning mechanisms). */
 #include "statics/rest.h"
-#include "base/cancel.h"
 #include <math.h>
 #include <string.h>
 
@@ -143,7 +142,7 @@ static fw_status walk(walker *k, bool *left_unstable) {
     fw_rest *w = k->w;
     double s = 0, ds = fw_first_share;
     while (s < 1) {
-        if (fw_cancel_requested()) return FW_CANCELLED;
+        if (fw_arena_cancelled(w->arena)) return FW_CANCELLED;
         double to = s + ds >= 1 ? 1 : s + ds;
         bool good;
         FW_TRY(predict(k, to, to - s, &good));

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "statics/statics.h"
-#include "base/cancel.h"
 #include "statics/level.h"
 #include "statics/pull_in.h"
 #include "statics/rest.h"
@@ -108,7 +107,7 @@ fw_status fw_rest_descend(fw_rest *w, bool *left_unstable) {
     fw_status status = FW_SOLVER;
     int escapes = 0;
     for (int i = 0; i < FW_NEWTON_STEPS; i++, w->iterations++) {
-        if (fw_cancel_requested()) return FW_CANCELLED;
+        if (fw_arena_cancelled(w->arena)) return FW_CANCELLED;
         status = fw_rest_evaluate(w);
         if (status != FW_OK) break;
         double most = fw_rest_newton(w, step);

@@ -198,7 +198,7 @@ static fw_status counted(fw_problem *p, const char *valgrind, const fw_tradeoff_
     const char *settings;
     FW_TRY(written(p->arena, p, t, l, &settings));
     double seconds = 60 + 4 * p->budget / 2.5e9;
-    if (fw_external_room_open(&room) != FW_OK) {
+    if (fw_external_room_open(p->arena, &room) != FW_OK) {
         t->instructions_why = "no temporary directory for callgrind";
         return FW_OK;
     }

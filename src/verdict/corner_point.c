@@ -156,7 +156,7 @@ static fw_status run_point(fw_search *s, const double *x, fw_made_corner *corner
     for (size_t k = 0; k < h; k++)
         corner->hinge[k] = (fw_hinge_verdict){
             .id = s->v->hinge[k].id, .joint = s->v->hinge[k].joint, .decision = FW_INCONCLUSIVE};
-    fw_arena *scratch = fw_arena_new(0); /* given back at once: there may be many */
+    fw_arena *scratch = fw_arena_part(s->arena, 0); /* given back at once: there may be many */
     FW_NEED(scratch);
     fw_status status = judge_point(s, scratch, x, corner, ln);
     fw_arena_free(scratch);

@@ -3,7 +3,6 @@
    hinge and scene: a given rotation strains a wide flexure more, a given load a thin one. Theory:
    docs/theory/as-fabricated.md. */
 #include "verdict/corners.h"
-#include "base/cancel.h"
 #include <math.h>
 #include <string.h>
 

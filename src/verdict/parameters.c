@@ -322,7 +322,7 @@ static fw_status is_count(hunt *h, bool *count) {
     if (between < h->low) return FW_OK;
     const char *value = value_text(h, between, 12);
     FW_NEED(value);
-    fw_arena *scratch = fw_arena_new(0);
+    fw_arena *scratch = fw_arena_part(h->trial->arena, 0);
     FW_NEED(scratch);
     const fw_restated *r = &h->trial->options->restated;
     const fw_device *device = NULL;

@@ -211,7 +211,7 @@ fw_status fw_trial_restate(fw_trial *trial, const fw_set *set, bool glance) {
         if (o.motion.samples > samples_of_a_glance) o.motion.samples = samples_of_a_glance;
         o.at_a_glance = true;
     }
-    fw_arena *scratch = fw_arena_new(0);
+    fw_arena *scratch = fw_arena_part(trial->arena, 0);
     FW_NEED(scratch);
     fw_status status = restate(trial, scratch, set, &o);
     fw_arena_free(scratch);
@@ -236,7 +236,7 @@ double fw_trial_excess(const fw_trial *trial) {
 /* in an arena of its own, given back at once: a plan runs dozens of trials */
 fw_status fw_trial_run(fw_trial *trial) {
     int n = trial->verdict->nvariant;
-    fw_arena *scratch = fw_arena_new(0);
+    fw_arena *scratch = fw_arena_part(trial->arena, 0);
     FW_NEED(scratch);
     fw_diags diags = fw_diags_new(scratch);
     const fw_layout *layout = NULL;

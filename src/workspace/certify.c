@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "workspace/certify.h"
 #include "base/constants.h"
-#include "base/cancel.h"
 #include "base/text.h"
 
 enum { ENDS = 2 * FW_SIX, DEPTH = 120 }; /* ends: least of A..F, then most */
 
 typedef struct proving {
+    const fw_arena *arena;
     const fw_loop *loop;
     double relative, size[3];
     fw_workspace_proof *proof;
@@ -105,7 +105,7 @@ static fw_proof_end walk(proving *p, const fw_box3 *whole, long most, fw_text *t
     while (depth > 0) {
         fw_box3 box = stack[--depth];
         fw_reached reached;
-        if (p->proof->boxes++ >= most || fw_cancel_requested()) return FW_UNDECIDED;
+        if (p->proof->boxes++ >= most || fw_arena_cancelled(p->arena)) return FW_UNDECIDED;
         pose_in(&box, -1, pose);
         if (!try_pose(p, pose)) return FW_REFUTED;
         if (enough(p, &box, &reached)) {
@@ -137,7 +137,7 @@ static fw_proof_end walk(proving *p, const fw_box3 *whole, long most, fw_text *t
 fw_status fw_certify_box(fw_arena *arena, const fw_loop *loop, const fw_box3 *box, double relative,
                          long most, fw_workspace_proof *proof, double pose[3], fw_proof_end *end) {
     *proof = (fw_workspace_proof){0};
-    proving p = {.loop = loop, .relative = relative, .proof = proof};
+    proving p = {.arena = arena, .loop = loop, .relative = relative, .proof = proof};
     for (int i = 0; i < 3; i++) {
         proof->low[i] = box->lo[i], proof->high[i] = box->hi[i];
         p.size[i] = fmax(box->hi[i] - box->lo[i], 1e-300);
@@ -153,7 +153,7 @@ fw_status fw_certify_box(fw_arena *arena, const fw_loop *loop, const fw_box3 *bo
     fw_text tree = fw_text_new(arena);
     *end = walk(&p, box, most, &tree, pose);
     FW_TRY(fw_text_end(&tree));
-    if (fw_cancel_requested()) return FW_CANCELLED;
+    if (fw_arena_cancelled(arena)) return FW_CANCELLED;
     if (*end != FW_PROVED) return FW_OK;
     /* a hair more, so that another enclosure of the same numbers can confirm it */
     for (int i = 0; i < FW_SIX; i++)

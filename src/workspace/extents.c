@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "workspace/survey.h"
-#include "base/cancel.h"
 
 typedef struct open_box {
     fw_box3 box;
@@ -8,6 +7,7 @@ typedef struct open_box {
 } open_box;
 
 typedef struct end { /* largest of sign * coordinate */
+    const fw_arena *arena;
     const fw_loop *loop;
     const fw_allowed *allowed;
     fw_box3 whole;
@@ -214,7 +214,7 @@ static void look(end *e, const fw_box3 *box, double far) {
 static fw_status search(end *e, long most) {
     look(e, &e->whole, (double)INFINITY);
     while (e->open > 0) {
-        if (fw_cancel_requested()) return FW_CANCELLED;
+        if (fw_arena_cancelled(e->arena)) return FW_CANCELLED;
         double far = e->heap[0].far, near = fmin(e->slack, e->relative * fabs(e->found));
         if (far <= e->found + near || e->boxes + 2 > most) {
             e->bound = far;
@@ -252,7 +252,8 @@ fw_status fw_reach_extents(fw_arena *arena, const fw_loop *loop, const fw_reach_
                               FW_WANT_ALL, &known);
             for (int i = 0; i < 3; i++)
                 fw_box3_middle(&whole, i, &half[i]);
-            end e = {.loop = loop,
+            end e = {.arena = arena,
+                     .loop = loop,
                      .allowed = &allowed,
                      .whole = whole,
                      .coordinate = c,

@@ -37,7 +37,7 @@ fw_status fw_workspace_map_make(fw_arena *arena, const fw_mechanism *m, fw_works
     map->limits = fw_limits_symmetric(map->limit_rad);
     FW_TRY(fw_reach_volume(arena, &map->loop, &map->limits,
                            (fw_effort){effort.relative, effort.most}, &map->volume));
-    FW_TRY(fw_reach_survey(&map->loop, &map->limits, effort.level, &map->survey));
+    FW_TRY(fw_reach_survey(arena, &map->loop, &map->limits, effort.level, &map->survey));
     FW_TRY(fw_reach_extents(arena, &map->loop, &map->limits, extent_relative, EXTENT_BOXES,
                             &map->survey));
     for (int i = 0; i < FW_SLICES; i++) {

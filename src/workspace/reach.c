@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "workspace/reach.h"
 #include "base/constants.h"
-#include "base/cancel.h"
 #include "workspace/cut.h"
 
 enum { MOST_LEVEL = 14, FIRST_CELLS = 64, FIRST_SUM = 1024 };
@@ -413,7 +412,7 @@ static fw_status measured(search *s, fw_effort effort, fw_measure *out) {
     long next =
         FIRST_SUM; /* the same places in all runs, so that finer brackets lie in coarser ones */
     for (long done = 1; s->count > 0 && s->boxes + children <= effort.most; done++) {
-        if (done % 1024 == 0 && fw_cancel_requested()) return FW_CANCELLED;
+        if (done % 1024 == 0 && fw_arena_cancelled(s->arena)) return FW_CANCELLED;
         FW_TRY(split(s));
         bool narrow = s->about.hi - s->about.lo <= 0.96 * effort.relative * s->about.lo;
         if (!narrow && s->boxes < next) continue;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "workspace/survey.h"
-#include "base/cancel.h"
 
 /* Velocities of the loop: sum over the hinges of psi_i' (1, y_i, -x_i) = 0. With the hinges of a
    set P passive and the others given, the three columns of P must be independent: det [1 x_i y_i] =
@@ -101,11 +100,12 @@ static bool plain(const fw_loop *k, const fw_loop_box *known) {
     return all;
 }
 
-static fw_status descend(const fw_loop *k, const fw_box3 *box, int level, fw_regularity *s) {
+static fw_status descend(const fw_arena *arena, const fw_loop *k, const fw_box3 *box, int level,
+                         fw_regularity *s) {
     fw_loop_box known = {.reached = FW_MAY_BE_OUT};
     fw_loop_pose_box(k, box, &known);
     if (known.reached == FW_OUT_OF_REACH) return FW_OK;
-    if (fw_cancel_requested()) return FW_CANCELLED;
+    if (fw_arena_cancelled(arena)) return FW_CANCELLED;
     bool split = known.reached != FW_REACHED || level < ALWAYS || !plain(k, &known);
     if (!split || level == DEEPEST) {
         if (known.reached == FW_REACHED)
@@ -128,7 +128,7 @@ static fw_status descend(const fw_loop *k, const fw_box3 *box, int level, fw_reg
             same = same || (upper && !(box->hi[i] > box->lo[i]));
             *(upper ? &part.lo[i] : &part.hi[i]) = middle;
         }
-        if (!same) FW_TRY(descend(k, &part, level + 1, s));
+        if (!same) FW_TRY(descend(arena, k, &part, level + 1, s));
     }
     return FW_OK;
 }
@@ -136,9 +136,10 @@ static fw_status descend(const fw_loop *k, const fw_box3 *box, int level, fw_reg
 /* Singularities over a box of poses: halved at least three times, and where the sign of a triangle
    or an elbow is not yet certain up to six times. Bounds are proved. Cost about 4 us per box, 512
    boxes where all is regular. Test: test_survey.c. */
-fw_status fw_required_survey(const fw_loop *k, const fw_box3 *box, fw_regularity *s) {
+fw_status fw_required_survey(const fw_arena *arena, const fw_loop *k, const fw_box3 *box,
+                             fw_regularity *s) {
     fw_regularity_start(s);
-    FW_TRY(descend(k, box, 0, s));
+    FW_TRY(descend(arena, k, box, 0, s));
     fw_regularity_end(s);
     return FW_OK;
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "workspace/survey.h"
-#include "base/cancel.h"
 #include "workspace/cut.h"
 
 typedef struct walk {
+    const fw_arena *arena;
     const fw_loop *loop;
     fw_allowed allowed;
     fw_box3 whole;
@@ -79,7 +79,7 @@ static void boundary(walk *w, const fw_box3 *box, const fw_loop_box *known) {
 static fw_status descend(walk *w, const fw_box3 *box, int levels) {
     fw_loop_box known;
     fw_interval share;
-    if (fw_cancel_requested()) return FW_CANCELLED;
+    if (fw_arena_cancelled(w->arena)) return FW_CANCELLED;
     unsigned open = levels > 0 ? FW_WANT_LIMITS : FW_WANT_ALL;
     fw_inside where = fw_reach_judge(w->loop, &w->allowed, 3, 0.0, box, &open, &known, &share);
     if (where == FW_OUTSIDE) return FW_OK;
@@ -117,10 +117,10 @@ static fw_status descend(walk *w, const fw_box3 *box, int levels) {
    over V is the exponent d ln V/d ln theta. in: limits rad; error of shares and exponent, against
    differences of certified volumes: 3e-3 where the limits keep the legs bent, 3e-2 where they do
    not (test_survey.c). Cost about 1.7 us per box, 20 ms at level 5, 150 ms at level 6. */
-fw_status fw_reach_survey(const fw_loop *loop, const fw_reach_limits *limits, int level,
-                          fw_survey *survey) {
+fw_status fw_reach_survey(const fw_arena *arena, const fw_loop *loop, const fw_reach_limits *limits,
+                          int level, fw_survey *survey) {
     *survey = (fw_survey){0};
-    walk w = {.loop = loop, .out = survey};
+    walk w = {.arena = arena, .loop = loop, .out = survey};
     w.allowed = fw_limits_allow(loop, limits);
     w.whole = fw_reach_whole(loop, &w.allowed);
     fw_regularity_start(&survey->singular);

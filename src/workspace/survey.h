@@ -34,10 +34,11 @@ typedef struct fw_survey {
 } fw_survey;
 
 /* boxes of 2^-level of the limits' ranges */
-fw_status fw_reach_survey(const fw_loop *loop, const fw_reach_limits *limits, int level,
-                          fw_survey *survey);
+fw_status fw_reach_survey(const fw_arena *arena, const fw_loop *loop, const fw_reach_limits *limits,
+                          int level, fw_survey *survey);
 /* the same singularities over a box of poses */
-fw_status fw_required_survey(const fw_loop *loop, const fw_box3 *box, fw_regularity *singular);
+fw_status fw_required_survey(const fw_arena *arena, const fw_loop *loop, const fw_box3 *box,
+                             fw_regularity *singular);
 
 /* ends of x, y and phi, each within `relative` of its distance from the drawn pose, or as near as
    `most` boxes lead */

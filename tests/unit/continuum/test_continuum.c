@@ -20,7 +20,6 @@ static int open_rig(void **state) {
 }
 
 static int close_rig(void **state) {
-    fw_cancel_clear();
     fw_arena_free(((rig *)*state)->arena);
     return 0;
 }
@@ -221,7 +220,8 @@ static void time_and_cancel(void **state) {
                                         &r->diags, &result),
                      FW_LIMIT);
     assert_int_equal(r->diags.item[0].number, 215);
-    fw_cancel_request(2);
+    fw_cancel cancel = {.number = 2};
+    fw_arena_stop_with(r->arena, &cancel);
     assert_int_equal(fw_continuum_hinge(r->arena, &shape, &material, &options, (fw_place){0},
                                         &r->diags, &result),
                      FW_CANCELLED);

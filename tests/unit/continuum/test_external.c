@@ -18,8 +18,9 @@ static fw_external_run call(const fw_external_room *room, const char *program, c
 
 static void ends(void **state) {
     (void)state;
+    fw_arena *work = fw_arena_new(0);
     fw_external_room room;
-    assert_int_equal(fw_external_room_open(&room), FW_OK);
+    assert_int_equal(fw_external_room_open(work, &room), FW_OK);
     struct stat info;
     assert_int_equal(stat(room.path, &info), 0);
     assert_int_equal(info.st_mode & 0777, 0700);
@@ -33,9 +34,11 @@ static void ends(void **state) {
     assert_int_equal(run.code, 127);
     run = call(&room, "/bin/sleep", "1000", 0.01);
     assert_int_equal(run.end, FW_EXTERNAL_TIMEOUT);
-    fw_cancel_request(2);
+    fw_cancel cancel = {0};
+    fw_arena_stop_with(work, &cancel);
+    fw_cancel_request(&cancel, 2);
     run = call(&room, "/bin/sleep", "1000", 1000);
-    fw_cancel_clear();
+    fw_cancel_clear(&cancel);
     assert_int_equal(run.end, FW_EXTERNAL_CANCELLED);
     char path[sizeof room.path];
     memcpy(path, room.path, sizeof path);
@@ -47,8 +50,9 @@ static void ends(void **state) {
 /* the environment is ours, the directory too */
 static void surroundings(void **state) {
     (void)state;
+    fw_arena *work = fw_arena_new(0);
     fw_external_room room;
-    assert_int_equal(fw_external_room_open(&room), FW_OK);
+    assert_int_equal(fw_external_room_open(work, &room), FW_OK);
     setenv("SOME_SECRET", "value", 1);
     assert_int_equal(call(&room, "/usr/bin/env", NULL, 10).end, FW_EXTERNAL_DONE);
     char file[700], text[2000] = {0};

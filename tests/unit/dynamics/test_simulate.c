@@ -456,9 +456,11 @@ static void test_cancel(void **state) {
     rig r = rig_six_bar(f.arena, false);
     const fw_motion_options o = {0};
     const fw_motion *m = NULL;
-    fw_cancel_request(2);
+    fw_cancel cancel = {0};
+    fw_arena_stop_with(f.arena, &cancel);
+    fw_cancel_request(&cancel, 2);
     assert_int_equal(fw_simulate(f.arena, &r.m, &r.scene, &o, &f.diags, &m), FW_CANCELLED);
-    fw_cancel_clear();
+    fw_cancel_clear(&cancel);
     assert_int_equal(fw_simulate(f.arena, &r.m, &r.scene, &o, &f.diags, &m), FW_OK);
     fw_arena_free(f.arena);
 }

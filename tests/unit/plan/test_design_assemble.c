@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* fw_design_assemble: order of calls, documents, failures, memory that runs out. */
 #include "base/arena.h"
-#include "base/cancel.h"
 #include "test.h"
 #include <flexwright.h>
 

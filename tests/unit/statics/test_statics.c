@@ -488,9 +488,11 @@ static void stops_when_asked(void **state) {
     fixture f = begin();
     rig r = rig_six_bar(f.arena, false);
     const fw_statics *s;
-    fw_cancel_request(2);
+    fw_cancel cancel = {0};
+    fw_arena_stop_with(f.arena, &cancel);
+    fw_cancel_request(&cancel, 2);
     fw_status status = solve(&f, &r, true, &s);
-    fw_cancel_clear();
+    fw_cancel_clear(&cancel);
     assert_int_equal(status, FW_CANCELLED);
     fw_arena_free(f.arena);
 }

@@ -31,13 +31,14 @@ static const struct {
 
 static void singularities_of_the_reference(void **state) {
     (void)state;
+    fw_arena *arena = fw_arena_new(0);
     six_bar_fixture f;
     six_bar_make(&f, six_bar_reference);
     fw_loop loop;
     assert_true(fw_loop_set_up(&f.mechanism, &loop));
     fw_reach_limits limits = all_equal(10);
     fw_survey s;
-    assert_int_equal(fw_reach_survey(&loop, &limits, 5, &s), FW_OK);
+    assert_int_equal(fw_reach_survey(arena, &loop, &limits, 5, &s), FW_OK);
     assert_true(s.singular.regular[0] && s.singular.regular[1]);
     for (int i = 0; i < FW_TRIANGLES; i++) {
         const fw_triangle *t = &s.singular.passive[i];
@@ -59,18 +60,20 @@ static void singularities_of_the_reference(void **state) {
         for (int j = 0; j < FW_SIX; j++)
             assert_true(fabs(angle[j]) <= 10 * degree + 1e-12);
     }
+    fw_arena_free(arena);
 }
 
 /* shares against central differences of certified volumes, exponent against the same */
 static void shares_of_the_reference(void **state) {
     (void)state;
+    fw_arena *arena = fw_arena_new(0);
     six_bar_fixture f;
     six_bar_make(&f, six_bar_reference);
     fw_loop loop;
     assert_true(fw_loop_set_up(&f.mechanism, &loop));
     fw_reach_limits limits = all_equal(10);
     fw_survey s;
-    assert_int_equal(fw_reach_survey(&loop, &limits, 6, &s), FW_OK);
+    assert_int_equal(fw_reach_survey(arena, &loop, &limits, 6, &s), FW_OK);
     const double want[FW_SIX] = {.143, .155, .201, .201, .156, .144}; /* independent */
     double sum = 0;
     for (int i = 0; i < FW_SIX; i++) {
@@ -81,8 +84,7 @@ static void shares_of_the_reference(void **state) {
     assert_near(s.exponent, 2.99, 0.02);
     /* one hinge alone is tight: it owns nearly all of it that it can */
     limits.low_rad[4] = -0.01, limits.high_rad[4] = 0.01;
-    assert_int_equal(fw_reach_survey(&loop, &limits, 6, &s), FW_OK);
-    fw_arena *arena = fw_arena_new(0);
+    assert_int_equal(fw_reach_survey(arena, &loop, &limits, 6, &s), FW_OK);
     double grows[FW_SIX], all = 0;
     for (int i = 0; i < FW_SIX; i++) {
         double v[2];
@@ -143,22 +145,24 @@ static void extents_of_the_reference(void **state) {
 
 static void required_box_is_regular_or_not(void **state) {
     (void)state;
+    fw_arena *arena = fw_arena_new(0);
     six_bar_fixture f;
     six_bar_make(&f, six_bar_reference);
     fw_loop loop;
     assert_true(fw_loop_set_up(&f.mechanism, &loop));
     fw_regularity r;
     fw_box3 box = {{-50e-6, -50e-6, -0.03}, {50e-6, 50e-6, 0.03}};
-    assert_int_equal(fw_required_survey(&loop, &box, &r), FW_OK);
+    assert_int_equal(fw_required_survey(arena, &loop, &box, &r), FW_OK);
     for (int i = 0; i < FW_TRIANGLES; i++)
         assert_true(r.passive[i].regular);
     assert_true(r.regular[0] && r.regular[1]);
     /* far enough to put C, D and E in line: both signs of that triangle are met */
     fw_box3 far = {{-100e-6, 0, -0.9}, {100e-6, 0, 0}};
-    assert_int_equal(fw_required_survey(&loop, &far, &r), FW_OK);
+    assert_int_equal(fw_required_survey(arena, &loop, &far, &r), FW_OK);
     const fw_triangle *cde = &r.passive[16];
     assert_false(cde->regular);
     assert_true(cde->positive && cde->negative && cde->length_m.hi == 0);
+    fw_arena_free(arena);
 }
 
 int main(void) {

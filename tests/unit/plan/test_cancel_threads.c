@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Two designs in two threads. One is cancelled, at moments from its start to its end; the other
+   gives the bytes of a design that runs alone. tests/build/threads.sh runs this under
+   ThreadSanitizer. */
+#include "test.h"
+#include <flexwright.h>
+#include <pthread.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <time.h>
+
+#define FILE_OF(name) FW_TEST_SOURCE_DIR "/docs/gallery/" name "/device.xml"
+
+static const char *const cancelled_file = FILE_OF("reference-six-bar");
+static const char *const other_file = FILE_OF("leaf-four-bar");
+
+typedef struct outcome {
+    int status;
+    char *verdict, *masks; /* masks: certificates, with the hash of each mask's bytes */
+} outcome;
+
+static void outcome_free(outcome *o) {
+    free(o->verdict);
+    free(o->masks);
+}
+
+static fw_design *fresh(const char *file) {
+    fw_design_options o = fw_design_options_default();
+    o.data_directory = FW_TEST_SOURCE_DIR;
+    o.samples = 51;
+    fw_design *design = fw_design_new(&o);
+    if (design && fw_design_read(design, file) != FW_STATUS_OK) {
+        fw_design_free(design);
+        return NULL;
+    }
+    return design;
+}
+
+static int copy_of(fw_design *design, int document, char **copy) {
+    const char *text;
+    int status = fw_design_document(design, document, &text, NULL);
+    if (status == FW_STATUS_OK && !(*copy = strdup(text))) status = FW_STATUS_NOMEM;
+    return status;
+}
+
+/* no cmocka from here to the threads' end: it is not made for them */
+static outcome run(fw_design *design) {
+    outcome o = {.status = fw_design_judge(design)};
+    if (o.status == FW_STATUS_OK) o.status = fw_design_fabricate(design);
+    if (o.status == FW_STATUS_OK) o.status = copy_of(design, FW_DOCUMENT_VERDICT_JSON, &o.verdict);
+    if (o.status == FW_STATUS_OK) o.status = copy_of(design, FW_DOCUMENT_MASKS_JSON, &o.masks);
+    return o;
+}
+
+static bool same(const outcome *a, const outcome *b) {
+    return a->status == FW_STATUS_OK && b->status == FW_STATUS_OK &&
+           strcmp(a->verdict, b->verdict) == 0 && strcmp(a->masks, b->masks) == 0;
+}
+
+static double now_s(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+typedef struct worker {
+    fw_design *design;
+    pthread_barrier_t *start;
+    outcome out;
+} worker;
+
+static void *work(void *argument) {
+    worker *w = argument;
+    pthread_barrier_wait(w->start);
+    w->out = run(w->design);
+    return NULL;
+}
+
+/* the first design is cancelled `after_s` from the common start; a negative time: before it */
+static void run_both(worker pair[2], double after_s) {
+    pthread_barrier_t start;
+    pthread_t thread[2];
+    assert_int_equal(pthread_barrier_init(&start, NULL, 3), 0);
+    if (after_s < 0) fw_design_cancel(pair[0].design);
+    for (int i = 0; i < 2; i++) {
+        pair[i].start = &start;
+        assert_int_equal(pthread_create(&thread[i], NULL, work, &pair[i]), 0);
+    }
+    pthread_barrier_wait(&start);
+    if (after_s >= 0) {
+        struct timespec wait = {.tv_sec = (time_t)after_s};
+        wait.tv_nsec = (long)(1e9 * (after_s - (double)wait.tv_sec));
+        nanosleep(&wait, NULL);
+        fw_design_cancel(pair[0].design);
+    }
+    for (int i = 0; i < 2; i++)
+        assert_int_equal(pthread_join(thread[i], NULL), 0);
+    pthread_barrier_destroy(&start);
+}
+
+static void one_is_cancelled_and_the_other_is_not(void **state) {
+    (void)state;
+    enum { MOMENTS = 8 };
+    fw_design *first = fresh(cancelled_file), *second = fresh(other_file);
+    assert_non_null(first);
+    assert_non_null(second);
+    double began = now_s();
+    outcome alone = run(first);
+    double lasts_s = now_s() - began;
+    outcome want = run(second);
+    assert_int_equal(alone.status, FW_STATUS_OK);
+    assert_int_equal(want.status, FW_STATUS_OK);
+    fw_design_free(first);
+    fw_design_free(second);
+    int cancelled = 0;
+    for (int k = -1; k < MOMENTS; k++) {
+        worker pair[2] = {{.design = fresh(cancelled_file)}, {.design = fresh(other_file)}};
+        assert_non_null(pair[0].design);
+        assert_non_null(pair[1].design);
+        run_both(pair, k * lasts_s / MOMENTS);
+        assert_true(same(&pair[1].out, &want));
+        if (pair[0].out.status == FW_STATUS_CANCELLED) {
+            cancelled++;
+            fw_design_cancel_clear(pair[0].design);
+            outcome_free(&pair[0].out);
+            pair[0].out = run(pair[0].design);
+            assert_int_equal(pair[0].out.status, FW_STATUS_OK);
+        } else
+            assert_true(k >= 0 && same(&pair[0].out, &alone)); /* it was too late */
+        for (int i = 0; i < 2; i++) {
+            outcome_free(&pair[i].out);
+            fw_design_free(pair[i].design);
+        }
+    }
+    assert_true(cancelled > 0); /* at least the one that was told so before it began */
+    outcome_free(&alone);
+    outcome_free(&want);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(one_is_cancelled_and_the_other_is_not)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
