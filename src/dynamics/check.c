@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What comes in at the border of this room. */
+/* What comes in at the border of this room, and the integrators and stabilisations that can be
+   asked for by name. */
 #include "dynamics/run.h"
 #include <math.h>
 #include <string.h>
@@ -39,4 +40,24 @@ fw_status fw_check_options(const fw_motion_options *o, fw_diags *diags) {
         return usage(fw_diag_error(diags, 105, (fw_place){0},
                                    "rtol, accuracy and samples must be finite and not negative"));
     return FW_OK;
+}
+
+/* ---- what there is ---- */
+
+fw_method_row fw_integrator_at(size_t i) {
+    size_t count;
+    const fw_stepper_row *const *stepper = fw_stepper_table(&count);
+    if (i == 0) return (fw_method_row){"auto", "chooses by the spectrum of the scene and says why"};
+    return i <= count ? (fw_method_row){stepper[i - 1]->name, stepper[i - 1]->summary}
+                      : (fw_method_row){NULL, NULL};
+}
+
+fw_method_row fw_stabilisation_at(size_t i) {
+    static const fw_method_row row[] = {
+        {"projection", "every accepted step is moved onto the constraints, to round-off"},
+        {"baumgarte", "violations are damped away by the equations; an error floor remains"},
+        {"none", "violations grow; for comparison"},
+        {NULL, NULL},
+    };
+    return row[i < 3 ? i : 3];
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which method: asked for by name, or by the masses. Which integrator: asked for by name, or by the
-   spectrum of the scene at its start. */
+   spectrum of the scene at its start, and by trial where that may be wrong. */
 #include "dynamics/run.h"
 #include "dynamics/steer.h"
 #include <math.h>
@@ -15,11 +15,12 @@ static const double fw_uneven_most = 1e3;
 /* ---- the method ---- */
 
 /* heaviest body over the lightest one that sits between two joints; a released pin is none */
-static fw_status unevenness(fw_run *r, const fw_terms *terms, int *light, int *heavy) {
-    const fw_mechanism *m = r->mechanism;
+static fw_status unevenness(fw_dynamics_problem *problem, const fw_terms *terms, int *light,
+                            int *heavy) {
+    const fw_mechanism *m = problem->mechanism;
     int *joints;
-    fw_mark mark = fw_arena_mark(r->arena);
-    FW_NEED(joints = fw_arena_array(r->arena, int, (size_t)m->nbody));
+    fw_mark mark = fw_arena_mark(problem->arena);
+    FW_NEED(joints = fw_arena_array(problem->arena, int, (size_t)m->nbody));
     for (int i = 0; i < m->npin + m->ntie; i++) {
         const fw_tie *t = i < m->npin ? NULL : &m->tie[i - m->npin];
         if (!t && terms->released && terms->released[i]) continue;
@@ -33,8 +34,8 @@ static fw_status unevenness(fw_run *r, const fw_terms *terms, int *light, int *h
         if (mass > m->body[*heavy].mass_kg) *heavy = b;
         if (joints[b] > 1 && (joints[*light] < 2 || mass < m->body[*light].mass_kg)) *light = b;
     }
-    r->uneven = joints[*light] > 1 ? m->body[*heavy].mass_kg / m->body[*light].mass_kg : 1;
-    fw_arena_rewind(r->arena, mark);
+    problem->uneven = joints[*light] > 1 ? m->body[*heavy].mass_kg / m->body[*light].mass_kg : 1;
+    fw_arena_rewind(problem->arena, mark);
     return FW_OK;
 }
 
@@ -42,19 +43,20 @@ static fw_status unevenness(fw_run *r, const fw_terms *terms, int *light, int *h
    16 - log10(ratio) digits, and the step control follows the noise. Independent coordinates add m
    instead and keep them all. Up to a ratio of 1e3 the noise lies below every tolerance. Test:
    test_hard_masses.c. */
-fw_status fw_method_choose(fw_run *r, const fw_terms *terms) {
+fw_status fw_method_choose(fw_dynamics_run *r, const fw_terms *terms) {
     int light, heavy;
     char ratio[32];
-    FW_TRY(unevenness(r, terms, &light, &heavy));
-    if (r->options->method || r->uneven <= fw_uneven_most || r->mechanism->nbody > fw_dense_most)
+    FW_TRY(unevenness(&r->problem, terms, &light, &heavy));
+    if (r->problem.options->method || r->problem.uneven <= fw_uneven_most ||
+        r->problem.mechanism->nbody > fw_dense_most)
         return FW_OK;
-    r->motion->method = "coordinate-partitioning";
-    const char *a = r->mechanism->body[light].id, *b = r->mechanism->body[heavy].id;
-    FW_NEED(r->why = fw_arena_printf(
-                r->arena,
+    r->record.motion->method = "coordinate-partitioning";
+    const char *a = r->problem.mechanism->body[light].id, *b = r->problem.mechanism->body[heavy].id;
+    FW_NEED(r->problem.why = fw_arena_printf(
+                r->problem.arena,
                 "not by chain, whose forces lose digits there: body %s between its joints is %s "
                 "times lighter than %s",
-                a ? a : "(unnamed)", fw_number_text(ratio, sizeof ratio, r->uneven, 2),
+                a ? a : "(unnamed)", fw_number_text(ratio, sizeof ratio, r->problem.uneven, 2),
                 b ? b : "(unnamed)"));
     return FW_OK;
 }
@@ -69,9 +71,9 @@ static double norm(const double *x, int n) {
 }
 
 /* out = J z by a central difference of the right-hand side at (t, y), over 2 `reach` */
-static void product(fw_run *r, double t, const double *y, const double *z, double reach, double *at,
-                    double *more, double *out) {
-    fw_model *m = r->model;
+static void product(const fw_dynamics_problem *problem, double t, const double *y, const double *z,
+                    double reach, double *at, double *more, double *out) {
+    fw_model *m = problem->model;
     int n = 2 * m->nq;
     double e = reach / fmax(norm(z, n), 1e-300);
     for (int sign = -1; sign <= 1; sign += 2) {
@@ -89,14 +91,14 @@ static void product(fw_run *r, double t, const double *y, const double *z, doubl
    a few per cent when the spectrum has a gap; a choice needs no more. Cost 48 evaluations. Source:
    Golub and Van Loan, ch. 7. Test: test_choose.c. shape (nq): its velocities; NULL: not asked for
  */
-static fw_status fastest(fw_run *r, double t, const double *y, double reach, double *rate,
-                         double *shape) {
-    fw_model *m = r->model;
+static fw_status fastest(const fw_dynamics_problem *problem, double t, const double *y,
+                         double reach, double *rate, double *shape) {
+    fw_model *m = problem->model;
     size_t n = (size_t)m->ny;
     double *work[5];
-    fw_mark mark = fw_arena_mark(r->arena);
+    fw_mark mark = fw_arena_mark(problem->arena);
     for (int i = 0; i < 5; i++)
-        FW_NEED(work[i] = fw_arena_array(r->arena, double, n));
+        FW_NEED(work[i] = fw_arena_array(problem->arena, double, n));
     double *z = work[0], *w = work[1];
     for (size_t i = 0; i < n; i++) /* any vector without symmetry */
         z[i] = i < 2 * (size_t)m->nq ? cos(1.0 + 1.7 * (double)i) : 0;
@@ -106,15 +108,15 @@ static fw_status fastest(fw_run *r, double t, const double *y, double reach, dou
         if (!(before > 0) || !isfinite(before)) break;
         for (size_t i = 0; i < n; i++)
             z[i] /= before;
-        product(r, t, y, z, reach, work[2], work[3], w);
-        product(r, t, y, w, reach, work[2], work[3], work[4]);
+        product(problem, t, y, z, reach, work[2], work[3], w);
+        product(problem, t, y, w, reach, work[2], work[3], work[4]);
         double *swap = z;
         z = work[4], work[4] = swap;
         if (k > 1) *rate = fmax(*rate, sqrt(norm(z, 2 * m->nq)));
     }
     if (!isfinite(*rate)) *rate = 0;
     if (shape) memcpy(shape, z + m->nq, (size_t)m->nq * sizeof *shape);
-    fw_arena_rewind(r->arena, mark);
+    fw_arena_rewind(problem->arena, mark);
     return FW_OK;
 }
 
@@ -132,8 +134,8 @@ static double stated_square(const fw_model *m, const fw_force_element *e) {
 /* the same with all switches of elements on: a stiff contact may be open at the start. 0: none is
    off. Where the formula of one means nothing there (two points that coincide have no direction),
    the rate depends on how far it is looked at; then what they state counts. */
-static fw_status fastest_in_touch(fw_run *r, double before, double *rate) {
-    fw_model *m = r->model;
+static fw_status fastest_in_touch(const fw_dynamics_problem *problem, double before, double *rate) {
+    fw_model *m = problem->model;
     double stated = 0, farther;
     bool idle = false;
     *rate = 0;
@@ -145,76 +147,78 @@ static fw_status fastest_in_touch(fw_run *r, double before, double *rate) {
         }
     if (!idle) return FW_OK;
     stated = sqrt(before * before + stated);
-    FW_TRY(fastest(r, 0, r->start, 1e-6, rate, NULL));
-    FW_TRY(fastest(r, 0, r->start, 1e-5, &farther, NULL));
+    FW_TRY(fastest(problem, 0, problem->start, 1e-6, rate, NULL));
+    FW_TRY(fastest(problem, 0, problem->start, 1e-5, &farther, NULL));
     bool sound = fabs(farther - *rate) <= 0.2 * *rate;
     if (!sound || !(*rate > 1.01 * before)) *rate = stated;
-    fw_model_set_switches(m, 0, r->start);
+    fw_model_set_switches(m, 0, problem->start);
     return FW_OK;
 }
 
 /* omega^2 = F.u / u^T M u for the static response u to F (SI), scaled; 0 when there is none */
-static fw_status rayleigh(fw_run *r, const fw_terms *terms, const double *force, double *u,
-                          double *rotation, double *rate) {
+static fw_status rayleigh(const fw_dynamics_problem *problem, const fw_terms *terms,
+                          const double *force, double *u, double *rotation, double *rate) {
     double work = 0, mass = 0;
     bool valid = false;
-    FW_TRY(fw_static_response(r->arena, r->mechanism, terms, force, u, rotation, &valid));
-    for (int i = 0; i < r->model->nq && valid; i++) {
-        const fw_mass *b = &r->mechanism->body[i / 3];
+    FW_TRY(
+        fw_static_response(problem->arena, problem->mechanism, terms, force, u, rotation, &valid));
+    for (int i = 0; i < problem->model->nq && valid; i++) {
+        const fw_mass *b = &problem->mechanism->body[i / 3];
         work += force[i] * u[i];
         mass += (i % 3 == 2 ? b->inertia_kg_m2 : b->mass_kg) * u[i] * u[i];
     }
-    *rate = valid && work > 0 && mass > 0 ? sqrt(work / mass) * r->model->scale.time_s : 0;
+    *rate = valid && work > 0 && mass > 0 ? sqrt(work / mass) * problem->model->scale.time_s : 0;
     return FW_OK;
 }
 
 /* 1 per scaled time at which motion along u (nq, scaled by any factor) dies away, by damping: half
    of the quotient of power and kinetic energy */
-static fw_status dying(fw_run *r, const double *u, double *rate) {
-    const fw_model *m = r->model;
+static fw_status dying(const fw_dynamics_problem *problem, const double *u, double *rate) {
+    const fw_model *m = problem->model;
     double *work[4], power = 0, mass = 0;
     size_t n = (size_t)m->nq;
-    fw_mark mark = fw_arena_mark(r->arena);
+    fw_mark mark = fw_arena_mark(problem->arena);
     for (int i = 0; i < 4; i++)
-        FW_NEED(work[i] = fw_arena_array(r->arena, double, (size_t)m->ny));
+        FW_NEED(work[i] = fw_arena_array(problem->arena, double, (size_t)m->ny));
     for (size_t i = 0; i < n; i++)
         work[0][n + i] = u[i];
-    product(r, 0, r->start, work[0], 1e-6, work[1], work[2], work[3]);
+    product(problem, 0, problem->start, work[0], 1e-6, work[1], work[2], work[3]);
     for (size_t i = 0; i < n; i++) {
         double v = work[0][n + i], b = i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3];
         power -= b * v * work[3][n + i];
         mass += b * v * v;
     }
     *rate = mass > 0 && power > 0 ? 0.5 * power / mass : 0;
-    fw_arena_rewind(r->arena, mark);
+    fw_arena_rewind(problem->arena, mark);
     return FW_OK;
 }
 
 /* rad per scaled unit of time of the motion that is excited: by the loads at their largest, else by
    the starting velocities, whose momenta stand in for forces; 0 for a free motion. And how it dies
    away. Source: Rayleigh's quotient. */
-static fw_status excited(fw_run *r, const fw_terms *terms, double *rate, double *dies) {
-    const fw_mechanism *m = r->mechanism;
+static fw_status excited(const fw_dynamics_problem *problem, const fw_terms *terms, double *rate,
+                         double *dies) {
+    const fw_mechanism *m = problem->mechanism;
     size_t n = 3 * (size_t)m->nbody;
     double *force, *u, *rotation;
-    fw_mark mark = fw_arena_mark(r->arena);
-    FW_NEED(force = fw_arena_array(r->arena, double, n));
-    FW_NEED(u = fw_arena_array(r->arena, double, n));
-    FW_NEED(rotation = fw_arena_array(r->arena, double, (size_t)m->npin));
-    fw_terms_largest_force(m, terms, r->scene->duration_s, force);
-    FW_TRY(rayleigh(r, terms, force, u, rotation, rate));
-    const fw_scale s = r->model->scale;
+    fw_mark mark = fw_arena_mark(problem->arena);
+    FW_NEED(force = fw_arena_array(problem->arena, double, n));
+    FW_NEED(u = fw_arena_array(problem->arena, double, n));
+    FW_NEED(rotation = fw_arena_array(problem->arena, double, (size_t)m->npin));
+    fw_terms_largest_force(m, terms, problem->scene->duration_s, force);
+    FW_TRY(rayleigh(problem, terms, force, u, rotation, rate));
+    const fw_scale s = problem->model->scale;
     for (size_t i = 0; i < n; i++) /* SI momenta over a second */
         force[i] =
-            r->start[n + i] *
+            problem->start[n + i] *
             (i % 3 == 2 ? m->body[i / 3].inertia_kg_m2 : m->body[i / 3].mass_kg * s.length_m) /
             s.time_s;
-    if (*rate == 0) FW_TRY(rayleigh(r, terms, force, u, rotation, rate));
+    if (*rate == 0) FW_TRY(rayleigh(problem, terms, force, u, rotation, rate));
     *dies = 0;
     for (size_t i = 0; i < n; i++)
         u[i] /= i % 3 == 2 ? 1 : s.length_m;
-    if (*rate > 0) FW_TRY(dying(r, u, dies));
-    fw_arena_rewind(r->arena, mark);
+    if (*rate > 0) FW_TRY(dying(problem, u, dies));
+    fw_arena_rewind(problem->arena, mark);
     return FW_OK;
 }
 
@@ -228,14 +232,14 @@ typedef struct price {
    more for dense output, and nine looks at joint forces; one of radau5, as measured, 12 of lean
    ones, its Jacobian included, and the same nine, besides one real and one complex
    factorisation of size n every second step and five solutions. */
-static price prices(const fw_run *r) {
-    const fw_model *m = r->model;
-    const fw_effect_ledger *l = &r->motion->ledger;
+static price prices(const fw_dynamics_recorder *record) {
+    const fw_model *m = record->problem->model;
+    const fw_effect_ledger *l = &record->motion->ledger;
     double n = m->nq, rhs = (m->kernel ? 300 : 1300) * (1 + n / 3);
     for (int i = 0; i < l->count && !m->kernel; i++)
         if (l->item[i].active) rhs += l->item[i].cost;
     if (m->method->independent) rhs += n * n * n;
-    double looks = r->options->reactions ? 9 : 0;
+    double looks = record->problem->options->reactions ? 9 : 0;
     return (price){.explicit_ = (15 + looks) * rhs,
                    .implicit = (12 + looks) * rhs + 2.5 * n * n * n + 50 * n * n};
 }
@@ -252,38 +256,40 @@ typedef struct spectrum {  /* rad per scaled time */
      A = |z.F|/(z.M z w^2) + |z.M v|/(z.M z w),  |A e^(-d t)| > wanted/4
    Loads that come slowly excite less: then implicit steps are taken for dearer than they are.
    Source: modal superposition. Test: test_choose.c (what_is_not_excited). */
-static fw_status ringing(fw_run *r, const fw_terms *terms, const double *z, double time,
-                         spectrum *s) {
-    const fw_model *m = r->model;
+static fw_status ringing(fw_dynamics_recorder *record, const fw_terms *terms, const double *z,
+                         double time, spectrum *s) {
+    const fw_model *m = record->problem->model;
     double *force, load = 0, momentum = 0, mass = 0, most = 0, dies;
     const fw_scale unit = m->scale;
-    fw_mark mark = fw_arena_mark(r->arena);
-    FW_NEED(force = fw_arena_array(r->arena, double, (size_t)m->nq));
-    fw_terms_largest_force(r->mechanism, terms, r->scene->duration_s, force);
+    fw_mark mark = fw_arena_mark(record->problem->arena);
+    FW_NEED(force = fw_arena_array(record->problem->arena, double, (size_t)m->nq));
+    fw_terms_largest_force(record->problem->mechanism, terms, record->problem->scene->duration_s,
+                           force);
     double newton = unit.mass_kg * unit.length_m / (unit.time_s * unit.time_s);
     for (int i = 0; i < m->nq; i++) {
         bool turn = i % 3 == 2;
         double b = turn ? m->inertia[i / 3] : m->mass[i / 3];
         load += z[i] * force[i] / (turn ? newton * unit.length_m : newton);
-        momentum += b * z[i] * r->start[m->nq + i];
+        momentum += b * z[i] * record->problem->start[m->nq + i];
         mass += b * z[i] * z[i];
         most = fmax(most, fabs(z[i]));
     }
-    fw_arena_rewind(r->arena, mark);
+    fw_arena_rewind(record->problem->arena, mark);
     s->ringing = s->share = 0;
     if (!(mass > 0) || !(s->fast > 0)) return FW_OK;
     double amplitude = (fabs(load) / s->fast + fabs(momentum)) / (mass * s->fast) * most;
-    double wanted = r->options->rtol > 0 ? 1e3 * r->options->rtol : fw_pace_wanted(r);
-    FW_TRY(dying(r, z, &dies));
-    s->share = fmin(1, amplitude / r->amplitude);
+    double wanted = record->problem->options->rtol > 0 ? 1e3 * record->problem->options->rtol
+                                                       : fw_pace_wanted(record);
+    FW_TRY(dying(record->problem, z, &dies));
+    s->share = fmin(1, amplitude / record->problem->amplitude);
     if (s->share > wanted / 4) s->ringing = fmin(time, log(4 * s->share / wanted) / dies);
     return FW_OK;
 }
 
 /* the tolerance of the answer */
-static double tolerance(const fw_run *r, const char *name) {
-    if (r->options->rtol > 0) return r->options->rtol;
-    return fw_pace_start(r, fw_stepper_find(name), fw_pace_wanted(r)).rtol;
+static double tolerance(const fw_dynamics_run *r, const char *name) {
+    if (r->problem.options->rtol > 0) return r->problem.options->rtol;
+    return fw_pace_start(&r->control, fw_stepper_find(name), fw_pace_wanted(&r->record)).rtol;
 }
 
 /* Steps of radau5: 8 per rad at a tolerance of 1e-7, as measured on one undamped mode, twice as
@@ -292,7 +298,7 @@ static double tolerance(const fw_run *r, const char *name) {
    are as stiff as, for as long as an impact takes: in between, the geometric mean. The fastest
    motion is passed over only where it is less than what is wanted; steps go with the fifth root of
    an amplitude. */
-static double implicit_steps(const fw_run *r, const spectrum *s, double time) {
+static double implicit_steps(const fw_dynamics_run *r, const spectrum *s, double time) {
     double count = fmin(time, s->dying > 0 ? 4 / s->dying : time) * s->slow;
     if (s->touching > 0) count = fmax(count, time * sqrt(s->slow * s->touching));
     count += s->fast * s->ringing * pow(s->share, 0.2);
@@ -300,30 +306,32 @@ static double implicit_steps(const fw_run *r, const spectrum *s, double time) {
 }
 
 /* Steps of dop853 that the tolerance needs: one per rad at 1e-7 and at least thirty */
-static double explicit_steps(const fw_run *r, const spectrum *s, double time) {
+static double explicit_steps(const fw_dynamics_run *r, const spectrum *s, double time) {
     return fmax(30, time * s->slow) * pow(tolerance(r, "dop853") / 1e-7, -0.1);
 }
 
-static fw_status say_choice(fw_run *r, const spectrum *s, bool stiff, double stable, double most) {
-    double unit = r->model->scale.time_s;
+static fw_status say_choice(fw_dynamics_recorder *record, const spectrum *s, bool stiff,
+                            double stable, double most) {
+    double unit = record->problem->model->scale.time_s;
     bool later = s->touching > s->fast;
     char a[32], b[32], c[32], d[32];
     fw_number_text(c, sizeof c, ceil(stable), 2);
     fw_number_text(d, sizeof d, most, 2);
     const char *but = stiff ? "implicit ones pass over the fast motion"
                             : "which cost less than implicit ones that pass over it";
-    if (!stiff && stable < 5 * fmax(200, r->scene->duration_s / unit * s->slow))
-        r->motion->reason = fw_arena_printf(
-            r->arena, "auto: not stiff (%s explicit steps would be stable), so order 8", c);
+    if (!stiff && stable < 5 * fmax(200, record->problem->scene->duration_s / unit * s->slow))
+        record->motion->reason =
+            fw_arena_printf(record->problem->arena,
+                            "auto: not stiff (%s explicit steps would be stable), so order 8", c);
     else
-        r->motion->reason = fw_arena_printf(
-            r->arena,
+        record->motion->reason = fw_arena_printf(
+            record->problem->arena,
             "auto: stiff, the fastest motion has %s rad/s%s where %s rad/s are excited; explicit "
             "steps need %s for stability, %s (a step costs %s explicit ones)",
             fw_number_text(a, sizeof a, fmax(s->fast, s->touching) / unit, 2),
             later ? " (once all contacts touch)" : "",
             fw_number_text(b, sizeof b, s->slow / unit, 2), c, but, d);
-    FW_NEED(r->motion->reason);
+    FW_NEED(record->motion->reason);
     return FW_OK;
 }
 
@@ -331,67 +339,129 @@ static fw_status say_choice(fw_run *r, const spectrum *s, bool stiff, double sta
    order 8 are stable up to |eigenvalue| h of about 6 and need about one per radian of the motion
    wanted; those of radau5 pass over fast modes. Right within a factor of 1.5 of the better one on
    the scenes of docs/theory/integrators.md. Test: test_choose.c. */
-static fw_status choose(fw_run *r, const fw_terms *terms) {
-    const fw_model *m = r->model;
-    double time = r->scene->duration_s / m->scale.time_s;
+static fw_status choose(fw_dynamics_run *r, const fw_terms *terms) {
+    const fw_model *m = r->problem.model;
+    double time = r->problem.scene->duration_s / m->scale.time_s;
     spectrum s;
     double *shape;
-    FW_NEED(shape = fw_arena_array(r->arena, double, (size_t)m->nq));
-    FW_TRY(fastest(r, 0, r->start, 1e-6, &s.fast, shape));
-    FW_TRY(fastest_in_touch(r, s.fast, &s.touching));
-    FW_TRY(excited(r, terms, &s.slow, &s.dying));
-    FW_TRY(ringing(r, terms, shape, time, &s));
+    FW_NEED(shape = fw_arena_array(r->problem.arena, double, (size_t)m->nq));
+    FW_TRY(fastest(&r->problem, 0, r->problem.start, 1e-6, &s.fast, shape));
+    FW_TRY(fastest_in_touch(&r->problem, s.fast, &s.touching));
+    FW_TRY(excited(&r->problem, terms, &s.slow, &s.dying));
+    FW_TRY(ringing(&r->record, terms, shape, time, &s));
     double most = fmax(s.fast, s.touching);
     if (!(s.slow > 0) || s.slow > most) s.slow = most; /* a nearly rigid response says nothing */
-    const price p = prices(r);
+    const price p = prices(&r->record);
     double stable = time * most / 6, explicit_ = explicit_steps(r, &s, time);
     /* contacts that are open at the start touch for a part of the time: half */
     explicit_ = fmax(explicit_, s.touching > s.fast ? fmax(time * s.fast / 6, stable / 2) : stable);
     double implicit = implicit_steps(r, &s, time);
     bool stiff = implicit * p.implicit < explicit_ * p.explicit_;
-    r->integrator = fw_stepper_find(stiff ? "radau5" : "dop853");
+    r->control.integrator = fw_stepper_find(stiff ? "radau5" : "dop853");
     /* what is stiff only later, such as a film that closes, shows in the number of steps; beyond
        300 components a factorisation costs more than any of them */
-    r->patience = !stiff && m->ny <= 300 ? 5000 + 30 * explicit_ : 0;
-    r->stable = stable, r->needed = explicit_steps(r, &s, time);
-    r->implicit_price = stiff || m->ny <= 300 ? p.implicit / p.explicit_ : 0;
-    return say_choice(r, &s, stiff, stable, p.implicit / p.explicit_);
+    r->control.patience = !stiff && m->ny <= 300 ? 5000 + 30 * explicit_ : 0;
+    r->control.stable = stable, r->control.needed = explicit_steps(r, &s, time);
+    r->control.implicit_price = stiff || m->ny <= 300 ? p.implicit / p.explicit_ : 0;
+    return say_choice(&r->record, &s, stiff, stable, p.implicit / p.explicit_);
 }
 
 /* Many steps alone are no sign: a tight tolerance or a fast motion takes them too. Explicit steps
    of order 8 are stable up to |eigenvalue| h of about 6, and their control keeps them between half
    and all of it; steps well below are as short as the tolerance wants them. Source: Hairer and
    Wanner II, IV.2 (detection of stiffness). Test: test_choose.c. */
-fw_status fw_integrator_stuck(fw_run *r, const fw_stepper *s, bool *stuck) {
+fw_status fw_integrator_stuck(const fw_dynamics_problem *problem, const fw_stepper *s,
+                              bool *stuck) {
     double rate;
-    FW_TRY(fastest(r, s->t, s->y, 1e-6, &rate, NULL));
+    FW_TRY(fastest(problem, s->t, s->y, 1e-6, &rate, NULL));
     *stuck = s->h * rate > 2;
     return FW_OK;
 }
 
-fw_status fw_integrator_change(fw_run *r) {
+fw_status fw_integrator_change(fw_dynamics_run *r) {
     char steps[32], at[32];
-    fw_number_text(steps, sizeof steps, r->patience, 2);
-    fw_number_text(at, sizeof at, r->given_up_s, 3);
-    r->integrator = fw_stepper_find("radau5");
-    r->motion->integrator = r->integrator->name;
-    r->patience = r->implicit_price = 0;
-    r->given_up_s = (double)NAN;
-    FW_NEED(r->motion->reason = fw_arena_printf(
-                r->arena,
+    fw_number_text(steps, sizeof steps, r->control.patience, 2);
+    fw_number_text(at, sizeof at, r->control.given_up_s, 3);
+    r->control.integrator = fw_stepper_find("radau5");
+    r->record.motion->integrator = r->control.integrator->name;
+    r->control.patience = r->control.implicit_price = 0;
+    r->control.given_up_s = (double)NAN;
+    FW_NEED(r->record.motion->reason = fw_arena_printf(
+                r->problem.arena,
                 "auto: not stiff at the start, but by %s s explicit steps had become so small that "
                 "%s were not enough; implicit ones pass over what is fast there",
                 at, steps));
     return FW_OK;
 }
 
-fw_status fw_integrator_choose(fw_run *r, const fw_terms *terms, const char *name) {
+fw_status fw_integrator_choose(fw_dynamics_run *r, const fw_terms *terms, const char *name) {
     if (!name || strcmp(name, "auto") == 0) {
         FW_TRY(choose(r, terms));
     } else {
-        r->integrator = fw_stepper_find(name);
-        r->motion->reason = "asked for";
+        r->control.integrator = fw_stepper_find(name);
+        r->record.motion->reason = "asked for";
     }
-    r->motion->integrator = r->integrator->name;
+    r->record.motion->integrator = r->control.integrator->name;
+    return FW_OK;
+}
+
+/* ---- the integrator by trial ---- */
+
+/* Which integrator, by trial. A choice by estimates (choose.c) may be wrong by much where what is
+   fast is hardly excited, or comes up only on the way. The looser run is cheap: where one of the
+   signs below says so it is made by the other integrator too, which may cost two fifths of the
+   first one's steps, and takes over when it gets to the end with that.
+
+     explicit, before: stability will hold its steps short, needed < stable/2, stable >= 200
+     explicit, after:  it did, N < 2 stable and N >= 200, or something else did that nobody saw,
+                       N > 5 max(needed, stable) and N >= 60
+     implicit, after:  it took more than explicit steps should cost, max(needed, stable) < N price/2
+
+   with N steps of the looser run, `needed` and `stable` explicit ones (choose.c), and the price of
+   an implicit step in explicit ones. Two fifths, because the answer's tolerance, some ten times
+   lower, lengthens implicit runs by 10^0.2 to 10^0.25, and those not whose steps stability keeps
+   short.
+   Cost: at most two fifths of the looser run, where it loses.
+   Error: no answer changes but by the integrator. Statistics: docs/theory/integrators.md.
+   Source: Hairer and Wanner II, IV.2 (detection of stiffness). Test: test_choose.c. */
+static const double fw_share = 0.4;
+static const long fw_many = 200, fw_some = 60;
+
+static fw_contest implicit_one(const fw_dynamics_controller *control, double steps) {
+    return (fw_contest){&fw_radau5_row, (long)(fw_share * steps / control->implicit_price)};
+}
+
+fw_contest fw_contest_of(const fw_dynamics_controller *control, long steps) {
+    const fw_contest none = {NULL, 0};
+    bool watched = control->problem->options->unsettled || control->problem->options->other ||
+                   control->problem->sudden;
+    double explicit_ = fmax(control->needed, control->stable), n = (double)steps;
+    if (watched || !(control->implicit_price > 0)) return none;
+    if (control->integrator == &fw_radau5_row) {
+        double paid = n * control->implicit_price;
+        return explicit_ < 0.5 * paid ? (fw_contest){&fw_dop853_row, (long)(fw_share * paid)}
+                                      : none;
+    }
+    if (steps == 0)
+        return control->needed < 0.5 * control->stable && control->stable >= (double)fw_many
+                   ? implicit_one(control, control->stable)
+                   : none;
+    bool held = steps >= fw_many && n < 2 * control->stable;
+    bool unseen = steps >= fw_some && n > 5 * explicit_;
+    return held || unseen ? implicit_one(control, n) : none;
+}
+
+fw_status fw_contest_won(fw_dynamics_run *r, long before, long steps) {
+    bool implicit = r->control.integrator == &fw_radau5_row;
+    const char *names[2] = {"explicit", "implicit"};
+    FW_NEED(r->record.motion->reason = fw_arena_printf(
+                r->problem.arena,
+                "auto: tried, %s steps %s %ld, %s ones take %ld (an implicit one costs %.2g "
+                "explicit ones)",
+                names[!implicit], before > 0 ? "take" : "would take",
+                before > 0 ? before : (long)r->control.stable, names[implicit], steps,
+                r->control.implicit_price));
+    r->record.motion->integrator = r->control.integrator->name;
+    r->control.patience = r->control.implicit_price = 0; /* that is the last word */
     return FW_OK;
 }

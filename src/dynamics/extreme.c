@@ -11,47 +11,49 @@
 enum { GRID = FW_GRID };
 typedef enum measure { FORCE, TORQUE, TRAVEL } measure;
 
-int fw_run_channels(const fw_run *r) {
-    const fw_mechanism *m = r->mechanism;
+int fw_run_channels(const fw_dynamics_problem *problem) {
+    const fw_mechanism *m = problem->mechanism;
     return m->npin + 3 * m->ntie + m->ndriver;
 }
 
-fw_status fw_run_extremes_new(fw_run *r) {
-    const fw_mechanism *from = r->mechanism;
+fw_status fw_run_extremes_new(fw_dynamics_recorder *record) {
+    const fw_mechanism *from = record->problem->mechanism;
     size_t pins = (size_t)from->npin, ties = (size_t)from->ntie, drivers = (size_t)from->ndriver;
-    size_t channels = (size_t)fw_run_channels(r);
-    fw_motion *m = r->motion;
-    FW_NEED(r->channel_now = fw_arena_array(r->arena, double, channels));
-    FW_NEED(r->channel_grid = fw_arena_array(r->arena, double, (GRID + 1) * channels));
-    FW_NEED(r->pin_now = fw_arena_array(r->arena, double, 2 * pins));
-    FW_NEED(r->tie_now = fw_arena_array(r->arena, double, 3 * ties));
-    FW_NEED(m->force_peak = fw_arena_array(r->arena, fw_force_peak, pins));
-    FW_NEED(m->tie_peak = fw_arena_array(r->arena, fw_force_peak, ties));
-    FW_NEED(m->driver_peak = fw_arena_array(r->arena, fw_force_peak, drivers));
-    FW_NEED(m->travel_peak = fw_arena_array(r->arena, fw_travel_peak, ties));
+    size_t channels = (size_t)fw_run_channels(record->problem);
+    fw_motion *m = record->motion;
+    FW_NEED(record->channel_now = fw_arena_array(record->problem->arena, double, channels));
+    FW_NEED(record->channel_grid =
+                fw_arena_array(record->problem->arena, double, (GRID + 1) * channels));
+    FW_NEED(record->pin_now = fw_arena_array(record->problem->arena, double, 2 * pins));
+    FW_NEED(record->tie_now = fw_arena_array(record->problem->arena, double, 3 * ties));
+    FW_NEED(m->force_peak = fw_arena_array(record->problem->arena, fw_force_peak, pins));
+    FW_NEED(m->tie_peak = fw_arena_array(record->problem->arena, fw_force_peak, ties));
+    FW_NEED(m->driver_peak = fw_arena_array(record->problem->arena, fw_force_peak, drivers));
+    FW_NEED(m->travel_peak = fw_arena_array(record->problem->arena, fw_travel_peak, ties));
     return FW_OK;
 }
 
 /* ---- along a step ---- */
 
 /* all channels at theta; distances of prismatic joints are those of the state as integrated */
-static void channels_at(fw_run *r, fw_stepper *s, double theta) {
-    fw_model *m = r->model;
-    const fw_mechanism *from = r->mechanism;
-    fw_stepper_dense(s, theta, r->state);
-    fw_model_react(m, s->t_old + theta * s->h, r->state, r->rate);
-    double *force = r->channel_now, *torque = force + m->npin + m->ntie, *travel = torque + m->ntie;
-    fw_pin_forces(m, r->pin_now);
-    fw_tie_forces(m, from, r->tie_now, travel + m->ntie);
+static void channels_at(fw_dynamics_recorder *record, fw_stepper *s, double theta) {
+    fw_model *m = record->problem->model;
+    const fw_mechanism *from = record->problem->mechanism;
+    fw_stepper_dense(s, theta, record->state);
+    fw_model_react(m, s->t_old + theta * s->h, record->state, record->rate);
+    double *force = record->channel_now, *torque = force + m->npin + m->ntie,
+           *travel = torque + m->ntie;
+    fw_pin_forces(m, record->pin_now);
+    fw_tie_forces(m, from, record->tie_now, travel + m->ntie);
     for (int i = 0; i < m->npin; i++)
-        force[i] = hypot(r->pin_now[2 * i], r->pin_now[2 * i + 1]);
+        force[i] = hypot(record->pin_now[2 * i], record->pin_now[2 * i + 1]);
     for (int i = 0; i < m->ntie; i++) {
         double d[2], e[2], n[2];
-        force[m->npin + i] = hypot(r->tie_now[3 * i], r->tie_now[3 * i + 1]);
-        torque[i] = from->tie[i].kind == FW_TIE_DISTANCE ? 0 : r->tie_now[3 * i + 2];
+        force[m->npin + i] = hypot(record->tie_now[3 * i], record->tie_now[3 * i + 1]);
+        torque[i] = from->tie[i].kind == FW_TIE_DISTANCE ? 0 : record->tie_now[3 * i + 2];
         travel[i] = 0;
         if (from->tie[i].kind != FW_TIE_PRISMATIC) continue;
-        fw_model_frame(m, m->tie_block[i], r->state, d, e, n);
+        fw_model_frame(m, m->tie_block[i], record->state, d, e, n);
         travel[i] = (e[0] * d[0] + e[1] * d[1]) * m->scale.length_m - from->tie[i].free_length_m;
     }
 }
@@ -136,27 +138,28 @@ static bool worth_a_search(const fw_grid *g, const double *column, int count, in
 /* every channel at the places of the step; where the largest of them comes near the extreme so
    far, its maximum is searched. Cost up to nine evaluations per step, whatever the number of
    joints. */
-void fw_run_extremes(fw_run *r, fw_stepper *s, double theta_end) {
-    if (!r->extreme) return;
-    int count = fw_run_channels(r), low, high;
-    double *value = r->channel_grid, span = theta_end * s->h, at;
+void fw_run_extremes(fw_dynamics_recorder *record, fw_stepper *s, double theta_end) {
+    if (!record->extreme) return;
+    int count = fw_run_channels(record->problem), low, high;
+    double *value = record->channel_grid, span = theta_end * s->h, at;
     fw_grid g;
     fw_run_places(s, theta_end, &g);
     for (int k = 0; k <= g.last; k++) {
-        channels_at(r, s, theta_end * g.at[k]);
+        channels_at(record, s, theta_end * g.at[k]);
         for (int i = 0; i < count; i++)
-            value[k * count + i] = r->channel_now[i];
+            value[k * count + i] = record->channel_now[i];
     }
     for (int i = 0; i < count; i++) {
         int best = 0;
         for (int k = 1; k <= g.last; k++)
             if (fabs(value[k * count + i]) > fabs(value[best * count + i])) best = k;
-        offer(&r->extreme[i], value[best * count + i], s->t_old + g.at[best] * span);
-        if (worth_a_search(&g, value + i, count, best, fabs(r->extreme[i].value), &low, &high)) {
+        offer(&record->extreme[i], value[best * count + i], s->t_old + g.at[best] * span);
+        if (worth_a_search(&g, value + i, count, best, fabs(record->extreme[i].value), &low,
+                           &high)) {
             double top = highest(&g, value + i, count, g.at[low], g.at[high], &at);
-            offer(&r->extreme[i], top, s->t_old + at * span);
+            offer(&record->extreme[i], top, s->t_old + at * span);
         }
-        r->extreme[i].end = value[g.last * count + i];
+        record->extreme[i].end = value[g.last * count + i];
     }
 }
 
@@ -181,23 +184,23 @@ static void put_force(fw_force_peak *to, const fw_extreme *from, measure kind, d
 /* error of each: the largest change of any of its kind from the looser run, at the end too, since
    one number may agree by chance; what the energy balance is off by; and round-off. As for the
    angles in simulate.c. */
-void fw_run_take_extremes(fw_run *r, const fw_extreme *fine, const fw_extreme *coarse, double doubt,
-                          long steps) {
-    const fw_mechanism *m = r->mechanism;
-    fw_motion *out = r->motion;
-    const double length = r->model->scale.length_m, newton = fw_newton(r->model);
+void fw_run_take_extremes(fw_dynamics_recorder *record, double margin, const fw_extreme *fine,
+                          const fw_extreme *coarse, double doubt, long steps) {
+    const fw_mechanism *m = record->problem->mechanism;
+    fw_motion *out = record->motion;
+    const double length = record->problem->model->scale.length_m,
+                 newton = fw_newton(record->problem->model);
     const double unit_of[3] = {newton, newton * length, length}; /* FORCE, TORQUE, TRAVEL */
-    double change[3] = {0}, unit = r->model->scale.time_s;
-    for (int i = 0; i < fw_run_channels(r); i++) {
+    double change[3] = {0}, unit = record->problem->model->scale.time_s;
+    for (int i = 0; i < fw_run_channels(record->problem); i++) {
         double *most = &change[measure_of(m, i)];
         *most = fmax(*most, fabs(fabs(fine[i].value) - fabs(coarse[i].value)));
         *most = fmax(*most, fabs(fine[i].end - coarse[i].end));
     }
-    for (int i = 0; i < fw_run_channels(r); i++) {
+    for (int i = 0; i < fw_run_channels(record->problem); i++) {
         measure kind = measure_of(m, i);
         double books = out->stats.energy_error + DBL_EPSILON * (double)(8 + steps);
-        double error =
-            fw_run_margin(r) * change[kind] + books * fabs(fine[i].value) + doubt * unit_of[kind];
+        double error = margin * change[kind] + books * fabs(fine[i].value) + doubt * unit_of[kind];
         if (i < m->npin)
             put_force(&out->force_peak[i], &fine[i], kind, unit, error);
         else if (i >= m->npin + 3 * m->ntie)
@@ -222,9 +225,9 @@ static void widen(const fw_force_peak *p, int count, double most[3], double off[
 }
 
 /* torques that are small beside force times the scene's length count with those, and the reverse */
-double fw_run_extremes_off(const fw_run *r) {
-    const fw_motion *m = r->motion;
-    double most[3] = {0}, off[3] = {0}, length = r->model->scale.length_m;
+double fw_run_extremes_off(const fw_dynamics_recorder *record) {
+    const fw_motion *m = record->motion;
+    double most[3] = {0}, off[3] = {0}, length = record->problem->model->scale.length_m;
     widen(m->force_peak, m->npin, most, off);
     widen(m->tie_peak, m->ntie, most, off);
     widen(m->driver_peak, m->ndriver, most, off);

@@ -52,43 +52,46 @@ struct fw_kinks {
     double *centre, *width, *speed; /* (n) t0, w, c of the branch points next to the last step */
     double *found;                  /* (3 n) those inside it */
     double *most;                   /* (n) largest acceleration per unit of force */
+    double *rate;                   /* (nq) work: accelerations of a unit force */
     double now;                     /* what the last step may move anything by: scaled velocity */
     double sum[FW_MARKS]; /* displacements by steps that begin in each part of the scene */
     bool known;           /* `last` is that of the state at hand */
     int tries;
 };
 
-fw_status fw_kinks_new(fw_run *r) {
-    size_t n = (size_t)fw_friction_count(r->model);
+fw_status fw_kinks_new(fw_dynamics_controller *control) {
+    size_t n = (size_t)fw_friction_count(control->problem->model);
     struct fw_kinks *k;
     if (n == 0) return FW_OK;
-    FW_NEED(k = fw_arena_one(r->arena, struct fw_kinks));
+    FW_NEED(k = fw_arena_one(control->problem->arena, struct fw_kinks));
     k->n = (int)n;
-    FW_NEED(k->force = fw_arena_array(r->arena, double, PLACES * 2 * n));
-    FW_NEED(k->last = fw_arena_array(r->arena, double, 2 * n));
-    FW_NEED(k->weight = fw_arena_array(r->arena, double, n));
-    FW_NEED(k->most = fw_arena_array(r->arena, double, n));
-    FW_NEED(k->centre = fw_arena_array(r->arena, double, n));
-    FW_NEED(k->width = fw_arena_array(r->arena, double, n));
-    FW_NEED(k->speed = fw_arena_array(r->arena, double, n));
-    FW_NEED(k->found = fw_arena_array(r->arena, double, 3 * n));
-    r->kinks = k;
+    FW_NEED(k->force = fw_arena_array(control->problem->arena, double, PLACES * 2 * n));
+    FW_NEED(k->last = fw_arena_array(control->problem->arena, double, 2 * n));
+    FW_NEED(k->weight = fw_arena_array(control->problem->arena, double, n));
+    FW_NEED(k->most = fw_arena_array(control->problem->arena, double, n));
+    FW_NEED(k->centre = fw_arena_array(control->problem->arena, double, n));
+    FW_NEED(k->width = fw_arena_array(control->problem->arena, double, n));
+    FW_NEED(k->speed = fw_arena_array(control->problem->arena, double, n));
+    FW_NEED(k->found = fw_arena_array(control->problem->arena, double, 3 * n));
+    FW_NEED(k->rate = fw_arena_array(control->problem->arena, double,
+                                     (size_t)control->problem->model->nq));
+    control->kinks = k;
     return FW_OK;
 }
 
-void fw_kinks_begin(fw_run *r) {
-    fw_kinks_forget(r);
-    if (r->kinks) memset(r->kinks->sum, 0, sizeof r->kinks->sum);
+void fw_kinks_begin(fw_dynamics_controller *control) {
+    fw_kinks_forget(control);
+    if (control->kinks) memset(control->kinks->sum, 0, sizeof control->kinks->sum);
 }
 
-void fw_kinks_doubt(const fw_run *r, double up_to[FW_MARKS + 1]) {
+void fw_kinks_doubt(const fw_dynamics_controller *control, double up_to[FW_MARKS + 1]) {
     up_to[0] = 0;
     for (int k = 0; k < FW_MARKS; k++)
-        up_to[k + 1] = up_to[k] + (r->kinks ? r->kinks->sum[k] : 0);
+        up_to[k + 1] = up_to[k] + (control->kinks ? control->kinks->sum[k] : 0);
 }
 
-void fw_kinks_forget(fw_run *r) {
-    struct fw_kinks *k = r->kinks;
+void fw_kinks_forget(fw_dynamics_controller *control) {
+    struct fw_kinks *k = control->kinks;
     if (!k) return;
     k->known = false;
     k->tries = 0;
@@ -112,8 +115,8 @@ static double doubt(const struct fw_kinks *k, const fw_stepper *s, int i, double
     return k->weight[i] * k->speed[i] * error;
 }
 
-static bool idle(const fw_run *r, const fw_stepper *s) {
-    return !r->kinks || s->row->fixed_step || s->row->variable_order;
+static bool idle(const fw_dynamics_controller *control, const fw_stepper *s) {
+    return !control->kinks || s->row->fixed_step || s->row->variable_order;
 }
 
 /* the longest step up to h, by halves of its logarithm, with only the aimed doubt about joint i */
@@ -128,32 +131,32 @@ static double longest(const struct fw_kinks *k, const fw_stepper *s, int i, doub
     return low;
 }
 
-void fw_kinks_limit(const fw_run *r, fw_stepper *s) {
-    if (idle(r, s)) return;
-    for (int i = 0; i < r->kinks->n; i++)
-        s->h_next = longest(r->kinks, s, i, s->h_next);
+void fw_kinks_limit(const fw_dynamics_controller *control, fw_stepper *s) {
+    if (idle(control, s)) return;
+    for (int i = 0; i < control->kinks->n; i++)
+        s->h_next = longest(control->kinks, s, i, s->h_next);
 }
 
 /* ---- looking at a step ---- */
 
-static void press_at(fw_run *r, fw_stepper *s, double theta, double *force) {
+static void press_at(fw_dynamics_controller *control, fw_stepper *s, double theta, double *force) {
     if (theta < 1)
-        fw_stepper_dense(s, theta, r->moved);
+        fw_stepper_dense(s, theta, control->moved);
     else
-        memcpy(r->moved, s->y, (size_t)r->model->ny * sizeof *r->moved);
-    fw_friction_pressing(r->model, s->t_old + theta * s->h, r->moved, force);
+        memcpy(control->moved, s->y, (size_t)control->problem->model->ny * sizeof *control->moved);
+    fw_friction_pressing(control->problem->model, s->t_old + theta * s->h, control->moved, force);
 }
 
 /* places first .. count - 1 of the step, as divided differences behind those that are there */
-static void sample(fw_run *r, fw_stepper *s, int first, int count) {
-    struct fw_kinks *k = r->kinks;
+static void sample(fw_dynamics_controller *control, fw_stepper *s, int first, int count) {
+    struct fw_kinks *k = control->kinks;
     for (int p = first; p < count; p++) {
         double *f = k->force + (size_t)p * 2 * (size_t)k->n;
         if (p == 0 && k->known)
             memcpy(f, k->last, 2 * (size_t)k->n * sizeof *f);
         else
-            press_at(r, s, fw_along[p], f);
-        if (p == 1) memcpy(r->kinks->last, f, 2 * (size_t)k->n * sizeof *f);
+            press_at(control, s, fw_along[p], f);
+        if (p == 1) memcpy(control->kinks->last, f, 2 * (size_t)k->n * sizeof *f);
         for (int before = 0; before < p; before++)
             for (int c = 0; c < 2 * k->n; c++)
                 f[c] = (f[c] - k->force[2 * before * k->n + c]) / (fw_along[p] - fw_along[before]);
@@ -219,32 +222,32 @@ static bool far(const struct fw_kinks *k, const fw_stepper *s, int i) {
 
 /* accelerations of a unit force that presses joint i: the largest, and by the norm of fw_ode_norm,
    in tolerances per unit of time */
-static void weigh(fw_run *r, const fw_stepper *s, int i) {
-    const int nq = r->model->nq;
+static void weigh(fw_dynamics_controller *control, const fw_stepper *s, int i) {
+    const int nq = control->problem->model->nq;
     double sum = 0;
-    r->kinks->most[i] = 0;
-    fw_friction_drags(r->model, i, r->rate);
+    control->kinks->most[i] = 0;
+    fw_friction_drags(control->problem->model, i, control->kinks->rate);
     for (int c = 0; c < nq; c++) {
-        double x = r->rate[c] / (s->atol[nq + c] + s->rtol * fabs(s->y[nq + c]));
+        double x = control->kinks->rate[c] / (s->atol[nq + c] + s->rtol * fabs(s->y[nq + c]));
         sum += x * x;
-        r->kinks->most[i] = fmax(r->kinks->most[i], fabs(r->rate[c]));
+        control->kinks->most[i] = fmax(control->kinks->most[i], fabs(control->kinks->rate[c]));
     }
-    r->kinks->weight[i] = sqrt(sum / s->ode.controlled);
+    control->kinks->weight[i] = sqrt(sum / s->ode.controlled);
 }
 
 /* looks at the last step; the branch points that its end points to stay for the next one. True:
    shorter is needed, and where the limit for that is is known */
-static bool unsafe(fw_run *r, fw_stepper *s) {
-    struct fw_kinks *k = r->kinks;
+static bool unsafe(fw_dynamics_controller *control, fw_stepper *s) {
+    struct fw_kinks *k = control->kinks;
     bool all_far = true, bad = false;
     k->now = 0;
-    sample(r, s, 0, COARSE);
+    sample(control, s, 0, COARSE);
     for (int i = 0; i < k->n; i++) {
-        weigh(r, s, i);
+        weigh(control, s, i);
         all_far = all_far && far(k, s, i);
     }
     int count = all_far ? COARSE : PLACES;
-    sample(r, s, COARSE, count);
+    sample(control, s, COARSE, count);
     for (int i = 0; i < k->n && !all_far; i++) {
         nearest(k, i, count, k->found + 3 * i);
         take(k, i, s, k->found + 3 * i);
@@ -260,27 +263,27 @@ static bool unsafe(fw_run *r, fw_stepper *s) {
     return bad;
 }
 
-static void add(fw_run *r, double t) {
-    struct fw_kinks *k = r->kinks;
-    double final = r->end[r->npiece - 1];
+static void add(fw_dynamics_controller *control, double t) {
+    struct fw_kinks *k = control->kinks;
+    double final = fw_dynamics_end(control->problem);
     int part = (int)(FW_MARKS * t / final);
     k->sum[part < FW_MARKS ? part : FW_MARKS - 1] += k->now * fmin(fw_swing, final - t);
 }
 
-bool fw_kinks_again(fw_run *r, fw_stepper *s) {
-    struct fw_kinks *k = r->kinks;
-    if (idle(r, s) || !fw_friction_slips(r->model)) return false;
+bool fw_kinks_again(fw_dynamics_controller *control, fw_stepper *s) {
+    struct fw_kinks *k = control->kinks;
+    if (idle(control, s) || !fw_friction_slips(control->problem->model)) return false;
     double h = s->h;
-    bool again = unsafe(r, s) && ++k->tries <= MOST_TRIES;
+    bool again = unsafe(control, s) && ++k->tries <= MOST_TRIES;
     k->known = true;
     if (!again) {
         k->tries = 0;
-        add(r, s->t_old);
+        add(control, s->t_old);
         return false;
     }
     memcpy(k->last, k->force, 2 * (size_t)k->n * sizeof *k->last); /* at its start */
-    memcpy(r->moved, s->y_old, (size_t)r->model->ny * sizeof *r->moved);
-    fw_run_start(r, s, s->t_old, r->moved, s->t_end);
+    memcpy(control->moved, s->y_old, (size_t)control->problem->model->ny * sizeof *control->moved);
+    fw_run_start(control, s, s->t_old, control->moved, s->t_end);
     s->h_next = fmin(h, s->t_end - s->t);
     return true; /* the loop limits it */
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One simulation while it runs. Private to dynamics/. */
+/* One simulation while it runs: the problem, what controls its steps, and what records them.
+   Functions take the part that they need. Private to dynamics/. */
 #ifndef FW_DYNAMICS_RUN_H
 #define FW_DYNAMICS_RUN_H
 #include "assembly/assembly.h"
@@ -51,84 +52,123 @@ typedef struct fw_extreme {
 
 enum { FW_PLACES = 16 }; /* parts of a step at whose ends switches are looked at */
 
-typedef struct fw_run {
+/* What is to be moved and on what terms. It is settled before the first step; from then on only the
+   data of the model move. */
+typedef struct fw_dynamics_problem {
     fw_arena *arena;
     const fw_mechanism *mechanism;
     const fw_scene *scene;
     const fw_motion_options *options;
-    fw_diags *diags;
-    fw_motion *motion;
     fw_model *model;
-    const fw_stepper_row *integrator;
-    double trust;    /* what differences of two runs count times; 1: as they are */
-    double part;     /* likewise of peak angles (steer.h); 0: as the rest */
-    double lower;    /* tolerance of the answer before over this one; 0: there was none */
-    double uneven;   /* heaviest body over the lightest one between two joints */
-    const char *why; /* this method though none was asked for; NULL: the default, or asked for */
-    double *q0;      /* (3 nbody) assembled, SI */
-    double *start;   /* (ny) */
-    double *state;   /* (ny) a sample */
-    double *rate;    /* (ny) its derivative */
-    double *moved;   /* (ny) a state at an event */
-    bool *stated;    /* (3 nbody) velocities that the scene states, while it starts */
-    double *fit; /* (FW_PLACES + 1 x entries) along a step: switches, then joints with friction */
-    bool *unfit; /* (entries) found in this step */
-    double amplitude; /* scaled size of the motion: the absolute tolerance is rtol times this */
-    fw_energy first;
-    double drift, largest;
-    double *seen_q, *seen_angle, *seen_force, *seen_grid; /* what the observer is shown, SI */
-    double most_angle;                                    /* rad; HUGE_VAL: no end before the end */
-    long steps;                                           /* over all tries */
-    bool fresh; /* no step yet behind a break or an event */
-    double
-        patience; /* steps of one pass after which a choice of explicit ones is doubted; 0: any */
-    double given_up_s;     /* and where that was; NaN: it was not */
-    double stable, needed; /* explicit steps that are stable, and that the tolerance needs */
-    double implicit_price; /* cost of an implicit step in explicit ones; 0: nothing is tried */
-    long trial;            /* steps after which a pass ends; 0: it does not */
-    double *end;           /* (npiece) scaled times at which a smooth piece ends */
+    double *q0;        /* (3 nbody) assembled, SI */
+    double *start;     /* (ny) scaled */
+    double amplitude;  /* scaled size of the motion: the absolute tolerance is rtol times this */
+    double most_angle; /* rad; HUGE_VAL: no end before the end */
+    double uneven;     /* heaviest body over the lightest one between two joints */
+    const char *why;   /* this method though none was asked for; NULL: the default, or asked for */
+    double *end;       /* (npiece) scaled times at which a smooth piece ends */
     int npiece;
     fw_law_strides *stride; /* (nstride) of the laws that limit steps, s */
     int *stride_row;        /* (nstride) where each search stands */
     int nstride;
-    bool sudden;          /* a load or driver may begin at any time: an expression limits steps */
-    int aims;             /* steps made again for the event at hand */
-    int idle;             /* joints that were to let go and held after all, one after the other */
-    double nudge;         /* how far such a one is left alone, scaled time; 0: not */
-    int row;              /* next sample */
-    bool full;            /* samples, observer and energy too */
-    fw_extreme *extreme;  /* (channels) of this pass; NULL: not asked for */
-    double *channel_now;  /* (channels) */
-    double *channel_grid; /* (9 channels) along a step */
-    double *pin_now, *tie_now;
+    bool sudden; /* a load or driver may begin at any time: an expression limits steps */
+} fw_dynamics_problem;
+
+/* What decides about steps: how long the next one may be, which are made again, when a run ends,
+   and what two runs say of the error. */
+typedef struct fw_dynamics_controller {
+    const fw_dynamics_problem *problem;
+    const fw_stepper_row *integrator;
+    /* the estimate of errors */
+    double trust; /* what differences of two runs count times; 1: as they are */
+    double part;  /* likewise of peak angles (steer.h); 0: as the rest */
+    double lower; /* tolerance of the answer before over this one; 0: there was none */
+    /* the choice of the integrator, and its trial */
+    double stable, needed; /* explicit steps that are stable, and that the tolerance needs */
+    double implicit_price; /* cost of an implicit step in explicit ones; 0: nothing is tried */
+    double patience;       /* steps of one pass after which explicit ones are doubted; 0: never */
+    double given_up_s;     /* and where that was; NaN: it was not */
+    /* the budget */
+    long steps;        /* over all passes */
+    long taken;        /* in this pass */
+    long trial;        /* steps after which a pass ends; 0: it does not */
+    double next_doubt; /* steps of this pass after which the choice is doubted again */
+    /* steps that laws limit */
+    double law_stride; /* this times the stride of a law is the longest step */
+    double fixed_part; /* likewise of a fixed step */
+    /* events */
+    double *moved; /* (ny) a state at an event */
+    double *fit;   /* (FW_PLACES + 1 x entries) along a step: switches, then joints with friction */
+    bool *unfit;   /* (entries) found in this step */
     double *friction_fit;   /* (friction) */
+    int aims;               /* steps made again for the event at hand */
+    int idle;               /* joints that were to let go and held after all, one after the other */
+    double nudge;           /* how far such a one is left alone, scaled time; 0: not */
     struct fw_kinks *kinks; /* kink.c; NULL: no friction */
-} fw_run;
+} fw_dynamics_controller;
+
+/* What looks at the steps that were made: rows, the observer, extremes and energy. */
+typedef struct fw_dynamics_recorder {
+    const fw_dynamics_problem *problem;
+    fw_motion *motion; /* the result */
+    bool full;         /* of the answer: rows and energy too */
+    int row;           /* next one */
+    bool fresh;        /* no step yet behind a break or an event */
+    double *state;     /* (ny) a sample */
+    double *rate;      /* (ny) its derivative */
+    double *kept;      /* (nq) its positions before they were projected */
+    fw_energy first;
+    double drift, largest; /* of the energies */
+    /* (nq), (npin), (2 npin), (9 x 2 npin): what the observer is shown, SI */
+    double *seen_q, *seen_angle, *seen_force, *seen_grid;
+    fw_extreme *extreme;       /* (channels) of this pass; NULL: not asked for */
+    double *channel_now;       /* (channels) */
+    double *channel_grid;      /* (9 channels) along a step */
+    double *pin_now, *tie_now; /* (2 npin), (3 ntie) */
+} fw_dynamics_recorder;
+
+typedef struct fw_dynamics_run {
+    fw_dynamics_problem problem;
+    fw_dynamics_controller control;
+    fw_dynamics_recorder record;
+    fw_diags *diags; /* where what is wrong is said; of a trial, which may fail, its own */
+} fw_dynamics_run;
+
+/* scaled time at which the scene ends */
+static inline double fw_dynamics_end(const fw_dynamics_problem *problem) {
+    return problem->end[problem->npiece - 1];
+}
+static inline const char *fw_dynamics_scene_name(const fw_dynamics_problem *problem) {
+    return problem->scene->name ? problem->scene->name : "(unnamed)";
+}
 
 /* start.c: pieces, assembled state with fitting velocities, size of the motion, output arrays */
-fw_status fw_run_prepare(fw_run *r, const fw_terms *terms);
+fw_status fw_run_prepare(fw_dynamics_run *r, const fw_terms *terms);
 /* FW-D242 where an element says that it does not hold */
-fw_status fw_run_valid(const fw_run *r, double t, const double *y);
+fw_status fw_run_valid(const fw_dynamics_run *r, double t, const double *y);
 /* longest scaled step from scaled time t on that leaps over nothing in any law, each of whose
    strides may be `factor` times as long */
-double fw_run_stride(const fw_run *r, double factor, double t);
+double fw_run_stride(const fw_dynamics_problem *problem, double factor, double t);
 /* what differences of the two runs are multiplied with to be errors */
-double fw_run_margin(const fw_run *r);
-fw_status fw_run_arrays(fw_run *r);
+double fw_run_margin(const fw_dynamics_controller *control);
+fw_status fw_run_arrays(fw_dynamics_run *r);
 
-/* choose.c: by name, or by the masses; r->why says so where it is not the default */
-fw_status fw_method_choose(fw_run *r, const fw_terms *terms);
+/* choose.c: by name, or by the masses; problem.why says so where it is not the default */
+fw_status fw_method_choose(fw_dynamics_run *r, const fw_terms *terms);
 /* by name, or by the scene; says why in motion->reason */
-fw_status fw_integrator_choose(fw_run *r, const fw_terms *terms, const char *name);
+fw_status fw_integrator_choose(fw_dynamics_run *r, const fw_terms *terms, const char *name);
 /* steps are as short as they are for the sake of stability */
-fw_status fw_integrator_stuck(fw_run *r, const fw_stepper *s, bool *stuck);
+fw_status fw_integrator_stuck(const fw_dynamics_problem *problem, const fw_stepper *s, bool *stuck);
 /* to an implicit one, after a pass that was given up */
-fw_status fw_integrator_change(fw_run *r);
+fw_status fw_integrator_change(fw_dynamics_run *r);
 
 /* sample.c */
-void fw_run_first_sample(fw_run *r, const double *y);
-/* rows and observer along the last step up to theta_end; false: a state cannot be projected */
-bool fw_run_samples(fw_run *r, fw_stepper *s, double theta_end);
+void fw_dynamics_record_begin(fw_dynamics_recorder *record, const double *y);
+/* everything that looks at the last step, up to theta_end; false: a state cannot be projected */
+bool fw_dynamics_record_step(fw_dynamics_recorder *record, fw_stepper *s, fw_peaks *peaks,
+                             double theta_end);
+/* early: the run ended at scaled time t, before the scene does */
+void fw_dynamics_record_end(fw_dynamics_recorder *record, bool early, double t);
 enum { FW_GRID = 8 };
 typedef struct fw_grid { /* places in a step and the weights of the polynomial through them */
     int last;
@@ -137,40 +177,56 @@ typedef struct fw_grid { /* places in a step and the weights of the polynomial t
 void fw_run_places(const fw_stepper *s, double theta_end, fw_grid *grid);
 /* that polynomial of a column of values at the places, x of the way */
 double fw_run_between(const fw_grid *grid, const double *column, int stride, double x);
-void fw_run_show_start(fw_run *r); /* a run begins */
-void fw_run_show(fw_run *r, fw_stepper *s, double theta_end);
 
 /* extreme.c */
-int fw_run_channels(const fw_run *r);
-fw_status fw_run_extremes_new(fw_run *r); /* work, and the peaks of the motion */
+int fw_run_channels(const fw_dynamics_problem *problem);
+fw_status fw_run_extremes_new(fw_dynamics_recorder *record); /* work, and the peaks of the motion */
 /* the last step up to theta_end */
-void fw_run_extremes(fw_run *r, fw_stepper *s, double theta_end);
+void fw_run_extremes(fw_dynamics_recorder *record, fw_stepper *s, double theta_end);
 /* peaks of the motion with errors from the looser pass */
-void fw_run_take_extremes(fw_run *r, const fw_extreme *fine, const fw_extreme *coarse, double doubt,
-                          long steps);
+void fw_run_take_extremes(fw_dynamics_recorder *record, double margin, const fw_extreme *fine,
+                          const fw_extreme *coarse, double doubt, long steps);
 /* the largest error over the largest value of its kind */
-double fw_run_extremes_off(const fw_run *r);
+double fw_run_extremes_off(const fw_dynamics_recorder *record);
 
 /* run.c: FW-D244 when friction is what ended the run at scaled time t */
-fw_status fw_run_jammed(const fw_run *r, double t);
-/* event.c: the earliest event of the last step: its theta, and which entry; 1 and -1: there is none
- */
-double fw_run_event(fw_run *r, fw_stepper *s, int *which);
+fw_status fw_run_jammed(const fw_dynamics_run *r, double t);
 /* the stepper from t on, with the longest step that laws allow */
-void fw_run_start(const fw_run *r, fw_stepper *s, double t, const double *y, double end);
+void fw_run_start(const fw_dynamics_controller *control, fw_stepper *s, double t, const double *y,
+                  double end);
+
+/* event.c */
+typedef struct fw_dynamics_event {
+    int which;    /* entry: switches, then joints with friction; -1: there is none */
+    double theta; /* of the step, 1 where there is none */
+} fw_dynamics_event;
+/* the earliest event of the last step */
+fw_dynamics_event fw_dynamics_event_first(fw_dynamics_controller *control, fw_stepper *s);
+/* true: the step is to be made again, to end just behind the event */
+bool fw_dynamics_event_aim(fw_dynamics_controller *control, fw_stepper *s, fw_dynamics_event event);
+/* goes on from the event with the flag changed; false: no state or no friction fits there */
+bool fw_dynamics_event_pass(fw_dynamics_controller *control, fw_stepper *s, fw_dynamics_event event,
+                            double end);
+/* none where it is of a joint that held all the same a moment ago */
+fw_dynamics_event fw_dynamics_event_unless_idle(const fw_dynamics_controller *control,
+                                                const fw_stepper *s, fw_dynamics_event event);
+/* behind an event, `changed`: a flag is another one, or behind a step without one */
+void fw_dynamics_event_mind_idle(fw_dynamics_controller *control, fw_stepper *s,
+                                 fw_dynamics_event event, bool changed, double end);
 
 /* kink.c: steps beside places where a joint that slips is hardly pressed */
-fw_status fw_kinks_new(fw_run *r);
-void fw_kinks_begin(fw_run *r);                      /* a pass */
-void fw_kinks_forget(fw_run *r);                     /* forces may have jumped */
-void fw_kinks_limit(const fw_run *r, fw_stepper *s); /* the next step */
-bool fw_kinks_again(fw_run *r, fw_stepper *s); /* the last step is made again, a shorter one */
+fw_status fw_kinks_new(fw_dynamics_controller *control);
+void fw_kinks_begin(fw_dynamics_controller *control);  /* a pass */
+void fw_kinks_forget(fw_dynamics_controller *control); /* forces may have jumped */
+void fw_kinks_limit(const fw_dynamics_controller *control, fw_stepper *s); /* the next step */
+/* true: the last step is made again, a shorter one */
+bool fw_kinks_again(fw_dynamics_controller *control, fw_stepper *s);
 /* what all of them may have moved anything by in this pass, scaled, up to k parts of the scene */
-void fw_kinks_doubt(const fw_run *r, double up_to[FW_MARKS + 1]);
+void fw_kinks_doubt(const fw_dynamics_controller *control, double up_to[FW_MARKS + 1]);
 /* |error| of the integral of hypot(t - centre, width) from start to end by a rule of that order */
 double fw_kink_error(double start, double end, double centre, double width, int order);
 
 /* from start to end with one stepper; counts and norms are in model and stepper */
-fw_status fw_run_pass(fw_run *r, fw_stepper *s, fw_peaks *peaks);
+fw_status fw_run_pass(fw_dynamics_run *r, fw_stepper *s, fw_peaks *peaks);
 
 #endif

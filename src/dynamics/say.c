@@ -10,53 +10,53 @@ typedef struct reached { /* largest values and errors of any pin; force 0 when n
     double angle_rad, error_rad, force_N, error_N;
 } reached;
 
-static reached what_is_reached(const fw_run *r) {
+static reached what_is_reached(const fw_dynamics_recorder *record) {
     reached x = {0};
-    for (int i = 0; i < r->motion->npin; i++) {
-        x.angle_rad = fmax(x.angle_rad, fabs(r->motion->peak[i].angle_rad));
-        x.error_rad = fmax(x.error_rad, r->motion->peak[i].error_rad);
-        if (!r->options->reactions) continue;
-        x.force_N = fmax(x.force_N, r->motion->force_peak[i].force_N);
-        x.error_N = fmax(x.error_N, r->motion->force_peak[i].error_N);
+    for (int i = 0; i < record->motion->npin; i++) {
+        x.angle_rad = fmax(x.angle_rad, fabs(record->motion->peak[i].angle_rad));
+        x.error_rad = fmax(x.error_rad, record->motion->peak[i].error_rad);
+        if (!record->problem->options->reactions) continue;
+        x.force_N = fmax(x.force_N, record->motion->force_peak[i].force_N);
+        x.error_N = fmax(x.error_N, record->motion->force_peak[i].error_N);
     }
     return x;
 }
 
-double fw_run_off(const fw_run *r) {
-    const reached x = what_is_reached(r);
-    const fw_motion_options *o = r->options;
-    double wanted = fw_pace_wanted(r), off = 0;
+double fw_run_off(const fw_dynamics_recorder *record) {
+    const reached x = what_is_reached(record);
+    const fw_motion_options *o = record->problem->options;
+    double wanted = fw_pace_wanted(record), off = 0;
     if (x.error_rad > 0) off = x.error_rad / (wanted * x.angle_rad);
-    if (o->reactions) off = fmax(off, fw_run_extremes_off(r) / wanted);
+    if (o->reactions) off = fmax(off, fw_run_extremes_off(record) / wanted);
     double seen = !o->unsettled ? 0
-                                : o->unsettled(r->motion->observed, r->motion->compared,
-                                               r->motion->stats.estimate_margin, wanted);
+                                : o->unsettled(record->motion->observed, record->motion->compared,
+                                               record->motion->stats.estimate_margin, wanted);
     return seen > 1 ? fmax(off, fmax(seen, 5)) : off;
 }
 
 /* an angle or a force that is round-off has no relative accuracy */
 static const double nothing = 1e-10;
 
-static void warn_inaccurate(const fw_run *r) {
-    const reached x = what_is_reached(r);
-    double wanted = fw_pace_wanted(r), degree = FW_DEG_PER_RAD;
-    double accuracy = r->motion->accuracy;
+static void warn_inaccurate(const fw_dynamics_run *r) {
+    const reached x = what_is_reached(&r->record);
+    double wanted = fw_pace_wanted(&r->record), degree = FW_DEG_PER_RAD;
+    double accuracy = r->record.motion->accuracy;
     char a[32], b[32], c[32];
     if (x.error_rad > fmax(nothing, wanted * x.angle_rad))
-        fw_diag_warning(r->diags, 240, r->scene->place,
+        fw_diag_warning(r->diags, 240, r->problem.scene->place,
                         "scene %s: peaks are uncertain by %s deg where the largest is %s deg, and "
                         "an accuracy of %s is wanted; no tolerance is tight enough: shorten the "
                         "scene, or judge by the stated errors",
-                        r->scene->name ? r->scene->name : "(unnamed)",
+                        r->problem.scene->name ? r->problem.scene->name : "(unnamed)",
                         fw_number_text(a, sizeof a, x.error_rad * degree, 3),
                         fw_number_text(b, sizeof b, x.angle_rad * degree, 3),
                         fw_number_text(c, sizeof c, accuracy, 3));
-    else if (x.error_N > fmax(nothing * fw_newton(r->model), wanted * x.force_N))
-        fw_diag_warning(r->diags, 240, r->scene->place,
+    else if (x.error_N > fmax(nothing * fw_newton(r->problem.model), wanted * x.force_N))
+        fw_diag_warning(r->diags, 240, r->problem.scene->place,
                         "scene %s: joint forces are uncertain by %s N where the largest is %s N, "
                         "and an accuracy of %s is wanted; no tolerance is tight enough: shorten "
                         "the scene, or judge by the stated errors",
-                        r->scene->name ? r->scene->name : "(unnamed)",
+                        r->problem.scene->name ? r->problem.scene->name : "(unnamed)",
                         fw_number_text(a, sizeof a, x.error_N, 3),
                         fw_number_text(b, sizeof b, x.force_N, 3),
                         fw_number_text(c, sizeof c, accuracy, 3));
@@ -64,39 +64,41 @@ static void warn_inaccurate(const fw_run *r) {
 
 /* rtol is relative to the amplitude, or to the motion where that is larger; 100 times as much is
    not explained, and a thousandth is always allowed */
-static double energy_allowed(const fw_run *r) {
-    const fw_model *m = r->model;
+static double energy_allowed(const fw_dynamics_recorder *record) {
+    const fw_model *m = record->problem->model;
     double mass = 0;
     for (int b = 0; b < m->nbody; b++)
         mass += m->mass[b] + m->inertia[b];
-    double motion = sqrt(r->largest / mass);
-    double part = motion < r->amplitude ? r->amplitude / fmax(motion, DBL_MIN) : 1;
-    return fmax(1e-3, 100 * r->motion->stats.rtol * part);
+    double motion = sqrt(record->largest / mass);
+    double part = motion < record->problem->amplitude
+                      ? record->problem->amplitude / fmax(motion, DBL_MIN)
+                      : 1;
+    return fmax(1e-3, 100 * record->motion->stats.rtol * part);
 }
 
-static void warn_energy(const fw_run *r) {
-    double off = r->motion->stats.energy_error;
+static void warn_energy(const fw_dynamics_run *r) {
+    double off = r->record.motion->stats.energy_error;
     char a[32], b[32];
-    if (!(off > energy_allowed(r))) return;
-    fw_diag_warning(r->diags, 241, r->scene->place,
+    if (!(off > energy_allowed(&r->record))) return;
+    fw_diag_warning(r->diags, 241, r->problem.scene->place,
                     "scene %s: the energies do not add up, by %s of the largest, far more than "
                     "the tolerance %s explains; do not trust this motion, try another --method or "
                     "--integrator",
-                    r->scene->name ? r->scene->name : "(unnamed)",
+                    r->problem.scene->name ? r->problem.scene->name : "(unnamed)",
                     fw_number_text(a, sizeof a, off, 2),
-                    fw_number_text(b, sizeof b, r->motion->stats.rtol, 2));
+                    fw_number_text(b, sizeof b, r->record.motion->stats.rtol, 2));
 }
 
 /* what was chosen and why */
-static fw_status say_tolerance(fw_run *r, bool enough) {
-    const fw_motion_stats *s = &r->motion->stats;
-    bool asked = r->options->rtol > 0;
+static fw_status say_tolerance(fw_dynamics_recorder *record, bool enough) {
+    const fw_motion_stats *s = &record->motion->stats;
+    bool asked = record->problem->options->rtol > 0;
     char wanted[32], rtol[32], error[32], looser[32];
-    fw_percent_text(wanted, sizeof wanted, r->motion->accuracy);
-    fw_percent_text(error, sizeof error, fw_motion_estimated(r->motion));
+    fw_percent_text(wanted, sizeof wanted, record->motion->accuracy);
+    fw_percent_text(error, sizeof error, fw_motion_estimated(record->motion));
     fw_number_text(rtol, sizeof rtol, s->rtol, 2);
     fw_number_text(looser, sizeof looser, s->looser_rtol, 2);
-    fw_text text = fw_text_new(r->arena);
+    fw_text text = fw_text_new(record->problem->arena);
     if (asked)
         fw_text_printf(&text, "rtol %s was asked for", rtol);
     else
@@ -109,12 +111,12 @@ static fw_status say_tolerance(fw_run *r, bool enough) {
     if (s->runs > 2) fw_text_printf(&text, "; %d runs were made", s->runs);
     if (!asked && !enough) fw_text_add(&text, "; judge by the stated errors");
     FW_TRY(fw_text_end(&text));
-    r->motion->tolerance = text.data;
+    record->motion->tolerance = text.data;
     return FW_OK;
 }
 
-fw_status fw_run_say(fw_run *r, bool enough) {
+fw_status fw_run_say(fw_dynamics_run *r, bool enough) {
     if (!enough) warn_inaccurate(r);
     warn_energy(r);
-    return say_tolerance(r, enough);
+    return say_tolerance(&r->record, enough);
 }

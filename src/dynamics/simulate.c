@@ -19,11 +19,11 @@ static double cpu_seconds(void) {
 }
 
 /* of integrators that are asked for by name and have no table (steer.c), and as it is asked for */
-static double chosen_rtol(const fw_motion_options *o, const fw_run *r) {
+static double chosen_rtol(const fw_motion_options *o, const fw_dynamics_problem *problem) {
     double accuracy = o->accuracy > 0 ? o->accuracy : 1e-3;
     double rtol = o->rtol > 0 ? o->rtol : fmin(1e-6, 1e-4 * accuracy);
     double loosest = o->looser == 1 ? HUGE_VAL : fw_loosest; /* no estimate that has to hold */
-    return fmin(loosest, fmax(fw_pace_tightest(r), rtol));
+    return fmin(loosest, fmax(fw_pace_tightest(problem), rtol));
 }
 
 /* ---- the two runs ---- */
@@ -37,11 +37,11 @@ typedef struct pass {
 
 /* other: the run that this one is compared with, NULL: it is the first. full: the answer. A fixed
  * step has no tolerance: h = rtol^(1/4) scaled makes its error go with rtol, too */
-static fw_status run_once(fw_run *r, double rtol, const pass *other, bool full, pass *p) {
-    fw_model *m = r->model;
+static fw_status run_once(fw_dynamics_run *r, double rtol, const pass *other, bool full, pass *p) {
+    fw_model *m = r->problem.model;
     /* a multistep method chooses its order by what it controls: where the motion is a straight line
        (a joint that sticks to a belt) it would integrate the energies by order 1 */
-    bool energies = r->integrator->variable_order && !r->integrator->implicit;
+    bool energies = r->control.integrator->variable_order && !r->control.integrator->implicit;
     const fw_ode ode = {.context = m,
                         .rhs = fw_model_rhs,
                         .lean = fw_model_lean_rhs,
@@ -50,21 +50,24 @@ static fw_status run_once(fw_run *r, double rtol, const pass *other, bool full, 
                         .controlled = energies ? m->ny : 2 * m->nq,
                         .positions = m->nq};
     double *atol;
-    FW_NEED(atol = fw_arena_array(r->arena, double, (size_t)m->ny));
+    FW_NEED(atol = fw_arena_array(r->problem.arena, double, (size_t)m->ny));
     for (int i = 0; i < m->ny; i++)
-        atol[i] = fmax(rtol * r->amplitude, 2e-15);
-    FW_TRY(fw_peaks_new(r->arena, r->mechanism, r->q0, &p->peaks));
+        atol[i] = fmax(rtol * r->problem.amplitude, 2e-15);
+    FW_TRY(fw_peaks_new(r->problem.arena, r->problem.mechanism, r->problem.q0, &p->peaks));
     p->peaks.marked = other ? &other->peaks : NULL;
-    p->peaks.sized = r->part > 0;
-    r->extreme = NULL;
-    if (r->options->reactions)
-        FW_NEED(r->extreme = fw_arena_array(r->arena, fw_extreme, (size_t)fw_run_channels(r)));
-    FW_TRY(fw_stepper_new(r->arena, r->integrator, &ode, rtol, atol, &p->stepper));
+    p->peaks.sized = r->control.part > 0;
+    r->record.extreme = NULL;
+    if (r->problem.options->reactions)
+        FW_NEED(r->record.extreme = fw_arena_array(r->problem.arena, fw_extreme,
+                                                   (size_t)fw_run_channels(&r->problem)));
+    FW_TRY(fw_stepper_new(r->problem.arena, r->control.integrator, &ode, rtol, atol, &p->stepper));
     p->stepper->h_fixed = pow(rtol, 0.25);
-    p->extreme = r->extreme;
-    r->full = full;
+    p->extreme = r->record.extreme;
+    r->record.full = full;
+    r->control.law_stride = full ? 1 : 1.5;
+    r->control.fixed_part = full ? 0.125 : 0.395;
     fw_status status = fw_run_pass(r, p->stepper, &p->peaks);
-    fw_kinks_doubt(r, p->doubt);
+    fw_kinks_doubt(&r->control, p->doubt);
     fw_stepper_free(p->stepper); /* what a library holds for it; its results stay */
     return status;
 }
@@ -78,10 +81,11 @@ static double least_energy(const fw_model *m) {
     return 1e6 * DBL_EPSILON * sum;
 }
 
-static void take_statistics(fw_run *r, const fw_stepper *s, double rtol, double cpu_s) {
-    const fw_model *m = r->model;
+static void take_statistics(fw_dynamics_recorder *record, const fw_stepper *s, double rtol,
+                            double cpu_s) {
+    const fw_model *m = record->problem->model;
     const fw_scale unit = m->scale;
-    fw_motion_stats *stats = &r->motion->stats;
+    fw_motion_stats *stats = &record->motion->stats;
     double speed = unit.length_m / unit.time_s;
     stats->cpu_s = cpu_s;
     stats->steps = s->steps, stats->rejected = s->rejected, stats->rhs = s->rhs;
@@ -90,8 +94,8 @@ static void take_statistics(fw_run *r, const fw_stepper *s, double rtol, double 
     stats->events = m->events;
     stats->max_constraint_norm = m->worst_position;
     stats->max_velocity_norm = m->worst_velocity;
-    stats->energy_error = r->drift / fmax(r->largest, least_energy(m));
-    stats->largest_energy_J = r->largest * unit.mass_kg * speed * speed;
+    stats->energy_error = record->drift / fmax(record->largest, least_energy(m));
+    stats->largest_energy_J = record->largest * unit.mass_kg * speed * speed;
     stats->rtol = rtol;
 }
 
@@ -127,20 +131,22 @@ static void compare(const pass *fine, const pass *coarse, differences *d) {
 /* After a rest the two runs may agree by chance on how they meet a load: of 12 000 short ones the
    error was up to 4.6 times their difference in 5 cases; rk4, which knows no error, up to 34 times
    in a few. Test: test_pulse.c. */
-double fw_run_margin(const fw_run *r) {
-    return r->trust * (!r->sudden ? 1 : r->integrator->fixed_step ? 32 : 8);
+double fw_run_margin(const fw_dynamics_controller *control) {
+    return control->trust * (!control->problem->sudden         ? 1
+                             : control->integrator->fixed_step ? 32
+                                                               : 8);
 }
 
 /* what the looser run and the energies say of the error of one peak, rad; late: the mark up to
    which the runs are compared */
-static double difference_counts(const fw_run *r, const pass *fine, const pass *coarse,
+static double difference_counts(const fw_dynamics_run *r, const pass *fine, const pass *coarse,
                                 const differences *d, int pin, int late) {
     const fw_peak *p = &fine->peaks.peak[pin], *other = &coarse->peaks.peak[pin];
     double own = fabs(fabs(p->angle_rad) - fabs(other->angle_rad));
-    double books = r->motion->stats.energy_error * fabs(p->angle_rad);
-    if (!(r->part > 0)) /* never below the books */
-        return fw_run_margin(r) * fmax(own, d->angles[late]) + books;
-    return r->part * fw_pace_apart(own, d->sizes[late], d->angles[late]) +
+    double books = r->record.motion->stats.energy_error * fabs(p->angle_rad);
+    if (!(r->control.part > 0)) /* never below the books */
+        return fw_run_margin(&r->control) * fmax(own, d->angles[late]) + books;
+    return r->control.part * fw_pace_apart(own, d->sizes[late], d->angles[late]) +
            fw_pace_books(fine->stepper->steps, coarse->stepper->steps) * books;
 }
 
@@ -150,16 +156,17 @@ static double difference_counts(const fw_run *r, const pass *fine, const pass *c
    whole: never below the true error in 60 000 random cases (at ten times it was in 7 of 80 000),
    and about a thousand times above it in the geometric mean. Nearer ones: steer.c. Source:
    tolerance proportionality, Hairer, Norsett and Wanner I, II.4. Test: test_peak.c. */
-static void estimate_errors(fw_run *r, const pass *fine, const pass *coarse) {
+static void estimate_errors(fw_dynamics_run *r, const pass *fine, const pass *coarse) {
     const fw_stepper *s = fine->stepper;
-    r->motion->stats.estimate_margin = fw_run_margin(r);
-    double unit = r->model->scale.time_s, eighth = r->end[r->npiece - 1] / 8;
+    r->record.motion->stats.estimate_margin = fw_run_margin(&r->control);
+    double unit = r->problem.model->scale.time_s, eighth = fw_dynamics_end(&r->problem) / 8;
     differences d;
     compare(fine, coarse, &d);
     for (int i = 0; i < fine->peaks.npin; i++) {
-        fw_peak *p = &r->motion->peak[i];
+        fw_peak *p = &r->record.motion->peak[i];
         /* who compares again until it comes out small meets luck: errors fall with the tolerance */
-        double least = r->part > 0 && r->lower > 0 ? p->error_rad / r->lower : 0;
+        double least =
+            r->control.part > 0 && r->control.lower > 0 ? p->error_rad / r->control.lower : 0;
         *p = fine->peaks.peak[i];
         double late = 1.25 * p->t_s + eighth;
         int kinks = (int)fmin(FW_MARKS, 1 + late * FW_MARKS / (8 * eighth));
@@ -170,17 +177,20 @@ static void estimate_errors(fw_run *r, const pass *fine, const pass *coarse) {
                        fine->doubt[kinks];
     }
     if (fine->extreme)
-        fw_run_take_extremes(r, fine->extreme, coarse->extreme, fine->doubt[FW_MARKS], s->steps);
+        fw_run_take_extremes(&r->record, fw_run_margin(&r->control), fine->extreme, coarse->extreme,
+                             fine->doubt[FW_MARKS], s->steps);
 }
 
 /* nobody wants to know: peaks as they came out */
-static void no_estimate(fw_run *r, const pass *only) {
+static void no_estimate(fw_dynamics_run *r, const pass *only) {
     for (int i = 0; i < only->peaks.npin; i++) {
-        r->motion->peak[i] = only->peaks.peak[i];
-        r->motion->peak[i].t_s *= r->model->scale.time_s;
-        r->motion->peak[i].error_rad = HUGE_VAL;
+        r->record.motion->peak[i] = only->peaks.peak[i];
+        r->record.motion->peak[i].t_s *= r->problem.model->scale.time_s;
+        r->record.motion->peak[i].error_rad = HUGE_VAL;
     }
-    if (only->extreme) fw_run_take_extremes(r, only->extreme, only->extreme, HUGE_VAL, 0);
+    if (only->extreme)
+        fw_run_take_extremes(&r->record, fw_run_margin(&r->control), only->extreme, only->extreme,
+                             HUGE_VAL, 0);
 }
 
 /* ---- tolerances ---- */
@@ -192,36 +202,37 @@ typedef struct pair { /* of runs */
     double began_s;  /* of CPU, before the first run */
 } pair;
 
-static void note_run(fw_run *r, const pass *p) {
-    r->motion->stats.runs++;
-    r->motion->stats.all_rhs += p->stepper->rhs;
-    r->motion->stats.all_steps += p->stepper->steps;
+static void note_run(fw_dynamics_recorder *record, const pass *p) {
+    record->motion->stats.runs++;
+    record->motion->stats.all_rhs += p->stepper->rhs;
+    record->motion->stats.all_steps += p->stepper->steps;
 }
 
 /* the answer of a pair */
-static fw_status run_fine(fw_run *r, pair *two, double rtol, const pass *marks, int rows) {
-    r->motion->nsample = rows;
-    if (two->again && r->options->other) { /* what the answer so far showed is the looser run's */
-        void *looser = r->motion->observed;
-        r->motion->observed = r->motion->compared;
-        r->motion->compared = looser;
+static fw_status run_fine(fw_dynamics_run *r, pair *two, double rtol, const pass *marks, int rows) {
+    r->record.motion->nsample = rows;
+    if (two->again &&
+        r->problem.options->other) { /* what the answer so far showed is the looser run's */
+        void *looser = r->record.motion->observed;
+        r->record.motion->observed = r->record.motion->compared;
+        r->record.motion->compared = looser;
     }
     double began = cpu_seconds();
     FW_TRY(run_once(r, rtol, marks, true, &two->fine));
-    note_run(r, &two->fine);
-    take_statistics(r, two->fine.stepper, rtol, cpu_seconds() - began);
+    note_run(&r->record, &two->fine);
+    take_statistics(&r->record, two->fine.stepper, rtol, cpu_seconds() - began);
     return FW_OK;
 }
 
-static fw_status run_coarse(fw_run *r, pair *two, double rtol, const pass *marks) {
+static fw_status run_coarse(fw_dynamics_run *r, pair *two, double rtol, const pass *marks) {
     two->coarse = (pass){0};
     fw_status status = run_once(r, rtol, marks, false, &two->coarse);
-    if (two->coarse.stepper) note_run(r, &two->coarse);
+    if (two->coarse.stepper) note_run(&r->record, &two->coarse);
     return status;
 }
 
-static fw_status end_tries(fw_run *r, const pair *two, double looser, bool enough) {
-    fw_motion_stats *stats = &r->motion->stats;
+static fw_status end_tries(fw_dynamics_run *r, const pair *two, double looser, bool enough) {
+    fw_motion_stats *stats = &r->record.motion->stats;
     stats->looser_rtol = looser;
     stats->estimate_cpu_s = fmax(0, cpu_seconds() - two->began_s - stats->cpu_s);
     return fw_run_say(r, enough);
@@ -229,10 +240,10 @@ static fw_status end_tries(fw_run *r, const pair *two, double looser, bool enoug
 
 /* The tolerance is asked for, or the integrator is one that nothing is known of: then it is
    tightened by 100 until the estimate is good enough. */
-static fw_status tighten(fw_run *r) {
-    const fw_motion_options *o = r->options;
-    double rtol = chosen_rtol(o, r), tightest = fw_pace_tightest(r);
-    int rows = r->motion->nsample;
+static fw_status tighten(fw_dynamics_run *r) {
+    const fw_motion_options *o = r->problem.options;
+    double rtol = chosen_rtol(o, &r->problem), tightest = fw_pace_tightest(&r->problem);
+    int rows = r->record.motion->nsample;
     pair two = {.began_s = cpu_seconds()};
     for (;;) {
         FW_TRY(run_fine(r, &two, rtol, two.again ? &two.coarse : NULL, rows));
@@ -243,13 +254,13 @@ static fw_status tighten(fw_run *r) {
         double looser = o->looser > 0 ? o->looser * rtol : 100 * rtol;
         if (!two.again) FW_TRY(run_coarse(r, &two, looser, &two.fine));
         estimate_errors(r, &two.fine, &two.coarse);
-        bool enough = o->rtol > 0 || r->motion->ended || fw_run_off(r) <= 1;
+        bool enough = o->rtol > 0 || r->record.motion->ended || fw_run_off(&r->record) <= 1;
         if (enough || rtol <= tightest) {
             return end_tries(r, &two, looser, enough);
         }
         /* the next estimate has this run to compare with, unless laws limit its steps (which are
            longer in runs that only serve the estimate) */
-        two.again = rtol / 100 >= tightest && r->nstride == 0;
+        two.again = rtol / 100 >= tightest && r->problem.nstride == 0;
         if (two.again) two.coarse = two.fine;
         rtol = fmax(tightest, rtol / 100);
     }
@@ -257,27 +268,27 @@ static fw_status tighten(fw_run *r) {
 
 /* the looser run by another integrator, which takes over when it comes to the end cheaper; steps:
    of the first one, 0: that was not made yet */
-static fw_status try_other(fw_run *r, pair *two, double looser, long steps, bool *won) {
-    const fw_stepper_row *before = r->integrator;
+static fw_status try_other(fw_dynamics_run *r, pair *two, double looser, long steps, bool *won) {
+    const fw_stepper_row *before = r->control.integrator;
     const pass kept = two->coarse;
-    const fw_contest trial = fw_contest_of(r, steps);
+    const fw_contest trial = fw_contest_of(&r->control, steps);
     *won = false;
     if (trial.steps <= 0) return FW_OK;
-    fw_diags *said = r->diags, own = fw_diags_new(r->arena);
-    r->diags = &own, r->integrator = trial.row, r->trial = trial.steps;
+    fw_diags *said = r->diags, own = fw_diags_new(r->problem.arena);
+    r->diags = &own, r->control.integrator = trial.row, r->control.trial = trial.steps;
     fw_status status = run_coarse(r, two, looser, NULL);
-    r->diags = said, r->trial = 0;
+    r->diags = said, r->control.trial = 0;
     if (own.failed) return FW_NOMEM;
     *won = status == FW_OK;
     if (*won) return fw_contest_won(r, steps, two->coarse.stepper->steps);
-    r->integrator = before;
+    r->control.integrator = before;
     two->coarse = kept;
     return status == FW_CANCELLED || status == FW_NOMEM ? status : FW_OK;
 }
 
 /* the run that is compared with, by whichever integrator is cheaper where that is in doubt */
-static fw_status first_run(fw_run *r, pair *two, double looser) {
-    bool won, again = fw_contest_of(r, 0).steps > 0;
+static fw_status first_run(fw_dynamics_run *r, pair *two, double looser) {
+    bool won, again = fw_contest_of(&r->control, 0).steps > 0;
     FW_TRY(try_other(r, two, looser, 0, &won));
     if (won) return FW_OK;
     FW_TRY(run_coarse(r, two, looser, NULL));
@@ -285,17 +296,17 @@ static fw_status first_run(fw_run *r, pair *two, double looser) {
 }
 
 /* one pair of runs; FW_SOLVER without a word where tighter ones may still go through */
-static fw_status try_pace(fw_run *r, pair *two, fw_pace *pace, int rows, bool quiet) {
-    fw_diags *said = r->diags, own = fw_diags_new(r->arena);
+static fw_status try_pace(fw_dynamics_run *r, pair *two, fw_pace *pace, int rows, bool quiet) {
+    fw_diags *said = r->diags, own = fw_diags_new(r->problem.arena);
     if (quiet) r->diags = &own;
     fw_status status = FW_OK;
-    r->part = pace->part;
+    r->control.part = pace->part;
     if (!two->again) {
         status = first_run(r, two, pace->looser);
         if (status == FW_OK) *pace = fw_pace_answer(r, *pace, two->coarse.stepper->steps);
     }
-    r->trust = pace->margin, r->part = pace->part;
-    r->lower = two->answered > 0 ? two->answered / pace->rtol : 0;
+    r->control.trust = pace->margin, r->control.part = pace->part;
+    r->control.lower = two->answered > 0 ? two->answered / pace->rtol : 0;
     two->answered = pace->rtol;
     if (status == FW_OK) status = run_fine(r, two, pace->rtol, &two->coarse, rows);
     r->diags = said;
@@ -311,84 +322,86 @@ static const double fw_trust_events = 3, fw_part_events = 2;
 
 /* Loose runs stop where a tight one passes, next to singular positions: they are not the last word.
    Below a millionth of what was tried first they are. */
-static fw_status steer(fw_run *r) {
-    int rows = r->motion->nsample;
+static fw_status steer(fw_dynamics_run *r) {
+    int rows = r->record.motion->nsample;
     pair two = {.began_s = cpu_seconds()};
-    fw_pace pace = fw_pace_start(r, r->integrator, fw_pace_wanted(r));
+    fw_pace pace = fw_pace_start(&r->control, r->control.integrator, fw_pace_wanted(&r->record));
     for (int tries = 1;; tries++) {
-        bool last = pace.rtol <= fmax(1e-9, fw_pace_tightest(r));
+        bool last = pace.rtol <= fmax(1e-9, fw_pace_tightest(&r->problem));
         fw_status status = try_pace(r, &two, &pace, rows, !last);
-        if (status == FW_SOLVER && !last && isnan(r->given_up_s)) {
+        if (status == FW_SOLVER && !last && isnan(r->control.given_up_s)) {
             two.again = false;
-            pace = fw_pace_next(r, pace, 1e3, 1, &two.again);
+            pace = fw_pace_next(&r->control, pace, 1e3, 1, &two.again);
             continue;
         }
         FW_TRY(status);
-        if (r->model->events > 0 && !r->options->unsettled)
-            r->trust *= fw_trust_events, r->part *= fw_part_events;
+        if (r->problem.model->events > 0 && !r->problem.options->unsettled)
+            r->control.trust *= fw_trust_events, r->control.part *= fw_part_events;
         estimate_errors(r, &two.fine, &two.coarse);
-        double off = r->motion->ended ? 0 : fw_run_off(r);
-        if (off <= 1 || pace.rtol <= fw_pace_tightest(r)) {
+        double off = r->record.motion->ended ? 0 : fw_run_off(&r->record);
+        if (off <= 1 || pace.rtol <= fw_pace_tightest(&r->problem)) {
             return end_tries(r, &two, pace.looser, off <= 1);
         }
-        pace = fw_pace_next(r, pace, off, tries, &two.again);
+        pace = fw_pace_next(&r->control, pace, off, tries, &two.again);
         if (two.again) two.coarse = two.fine;
     }
 }
 
-static fw_status find_motion(fw_run *r) {
-    r->motion->observed = r->options->context;
-    r->motion->compared = r->options->other;
-    r->trust = 1, r->part = 0;
-    bool known = fw_pace_known(r, r->integrator) && !(r->options->looser > 0);
+static fw_status find_motion(fw_dynamics_run *r) {
+    r->record.motion->observed = r->problem.options->context;
+    r->record.motion->compared = r->problem.options->other;
+    r->control.trust = 1, r->control.part = 0;
+    bool known =
+        fw_pace_known(&r->problem, r->control.integrator) && !(r->problem.options->looser > 0);
     return known ? steer(r) : tighten(r);
 }
 
 /* starts over where a choice of ours was wrong */
-static fw_status solve(fw_run *r) {
-    int rows = r->motion->nsample;
-    r->given_up_s = (double)NAN;
+static fw_status solve(fw_dynamics_run *r) {
+    int rows = r->record.motion->nsample;
+    r->control.given_up_s = (double)NAN;
     fw_status status = find_motion(r);
-    if (isnan(r->given_up_s)) return status;
+    if (isnan(r->control.given_up_s)) return status;
     FW_TRY(fw_integrator_change(r));
-    r->motion->nsample = rows;
+    r->record.motion->nsample = rows;
     return find_motion(r);
 }
 
 /* ---- the entry ---- */
 
-static fw_status assembled(fw_run *r, const fw_terms *terms) {
+static fw_status assembled(fw_dynamics_run *r, const fw_terms *terms) {
     const fw_mechanism *m;
-    FW_TRY(fw_effects_at_start(r->arena, r->mechanism, terms, &m));
-    FW_NEED(r->q0 = fw_arena_array(r->arena, double, 3 * (size_t)m->nbody));
+    FW_TRY(fw_effects_at_start(r->problem.arena, r->problem.mechanism, terms, &m));
+    FW_NEED(r->problem.q0 = fw_arena_array(r->problem.arena, double, 3 * (size_t)m->nbody));
     for (int b = 0; b < m->nbody; b++) {
-        r->q0[3 * b] = m->body[b].x_m;
-        r->q0[3 * b + 1] = m->body[b].y_m;
-        r->q0[3 * b + 2] = m->body[b].phi_rad;
+        r->problem.q0[3 * b] = m->body[b].x_m;
+        r->problem.q0[3 * b + 1] = m->body[b].y_m;
+        r->problem.q0[3 * b + 2] = m->body[b].phi_rad;
     }
     double moved;
-    FW_TRY(fw_assemble(r->arena, m, r->q0, &moved, r->diags));
-    r->motion->stats.assembly_moved_m = fmax(moved, r->options->moved_m);
+    FW_TRY(fw_assemble(r->problem.arena, m, r->problem.q0, &moved, r->diags));
+    r->record.motion->stats.assembly_moved_m = fmax(moved, r->problem.options->moved_m);
     return FW_OK;
 }
 
-static void set_stabilisation(fw_run *r) {
-    const char *wanted = r->options->stabilise ? r->options->stabilise : "projection";
-    r->motion->stabilise = wanted;
-    r->model->projecting = strcmp(wanted, "projection") == 0;
+static void set_stabilisation(fw_dynamics_recorder *record) {
+    const char *wanted =
+        record->problem->options->stabilise ? record->problem->options->stabilise : "projection";
+    record->motion->stabilise = wanted;
+    record->problem->model->projecting = strcmp(wanted, "projection") == 0;
     /* both roots at 5 per scaled unit of time: some five times faster than the motion itself */
-    r->model->baumgarte = strcmp(wanted, "baumgarte") == 0 ? 5 : 0;
+    record->problem->model->baumgarte = strcmp(wanted, "baumgarte") == 0 ? 5 : 0;
 }
 
-static fw_status say_method(fw_run *r) {
-    const fw_method *method = r->model->method;
-    r->motion->method_report = r->why;
+static fw_status say_method(fw_dynamics_recorder *record) {
+    const fw_method *method = record->problem->model->method;
+    record->motion->method_report = record->problem->why;
     if (!method->report) return FW_OK;
-    fw_text text = fw_text_new(r->arena);
-    if (r->why) fw_text_printf(&text, "%s; ", r->why);
-    FW_TRY(method->report(r->model, r->mechanism, &text));
+    fw_text text = fw_text_new(record->problem->arena);
+    if (record->problem->why) fw_text_printf(&text, "%s; ", record->problem->why);
+    FW_TRY(method->report(record->problem->model, record->problem->mechanism, &text));
     FW_TRY(fw_text_end(&text));
-    r->motion->method_report = text.data;
+    record->motion->method_report = text.data;
     return FW_OK;
 }
 
@@ -429,29 +442,33 @@ fw_status fw_simulate_compiled(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_effect_ledger *ledger, const fw_terms *given,
                                fw_diags *diags, const fw_motion **motion) {
     fw_terms own = *given, *terms = &own;
-    fw_run r = {
-        .arena = arena, .mechanism = mechanism, .scene = scene, .options = options, .diags = diags};
+    fw_dynamics_run r = {
+        .problem = {.arena = arena, .mechanism = mechanism, .scene = scene, .options = options},
+        .control = {.problem = &r.problem},
+        .record = {.problem = &r.problem},
+        .diags = diags};
+    fw_dynamics_problem *problem = &r.problem;
+    fw_motion *result;
     *motion = NULL;
-    FW_NEED(r.motion = fw_arena_one(arena, fw_motion));
-    r.motion->ledger = *ledger;
-    r.motion->accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
-    FW_NEED(r.motion->terms = fw_terms_keep(arena, given));
-    FW_TRY(fw_check_names(options, diags, r.motion));
+    FW_NEED(r.record.motion = result = fw_arena_one(arena, fw_motion));
+    result->ledger = *ledger;
+    result->accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
+    FW_NEED(result->terms = fw_terms_keep(arena, given));
+    FW_TRY(fw_check_names(options, diags, result));
     FW_TRY(fw_method_choose(&r, terms));
-    FW_TRY(fw_effects_strain(arena, mechanism, terms, &r.mechanism));
-    mechanism = r.mechanism;
+    FW_TRY(fw_effects_strain(arena, mechanism, terms, &problem->mechanism));
     FW_TRY(assembled(&r, terms));
-    FW_TRY(fw_model_new(arena, mechanism, terms, r.q0, scene->duration_s,
-                        fw_method_find(r.motion->method), diags, &r.model));
+    FW_TRY(fw_model_new(arena, problem->mechanism, terms, problem->q0, scene->duration_s,
+                        fw_method_find(result->method), diags, &problem->model));
     FW_TRY(fw_run_arrays(&r));
-    set_stabilisation(&r);
-    r.most_angle = options->most_angle_rad > 0 ? options->most_angle_rad : HUGE_VAL;
+    set_stabilisation(&r.record);
+    problem->most_angle = options->most_angle_rad > 0 ? options->most_angle_rad : HUGE_VAL;
     FW_TRY(fw_run_prepare(&r, terms));
     FW_TRY(fw_integrator_choose(&r, terms, options->integrator));
     FW_TRY(solve(&r));
-    FW_TRY(say_method(&r));
-    fw_motion_widen(r.motion);
-    *motion = r.motion;
+    FW_TRY(say_method(&r.record));
+    fw_motion_widen(result);
+    *motion = result;
     return FW_OK;
 }
 

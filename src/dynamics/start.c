@@ -8,14 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *scene_name(const fw_run *r) {
-    return r->scene->name ? r->scene->name : "(unnamed)";
-}
-
 /* ---- smooth pieces between the breaks of all laws ---- */
 
-static int law_count(const fw_run *r, const fw_terms *terms) {
-    int count = terms->ntimed + r->mechanism->ndriver + (terms->stretch.law != NULL);
+static int law_count(const fw_dynamics_problem *problem, const fw_terms *terms) {
+    int count = terms->ntimed + problem->mechanism->ndriver + (terms->stretch.law != NULL);
     for (int i = 0; i < terms->nelement; i++)
         count += terms->element[i].laws;
     return count;
@@ -23,12 +19,13 @@ static int law_count(const fw_run *r, const fw_terms *terms) {
 
 /* the i-th law of all: of timed loads, drivers, the stretching ground, elements; *coordinate: it
    drives a joint. NULL: constant */
-static const fw_law *law_of(const fw_run *r, const fw_terms *terms, int i, bool *coordinate) {
-    int drivers = r->mechanism->ndriver, moving = drivers + (terms->stretch.law != NULL);
+static const fw_law *law_of(const fw_dynamics_problem *problem, const fw_terms *terms, int i,
+                            bool *coordinate) {
+    int drivers = problem->mechanism->ndriver, moving = drivers + (terms->stretch.law != NULL);
     *coordinate = i >= terms->ntimed && i < terms->ntimed + moving;
     if (i < terms->ntimed) return terms->timed[i].law;
     if (*coordinate && i == terms->ntimed + drivers) return terms->stretch.law;
-    if (*coordinate) return &r->mechanism->driver[i - terms->ntimed].law;
+    if (*coordinate) return &problem->mechanism->driver[i - terms->ntimed].law;
     const fw_force_element *e = terms->element;
     for (i -= terms->ntimed + moving; i >= e->laws; e++)
         i -= e->laws;
@@ -36,54 +33,56 @@ static const fw_law *law_of(const fw_run *r, const fw_terms *terms, int i, bool 
 }
 
 /* the breaks of every law, one law after the other (at, counted), and the strides between them */
-static fw_status look_at_laws(fw_run *r, const fw_terms *terms, double *at, int count) {
-    int laws = law_count(r, terms), have = 0;
-    double end = r->scene->duration_s;
+static fw_status look_at_laws(fw_dynamics_problem *problem, const fw_terms *terms, double *at,
+                              int count) {
+    int laws = law_count(problem, terms), have = 0;
+    double end = problem->scene->duration_s;
     bool coordinate;
-    FW_NEED(r->stride = fw_arena_array(r->arena, fw_law_strides, (size_t)laws));
-    FW_NEED(r->stride_row = fw_arena_array(r->arena, int, (size_t)laws));
+    FW_NEED(problem->stride = fw_arena_array(problem->arena, fw_law_strides, (size_t)laws));
+    FW_NEED(problem->stride_row = fw_arena_array(problem->arena, int, (size_t)laws));
     for (int i = 0; i < laws; i++) {
-        const fw_law *law = law_of(r, terms, i, &coordinate);
-        fw_law_strides *own = &r->stride[r->nstride];
+        const fw_law *law = law_of(problem, terms, i, &coordinate);
+        fw_law_strides *own = &problem->stride[problem->nstride];
         int breaks = fw_law_breaks(law, end, at + have, count - have);
         fw_sort_doubles(at + have, (size_t)breaks);
-        FW_TRY(fw_law_look(r->arena, law, coordinate, end, at + have, breaks, own));
+        FW_TRY(fw_law_look(problem->arena, law, coordinate, end, at + have, breaks, own));
         have += breaks;
         bool limits = false;
         for (int k = 0; k < own->n; k++)
             if (isfinite(own->most_s[k])) limits = true;
-        if (limits && !(fw_quantity_law_wave_of(law).fastest_Hz > 0)) r->sudden = true;
-        if (limits) r->nstride++;
+        if (limits && !(fw_quantity_law_wave_of(law).fastest_Hz > 0)) problem->sudden = true;
+        if (limits) problem->nstride++;
     }
     return FW_OK;
 }
 
-double fw_run_stride(const fw_run *r, double factor, double t) {
-    double most = (double)INFINITY, unit = r->model->scale.time_s;
-    for (int i = 0; i < r->nstride; i++)
-        most = fmin(most, fw_law_stride(&r->stride[i], factor, t * unit, &r->stride_row[i]));
+double fw_run_stride(const fw_dynamics_problem *problem, double factor, double t) {
+    double most = (double)INFINITY, unit = problem->model->scale.time_s;
+    for (int i = 0; i < problem->nstride; i++)
+        most = fmin(most,
+                    fw_law_stride(&problem->stride[i], factor, t * unit, &problem->stride_row[i]));
     return most / unit;
 }
 
-static fw_status pieces(fw_run *r, const fw_terms *terms) {
-    int laws = law_count(r, terms), have = 0;
-    double end = r->scene->duration_s, unit = r->model->scale.time_s;
+static fw_status pieces(fw_dynamics_problem *problem, const fw_terms *terms) {
+    int laws = law_count(problem, terms), have = 0;
+    double end = problem->scene->duration_s, unit = problem->model->scale.time_s;
     bool coordinate;
     for (int i = 0; i < laws; i++)
-        have += fw_law_breaks(law_of(r, terms, i, &coordinate), end, NULL, 0);
+        have += fw_law_breaks(law_of(problem, terms, i, &coordinate), end, NULL, 0);
     double *at;
-    FW_NEED(at = fw_arena_array(r->arena, double, (size_t)have + 1));
-    FW_TRY(look_at_laws(r, terms, at, have));
-    fw_sort_doubles(at, (size_t)have);
+    FW_NEED(at = fw_arena_array(problem->arena, double, (size_t)have + 1));
+    FW_TRY(look_at_laws(problem, terms, at, have));
+    if (have > 1) fw_sort_doubles(at, (size_t)have);
     int kept = 0;
     for (int i = 0; i < have; i++)
         if (at[i] > 0 && at[i] < end && (kept == 0 || at[i] > at[kept - 1])) at[kept++] = at[i];
     at[kept++] = end;
     for (int i = 0; i < kept; i++)
         at[i] /= unit;
-    r->end = at;
-    r->npiece = kept;
-    r->model->piece = 0.5 * at[0] * unit;
+    problem->end = at;
+    problem->npiece = kept;
+    problem->model->piece = 0.5 * at[0] * unit;
     return FW_OK;
 }
 
@@ -91,56 +90,51 @@ static fw_status pieces(fw_run *r, const fw_terms *terms) {
 
 /* in scaled units, at most 1: twice the linear static response to what acts, and the starting
    velocity, or the strain of the ground; 1 when the mechanism can move freely or is driven */
-static fw_status motion_size(fw_run *r, const fw_terms *terms) {
-    const fw_mechanism *m = r->mechanism;
+static fw_status motion_size(fw_dynamics_problem *problem, const fw_terms *terms) {
+    const fw_mechanism *m = problem->mechanism;
     size_t n = 3 * (size_t)m->nbody;
     double *force, *displacement, *rotation, size = 0, speed = 0;
-    r->amplitude = 1;
+    problem->amplitude = 1;
     if (m->ndriver > 0) return FW_OK;
     if (terms->stretch.law)
-        size =
-            fabs(terms->stretch.strain) * fw_law_largest(terms->stretch.law, r->scene->duration_s);
-    fw_mark mark = fw_arena_mark(r->arena);
+        size = fabs(terms->stretch.strain) *
+               fw_law_largest(terms->stretch.law, problem->scene->duration_s);
+    fw_mark mark = fw_arena_mark(problem->arena);
     bool valid = false;
-    FW_NEED(force = fw_arena_array(r->arena, double, n));
-    FW_NEED(displacement = fw_arena_array(r->arena, double, n));
-    FW_NEED(rotation = fw_arena_array(r->arena, double, (size_t)m->npin));
-    fw_terms_largest_force(m, terms, r->scene->duration_s, force);
-    FW_TRY(fw_static_response(r->arena, m, terms, force, displacement, rotation, &valid));
-    const fw_scale s = r->model->scale;
+    FW_NEED(force = fw_arena_array(problem->arena, double, n));
+    FW_NEED(displacement = fw_arena_array(problem->arena, double, n));
+    FW_NEED(rotation = fw_arena_array(problem->arena, double, (size_t)m->npin));
+    fw_terms_largest_force(m, terms, problem->scene->duration_s, force);
+    FW_TRY(fw_static_response(problem->arena, m, terms, force, displacement, rotation, &valid));
+    const fw_scale s = problem->model->scale;
     for (size_t i = 0; i < n; i++) {
         double unit = i % 3 == 2 ? 1 : s.length_m;
         if (valid) size = fmax(size, 2 * fabs(displacement[i]) / unit);
-        speed = fmax(speed, fabs(r->start[n + i]));
+        speed = fmax(speed, fabs(problem->start[n + i]));
     }
-    fw_arena_rewind(r->arena, mark);
+    fw_arena_rewind(problem->arena, mark);
     size = fmax(size, speed);
-    if (valid && size > 0) r->amplitude = fmin(1, size);
+    if (valid && size > 0) problem->amplitude = fmin(1, size);
     return FW_OK;
 }
 
 /* ---- start values ---- */
 
-/* does the scene state component c (x, y, turn) of a body's velocity? */
-static bool stated(const fw_run *r, int body, int c) {
-    return r->stated[3 * body + c];
-}
-
-/* One look at every <initial>, not one per coordinate: large models state thousands. */
-static fw_status note_stated(fw_run *r) {
-    FW_NEED(r->stated = fw_arena_array(r->arena, bool, (size_t)r->model->nq));
-    for (int i = r->scene->ninitial - 1; i >= 0; i--) { /* the first of a body counts */
-        const fw_initial *v = &r->scene->initial[i];
+/* stated (nq): does the scene state that velocity (x, y, turn of a body)? One look at every
+   <initial>, not one per coordinate: large models state thousands. */
+static fw_status note_stated(const fw_dynamics_problem *problem, bool **stated) {
+    FW_NEED(*stated = fw_arena_array(problem->arena, bool, (size_t)problem->model->nq));
+    for (int i = problem->scene->ninitial - 1; i >= 0; i--) { /* the first of a body counts */
+        const fw_initial *v = &problem->scene->initial[i];
         if (v->body == FW_GROUND) continue;
         for (int c = 0; c < 3; c++)
-            r->stated[3 * v->body + c] = !(c < 2 ? v->moves_free : v->turns_free);
+            (*stated)[3 * v->body + c] = !(c < 2 ? v->moves_free : v->turns_free);
     }
     return FW_OK;
 }
 
 /* one correction v += M^-1 G^T lambda onto G v = -Psi_t with the masses as they are now */
-static bool correct_velocity(fw_run *r, double *v) {
-    fw_model *m = r->model;
+static bool correct_velocity(fw_model *m, double *v) {
     fw_chain_assemble(m);
     if (!fw_chain_factor(&m->chain, fw_epsilon)) return false;
     fw_model_jacobian(m, v, m->right);
@@ -154,106 +148,110 @@ static bool correct_velocity(fw_run *r, double *v) {
 
 /* What <initial> does not state follows what it does: the correction is found with masses and
    inertias a million times smaller there, thrice, each time from the velocities that were stated,
-   so that what is stated and fits stays to 1e-18. Posed model; v (3 nbody). */
-static bool follow_stated(fw_run *r, const double *given, double *v) {
-    fw_model *m = r->model;
-    double *minv = r->rate, *jinv = r->rate + m->nbody;
+   so that what is stated and fits stays to 1e-18. Posed model; v, work (3 nbody). */
+static bool follow_stated(fw_model *m, const bool *stated, const double *given, double *v,
+                          double *work) {
+    double *minv = work, *jinv = work + m->nbody;
     int count = 0;
     bool good = true;
     for (int i = 0; i < m->nq; i++)
-        count += stated(r, i / 3, i % 3);
+        count += stated[i];
     if (count == 0 || count == m->nq) return true;
     memcpy(minv, m->minv, (size_t)m->nbody * sizeof *minv);
     memcpy(jinv, m->jinv, (size_t)m->nbody * sizeof *jinv);
     for (int b = 0; b < m->nbody; b++) {
-        if (!stated(r, b, 0)) m->minv[b] *= 1e6;
-        if (!stated(r, b, 2)) m->jinv[b] *= 1e6;
+        if (!stated[3 * b]) m->minv[b] *= 1e6;
+        if (!stated[3 * b + 2]) m->jinv[b] *= 1e6;
     }
     for (int pass = 0; pass < 3 && good; pass++) {
         for (int i = 0; i < m->nq; i++)
-            if (stated(r, i / 3, i % 3)) v[i] = given[i];
-        good = correct_velocity(r, v);
+            if (stated[i]) v[i] = given[i];
+        good = correct_velocity(m, v);
     }
     memcpy(m->minv, minv, (size_t)m->nbody * sizeof *minv);
     memcpy(m->jinv, jinv, (size_t)m->nbody * sizeof *jinv);
     return good;
 }
 
-static void warn_velocities(fw_run *r, const double *given, const double *v) {
+static void warn_velocities(fw_dynamics_run *r, const bool *stated, const double *given,
+                            const double *v) {
     double size = 0, moved = 0;
-    for (int i = 0; i < r->model->nq; i++) {
+    for (int i = 0; i < r->problem.model->nq; i++) {
         size = fmax(size, fabs(given[i]));
-        if (stated(r, i / 3, i % 3)) moved = fmax(moved, fabs(v[i] - given[i]));
+        if (stated[i]) moved = fmax(moved, fabs(v[i] - given[i]));
     }
-    r->motion->stats.velocity_moved = size > 0 ? moved / size : 0;
+    r->record.motion->stats.velocity_moved = size > 0 ? moved / size : 0;
     if (!(size > 0 && moved > 1e-6 * size)) return;
-    double before = fw_model_kinetic(r->model, given), after = fw_model_kinetic(r->model, v);
+    double before = fw_model_kinetic(r->problem.model, given),
+           after = fw_model_kinetic(r->problem.model, v);
     char most[32], energy[32];
-    fw_diag_warning(r->diags, 106, r->scene->place,
+    fw_diag_warning(r->diags, 106, r->problem.scene->place,
                     "initial velocities of scene %s contradict the joints; they were changed by up "
                     "to %s %% to fit, the kinetic energy by %s %%",
-                    scene_name(r), fw_number_text(most, sizeof most, 100 * moved / size, 3),
+                    fw_dynamics_scene_name(&r->problem),
+                    fw_number_text(most, sizeof most, 100 * moved / size, 3),
                     fw_number_text(energy, sizeof energy, 100 * (after - before) / before, 3));
 }
 
-static fw_status cannot_start(const fw_run *r) {
+static fw_status cannot_start(const fw_dynamics_run *r) {
     fw_status status =
-        fw_diag_error(r->diags, 109, r->scene->place,
+        fw_diag_error(r->diags, 109, r->problem.scene->place,
                       "method %s cannot start scene %s: its equations are singular in the "
                       "assembled position; use --method chain",
-                      r->model->method->name, scene_name(r));
+                      r->problem.model->method->name, fw_dynamics_scene_name(&r->problem));
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
 
 /* Velocities start as if all pins were joints, also those that elements stand for: they then start
    without a stretch and without its rate, whatever the scene states. */
-static fw_status closed_model(fw_run *r, const fw_terms *terms, fw_model **closed) {
+static fw_status closed_model(fw_dynamics_run *r, const fw_terms *terms, fw_model **closed) {
     fw_terms all = *terms;
-    *closed = r->model;
-    if (r->model->nreleased == 0) return FW_OK;
+    *closed = r->problem.model;
+    if (r->problem.model->nreleased == 0) return FW_OK;
     all.released = NULL;
-    FW_TRY(fw_model_new(r->arena, r->mechanism, &all, r->q0, r->scene->duration_s, NULL, r->diags,
-                        closed));
-    (*closed)->piece = r->model->piece;
+    FW_TRY(fw_model_new(r->problem.arena, r->problem.mechanism, &all, r->problem.q0,
+                        r->problem.scene->duration_s, NULL, r->diags, closed));
+    (*closed)->piece = r->problem.model->piece;
     return FW_OK;
 }
 
-/* r->start onto the joints of r->model, v too; given: and as near to that as they allow */
-static bool onto_joints(fw_run *r, const double *given, double *v) {
-    fw_model *m = r->model;
-    fw_model_pose(m, r->start);
-    if (!m->method->factor(m) || !fw_model_project_position(m, 0, r->start)) return false;
-    fw_model_pose(m, r->start);
-    if (given && !follow_stated(r, given, v)) return false;
+/* the positions of y onto the joints of m, the velocities v too; given: and as near to that as the
+   joints allow */
+static bool onto_joints(fw_model *m, const bool *stated, const double *given, double *y, double *v,
+                        double *work) {
+    fw_model_pose(m, y);
+    if (!m->method->factor(m) || !fw_model_project_position(m, 0, y)) return false;
+    fw_model_pose(m, y);
+    if (given && !follow_stated(m, stated, given, v, work)) return false;
     return m->method->factor(m) && fw_model_impact(m, 0, v);
 }
 
 /* assembled pose, initial velocities moved onto G v = -Psi_t; says so when they contradicted the
    joints */
-static fw_status start_values(fw_run *r, const fw_terms *terms) {
-    fw_model *m = r->model, *closed;
+static fw_status start_values(fw_dynamics_run *r, const fw_terms *terms) {
+    fw_model *m = r->problem.model, *closed;
     const fw_scale s = m->scale;
-    double *v = r->start + m->nq, *given = r->state;
-    FW_TRY(note_stated(r));
+    double *v = r->problem.start + m->nq, *given = r->record.state;
+    bool *stated;
+    FW_TRY(note_stated(&r->problem, &stated));
     for (int i = 0; i < m->nq; i++)
         v[i] = given[i] = terms->velocity[i] * s.time_s / (i % 3 == 2 ? 1 : s.length_m);
     FW_TRY(closed_model(r, terms, &closed));
-    r->model = closed;
-    bool good = onto_joints(r, given, v);
-    r->model = m;
-    if (good && closed != m) good = onto_joints(r, NULL, v);
+    bool good = onto_joints(closed, stated, given, r->problem.start, v, r->record.rate);
+    if (good && closed != m)
+        good = onto_joints(m, stated, NULL, r->problem.start, v, r->record.rate);
     if (!good) return cannot_start(r);
-    warn_velocities(r, given, v);
-    fw_model_set_switches(m, 0, r->start);
-    FW_TRY(fw_run_valid(r, 0, r->start));
+    warn_velocities(r, stated, given, v);
+    fw_model_set_switches(m, 0, r->problem.start);
+    FW_TRY(fw_run_valid(r, 0, r->problem.start));
     fw_friction_begin(m);
-    if (fw_friction_decide(m, 0, r->start)) return FW_OK;
+    if (fw_friction_decide(m, 0, r->problem.start)) return FW_OK;
     FW_TRY(fw_run_jammed(r, 0));
     return cannot_start(r);
 }
 
-fw_status fw_run_valid(const fw_run *r, double t, const double *y) {
-    fw_model *m = r->model;
+fw_status fw_run_valid(const fw_dynamics_run *r, double t, const double *y) {
+    fw_model *m = r->problem.model;
     const char *why = "";
     char time[32];
     if (m->nelement == 0) return FW_OK;
@@ -261,54 +259,75 @@ fw_status fw_run_valid(const fw_run *r, double t, const double *y) {
     const fw_force_element *e = fw_model_element_invalid(m, t, y, &why);
     if (!e) return FW_OK;
     fw_status status =
-        fw_diag_error(r->diags, 242, e->place, "%s of scene %s at %s s: %s", e->id, scene_name(r),
+        fw_diag_error(r->diags, 242, e->place, "%s of scene %s at %s s: %s", e->id,
+                      fw_dynamics_scene_name(&r->problem),
                       fw_number_text(time, sizeof time, t * m->scale.time_s, 4), why);
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
 
-fw_status fw_run_prepare(fw_run *r, const fw_terms *terms) {
-    FW_TRY(pieces(r, terms));
+fw_status fw_run_prepare(fw_dynamics_run *r, const fw_terms *terms) {
+    FW_TRY(pieces(&r->problem, terms));
     FW_TRY(start_values(r, terms));
-    return motion_size(r, terms);
+    return motion_size(&r->problem, terms);
 }
 
-fw_status fw_run_arrays(fw_run *r) {
-    fw_motion *m = r->motion;
-    const fw_mechanism *from = r->mechanism;
-    int samples = r->options->samples;
+/* ---- memory ---- */
+
+static fw_status result_arrays(const fw_dynamics_problem *problem, fw_motion *m) {
+    const fw_mechanism *from = problem->mechanism;
+    fw_arena *arena = problem->arena;
+    int samples = problem->options->samples;
     size_t rows = (size_t)samples, n = 3 * (size_t)from->nbody, pins = (size_t)from->npin;
     m->nbody = from->nbody, m->npin = from->npin;
     m->ntie = from->ntie, m->ndriver = from->ndriver;
     m->nsample = samples;
     if (rows > ((size_t)1 << 40) / (n + pins + 1)) return FW_LIMIT;
-    FW_NEED(m->t_s = fw_arena_array(r->arena, double, rows));
-    FW_NEED(m->q = fw_arena_array(r->arena, double, rows *n));
-    FW_NEED(m->v = fw_arena_array(r->arena, double, rows *n));
-    FW_NEED(m->accel = fw_arena_array(r->arena, double, rows *n));
-    FW_NEED(m->angle_rad = fw_arena_array(r->arena, double, rows *pins));
-    FW_NEED(m->reaction_N = fw_arena_array(r->arena, double, rows * 2 * pins));
-    FW_NEED(m->tie_N = fw_arena_array(r->arena, double, rows * 3 * (size_t)from->ntie));
-    FW_NEED(m->driver_N = fw_arena_array(r->arena, double, rows *(size_t)from->ndriver));
-    FW_NEED(m->peak = fw_arena_array(r->arena, fw_peak, pins));
-    if (r->options->energies) {
-        FW_NEED(m->energy_J = fw_arena_array(r->arena, double, 4 * rows));
-        FW_NEED(m->constraint_norm = fw_arena_array(r->arena, double, rows));
-    }
-    FW_NEED(r->seen_q = fw_arena_array(r->arena, double, n));
-    FW_NEED(r->seen_angle = fw_arena_array(r->arena, double, pins));
-    FW_NEED(r->seen_force = fw_arena_array(r->arena, double, 2 * pins));
-    FW_NEED(r->seen_grid = fw_arena_array(r->arena, double, (FW_GRID + 1) * 2 * pins));
-    if (r->options->reactions) FW_TRY(fw_run_extremes_new(r));
-    size_t friction = (size_t)fw_friction_count(r->model);
-    FW_NEED(r->friction_fit = fw_arena_array(r->arena, double, friction));
-    FW_TRY(fw_kinks_new(r));
-    size_t ny = (size_t)r->model->ny;
-    FW_NEED(r->start = fw_arena_array(r->arena, double, ny));
-    FW_NEED(r->state = fw_arena_array(r->arena, double, ny));
-    FW_NEED(r->rate = fw_arena_array(r->arena, double, ny));
-    FW_NEED(r->moved = fw_arena_array(r->arena, double, ny));
-    size_t entries = (size_t)fw_model_switches(r->model) + friction;
-    FW_NEED(r->fit = fw_arena_array(r->arena, double, (FW_PLACES + 1) * entries));
-    FW_NEED(r->unfit = fw_arena_array(r->arena, bool, entries));
+    FW_NEED(m->t_s = fw_arena_array(arena, double, rows));
+    FW_NEED(m->q = fw_arena_array(arena, double, rows *n));
+    FW_NEED(m->v = fw_arena_array(arena, double, rows *n));
+    FW_NEED(m->accel = fw_arena_array(arena, double, rows *n));
+    FW_NEED(m->angle_rad = fw_arena_array(arena, double, rows *pins));
+    FW_NEED(m->reaction_N = fw_arena_array(arena, double, rows * 2 * pins));
+    FW_NEED(m->tie_N = fw_arena_array(arena, double, rows * 3 * (size_t)from->ntie));
+    FW_NEED(m->driver_N = fw_arena_array(arena, double, rows *(size_t)from->ndriver));
+    FW_NEED(m->peak = fw_arena_array(arena, fw_peak, pins));
+    if (!problem->options->energies) return FW_OK;
+    FW_NEED(m->energy_J = fw_arena_array(arena, double, 4 * rows));
+    FW_NEED(m->constraint_norm = fw_arena_array(arena, double, rows));
     return FW_OK;
+}
+
+static fw_status recorder_arrays(fw_dynamics_recorder *record) {
+    const fw_dynamics_problem *problem = record->problem;
+    fw_arena *arena = problem->arena;
+    size_t pins = (size_t)problem->mechanism->npin;
+    size_t ny = (size_t)problem->model->ny, n = (size_t)problem->model->nq;
+    FW_NEED(record->state = fw_arena_array(arena, double, ny));
+    FW_NEED(record->rate = fw_arena_array(arena, double, ny));
+    FW_NEED(record->kept = fw_arena_array(arena, double, n));
+    FW_NEED(record->seen_q = fw_arena_array(arena, double, n));
+    FW_NEED(record->seen_angle = fw_arena_array(arena, double, pins));
+    FW_NEED(record->seen_force = fw_arena_array(arena, double, 2 * pins));
+    FW_NEED(record->seen_grid = fw_arena_array(arena, double, (FW_GRID + 1) * 2 * pins));
+    return problem->options->reactions ? fw_run_extremes_new(record) : FW_OK;
+}
+
+static fw_status controller_arrays(fw_dynamics_controller *control) {
+    const fw_model *model = control->problem->model;
+    fw_arena *arena = control->problem->arena;
+    size_t friction = (size_t)fw_friction_count(model);
+    size_t entries = (size_t)fw_model_switches(model) + friction;
+    FW_NEED(control->moved = fw_arena_array(arena, double, (size_t)model->ny));
+    FW_NEED(control->fit = fw_arena_array(arena, double, (FW_PLACES + 1) * entries));
+    FW_NEED(control->unfit = fw_arena_array(arena, bool, entries));
+    FW_NEED(control->friction_fit = fw_arena_array(arena, double, friction));
+    return fw_kinks_new(control);
+}
+
+fw_status fw_run_arrays(fw_dynamics_run *r) {
+    fw_dynamics_problem *problem = &r->problem;
+    FW_TRY(result_arrays(problem, r->record.motion));
+    FW_NEED(problem->start = fw_arena_array(problem->arena, double, (size_t)problem->model->ny));
+    FW_TRY(recorder_arrays(&r->record));
+    return controller_arrays(&r->control);
 }

@@ -54,9 +54,9 @@ static const pace_row *row_of(const fw_stepper_row *row) {
 /* where m r^2/J is huge the accelerations carry round-off of 1e-16 m r^2/J; below some 1e-3 of that
    the error estimate follows noise, and steps shrink for nothing. Likewise where a light body sits
    between heavy ones, but for methods in independent coordinates. */
-static double noise_floor(const fw_run *r) {
-    const fw_model *m = r->model;
-    double ratio = 0, masses = m->method->independent ? 0 : 3e-17 * r->uneven;
+static double noise_floor(const fw_dynamics_problem *problem) {
+    const fw_model *m = problem->model;
+    double ratio = 0, masses = m->method->independent ? 0 : 3e-17 * problem->uneven;
     for (int i = 0; i < 2 * m->nblock; i++) {
         int b = m->body[i];
         double x = m->local[2 * i], y = m->local[2 * i + 1];
@@ -66,101 +66,105 @@ static double noise_floor(const fw_run *r) {
 }
 
 /* before an integrator is chosen nothing is trusted */
-static const pace_trust *trust_of(const fw_run *r, double looser) {
+static const pace_trust *trust_of(const fw_dynamics_controller *control, double looser) {
     static const pace_trust none = {0, 1};
-    const pace_row *p = row_of(r->integrator);
+    const pace_row *p = row_of(control->integrator);
     if (!p) return &none;
     return looser > fw_tolerable ? &p->loose_ones : &p->tight_ones;
 }
 
-double fw_pace_tightest(const fw_run *r) {
-    return fmax(fw_tightest, noise_floor(r));
+double fw_pace_tightest(const fw_dynamics_problem *problem) {
+    return fmax(fw_tightest, noise_floor(problem));
 }
 
-double fw_pace_wanted(const fw_run *r) {
-    double accuracy = r->motion->accuracy;
-    return fmax(accuracy - r->motion->ledger.left_out, 0.05 * accuracy);
+double fw_pace_wanted(const fw_dynamics_recorder *record) {
+    double accuracy = record->motion->accuracy;
+    return fmax(accuracy - record->motion->ledger.left_out, 0.05 * accuracy);
 }
 
-bool fw_pace_known(const fw_run *r, const fw_stepper_row *row) {
-    return !(r->options->rtol > 0) && row_of(row);
+bool fw_pace_known(const fw_dynamics_problem *problem, const fw_stepper_row *row) {
+    return !(problem->options->rtol > 0) && row_of(row);
 }
 
 /* Verdicts stand on their errors: of 400 devices near their limit, factors that serve 99 % left
    three outside their bands, and runs a hundred times apart, whose difference counts as it is, none
    of 60 000 (test_hard_verdict.c, test_peak.c). Loads that may begin at any time are met by chance:
    likewise, and fw_run_margin counts. */
-static bool far_apart(const fw_run *r) {
-    return r->sudden || r->options->unsettled;
+static bool far_apart(const fw_dynamics_problem *problem) {
+    return problem->sudden || problem->options->unsettled;
 }
 
 /* What differences of the two runs are multiplied with. Runs that the same tolerances may have come
    out alike by chance must be far apart for their difference to count as it is. */
-static void set_margins(const fw_run *r, fw_pace *p) {
+static void set_margins(const fw_dynamics_controller *control, fw_pace *p) {
     double rho = p->looser / p->rtol;
     p->margin = 1, p->part = 0;
-    if (far_apart(r)) return;
+    if (far_apart(control->problem)) return;
     p->margin = p->looser > fw_tolerable ? 3 : 2;
     if (rho < fw_ratio) p->margin *= pow(fw_ratio / rho, fw_part_power);
-    p->part = trust_of(r, p->looser)->part * pow(fw_ratio / rho, fw_part_power);
+    p->part = trust_of(control, p->looser)->part * pow(fw_ratio / rho, fw_part_power);
 }
 
 /* Round-off as large as the error does not go with the tolerance. */
-static fw_pace pace_at(const fw_run *r, double looser, double rtol) {
-    double tightest = fw_pace_tightest(r);
+static fw_pace pace_at(const fw_dynamics_controller *control, double looser, double rtol) {
+    double tightest = fw_pace_tightest(control->problem);
     fw_pace p = {.looser = looser, .rtol = rtol};
     if (p.rtol <= tightest)
         return (fw_pace){.looser = 100 * tightest, .rtol = tightest, .margin = 1};
-    set_margins(r, &p);
+    set_margins(control, &p);
     return p;
 }
 
-static fw_pace pace_below(const fw_run *r, double looser) {
-    bool far = far_apart(r);
+static fw_pace pace_below(const fw_dynamics_controller *control, double looser) {
+    bool far = far_apart(control->problem);
     looser = fmin(looser, far ? fw_loosest_of_verdicts : fw_loosest_of_two);
-    return pace_at(r, looser, looser / (far ? fw_ratio_far : fw_ratio));
+    return pace_at(control, looser, looser / (far ? fw_ratio_far : fw_ratio));
 }
 
 /* Forces of hinges that give are a stiffness times a tiny displacement: to have them as exactly as
    angles takes tolerances this much tighter, as measured on the devices of docs/gallery. */
-static double tighter_for_forces(const fw_run *r) {
-    if (r->model->nreleased == 0) return 1;
-    return r->options->reactions ? 3000 : 1;
+static double tighter_for_forces(const fw_dynamics_problem *problem) {
+    if (problem->model->nreleased == 0) return 1;
+    return problem->options->reactions ? 3000 : 1;
 }
 
-fw_pace fw_pace_start(const fw_run *r, const fw_stepper_row *row, double wanted) {
-    if (r->options->unsettled) return pace_below(r, fmin(1e-4, wanted / 100));
-    if (r->sudden) return pace_below(r, wanted / 30);
-    double loose = r->options->reactions ? fw_loose_of_forces : row_of(row)->loose;
-    return pace_below(r, wanted / tighter_for_forces(r) / loose);
+fw_pace fw_pace_start(const fw_dynamics_controller *control, const fw_stepper_row *row,
+                      double wanted) {
+    if (control->problem->options->unsettled) return pace_below(control, fmin(1e-4, wanted / 100));
+    if (control->problem->sudden) return pace_below(control, wanted / 30);
+    double loose = control->problem->options->reactions ? fw_loose_of_forces : row_of(row)->loose;
+    return pace_below(control, wanted / tighter_for_forces(control->problem) / loose);
 }
 
-fw_pace fw_pace_answer(const fw_run *r, fw_pace pace, long steps) {
-    const double kappa = trust_of(r, pace.looser)->kappa;
-    double bodies = r->model->nbody, wanted = fw_pace_wanted(r) / tighter_for_forces(r);
-    if (far_apart(r) || !(kappa > 0) || pace.rtol <= fw_pace_tightest(r)) return pace;
+fw_pace fw_pace_answer(const fw_dynamics_run *r, fw_pace pace, long steps) {
+    const double kappa = trust_of(&r->control, pace.looser)->kappa;
+    double bodies = r->problem.model->nbody,
+           wanted = fw_pace_wanted(&r->record) / tighter_for_forces(&r->problem);
+    if (far_apart(&r->problem) || !(kappa > 0) || pace.rtol <= fw_pace_tightest(&r->problem))
+        return pace;
     double law = kappa * pow((double)steps, 0.9) * pow(bodies, 1.5);
     double ratio = fmin(fw_ratio_far, pace.looser * law / wanted);
-    double least = r->options->reactions ? fw_ratio : fw_ratio_least;
-    pace.rtol = fmax(fw_pace_tightest(r), pace.looser / fmax(least, ratio));
-    set_margins(r, &pace);
+    double least = r->problem.options->reactions ? fw_ratio : fw_ratio_least;
+    pace.rtol = fmax(fw_pace_tightest(&r->problem), pace.looser / fmax(least, ratio));
+    set_margins(&r->control, &pace);
     return pace;
 }
 
-fw_pace fw_pace_next(const fw_run *r, fw_pace pace, double off, int tries, bool *reuse) {
+fw_pace fw_pace_next(const fw_dynamics_controller *control, fw_pace pace, double off, int tries,
+                     bool *reuse) {
     /* what does not go with the tolerance is not waited for: 10, 30, 100, ... */
     double lower = fmax(2 * off, tries > 1 ? pow(10, 0.5 * tries) : fw_ratio_least);
     if (!(lower < 1e3)) lower = 1e3;
-    if (far_apart(r)) {
-        *reuse = lower <= fw_ratio_far && r->nstride == 0;
-        return pace_below(r, pace.looser / fmax(lower, *reuse ? fw_ratio_far : lower));
+    if (far_apart(control->problem)) {
+        *reuse = lower <= fw_ratio_far && control->problem->nstride == 0;
+        return pace_below(control, pace.looser / fmax(lower, *reuse ? fw_ratio_far : lower));
     }
-    *reuse = r->nstride == 0;
-    if (!*reuse) return pace_below(r, pace.looser / lower);
-    if (r->options->reactions) lower = fmax(lower, fw_ratio);
-    fw_pace next = pace_at(r, pace.rtol, pace.rtol / lower);
+    *reuse = control->problem->nstride == 0;
+    if (!*reuse) return pace_below(control, pace.looser / lower);
+    if (control->problem->options->reactions) lower = fmax(lower, fw_ratio);
+    fw_pace next = pace_at(control, pace.rtol, pace.rtol / lower);
     /* this once errors did not go with the tolerance */
-    if (next.part > 0) next.part = fmax(next.part, trust_of(r, next.looser)->part);
+    if (next.part > 0) next.part = fmax(next.part, trust_of(control, next.looser)->part);
     *reuse = next.looser == pace.rtol;
     return next;
 }

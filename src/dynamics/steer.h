@@ -11,37 +11,39 @@ typedef struct fw_pace { /* of two runs */
 } fw_pace;
 
 /* relative error of the numbers that is wanted: what the effects left out do not take */
-double fw_pace_wanted(const fw_run *r);
+double fw_pace_wanted(const fw_dynamics_recorder *record);
 /* is there a table for this integrator, and is the tolerance ours to choose? */
-bool fw_pace_known(const fw_run *r, const fw_stepper_row *row);
+bool fw_pace_known(const fw_dynamics_problem *problem, const fw_stepper_row *row);
 /* the tolerances to begin with for a relative error of `wanted` */
-fw_pace fw_pace_start(const fw_run *r, const fw_stepper_row *row, double wanted);
+fw_pace fw_pace_start(const fw_dynamics_controller *control, const fw_stepper_row *row,
+                      double wanted);
 /* the tolerance of the answer after a looser run that took so many steps */
-fw_pace fw_pace_answer(const fw_run *r, fw_pace pace, long steps);
+fw_pace fw_pace_answer(const fw_dynamics_run *r, fw_pace pace, long steps);
 /* the next ones where the estimate came out `off` (> 1) times too large in try number `tries` (from
    1); *reuse: the answer so far may be what is compared with */
-fw_pace fw_pace_next(const fw_run *r, fw_pace pace, double off, int tries, bool *reuse);
+fw_pace fw_pace_next(const fw_dynamics_controller *control, fw_pace pace, double off, int tries,
+                     bool *reuse);
 /* rad that two runs differ by, from what they do in a peak, in the largest angles up to marks, and
    in angles there */
 double fw_pace_apart(double peak, double sizes, double angles);
 /* error of a peak over the relative error of the energies */
 double fw_pace_books(long steps, long looser_steps);
 /* the tightest tolerance that round-off leaves room for */
-double fw_pace_tightest(const fw_run *r);
+double fw_pace_tightest(const fw_dynamics_problem *problem);
 
-/* contest.c */
+/* choose.c: the integrator by trial */
 typedef struct fw_contest {
     const fw_stepper_row *row; /* NULL: none */
     long steps;                /* that it may take */
 } fw_contest;
 /* before (0) or after a looser run of so many steps */
-fw_contest fw_contest_of(const fw_run *r, long steps);
-/* r->integrator won against one that took `before` steps, 0: was not tried */
-fw_status fw_contest_won(fw_run *r, long before, long steps);
+fw_contest fw_contest_of(const fw_dynamics_controller *control, long steps);
+/* the integrator at hand won against one that took `before` steps, 0: was not tried */
+fw_status fw_contest_won(fw_dynamics_run *r, long before, long steps);
 
 /* say.c: estimate over what is wanted, the largest of all that counts */
-double fw_run_off(const fw_run *r);
+double fw_run_off(const fw_dynamics_recorder *record);
 /* warns of what was not reached and of energies that do not add up; motion->tolerance */
-fw_status fw_run_say(fw_run *r, bool enough);
+fw_status fw_run_say(fw_dynamics_run *r, bool enough);
 
 #endif
