@@ -29,9 +29,11 @@ fw_status fw_run_jammed(const fw_dynamics_run *r, double t) {
         return FW_OK;
     return solver_error(fw_diag_error(
         r->diags, 244, place,
-        "friction of joint %s in scene %s has no single value at %s s: what presses there grows "
-        "with the friction itself, so that the joint jams or may either hold or slide; lower the "
-        "coefficient or the radius, move the load nearer to the joint, or let a <contact> press",
+        "friction of joint %s in scene %s has no unique value at %s s: the normal force in the "
+        "joint rises with the friction force itself, so that the joint jams, or could stick as "
+        "well as slide, and rigid bodies have no unique motion; lower the coefficient or the "
+        "radius, move the load nearer to the joint, or give the joint a <contact>, whose "
+        "stiffness determines the normal force",
         id, fw_dynamics_scene_name(&r->problem),
         fw_number_text(time, sizeof time, t * r->problem.model->scale.time_s, 6)));
 }
@@ -53,8 +55,8 @@ static fw_status stopped(const fw_dynamics_run *r, const fw_stepper *s, fw_ode_r
     if (why == FW_ODE_NAN)
         return solver_error(fw_diag_error(
             r->diags, 102, r->problem.scene->place,
-            "the motion of scene %s is no longer a number after %s s, at body %s; check "
-            "loads, masses and stiffnesses",
+            "the motion of scene %s overflows after %s s, at body %s: its accelerations are no "
+            "finite numbers; check loads, masses and stiffnesses",
             fw_dynamics_scene_name(&r->problem), time, id));
     /* a position that could not be closed within a billionth of the scene from here is the cause */
     double final = fw_dynamics_end(&r->problem);
@@ -65,8 +67,8 @@ static fw_status stopped(const fw_dynamics_run *r, const fw_stepper *s, fw_ode_r
             "the joints of scene %s contradict each other from %s s on: joint %s "
             "cannot be kept; %s",
             fw_dynamics_scene_name(&r->problem), time, fw_block_name(r->problem.mechanism, b),
-            m->driven ? "a driver asks for what the other joints do not allow"
-                      : "the mechanism is at the end of its reach"));
+            m->driven ? "a driver prescribes a value that the other joints do not allow"
+                      : "the mechanism cannot reach any farther"));
     }
     return solver_error(fw_diag_error(
         r->diags, 101, r->problem.scene->place,
@@ -84,9 +86,8 @@ static fw_status too_long(const fw_dynamics_run *r, const fw_stepper *s) {
     double limit = (double)(steps ? most_steps(&r->problem) : fw_most_events);
     fw_status status = fw_diag_error(
         r->diags, 108, r->problem.scene->place,
-        "scene %s needs more than %s %s (steps are %s s, and %s s are "
-        "reached): shorten it, or "
-        "look for a stiffness or damping that is extreme against the masses",
+        "scene %s needs more than %s %s (steps are %s s, and %s s are reached): shorten it, or "
+        "check for a stiffness or damping that is extreme in relation to the masses",
         fw_dynamics_scene_name(&r->problem), fw_number_text(count, sizeof count, limit, 9),
         steps ? "steps" : "events", fw_number_text(step, sizeof step, s->h * unit, 2),
         fw_number_text(at, sizeof at, s->t * unit, 3));
@@ -147,8 +148,8 @@ static fw_status next_piece(fw_dynamics_run *r, fw_stepper *s, int piece) {
             char at[32];
             return solver_error(fw_diag_error(
                 r->diags, 101, r->problem.scene->place,
-                "a driver or the temperature of scene %s jumps at %s s: a position cannot; give it "
-                "a ramp",
+                "a driver or the temperature of scene %s jumps at %s s, but positions must "
+                "change continuously; use law=\"ramp\" with a rise, or another law without jumps",
                 fw_dynamics_scene_name(&r->problem),
                 fw_number_text(at, sizeof at, t * m->scale.time_s, 6)));
         }

@@ -81,9 +81,9 @@ static void warn_energy(const fw_dynamics_run *r) {
     char a[32], b[32];
     if (!(off > energy_allowed(&r->record))) return;
     fw_diag_warning(r->diags, 241, r->problem.scene->place,
-                    "scene %s: the energies do not add up, by %s of the largest, far more than "
-                    "the tolerance %s explains; do not trust this motion, try another --method or "
-                    "--integrator",
+                    "scene %s: the energy balance error is %s of the largest energy, far more "
+                    "than the tolerance %s explains; this motion is not reliable: use another "
+                    "--method or --integrator",
                     r->problem.scene->name ? r->problem.scene->name : "(unnamed)",
                     fw_number_text(a, sizeof a, off, 2),
                     fw_number_text(b, sizeof b, r->record.motion->stats.rtol, 2));
@@ -108,7 +108,7 @@ static fw_status say_tolerance(fw_dynamics_recorder *record, bool enough) {
         fw_text_printf(&text,
                        ": by a run at %s that it was compared with, peaks are off by at most %s %%",
                        looser, error);
-    if (s->runs > 2) fw_text_printf(&text, "; %d runs were made", s->runs);
+    if (s->runs > 2) fw_text_printf(&text, "; %d runs were computed", s->runs);
     if (!asked && !enough) fw_text_add(&text, "; judge by the stated errors");
     FW_TRY(fw_text_end(&text));
     record->motion->tolerance = text.data;

@@ -166,7 +166,7 @@ fw_status fw_report_statics_svg(fw_arena *arena, const fw_device *device, const 
     fw_svg_end(out);
     fw_svg_put(out, "text x='14' y='{c}' font-size='11' fill='#57606a'>{r}\n", height - 10.0,
                moves ? "From rest (dashed) along the load path to the full load."
-                     : "Dashed: at rest. Arrows: the loads at the end of the scene.");
+                     : "Dashed: unloaded. Arrows: the loads at the end of the scene.");
     fw_svg_end(out);
     return fw_text_end(out);
 }

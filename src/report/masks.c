@@ -82,8 +82,8 @@ static fw_status one(fw_text *out, const fw_report_flow *f) {
     thumbnail(out, mask);
     fw_text_add(out, "<div>");
     if (mask->rejected)
-        fw_text_add(out, "<p><strong class=\"no\">REJECTED: made on request; every file says so."
-                         "</strong></p>\n");
+        fw_text_add(out, "<p><strong class=\"no\">REJECTED: written on request; every file "
+                         "carries this mark.</strong></p>\n");
     fw_markup(out,
               "<table><tbody><tr><th scope=\"row\">Cell</th><td>{s}</td></tr>"
               "<tr><th scope=\"row\">Size</th><td>{u} \u00d7 {u}</td></tr>"

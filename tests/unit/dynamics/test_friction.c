@@ -451,7 +451,7 @@ static void test_jams_on_the_way(void **state) {
     const fw_motion *m = NULL;
     assert_int_equal(fw_simulate(arena, &r.m, &r.scene, &o, &diags, &m), FW_SOLVER);
     assert_int_equal(diags.item[0].number, 244);
-    const char *at = strstr(diags.item[0].message, "single value at ");
+    const char *at = strstr(diags.item[0].message, "unique value at ");
     assert_non_null(at);
     double when = atof(at + 16);
     r.scene.duration_s = when * (1 - 1e-5);
