@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The JSON of this room: flexwright.recipe/1, flexwright.schedule/1, flexwright.sections/1. */
 #include "base/json.h"
-#include "recipe/sections.h"
+#include "recipe/profile.h"
 #include "recipe/words.h"
 #include <math.h>
 

@@ -57,7 +57,7 @@ double fw_foot_more(const fw_flow *flow, const fw_cut *cut, double w_m);
 fw_status fw_cross_section_of(fw_slicer *slicer, const fw_flow *flow, int index,
                               fw_cross_section *profile);
 
-/* ---- how it is painted: paint.c ---- */
+/* ---- how it is painted: section.c ---- */
 const char *fw_paint_fill(const char *material, bool exposed);
 /* "silicon (100)" of "silicon (100), single crystal"; at most 26 bytes, ends of UTF-8 kept */
 const char *fw_paint_name(const fw_flow *flow, const char *material, char shown[32]);
@@ -82,5 +82,62 @@ fw_status fw_section_exact(fw_slicer *slicer, const fw_flow *flow, const fw_sect
 /* the block behind the cut after a step, seen from above; drawn into a group at (0, 0), size out */
 fw_status fw_block_draw(fw_slicer *slicer, const fw_flow *flow, const fw_section_scale *scale,
                         int index, double width, fw_text *out, double *height);
+
+/* ---- what lies along a cut: sections.c ---- */
+
+typedef struct fw_section_part { /* a piece as drawn, within the window */
+    double from_m, to_m;
+    const char *label;
+} fw_section_part;
+
+typedef struct fw_section_opening { /* between two parts of the structure */
+    double from_m, to_m;            /* along the cut, as drawn */
+    /* width across, fw_slicer_opening. NaN: a part is gone there, or the flow makes no such film */
+    double drawn_m, mask_m, top_m, bottom_m;
+    double depth_m; /* of the cut through the device layer; NaN: there is none */
+} fw_section_opening;
+
+typedef struct fw_section_plan {
+    fw_section_part *part;       /* (npart) */
+    fw_section_opening *opening; /* (nopening) */
+    int npart, nopening;
+} fw_section_plan;
+fw_status fw_section_plan_of(fw_slicer *slicer, const fw_flow *flow, fw_section_plan *plan);
+
+/* title, device, cut and REJECTED; 40 high */
+void fw_section_head(const fw_flow *flow, const fw_recipe_header *header, const char *what,
+                     fw_text *out);
+/* a page 860 wide around a body 800 wide */
+fw_status fw_section_page(const fw_text *body, double height, const char *title, fw_text *out);
+
+/* ---- the outlines behind a cut as polygons in its own frame, clipped to the block that is shown,
+   and the walls that stand on them: block.c ---- */
+
+typedef struct fw_spot { /* of an outline in the frame of the cut: x along it, y behind it; m */
+    double x, y;
+    bool open; /* the edge that ends here is no wall: the block's own side, or a joint of pieces */
+} fw_spot;
+
+typedef struct fw_ring {
+    fw_spot *corner; /* (n) */
+    int n;
+} fw_ring;
+
+typedef struct fw_rings {
+    fw_ring *ring; /* (n) pieces, and holes in them: inside where the number of rings is odd */
+    int n;
+} fw_rings;
+
+/* the structure with its edges so far outside the drawn ones, arcs within tolerance_m */
+fw_status fw_block_rings(fw_slicer *slicer, double edge_m, double tolerance_m, fw_rings *rings);
+
+typedef struct fw_wall { /* from a to b, material on its left; m */
+    fw_spot a, b;
+    int film;
+} fw_wall;
+
+/* Sorts walls of one height so that none is drawn before one that it hides. toward: unit vector in
+   the plane to the eye. */
+fw_status fw_walls_sort(fw_arena *arena, fw_wall *wall, int n, double toward_x, double toward_y);
 
 #endif

@@ -5,23 +5,23 @@
 #define FW_REPORT_FIGURE_H
 #include "report/page.h"
 
-typedef enum fw_figure_role {                  /* in the order in which they are drawn */
-                              FW_FIGURE_RAIL,  /* line on which a slider runs */
-                              FW_FIGURE_BODY,  /* outline or line through the joints and the centre
-                                                  of mass */
-                              FW_FIGURE_PLATE, /* a body with all joints in its centre of mass */
-                              FW_FIGURE_ROD,
-                              FW_FIGURE_DRIVEN_ROD,
-                              FW_FIGURE_SPRING, /* zigzag */
-                              FW_FIGURE_CABLE,  /* dashed */
-                              FW_FIGURE_BLOCK,  /* slider */
-                              FW_FIGURE_FOOT,   /* where something is held by the ground */
-                              FW_FIGURE_WELD,
-                              FW_FIGURE_STOP, /* the angles that body b has free */
-                              FW_FIGURE_TURN, /* driver of an angle */
-                              FW_FIGURE_PUSH, /* driver of a travel */
-                              FW_FIGURE_END,  /* of a rod or a spring */
-                              FW_FIGURE_PIN,
+/* in the order in which they are drawn */
+typedef enum fw_figure_role {
+    FW_FIGURE_RAIL,  /* line on which a slider runs */
+    FW_FIGURE_BODY,  /* outline or line through the joints and the centre of mass */
+    FW_FIGURE_PLATE, /* a body with all joints in its centre of mass */
+    FW_FIGURE_ROD,
+    FW_FIGURE_DRIVEN_ROD,
+    FW_FIGURE_SPRING, /* zigzag */
+    FW_FIGURE_CABLE,  /* dashed */
+    FW_FIGURE_BLOCK,  /* slider */
+    FW_FIGURE_FOOT,   /* where something is held by the ground */
+    FW_FIGURE_WELD,
+    FW_FIGURE_STOP, /* the angles that body b has free */
+    FW_FIGURE_TURN, /* driver of an angle */
+    FW_FIGURE_PUSH, /* driver of a travel */
+    FW_FIGURE_END,  /* of a rod or a spring */
+    FW_FIGURE_PIN
 } fw_figure_role;
 
 typedef struct fw_figure_point { /* local to the body; ground: world */

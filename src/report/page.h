@@ -8,7 +8,7 @@
 extern const char fw_report_style[];  /* style sheet of the page */
 extern const char fw_report_script[]; /* its player */
 
-/* ---- colour.c: Okabe-Ito, told apart by colour-blind readers ---- */
+/* ---- drawing.c: colours; Okabe and Ito's, which colour-blind readers tell apart ---- */
 typedef struct fw_report_class {
     double below; /* utilisation */
     const char *colour, *label;
@@ -23,7 +23,7 @@ const char *fw_report_decision_word(fw_decision decision); /* "ACCEPT" ... */
 /* `colour` when it reads #rgb or #rrggbb, else entry `index` of the palette */
 const char *fw_report_layer_colour(const char *colour, int index);
 
-/* ---- shape.c: picture coordinates, y down ---- */
+/* ---- drawing.c: from the plane to picture coordinates, y down ---- */
 typedef struct fw_report_view {
     double x0_m, y1_m, scale; /* pixel per m */
     double width, height;
@@ -45,10 +45,10 @@ bool fw_report_outlined(const fw_layout *layout, int body); /* the body has a sh
 double fw_report_scale_bar(const fw_report_view *view);
 void fw_report_scale_bar_svg(fw_text *out, const fw_report_view *view);
 
-/* ---- pose.c: bodies and bending flexures at an instant ---- */
-typedef struct fw_report_bend_point { /* turns about the hinge point with `weight` of the upper body
-                                       */
-    double x_m, y_m, weight;
+/* ---- film.c: bodies and bending flexures at an instant ---- */
+typedef struct fw_report_bend_point {
+    double x_m, y_m;
+    double weight; /* share of the upper body's turn about the hinge point with which it goes */
 } fw_report_bend_point;
 typedef struct fw_report_bend {
     const fw_piece *piece;
@@ -64,7 +64,7 @@ typedef struct fw_report_bends {
 } fw_report_bends;
 fw_status fw_report_bends_make(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                                fw_report_bends *bends);
-/* pose of a body between the samples; ground rests at zero. q_part 3 numbers. */
+/* pose of a body between the samples; ground rests at zero. pose: x, y (m), angle (rad) */
 void fw_report_pose_at(const fw_motion *motion, int body, double t_s, double pose[3]);
 /* where the point (x, y) of the drawn position is when `body` has moved to its pose at t */
 fw_vec2 fw_report_moved(const fw_mechanism *mechanism, const fw_motion *motion, int body,
@@ -90,11 +90,11 @@ typedef struct fw_report_film {
     const fw_motion *motion; /* from its first to its last sample */
     const fw_report_view *view;
     fw_text *out;
-    int frames, seconds; /* key frames (more, where bodies turn far), time to play; 0 frames: a
-                            still picture */
-    double still_s;      /* instant that viewers without animation show */
-    bool ghost;          /* the first sample too, dashed */
-    bool small;          /* for small pictures */
+    int frames;     /* key frames, more where bodies turn far; 0: a still picture */
+    int seconds;    /* time to play */
+    double still_s; /* instant that viewers without animation show */
+    bool ghost;     /* the first sample too, dashed */
+    bool small;     /* for small pictures */
 } fw_report_film;
 /* everything that belongs into the <svg> except caption and scale bar */
 fw_status fw_report_film_draw(fw_arena *arena, const fw_report_film *film);
@@ -108,11 +108,10 @@ fw_status fw_report_poses_reach(fw_arena *arena, fw_box *box, const fw_layout *l
 fw_report_view fw_report_poses_view(const fw_device *device, const fw_layout *layout,
                                     const fw_box *reach, double width);
 
-/* ---- decimate.c ---- */
+/* ---- plot.c: hinge angles against time ---- */
 /* at most `most` indices that keep the first, the last and every extreme; returns how many */
 int fw_report_decimate(const double *y, int stride, int count, int most, int *index);
 
-/* ---- plot.c ---- */
 /* one panel per pin; at most FW_REPORT_PANELS of them, the most used ones */
 enum { FW_REPORT_PANELS = 12, FW_REPORT_CURVE = 400 };
 typedef struct fw_report_figure {
@@ -123,7 +122,7 @@ typedef struct fw_report_figure {
 fw_status fw_report_panels(fw_arena *arena, const fw_mechanism *mechanism, const fw_motion *motion,
                            const fw_report_figure *figure, fw_text *out);
 
-/* ---- drawing.c ---- */
+/* ---- drawing.c: the device ---- */
 /* everything inside the <svg> of the device drawing; `ids` adds ids that figures may <use> */
 fw_status fw_report_drawing(const fw_device *device, const fw_layout *layout,
                             const fw_verdict *verdict, const fw_report_view *view, bool ids,
@@ -176,9 +175,9 @@ fw_status fw_report_section_effects(fw_page *page);
 fw_status fw_report_section_accuracy(fw_page *page);
 fw_status fw_report_section_assumptions(fw_page *page);
 fw_status fw_report_section_messages(fw_page *page);
-/* ladder.c: table of the hinges by every model, and their picture; nothing without hinges */
+/* hinges.c: table of the hinges by every model, and their picture; nothing without hinges */
 fw_status fw_report_ladder(fw_page *page);
-/* hinge_svg.c: the picture as an element */
+/* hinges.c: the same picture as an element of the page */
 fw_status fw_report_hinges_picture(const fw_device *device, const fw_report_hinge *hinge, int count,
                                    fw_text *out);
 /* table of hinge verdicts; `with_flow` adds the column */

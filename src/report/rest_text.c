@@ -2,7 +2,7 @@
 #include "report/rest.h"
 #include "base/constants.h"
 #include "report/hinge_model.h"
-#include "report/magnitude.h"
+#include "report/terminal.h"
 #include "statics/pull_in.h"
 #include <math.h>
 

@@ -17,4 +17,18 @@ void fw_report_made_text(fw_text *out, const fw_verdict *verdict);
 /* peaks, statistics, effects of one scene; holds a measured CPU time */
 fw_status fw_report_simulate_text(const fw_scene *scene, const fw_mechanism *mechanism,
                                   const fw_motion *motion, fw_text *out);
+
+/* ---- the unit in which a column of numbers reads best ---- */
+
+typedef enum fw_report_measure { FW_MEASURE_LENGTH, FW_MEASURE_FORCE, FW_MEASURE_TIME } fw_report_measure;
+
+typedef struct fw_magnitude {
+    const char *unit;
+    double per_si; /* times the SI value */
+} fw_magnitude;
+
+/* the largest of um, mm, m, km (uN, mN, N, kN, MN; us, ms, s) in which `largest_si` is at least 1
+ */
+fw_magnitude fw_magnitude_of(fw_report_measure measure, double largest_si);
+
 #endif

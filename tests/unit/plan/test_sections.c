@@ -2,7 +2,7 @@
 /* The cut of whole devices: what the section measures is what mask and certificate say. */
 #include "mask/outlines.h"
 #include "plan/plan.h"
-#include "recipe/sections.h"
+#include "recipe/profile.h"
 #include "test.h"
 
 static fw_plan *loaded(const char *name, const char *flow, const char *cut) {

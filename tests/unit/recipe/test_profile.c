@@ -2,8 +2,7 @@
 /* Sections along a cut of hand-made masks: lengths, volumes and depths by hand. */
 #include "../mask/scene.h"
 #include "../process/packs.h"
-#include "recipe/block.h"
-#include "recipe/sections.h"
+#include "recipe/profile.h"
 
 static const char *const packs[] = {COPPER, SILICON, "soi-deep-rie"};
 
