@@ -48,12 +48,20 @@ install_packages() {
             --no-install-recommends $missing >/dev/null
 }
 
-# configure_and_build DIRECTORY [cmake options]
+# configure_and_build DIRECTORY [cmake options] [--target NAME]
 configure_and_build() {
     directory=$1
     shift
     log=$directory.log
-    if ! { cmake -S . -B "$directory" -G Ninja "$@" && cmake --build "$directory"; } >"$log" 2>&1; then
+    target=all
+    options=
+    while [ $# -gt 0 ]; do
+        case $1 in
+        --target) target=$2 && shift 2 ;;
+        *) options="$options '$1'" && shift ;;
+        esac
+    done
+    if ! { eval "cmake -S . -B \"\$directory\" -G Ninja $options" && cmake --build "$directory" --target "$target"; } >"$log" 2>&1; then
         tail -40 "$log" >&2
         say "the build failed; the whole log is $log"
         return 1
