@@ -68,7 +68,7 @@ static fw_status one_hinge(const writer *w, int h) {
     return FW_OK;
 }
 
-/* what cannot be written is said and is no failure: the hinges are there */
+/* what cannot be written is a warning and no failure: the hinges are there */
 static fw_status whole_mechanism(const writer *w, const fw_scene *scene) {
     fw_plan *plan = w->plan;
     fw_diags own = fw_diags_new(plan->arena);
@@ -79,8 +79,8 @@ static fw_status whole_mechanism(const writer *w, const fw_scene *scene) {
         status = fw_solid_deck(plan->arena, &device,
                                &(fw_solid_options){.refinement = w->refinement}, &own, &deck);
     if (status == FW_GEOMETRY && own.count > 0) {
-        fw_diag_note(&plan->diags, 213, own.item[0].place, "scene %s: %s", scene->name,
-                     own.item[0].message);
+        fw_diag_warning(&plan->diags, 213, own.item[0].place, "scene %s: %s", scene->name,
+                        own.item[0].message);
         return FW_OK;
     }
     FW_TRY(status);

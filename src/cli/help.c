@@ -1,7 +1,73 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/option_rows.h"
 #include "dynamics/dynamics.h"
+#include "mask/mask.h"
+#include "plan/ladder.h"
 #include <stdio.h>
+#include <string.h>
+
+/* ---- names that a table knows ---- */
+
+typedef struct names {
+    char text[600];
+    size_t n;
+} names;
+
+static void add_words(names *list, const char *between, const char *name, const char *words) {
+    if (list->n >= sizeof list->text) return;
+    list->n += (size_t)snprintf(list->text + list->n, sizeof list->text - list->n, "%s%s%s%s%s",
+                                list->n ? between : "", name, words ? " (" : "", words ? words : "",
+                                words ? ")" : "");
+}
+
+const char *fw_cli_mask_format_names(void) {
+    static names all;
+    const fw_mask_format *f;
+    all = (names){.n = 0};
+    for (size_t i = 0; (f = fw_mask_format_at(i)) != NULL; i++)
+        if (!f->beside) add_words(&all, ", ", f->name, NULL);
+    add_words(&all, " ", "with commas between, or all; default", NULL);
+    for (size_t i = 0, n = 0; (f = fw_mask_format_at(i)) != NULL; i++)
+        if (f->usual && !f->beside) add_words(&all, n++ ? "," : " ", f->name, NULL);
+    return all.text;
+}
+
+const char *fw_cli_hinge_model_names(void) {
+    static names all;
+    all = (names){.n = 0};
+    const size_t count = fw_hinge_model_count();
+    for (size_t i = 0; i < count; i++)
+        add_words(&all, i + 1 < count ? ", " : " or ", fw_hinge_model_text((fw_hinge_model)i),
+                  fw_hinge_model_summary((fw_hinge_model)i));
+    return all.text;
+}
+
+const char *fw_cli_level_names(void) {
+    static names all;
+    size_t count;
+    const fw_ladder_level *level = fw_ladder_levels(&count);
+    all = (names){.n = 0};
+    for (size_t i = 0; i < count; i++)
+        add_words(&all, i + 1 < count ? ", " : " or ", level[i].name, NULL);
+    return all.text;
+}
+
+const char *fw_cli_option_help(const fw_option_row *row) {
+    static const struct {
+        const char *option, *(*names)(void);
+    } named[] = {{"mask-format", fw_cli_mask_format_names},
+                 {"hinge-model", fw_cli_hinge_model_names},
+                 {"level", fw_cli_level_names}};
+    static char text[1400];
+    const char *mark = strstr(row->help, "{names}");
+    size_t i = 0;
+    if (!mark) return row->help;
+    while (strcmp(named[i].option, row->name) != 0)
+        i++;
+    snprintf(text, sizeof text, "%.*s%s%s", (int)(mark - row->help), row->help, named[i].names(),
+             mark + strlen("{names}"));
+    return text;
+}
 
 static void print_options(unsigned groups, FILE *to) {
     size_t count;
@@ -13,7 +79,7 @@ static void print_options(unsigned groups, FILE *to) {
                  table[i].letter ? table[i].letter : ' ', table[i].letter ? ", " : "  ",
                  table[i].name, table[i].argument ? " " : "",
                  table[i].argument ? table[i].argument : "");
-        fprintf(to, "  %-26s %s\n", left, table[i].help);
+        fprintf(to, "  %-26s %s\n", left, fw_cli_option_help(&table[i]));
     }
 }
 
@@ -73,10 +139,10 @@ void fw_cli_reference(fw_text *out) {
         fw_text_add(out, "| option | meaning |\n|---|---|\n");
         for (size_t k = 0; k < count; k++)
             if (table[k].group & command[i].options)
-                fw_text_printf(out, "| `%s%.*s%s--%s%s%s` | %s |\n", table[k].letter ? "-" : "",
-                               table[k].letter ? 1 : 0, &table[k].letter,
-                               table[k].letter ? "`, `" : "", table[k].name,
-                               table[k].argument ? " " : "",
-                               table[k].argument ? table[k].argument : "", table[k].help);
+                fw_text_printf(
+                    out, "| `%s%.*s%s--%s%s%s` | %s |\n", table[k].letter ? "-" : "",
+                    table[k].letter ? 1 : 0, &table[k].letter, table[k].letter ? "`, `" : "",
+                    table[k].name, table[k].argument ? " " : "",
+                    table[k].argument ? table[k].argument : "", fw_cli_option_help(&table[k]));
     }
 }

@@ -2,6 +2,7 @@
 #include "cli/option_rows.h"
 #include "dynamics/dynamics.h"
 #include "mask/mask.h"
+#include "plan/ladder.h"
 #include "schedule/schedule.h"
 #include <math.h>
 #include <stdio.h>
@@ -129,12 +130,17 @@ static const char *take_tolerance(fw_cli_options *o, const char *v) {
     return NULL;
 }
 
+/* what a value is wrong for: "needs {names}" */
+static const char *needs(const char *(*of)(void)) {
+    static char text[640];
+    snprintf(text, sizeof text, "needs %s", of());
+    return text;
+}
+
 static const char *take_mask_format(fw_cli_options *o, const char *v) {
     unsigned set;
     o->design.mask_formats = v;
-    return fw_mask_formats(v, &set)
-               ? NULL
-               : "needs gds, svg, outlines, oasis, dxf, stl with commas between, or all";
+    return fw_mask_formats(v, &set) ? NULL : needs(fw_cli_mask_format_names);
 }
 
 static const char *take_mask_flatten(fw_cli_options *o, const char *v) {
@@ -239,11 +245,10 @@ static const char *take_stabilise(fw_cli_options *o, const char *v) {
 }
 
 static const char *take_hinge_model(fw_cli_options *o, const char *v) {
-    static const char *const known[] = {"auto", "revolute", "compliance", "elastica"};
     o->design.hinge_model = v;
-    for (int i = 0; i < 4; i++)
-        if (strcmp(v, known[i]) == 0) return NULL;
-    return "needs auto, revolute, compliance or elastica";
+    for (size_t i = 0; i < fw_hinge_model_count(); i++)
+        if (strcmp(v, fw_hinge_model_text((fw_hinge_model)i)) == 0) return NULL;
+    return needs(fw_cli_hinge_model_names);
 }
 
 static const char *take_rtol(fw_cli_options *o, const char *v) {
@@ -299,14 +304,15 @@ static const char *take_svg(fw_cli_options *o, const char *v) {
 }
 
 static const char *take_level(fw_cli_options *o, const char *v) {
-    static const char *const word[] = {"closed-form", "compliance", "elastica",
-                                       "continuum",   "auto",       "all"};
-    for (int i = 0; i < 6; i++)
-        if (strcmp(v, word[i]) == 0) {
-            o->level = word[i];
-            return NULL;
-        }
-    return "needs closed-form, compliance, elastica, continuum, auto or all";
+    static char wrong[200];
+    size_t count;
+    const fw_ladder_level *level = fw_ladder_levels(&count);
+    o->level = v;
+    if (strcmp(v, "auto") == 0 || strcmp(v, "all") == 0) return NULL;
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(level[i].name, v) == 0) return NULL;
+    snprintf(wrong, sizeof wrong, "needs %s, or auto or all", fw_cli_level_names());
+    return wrong;
 }
 
 static const char *take_deck(fw_cli_options *o, const char *v) {
@@ -402,10 +408,8 @@ static const fw_option_row table[] = {
      "for, each one computed; none: the verdict only, in a fraction of the time",
      FW_OPT_VERDICT, take_advice},
     {"flow", 0, "NAME", "only this process flow", FW_OPT_PLAN, take_flow},
-    {"hinge-model", 0, "MODEL",
-     "how flexures enter the mechanism: auto (the cheapest whose error is below the accuracy), "
-     "revolute (pins), compliance (closed form that gives and drifts) or elastica (exact beams)",
-     FW_OPT_PLAN, take_hinge_model},
+    {"hinge-model", 0, "MODEL", "how flexures enter the mechanism: {names}", FW_OPT_PLAN,
+     take_hinge_model},
     {"force", 0, NULL, "masks and recipes of a rejected design too, each marked REJECTED",
      FW_OPT_FABRICATE, take_force},
     {"mask-tolerance", 0, "NM", "largest distance between an arc and its polygon, in nm; default 5",
@@ -414,10 +418,8 @@ static const fw_option_row table[] = {
      "arcs as polygons: inside (default; vertices on the arc) or equal-area (chords that enclose "
      "the area of the arc)",
      FW_OPT_FABRICATE, take_mask_flatten},
-    {"mask-format", 0, "LIST",
-     "gds, svg, outlines, oasis, dxf, stl with commas between, or all; default "
-     "gds,svg,outlines (GDSII is always written)",
-     FW_OPT_FABRICATE, take_mask_format},
+    {"mask-format", 0, "LIST", "{names} (GDSII is always written)", FW_OPT_FABRICATE,
+     take_mask_format},
     {"mask-vertices", 0, "N",
      "most vertices of one GDSII boundary: 199, 4094 or 8190; default 4094; larger outlines are "
      "cut "
@@ -493,7 +495,7 @@ static const fw_option_row table[] = {
      "drift of the axis and gap of the surfaces against the angle; - is standard output",
      FW_OPT_HINGE, take_svg},
     {"level", 0, "LEVEL",
-     "closed-form, compliance, elastica or continuum: only this one; all; auto (default where "
+     "{names}: only this one; all; auto (default where "
      "--accuracy is given): continuum, which takes seconds, where the others do not reach the "
      "accuracy. Default: all but continuum",
      FW_OPT_HINGE, take_level},

@@ -58,7 +58,7 @@ static bool one_option(const fw_command *command, int argc, char **argv, int *i,
     if (!row || (!row->argument && value)) return unknown_option(command, argument);
     if (row->argument && !value) {
         if (*i + 1 >= argc) {
-            fw_cli_usage("--%s needs %s: %s", row->name, row->argument, row->help);
+            fw_cli_usage("--%s needs %s: %s", row->name, row->argument, fw_cli_option_help(row));
             return false;
         }
         value = argv[++*i];

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From the mechanism as the engine has it to solids. */
 #include "continuum/device_deck.h"
+#include "effects/effects.h"
 #include "mechanism/mechanism.h"
 #include <math.h>
 
@@ -10,7 +11,25 @@ static fw_status refused(fw_diags *diags, fw_place place, const char *why) {
     return FW_GEOMETRY;
 }
 
-static fw_status representable(const fw_mechanism *m, const fw_scene *s, fw_diags *diags) {
+/* whatever the scene calls for is either in the solids, or has no part in them, or is refused by
+ * name */
+static fw_status effects_fit(fw_arena *arena, const fw_mechanism *m, const fw_scene *s,
+                             fw_diags *diags) {
+    size_t count;
+    const fw_effect_row *const *row = fw_effect_rows(&count);
+    const fw_effect_case asked = {.arena = arena, .mechanism = m, .scene = s};
+    for (size_t i = 0; i < count; i++) {
+        if (row[i]->solid != FW_EFFECTS_SOLID_REFUSED || !row[i]->called_for(&asked)) continue;
+        const char *why = fw_arena_printf(arena, "the scene has %s (%s), which solids do not have",
+                                          row[i]->id, row[i]->summary);
+        FW_NEED(why);
+        return refused(diags, s->place, why);
+    }
+    return FW_OK;
+}
+
+static fw_status representable(fw_arena *arena, const fw_mechanism *m, const fw_scene *s,
+                               fw_diags *diags) {
     const fw_place none = {0};
     if (m->nhinge < 1) return refused(diags, none, "it has no flexure");
     if (m->nhinge != m->npin) return refused(diags, none, "some of its joints are no flexures");
@@ -23,11 +42,7 @@ static fw_status representable(const fw_mechanism *m, const fw_scene *s, fw_diag
         if (fw_flexure_input_varies(&m->hinge[h].input))
             return refused(diags, m->device->flexure[m->hinge[h].flexure].place,
                            "a flexure is a path, or its width varies");
-    if (!s) return FW_OK;
-    if (s->gravity || s->ntendon || s->ncomb || s->nbase || s->ncontact || s->ntemperature ||
-        s->nstress)
-        return refused(diags, s->place, "the scene has loads other than forces and torques");
-    return FW_OK;
+    return s ? effects_fit(arena, m, s, diags) : FW_OK;
 }
 
 static void hinge_of(const fw_mechanism *m, int h, fw_solid_hinge *to) {
@@ -52,7 +67,7 @@ static double factor_at_end(const fw_law *law, double duration_s) {
 fw_status fw_solid_device_of(fw_arena *arena, const fw_mechanism *m, const fw_scene *scene,
                              fw_diags *diags, fw_solid_device *device) {
     const fw_material *material = &m->variant->material;
-    FW_TRY(representable(m, scene, diags));
+    FW_TRY(representable(arena, m, scene, diags));
     *device = (fw_solid_device){
         .nhinge = m->nhinge,
         .nbody = m->nbody,

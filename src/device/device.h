@@ -263,6 +263,22 @@ typedef struct fw_air {
     fw_place place;
 } fw_air;
 
+/* An element of a scene that no struct stands for: the numbers of its row in the description's table, in its order.
+   For effects that need no more than a body, numbers and a law. */
+typedef struct fw_scene_part {
+    const char *element;     /* "magnetic-torque" */
+    int body;                /* that its attribute `on` names; FW_GROUND */
+    const char *const *name; /* (count) of its attributes */
+    double *number;          /* (count) SI; what is absent has its default, or NaN, as what is no number */
+    int count;
+    const fw_law *law; /* NULL: constant */
+    fw_place place;
+} fw_scene_part;
+/* by the attribute's name; NaN: there is none */
+double fw_scene_part_number(const fw_scene_part *part, const char *name);
+/* multiplies it */
+void fw_scene_part_scale(const fw_scene_part *part, const char *name, double by);
+
 typedef struct fw_scene {
     const char *name;
     const char *flow; /* only in this flow; NULL: in all */
@@ -282,9 +298,12 @@ typedef struct fw_scene {
     fw_residual_stress *stress;
     fw_air *air;
     int nforce, ntorque, ninitial;
-    int ntendon, ncomb, nbase, nfriction, ncontact, ndamping, ntemperature, nstress, nair;
+    fw_scene_part *part;
+    int ntendon, ncomb, nbase, nfriction, ncontact, ndamping, ntemperature, nstress, nair, npart;
     fw_place place;
 } fw_scene;
+/* the scene gets arrays of its own, which may be changed; FW_NOMEM */
+fw_status fw_device_own_scene(fw_arena *arena, fw_scene *scene);
 
 typedef struct fw_workspace_box { /* <workspace>: platform poses relative to the drawn one */
     const char *flow;             /* only in this flow; NULL: in all */

@@ -18,9 +18,17 @@ static size_t count_of(const fw_device *d, fw_space space) {
         return (size_t)d->nbody;
     case FW_SPACE_JOINT:
         return (size_t)d->njoint + (size_t)d->ntie;
-    default:
-        return 0;
+    case FW_SPACE_NONE:
+    case FW_SPACE_SPRING: /* nothing refers to these */
+    case FW_SPACE_DRIVER:
+    case FW_SPACE_SCENE:
+    case FW_SPACE_TENDON:
+    case FW_SPACE_COMB:
+    case FW_SPACE_CONTACT:
+    case FW_SPACE_COUNT:
+        break;
     }
+    return 0;
 }
 
 typedef struct named {

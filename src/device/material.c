@@ -43,8 +43,8 @@ static void check_value(fw_arena *arena, const fw_element *e, int k, const fw_qu
                       fw_dimension_text(arena, q->dimension));
         return;
     }
-    bool wrong = false;
-    const char *range = NULL;
+    bool wrong = !(q->value > 0.0);
+    const char *range = "above 0";
     switch (k) {
     case POISSON:
         wrong = !(q->value > -1.0 && q->value <= 0.5);
@@ -59,9 +59,6 @@ static void check_value(fw_arena *arena, const fw_element *e, int k, const fw_qu
         wrong = !(fabs(q->value) <= 0.01);
         range = "between -10000 and 10000 ppm/K (no solid changes by 1 % per kelvin)";
         break;
-    default:
-        wrong = !(q->value > 0.0);
-        range = "above 0";
     }
     if (!q->unknown && wrong)
         fw_diag_error(diags, 47, place_of(e, "value"), "%s must be %s", ids[k], range);

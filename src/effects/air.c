@@ -229,6 +229,16 @@ static int count(const fw_effect_case *c) {
     return all;
 }
 
+static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+    static const char *const kind[] = {[FW_AIR_SLIDE] = "sliding film",
+                                       [FW_AIR_SQUEEZE] = "squeezed film",
+                                       [FW_AIR_DRAG] = "drag"};
+    for (int i = 0; i < s->nair; i++)
+        fw_effects_say(to, "; air: {s} on {s}, {u}", kind[s->air[i].kind],
+                       s->air[i].body < 0 ? "all bodies" : device->body[s->air[i].body].id,
+                       s->air[i].pressure_Pa, "Pa");
+}
+
 const fw_effect_row fw_effect_air = {.id = "air",
                                      .summary = "films of air below and between bodies, and drag",
                                      .called_for = called_for,
@@ -237,4 +247,6 @@ const fw_effect_row fw_effect_air = {.id = "air",
                                      .add = add,
                                      .check = check,
                                      .cost = 1470,
-                                     .count = count};
+                                     .count = count,
+                                     .describe = describe,
+                                     .solid = FW_EFFECTS_SOLID_NO_PART};

@@ -61,6 +61,33 @@ static int count(const fw_effect_case *c) {
     return n;
 }
 
+static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+    for (int i = 0; i < s->nforce; i++) {
+        fw_effects_say(to, "; force on {s} ({u}, {u})", device->body[s->force[i].body].id,
+                       s->force[i].fx_N, "N", s->force[i].fy_N, "N");
+        fw_effects_say_law(to, s->force[i].law);
+    }
+    for (int i = 0; i < s->ntorque; i++) {
+        fw_effects_say(to, "; torque on {s} {u}", device->body[s->torque[i].body].id,
+                       s->torque[i].value_Nm, "N\u00b7m");
+        fw_effects_say_law(to, s->torque[i].law);
+    }
+}
+
+static void loads(const fw_scene *s, fw_effects_loads *list) {
+    if (s->nforce > 0) fw_effects_add_load(list, (fw_effects_load){.name = "forces", .ordinary = true});
+    if (s->ntorque > 0) fw_effects_add_load(list, (fw_effects_load){.name = "torques", .ordinary = true});
+}
+
+static void scale(fw_scene *s, double by) {
+    for (int i = 0; i < s->nforce; i++) {
+        s->force[i].fx_N *= by;
+        s->force[i].fy_N *= by;
+    }
+    for (int i = 0; i < s->ntorque; i++)
+        s->torque[i].value_Nm *= by;
+}
+
 const fw_effect_row fw_effect_applied_load = {
     .id = "applied-load",
     .summary = "forces and torques of the scene with their laws in time",
@@ -69,4 +96,8 @@ const fw_effect_row fw_effect_applied_load = {
     .add = add,
     .cost = 56,
     .count = count,
-    .kept = true};
+    .kept = true,
+    .describe = describe,
+    .loads = loads,
+    .scale = scale,
+    .solid = FW_EFFECTS_SOLID_HAS};

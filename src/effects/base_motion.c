@@ -101,6 +101,26 @@ static int count(const fw_effect_case *c) {
 }
 
 /* it stays where nothing else moves the mechanism: there is then nothing else to judge */
+static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+    (void)device;
+    for (int i = 0; i < s->nbase; i++) {
+        fw_effects_say(to, "; base shaken with ({n}, {n}) m/s\u00b2", s->base[i].ax_m_per_s2,
+                       s->base[i].ay_m_per_s2);
+        fw_effects_say_law(to, s->base[i].law);
+    }
+}
+
+static void loads(const fw_scene *s, fw_effects_loads *list) {
+    if (s->nbase > 0) fw_effects_add_load(list, (fw_effects_load){.name = "base motion"});
+}
+
+static void scale(fw_scene *s, double by) {
+    for (int i = 0; i < s->nbase; i++) {
+        s->base[i].ax_m_per_s2 *= by;
+        s->base[i].ay_m_per_s2 *= by;
+    }
+}
+
 const fw_effect_row fw_effect_base_motion = {.id = "base-motion",
                                              .summary = "acceleration of the base: -m a(t) on "
                                                         "every body, in the base's frame",
@@ -109,4 +129,7 @@ const fw_effect_row fw_effect_base_motion = {.id = "base-motion",
                                              .add = add,
                                              .cost = 449,
                                              .count = count,
-                                             .alone_stays = true};
+                                             .alone_stays = true,
+                                             .describe = describe,
+                                             .loads = loads,
+                                             .scale = scale};

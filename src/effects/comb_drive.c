@@ -354,6 +354,29 @@ static int count(const fw_effect_case *c) {
     return c->scene->ncomb;
 }
 
+static const char *id_of(const fw_device *device, int body) {
+    return body < 0 ? "ground" : device->body[body].id;
+}
+
+static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+    for (int i = 0; i < s->ncomb; i++) {
+        const fw_comb *c = &s->comb[i];
+        fw_effects_say(to, "; {s} {s} between {s} and {s} at {u}",
+                       c->kind == FW_ELECTRODES_COMB ? "comb" : "plates", c->id,
+                       id_of(device, c->body_b), id_of(device, c->body_a), c->voltage_V, "V");
+        fw_effects_say_law(to, c->law);
+    }
+}
+
+static void loads(const fw_scene *s, fw_effects_loads *list) {
+    if (s->ncomb > 0) fw_effects_add_load(list, (fw_effects_load){.name = "voltages", .squared = true});
+}
+
+static void scale(fw_scene *s, double by) {
+    for (int i = 0; i < s->ncomb; i++)
+        s->comb[i].voltage_V *= sqrt(by);
+}
+
 const fw_effect_row fw_effect_comb_drive = {
     .id = "comb-drive",
     .summary = "electrostatic forces between the electrodes of comb drives and plates",
@@ -362,4 +385,7 @@ const fw_effect_row fw_effect_comb_drive = {
     .add = add,
     .cost = 2810,
     .count = count,
-    .kept = true};
+    .kept = true,
+    .describe = describe,
+    .loads = loads,
+    .scale = scale};

@@ -333,6 +333,12 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
+static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+    (void)device;
+    for (int i = 0; i < s->ncontact; i++)
+        fw_effects_say(to, "; contact {s}", s->contact[i].id);
+}
+
 const fw_effect_row fw_effect_contact = {.id = "contact",
                                          .summary = "surfaces that press on each other where a gap "
                                                     "is closed",
@@ -341,4 +347,5 @@ const fw_effect_row fw_effect_contact = {.id = "contact",
                                          .add = add,
                                          .check = check,
                                          .cost = 1350,
-                                         .count = count};
+                                         .count = count,
+                                         .describe = describe};

@@ -52,10 +52,6 @@ bool fw_material_damped(const fw_effect_case *c, int pin);
 /* N/m: conforming cylinders, convex radius and gap, pressed by `force`: contact.c */
 double fw_line_contact(double youngs_Pa, double poisson, double depth_m, double radius_m,
                        double gap_m, double force_N);
-/* something in the scene or the mechanism answers out of proportion to a load: its response to a
-   part of the loads says nothing about the whole (loads that go with time, drivers, stops, cables)
- */
-bool fw_effect_not_proportional(const fw_effect_case *c);
 static inline bool fw_pin_has_stop(const fw_pin *p) {
     return p->stop_stiffness_Nm_per_rad > 0 && (!isnan(p->stop_min_rad) || !isnan(p->stop_max_rad));
 }

@@ -9,6 +9,7 @@
 #include "device/device.h"
 #include "effects/element.h"
 #include "mechanism/mechanism.h"
+#include <stdarg.h>
 
 typedef enum fw_effect_mode {
     FW_EFFECTS_AUTO,
@@ -26,6 +27,7 @@ typedef enum fw_hinge_model {
     FW_HINGE_COMPLIANCE, /* three degrees of freedom at finite rotation in closed form (finite.h) */
     FW_HINGE_ELASTICA    /* geometrically exact beams (elastica.h) */
 } fw_hinge_model;
+size_t fw_hinge_model_count(void);
 const char *fw_hinge_model_text(fw_hinge_model model);
 const char *fw_hinge_model_summary(fw_hinge_model model); /* for forms */
 
@@ -140,6 +142,36 @@ typedef struct fw_effect_case { /* what an effect is asked about */
     fw_diags *diags;                    /* NULL: mistakes are not reported, only returned */
 } fw_effect_case;
 
+/* ---- the scene in words, and less of it ---- */
+
+/* Where a row writes its part of the sentence about a scene. The format is that of reports (report/page.h): {s} text,
+   {u} a value and its SI unit, {n} a number, {i} a whole number. */
+typedef struct fw_effects_words {
+    void (*write)(void *context, const char *format, va_list arguments);
+    void (*write_law)(void *context, const fw_law *law); /* " times a ramp over 2 ms"; nothing for NULL */
+    void *context;
+} fw_effects_words;
+void fw_effects_say(const fw_effects_words *words, const char *format, ...);
+void fw_effects_say_law(const fw_effects_words *words, const fw_law *law);
+
+typedef struct fw_effects_load { /* something that a scene can be given less of */
+    const char *name;            /* "tendon pulls" */
+    bool ordinary;               /* a force or torque: goes without saying where there is nothing else */
+    bool squared;                /* forces go with its square: a voltage */
+} fw_effects_load;
+typedef struct fw_effects_loads {
+    fw_effects_load item[16]; /* (count) */
+    int count;
+} fw_effects_loads;
+void fw_effects_add_load(fw_effects_loads *loads, fw_effects_load load);
+
+/* What a mechanism made of solids (continuum/device_shape.c) does with an effect that the scene calls for */
+typedef enum fw_effects_solid {
+    FW_EFFECTS_SOLID_REFUSED, /* nothing is written: without the effect it would be another device */
+    FW_EFFECTS_SOLID_HAS,     /* the solids have it, or the writer gives it to them */
+    FW_EFFECTS_SOLID_NO_PART  /* it has no part in an equilibrium under the loads at the end */
+} fw_effects_solid;
+
 typedef struct fw_effect_row { /* one row per effect: adding one is one file and one row */
     const char *id, *summary;
     bool (*called_for)(const fw_effect_case *c);
@@ -164,8 +196,19 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
     bool alone_stays;     /* likewise where nothing else moves the mechanism */
     bool kept;    /* never left out, whatever was asked for: without it there is nothing to judge */
     bool passive; /* of what is kept: springs, which move nothing by themselves */
+    /* its part of the sentence about a scene, each item behind "; "; NULL: nothing that the scene states */
+    void (*describe)(const fw_device *device, const fw_scene *scene, const fw_effects_words *words);
+    /* what of it advice may ask for less of; scale makes the forces of a copy `by` times as large. Both or neither */
+    void (*loads)(const fw_scene *scene, fw_effects_loads *loads);
+    void (*scale)(fw_scene *scene, double by);
+    fw_effects_solid solid;
 } fw_effect_row;
 const fw_effect_row *const *fw_effect_rows(size_t *count);
+/* what all rows say of a scene: words, loads, and scaled loads (false: there is nothing to scale) */
+void fw_effects_describe(const fw_device *device, const fw_scene *scene,
+                         const fw_effects_words *words);
+void fw_effects_find_loads(const fw_scene *scene, fw_effects_loads *loads);
+bool fw_effects_scale(fw_scene *scene, double by);
 
 /* decides and compiles. Auto leaves effects out, the smallest bound first, while the sum of their
    bounds stays below the accuracy; none and lists leave out what is not kept. A list with an

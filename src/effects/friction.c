@@ -125,6 +125,15 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
+static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+    for (int i = 0; i < s->nfriction; i++) {
+        const fw_friction_use *f = &s->friction[i];
+        fw_effects_say(to, "; friction in {s}, coefficient {n}",
+                       f->joint != FW_NONE ? device->joint[f->joint].id : device->tie[f->tie].id,
+                       f->coefficient);
+    }
+}
+
 const fw_effect_row fw_effect_friction = {
     .id = "friction",
     .summary = "Coulomb friction of hinges and sliding joints, with sticking",
@@ -132,4 +141,5 @@ const fw_effect_row fw_effect_friction = {
     .bound = bound,
     .add = add,
     .cost = 12000,
-    .count = count};
+    .count = count,
+    .describe = describe};

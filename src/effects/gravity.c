@@ -50,9 +50,16 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
+static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+    (void)device;
+    if (s->gravity)
+        fw_effects_say(to, "; gravity ({n}, {n}) m/s\u00b2", s->gx_m_per_s2, s->gy_m_per_s2);
+}
+
 const fw_effect_row fw_effect_gravity = {.id = "gravity",
                                          .summary = "weight of the bodies",
                                          .called_for = called_for,
                                          .bound = bound,
                                          .add = add,
-                                         .alone_stays = true};
+                                         .alone_stays = true,
+                                         .describe = describe};

@@ -9,18 +9,26 @@
 /* measured like the rows' costs: a solution of the beam, for force or tangent */
 static const double exact_cost = 21000;
 
+static const struct {
+    const char *name, *summary;
+    fw_hinge_model below; /* the level that auto tries before it */
+} models[] = {
+    [FW_HINGE_AUTO] = {"auto", "the cheapest whose error is below the accuracy", FW_HINGE_AUTO},
+    [FW_HINGE_REVOLUTE] = {"revolute", "pins at the elastic centres", FW_HINGE_REVOLUTE},
+    [FW_HINGE_COMPLIANCE] = {"compliance", "closed form that gives and drifts", FW_HINGE_REVOLUTE},
+    [FW_HINGE_ELASTICA] = {"elastica", "geometrically exact beams", FW_HINGE_COMPLIANCE},
+};
+
+size_t fw_hinge_model_count(void) {
+    return sizeof models / sizeof models[0];
+}
+
 const char *fw_hinge_model_text(fw_hinge_model model) {
-    static const char *const text[] = {"auto", "revolute", "compliance", "elastica"};
-    return text[model];
+    return models[model].name;
 }
 
 const char *fw_hinge_model_summary(fw_hinge_model model) {
-    static const char *const text[] = {
-        [FW_HINGE_AUTO] = "the cheapest whose error is below the accuracy",
-        [FW_HINGE_REVOLUTE] = "pins at the elastic centres",
-        [FW_HINGE_COMPLIANCE] = "closed form that gives and drifts",
-        [FW_HINGE_ELASTICA] = "geometrically exact beams"};
-    return text[model];
+    return models[model].summary;
 }
 
 static int could(const fw_effect_case *c) {
@@ -57,7 +65,7 @@ static fw_status why_climbed(const fw_effect_case *c, const fw_effect_choice *ch
                 c->arena,
                 "%s was computed to be off by %s %% of the largest hinge angle, not "
                 "below the accuracy wanted",
-                fw_hinge_model_text((fw_hinge_model)(choice->hinge - 1)), by));
+                models[models[choice->hinge].below].name, by));
     return FW_OK;
 }
 

@@ -19,16 +19,9 @@
 #include <math.h>
 
 double fw_hinge_source_mode(const fw_hinge_source *s, int part, int mode) {
-    switch (part) {
-    case 0:
-        return -s->pull_e[mode];
-    case 1:
-        return -s->pull_n[mode];
-    case 2:
-        return s->turn[mode];
-    default:
-        return s->both[mode];
-    }
+    if (part == 0) return -s->pull_e[mode];
+    if (part == 1) return -s->pull_n[mode];
+    return part == 2 ? s->turn[mode] : s->both[mode];
 }
 
 void fw_hinge_source_of(const fw_hinge *h, fw_hinge_source *s) {

@@ -322,4 +322,5 @@ const fw_effect_row fw_effect_inertia = {
     .called_for = called_for,
     .bound = bound,
     .add = add,
-    .leave_out = leave_out};
+    .leave_out = leave_out,
+    .solid = FW_EFFECTS_SOLID_NO_PART};

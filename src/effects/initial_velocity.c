@@ -28,10 +28,17 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
     return FW_OK;
 }
 
+static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+    (void)device;
+    if (s->ninitial) fw_effects_say(to, "; bodies start with a velocity");
+}
+
 const fw_effect_row fw_effect_initial_velocity = {.id = "initial-velocity",
                                                   .summary = "velocities at the start",
                                                   .called_for = called_for,
                                                   .bound = bound,
                                                   .by_rate = true,
                                                   .add = add,
-                                                  .kept = true};
+                                                  .kept = true,
+                                                  .describe = describe,
+                                                  .solid = FW_EFFECTS_SOLID_NO_PART};

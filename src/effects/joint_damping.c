@@ -119,4 +119,5 @@ const fw_effect_row fw_effect_joint_damping = {
     .by_rate = true,
     .add = add,
     .cost = 32,
-    .count = count};
+    .count = count,
+    .solid = FW_EFFECTS_SOLID_NO_PART};

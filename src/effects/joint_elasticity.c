@@ -48,4 +48,5 @@ const fw_effect_row fw_effect_joint_elasticity = {
     .cost = 49,
     .count = count,
     .kept = true,
-    .passive = true};
+    .passive = true,
+    .solid = FW_EFFECTS_SOLID_HAS};

@@ -157,7 +157,6 @@ static void add_tie(const holding *h, const fw_mechanism *m, const fw_tie *t, in
         add_row(h, row, &l);
         return;
     case FW_TIE_WELD:
-    default:
         l = tie_line(h->s, m, t, 1, 0, false);
         add_row(h, row, &l);
         l = tie_line(h->s, m, t, 0, 1, false);

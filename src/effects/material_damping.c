@@ -106,6 +106,11 @@ static int count(const fw_effect_case *c) {
     return hinges;
 }
 
+static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+    (void)device;
+    if (s->ndamping) fw_effects_say(to, "; damping by the material");
+}
+
 const fw_effect_row fw_effect_material_damping = {
     .id = "material-damping",
     .summary = "loss factor of the flexures' material, as the scene states it",
@@ -115,4 +120,6 @@ const fw_effect_row fw_effect_material_damping = {
     .calms = true,
     .add = add,
     .cost = 31,
-    .count = count};
+    .count = count,
+    .describe = describe,
+    .solid = FW_EFFECTS_SOLID_NO_PART};

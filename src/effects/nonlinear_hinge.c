@@ -42,4 +42,5 @@ const fw_effect_row fw_effect_nonlinear_hinge = {
     .bound = bound,
     .add = fw_hinges_flex,
     .cost = 665,
-    .count = count};
+    .count = count,
+    .solid = FW_EFFECTS_SOLID_HAS};

@@ -184,10 +184,17 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
+static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+    (void)device;
+    for (int i = 0; i < s->nstress; i++)
+        fw_effects_say(to, "; residual stress {u}", s->stress[i].mean_Pa, "Pa");
+}
+
 const fw_effect_row fw_effect_residual_stress = {
     .id = "residual-stress",
     .summary = "the released layer is longer or shorter than its substrate, and bowed",
     .called_for = called_for,
     .bound = bound,
     .add = add,
-    .check = check};
+    .check = check,
+    .describe = describe};

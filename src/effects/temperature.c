@@ -328,6 +328,14 @@ static int count(const fw_effect_case *c) {
     return hinges;
 }
 
+static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+    (void)device;
+    for (int i = 0; i < s->ntemperature; i++) {
+        fw_effects_say(to, "; temperature changed by {n} K", s->temperature[i].change_K);
+        fw_effects_say_law(to, s->temperature[i].law);
+    }
+}
+
 const fw_effect_row fw_effect_temperature = {
     .id = "temperature",
     .summary = "expansion of the device against its substrate, and softer flexures",
@@ -337,4 +345,5 @@ const fw_effect_row fw_effect_temperature = {
     .check = check,
     .note = name_substrate,
     .cost = 658,
-    .count = count};
+    .count = count,
+    .describe = describe};

@@ -298,6 +298,35 @@ static int count(const fw_effect_case *c) {
     return c->scene->ntendon;
 }
 
+static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+    (void)device;
+    for (int i = 0; i < s->ntendon; i++) {
+        const fw_tendon *t = &s->tendon[i];
+        const bool pulls = !isnan(t->pull_N);
+        fw_effects_say(to, "; cable {s} {s} {u}", t->id, pulls ? "pulls with" : "taken in by",
+                       pulls ? t->pull_N : t->draw_m, pulls ? "N" : "m");
+        fw_effects_say_law(to, t->law);
+    }
+}
+
+static void loads(const fw_scene *s, fw_effects_loads *list) {
+    bool pulls = false, draws = false;
+    for (int i = 0; i < s->ntendon; i++) {
+        pulls = pulls || !isnan(s->tendon[i].pull_N);
+        draws = draws || !isnan(s->tendon[i].draw_m);
+    }
+    if (pulls) fw_effects_add_load(list, (fw_effects_load){.name = "tendon pulls"});
+    if (draws) fw_effects_add_load(list, (fw_effects_load){.name = "tendon draws"});
+}
+
+/* the one of the two that is not there (NaN) stays so */
+static void scale(fw_scene *s, double by) {
+    for (int i = 0; i < s->ntendon; i++) {
+        s->tendon[i].pull_N *= by;
+        s->tendon[i].draw_m *= by;
+    }
+}
+
 const fw_effect_row fw_effect_tendon = {
     .id = "tendon",
     .summary = "cables through eyelets, pulled with a force or drawn in by a length",
@@ -306,4 +335,7 @@ const fw_effect_row fw_effect_tendon = {
     .add = add,
     .cost = 953,
     .count = count,
-    .kept = true};
+    .kept = true,
+    .describe = describe,
+    .loads = loads,
+    .scale = scale};

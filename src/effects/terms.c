@@ -12,8 +12,9 @@ fw_status fw_terms_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_
     FW_NEED(terms->velocity = fw_arena_array(arena, double, n));
     FW_NEED(terms->torsion = fw_arena_array(arena, fw_torsion, (size_t)mechanism->npin));
     FW_NEED(terms->torsion_of = fw_arena_array(arena, int, (size_t)mechanism->npin));
-    FW_NEED(terms->load = fw_arena_array(arena, fw_point_load, (size_t)scene->nforce));
-    size_t timed = (size_t)scene->nforce + (size_t)scene->ntorque;
+    size_t parts = (size_t)scene->npart; /* each may add a load of either kind */
+    FW_NEED(terms->load = fw_arena_array(arena, fw_point_load, (size_t)scene->nforce + parts));
+    size_t timed = (size_t)scene->nforce + (size_t)scene->ntorque + parts;
     timed += (size_t)scene->nbase * (size_t)mechanism->nbody; /* the base pushes every body */
     FW_NEED(terms->timed = fw_arena_array(arena, fw_timed_load, timed));
     FW_NEED(terms->stop = fw_arena_array(arena, fw_stop, 2 * (size_t)mechanism->npin));

@@ -126,7 +126,7 @@ fw_box fw_arc_box(const fw_segment *s, fw_box box) {
         case 2:
             box.x0 = fw_lesser(box.x0, s->centre.x - s->radius);
             break;
-        default:
+        case 3:
             box.y0 = fw_lesser(box.y0, s->centre.y - s->radius);
             break;
         }

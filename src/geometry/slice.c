@@ -139,9 +139,10 @@ static bool holds(const bool in[2], fw_set_rule rule) {
         return in[0] && in[1];
     case FW_SET_NOT:
         return in[0] && !in[1];
-    default:
-        return in[0] != in[1];
+    case FW_SET_XOR:
+        break;
     }
+    return in[0] != in[1];
 }
 
 /* Sweep over all ends. Within one set intervals are apart, so that each end turns it over. Test:

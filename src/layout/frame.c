@@ -25,9 +25,10 @@ fw_vec2 fw_window_point(const fw_layout *layout, fw_window_side side, double alo
         return fw_v(w->x1 - depth, along);
     case FW_BOTTOM:
         return fw_v(along, w->y0 + depth);
-    default:
-        return fw_v(along, w->y1 - depth);
+    case FW_TOP:
+        break;
     }
+    return fw_v(along, w->y1 - depth);
 }
 
 fw_status fw_attachment_add(fw_drawing *d, const fw_attachment *item) {

@@ -1,18 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The formats in which a mask is written: one row each. */
-#include "mask/mask.h"
+/* The formats in which a mask is written: formats.def. */
+#include "mask/format.h"
 #include <string.h>
 
+#define FW_MASK_FORMAT(name_, ending_, ...)                                                        \
+    {.name = #name_, .ending = ending_, .write = fw_mask_write_##name_, __VA_ARGS__},
 static const fw_mask_format table[] = {
-    {"gds", ".gds", fw_mask_write_gds, .always = true, .usual = true},
-    {"lyp", ".lyp", fw_mask_write_lyp, .always = true, .usual = true},
-    {"lyt", ".lyt", fw_mask_write_lyt, .always = true, .usual = true},
-    {"svg", ".svg", fw_mask_write_svg, .usual = true},
-    {"outlines", ".outlines.svg", fw_mask_write_outlines, .usual = true, .picture = true},
-    {"oasis", ".oas", fw_mask_write_oasis, .usual = false},
-    {"dxf", ".dxf", fw_mask_write_dxf, .usual = false},
-    {"stl", ".stl", fw_mask_write_stl, .usual = false},
+#include "mask/formats.def"
 };
+#undef FW_MASK_FORMAT
 enum { NFORMAT = sizeof table / sizeof table[0] };
 
 const fw_mask_format *fw_mask_format_at(size_t i) {

@@ -209,10 +209,11 @@ fw_status fw_mask_write_dxf(const fw_mask *mask, fw_text *out);
 fw_status fw_mask_write_stl(const fw_mask *mask, fw_text *out);
 fw_status fw_mask_write_lyt(const fw_mask *mask, fw_text *out);
 
-typedef struct fw_mask_format { /* a row of format.c */
+typedef struct fw_mask_format { /* a row of formats.def */
     const char *name, *ending;  /* as the user says it; of the file */
     fw_status (*write)(const fw_mask *mask, fw_text *out);
     bool always, usual; /* whatever is asked for; when nothing is asked for */
+    bool beside;        /* goes with GDSII and need not be named */
     bool picture;       /* to look at: the order sheet does not name it */
 } fw_mask_format;
 const fw_mask_format *fw_mask_format_at(size_t i); /* NULL behind the last row */

@@ -137,7 +137,6 @@ static void block_residual(const fw_model *m, int i, double t, const double *u, 
         break;
     case FW_ROWS_TURN:
     case FW_ROWS_PIN:
-    default:
         psi[0] = turned(m, b, u) - f[0];
     }
 }

@@ -98,7 +98,6 @@ void fw_stretch_drift(const fw_model *m, double *r) {
             r[2 * i] += (d[0] * x + d[1] * y) / sqrt(d[0] * d[0] + d[1] * d[1]);
             break;
         case FW_ROWS_TURN:
-        default:
             break;
         }
     }

@@ -61,8 +61,8 @@ static bool known(const char *name, fw_method_row (*at)(size_t)) {
 
 /* -1: there is no such model */
 static int hinge_model_of(const char *text) {
-    for (int i = FW_HINGE_AUTO; i <= FW_HINGE_ELASTICA; i++)
-        if (!text || strcmp(text, fw_hinge_model_text((fw_hinge_model)i)) == 0) return i;
+    for (size_t i = 0; i < fw_hinge_model_count(); i++)
+        if (!text || strcmp(text, fw_hinge_model_text((fw_hinge_model)i)) == 0) return (int)i;
     return -1;
 }
 
@@ -88,11 +88,11 @@ static const char *wrong_option(const fw_design_options *o) {
                                         o->mask_tolerance_m <= 1e-6 * (1.0 + 1e-12)))
         return "mask_tolerance_m must be 0 (default) or between 0.36e-9 and 1e-6";
     if (hinge_model_of(o->hinge_model) < 0)
-        return "hinge_model must be \"auto\", \"revolute\", \"compliance\" or \"elastica\"";
+        return "hinge_model must name one of the models that flexwright plan --help lists";
     unsigned formats;
     if (!fw_mask_formats(o->mask_formats, &formats))
-        return "mask_formats must name some of gds, svg, oasis, dxf and stl, with commas, or "
-               "be \"all\"";
+        return "mask_formats must name some of the formats that flexwright plan --help lists, with "
+               "commas between, or be \"all\"";
     fw_flattening flattening;
     if (!fw_mask_flattening_named(o->mask_flatten, &flattening))
         return "mask_flatten must be \"inside\" or \"equal-area\"";

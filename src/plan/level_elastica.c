@@ -17,7 +17,7 @@ typedef struct turned {
 static double strain_at(turned *t, double angle_rad) {
     const fw_elastica_task task = {{FW_END_THETA, FW_END_FX, FW_END_FY}, {angle_rad, 0, 0}};
     fw_elastica_solve(t->e, &task, tolerance, true, &t->at);
-    if (t->at.code > FW_ELASTICA_ROUGH) return (double)NAN;
+    if (t->at.code != FW_ELASTICA_OK && t->at.code != FW_ELASTICA_ROUGH) return (double)NAN;
     fw_elastica_state first, second;
     fw_elastica_at(t->e, 0, &first);
     fw_elastica_at(t->e, fw_elastica_linear(t->e)->length_m, &second);

@@ -44,7 +44,7 @@ static void effects(fw_json *out) {
 }
 
 static fw_method_row hinge_model(size_t i) {
-    if (i > FW_HINGE_ELASTICA) return (fw_method_row){NULL, NULL};
+    if (i >= fw_hinge_model_count()) return (fw_method_row){NULL, NULL};
     return (fw_method_row){fw_hinge_model_text((fw_hinge_model)i),
                            fw_hinge_model_summary((fw_hinge_model)i)};
 }

@@ -116,7 +116,8 @@ static double compute(int function, const fw_value *argument, int n) {
         return atan2(x, argument[1].value);
     case ABS:
         return fabs(x);
-    default:
+    case MIN:
+    case MAX:
         break;
     }
     for (int i = 1; i < n; i++)

@@ -35,9 +35,38 @@ fw_status fw_program_new(fw_arena *arena, size_t n, fw_program **program) {
     return FW_OK;
 }
 
+static bool has_two_operands(fw_op op) {
+    switch (op) {
+    case FW_OP_ADD:
+    case FW_OP_SUBTRACT:
+    case FW_OP_MULTIPLY:
+    case FW_OP_DIVIDE:
+    case FW_OP_POWER:
+    case FW_OP_ATAN2:
+    case FW_OP_MIN:
+    case FW_OP_MAX:
+        return true;
+    case FW_OP_TIME:
+    case FW_OP_CONSTANT:
+    case FW_OP_NEGATE:
+    case FW_OP_SQRT:
+    case FW_OP_EXP:
+    case FW_OP_LN:
+    case FW_OP_SIN:
+    case FW_OP_COS:
+    case FW_OP_TAN:
+    case FW_OP_ASIN:
+    case FW_OP_ACOS:
+    case FW_OP_ATAN:
+    case FW_OP_ABS:
+        break;
+    }
+    return false;
+}
+
 void fw_program_emit(fw_program *p, fw_op op, fw_operands operands, double constant) {
     bool pushes = op == FW_OP_TIME || op == FW_OP_CONSTANT;
-    bool pops = op >= FW_OP_ADD && operands == FW_BOTH_ON_STACK;
+    bool pops = has_two_operands(op) && operands == FW_BOTH_ON_STACK;
     p->depth += pushes - pops;
     if (p->depth > p->deepest) p->deepest = p->depth;
     if (p->depth > FW_PROGRAM_STACK || p->count == p->room) {
@@ -128,9 +157,20 @@ static jet function(fw_op op, const jet *a) {
         w = 1 / (1 + x * x);
         return chain(a, atan(x), w, -2 * x * w * w);
     case FW_OP_NEGATE:
-    default:
-        return (jet){-a->f, -a->d, -a->dd};
+    case FW_OP_TIME: /* not functions of one operand, from here on */
+    case FW_OP_CONSTANT:
+    case FW_OP_ABS:
+    case FW_OP_ADD:
+    case FW_OP_SUBTRACT:
+    case FW_OP_MULTIPLY:
+    case FW_OP_DIVIDE:
+    case FW_OP_POWER:
+    case FW_OP_ATAN2:
+    case FW_OP_MIN:
+    case FW_OP_MAX:
+        break;
     }
+    return (jet){-a->f, -a->d, -a->dd};
 }
 
 /* true: abs keeps its argument, min and max take the left one. The first run over the program asks
@@ -164,9 +204,22 @@ static jet binary(const fw_step *step, const jet *a, const jet *b, sides *s, boo
         return angle(a, b);
     case FW_OP_MIN:
     case FW_OP_MAX:
-    default:
-        return side(step->op, a, b, s, store) ? *a : *b;
+    case FW_OP_TIME: /* not of two operands, from here on */
+    case FW_OP_CONSTANT:
+    case FW_OP_NEGATE:
+    case FW_OP_SQRT:
+    case FW_OP_EXP:
+    case FW_OP_LN:
+    case FW_OP_SIN:
+    case FW_OP_COS:
+    case FW_OP_TAN:
+    case FW_OP_ASIN:
+    case FW_OP_ACOS:
+    case FW_OP_ATAN:
+    case FW_OP_ABS:
+        break;
     }
+    return side(step->op, a, b, s, store) ? *a : *b;
 }
 
 static jet run(const fw_program *p, double t_s, sides *s, bool store) {
@@ -183,7 +236,7 @@ static jet run(const fw_program *p, double t_s, sides *s, bool store) {
         else if (step->op == FW_OP_ABS) {
             if (!side(step->op, &stack[top], NULL, s, store))
                 stack[top] = function(FW_OP_NEGATE, &stack[top]);
-        } else if (step->op < FW_OP_ADD)
+        } else if (!has_two_operands(step->op))
             stack[top] = function(step->op, &stack[top]);
         else if (step->operands == FW_LEFT_CONSTANT)
             stack[top] = binary(step, &constant, &stack[top], s, store);

@@ -20,7 +20,7 @@ typedef enum fw_op {
     FW_OP_ACOS,
     FW_OP_ATAN,
     FW_OP_ABS,
-    FW_OP_ADD, /* from here on two operands */
+    FW_OP_ADD, /* two operands, this and the following */
     FW_OP_SUBTRACT,
     FW_OP_MULTIPLY,
     FW_OP_DIVIDE,

@@ -44,7 +44,7 @@ static void why(fw_text *out, const fw_verdict *v) {
                       h->utilisation);
         else
             fw_markup(out, ": {p} of its limit. ", h->utilisation);
-        fw_text_add(out, closing[decision <= FW_REJECT ? decision : FW_INCONCLUSIVE]);
+        fw_text_add(out, closing[decision]);
     } else
         fw_text_add(out, "No hinge of this device was run to its end.");
     fw_text_add(out, "</p>\n");

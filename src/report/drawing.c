@@ -32,7 +32,7 @@ static const struct {
 };
 
 const char *fw_report_decision_colour(fw_decision decision) {
-    return decisions[decision <= FW_REJECT ? decision : FW_INCONCLUSIVE].colour;
+    return decisions[decision].colour;
 }
 
 const char *fw_report_rejected(const fw_verdict *verdict) {
@@ -40,7 +40,7 @@ const char *fw_report_rejected(const fw_verdict *verdict) {
 }
 
 const char *fw_report_decision_word(fw_decision decision) {
-    return decisions[decision <= FW_REJECT ? decision : FW_INCONCLUSIVE].word;
+    return decisions[decision].word;
 }
 
 const char *fw_report_layer_colour(const char *colour, int index) {

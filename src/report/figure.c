@@ -26,6 +26,29 @@ static void reach_point(fw_box *box, fw_figure_point p, const double *q, int cou
     }
 }
 
+bool fw_figure_is_line(const fw_figure_part *part) {
+    switch (part->role) {
+    case FW_FIGURE_RAIL:
+    case FW_FIGURE_BODY:
+    case FW_FIGURE_ROD:
+    case FW_FIGURE_DRIVEN_ROD:
+    case FW_FIGURE_SPRING:
+    case FW_FIGURE_CABLE:
+        return true;
+    case FW_FIGURE_PLATE:
+    case FW_FIGURE_BLOCK:
+    case FW_FIGURE_FOOT:
+    case FW_FIGURE_WELD:
+    case FW_FIGURE_STOP:
+    case FW_FIGURE_TURN:
+    case FW_FIGURE_PUSH:
+    case FW_FIGURE_END:
+    case FW_FIGURE_PIN:
+        break;
+    }
+    return false;
+}
+
 void fw_figure_reach(fw_box *box, const fw_figure_part *part, const double *q, int count,
                      int nbody) {
     for (int i = 0; i < part->noutline; i++)
@@ -34,7 +57,8 @@ void fw_figure_reach(fw_box *box, const fw_figure_part *part, const double *q, i
                     count, nbody);
     if (part->noutline) return;
     reach_point(box, part->end[0], q, count, nbody);
-    if (part->role <= FW_FIGURE_CABLE) reach_point(box, part->end[1], q, count, nbody);
+    if (fw_figure_is_line(part) || part->role == FW_FIGURE_PLATE)
+        reach_point(box, part->end[1], q, count, nbody);
 }
 
 fw_report_view fw_figure_view(const fw_box *box, double width) {

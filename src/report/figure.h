@@ -57,6 +57,7 @@ fw_status fw_figure_of_verdict(fw_arena *arena, const fw_verdict *verdict, fw_fi
                                double **q);
 fw_status fw_figure_rest_reach(fw_arena *arena, const fw_verdict *verdict, fw_box *box);
 /* adds where a part gets to */
+bool fw_figure_is_line(const fw_figure_part *part);
 void fw_figure_reach(fw_box *box, const fw_figure_part *part, const double *q, int count,
                      int nbody);
 /* a view of the box with room for marks around it, in a picture of `width` pixels */

@@ -102,9 +102,19 @@ static void open_line(const fw_figure_part *part, const pen_t *pen) {
         fw_svg_path(pen->out, "stroke='#424a53' stroke-width='{c}' stroke-dasharray='6 3'" ROUND,
                     0.28 * mark);
         return;
-    default:
-        fw_svg_path(pen->out, "stroke='#1f2328' stroke-width='{c}'" ROUND, 0.5 * mark);
+    case FW_FIGURE_ROD:
+    case FW_FIGURE_PLATE: /* marks have their own looks, see shape */
+    case FW_FIGURE_BLOCK:
+    case FW_FIGURE_FOOT:
+    case FW_FIGURE_WELD:
+    case FW_FIGURE_STOP:
+    case FW_FIGURE_TURN:
+    case FW_FIGURE_PUSH:
+    case FW_FIGURE_END:
+    case FW_FIGURE_PIN:
+        break;
     }
+    fw_svg_path(pen->out, "stroke='#1f2328' stroke-width='{c}'" ROUND, 0.5 * mark);
 }
 
 /* the ground under a guide: a row of short strokes across it */
@@ -197,10 +207,17 @@ static void shape(const fw_figure_part *part, const pen_t *pen) {
     case FW_FIGURE_END:
         fw_svg_put(pen->out, "circle r='{c}' fill='#1f2328'", 0.45 * m);
         return;
-    default:
-        fw_svg_put(pen->out, "circle r='{c}' fill='#fff' stroke='#1f2328' stroke-width='{c}'",
-                   0.75 * m, 0.28 * m);
+    case FW_FIGURE_PIN:
+    case FW_FIGURE_RAIL: /* lines are drawn as such, see look */
+    case FW_FIGURE_BODY:
+    case FW_FIGURE_ROD:
+    case FW_FIGURE_DRIVEN_ROD:
+    case FW_FIGURE_SPRING:
+    case FW_FIGURE_CABLE:
+        break;
     }
+    fw_svg_put(pen->out, "circle r='{c}' fill='#fff' stroke='#1f2328' stroke-width='{c}'",
+               0.75 * m, 0.28 * m);
 }
 
 static double angle(const fw_figure_part *part, const double *q) {
@@ -236,12 +253,8 @@ static void mark(const fw_figure_part *part, const pen_t *pen) {
     fw_svg_close(pen->out, "g\n");
 }
 
-static bool is_line(const fw_figure_part *part) {
-    return part->role <= FW_FIGURE_CABLE && part->role != FW_FIGURE_PLATE;
-}
-
 void fw_figure_draw(const fw_figure_part *part, const fw_figure_pen *pen) {
-    if (is_line(part))
+    if (fw_figure_is_line(part))
         line(part, pen);
     else
         mark(part, pen);
@@ -256,7 +269,7 @@ void fw_figure_ghost(const fw_figure_part *part, const double *q, const fw_figur
 
 int fw_figure_numbers(const fw_figure_part *part) {
     if (at_rest(part)) return 0;
-    if (!is_line(part)) return part->turns_with == FW_GROUND ? 2 : 3;
+    if (!fw_figure_is_line(part)) return part->turns_with == FW_GROUND ? 2 : 3;
     return part->role == FW_FIGURE_SPRING ? 2 * (MOST_WAVES + 4)
            : part->noutline               ? 2 * part->noutline
                                           : 4;

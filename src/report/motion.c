@@ -305,82 +305,26 @@ static const char *words(fw_text *out, const fw_law *law, const char *words_, ch
     return at;
 }
 
-static void law(fw_text *out, const fw_law *law) {
+static void write_law(void *context, const fw_law *law) {
+    fw_text *out = context;
     bool given = false;
     if (!law) return;
     fw_markup(out, " times a {s}", law->kind->name);
     words(out, law, law->kind->words, '\0', &given);
 }
 
-static const char *body_text(const fw_device *device, int body) {
-    return body < 0 ? "ground" : device->body[body].id;
-}
-
-static void actuators(fw_text *out, const fw_device *device, const fw_scene *s) {
-    for (int i = 0; i < s->ntendon; i++) {
-        const fw_tendon *t = &s->tendon[i];
-        bool pulled = !isnan(t->pull_N);
-        fw_markup(out, "; cable {s} {s} {u}", t->id, pulled ? "pulls with" : "taken in by",
-                  pulled ? t->pull_N : t->draw_m, pulled ? "N" : "m");
-        law(out, t->law);
-    }
-    for (int i = 0; i < s->ncomb; i++) {
-        const fw_comb *c = &s->comb[i];
-        fw_markup(out, "; {s} {s} between {s} and {s} at {u}",
-                  c->kind == FW_ELECTRODES_COMB ? "comb" : "plates", c->id,
-                  body_text(device, c->body_b), body_text(device, c->body_a), c->voltage_V, "V");
-        law(out, c->law);
-    }
-    for (int i = 0; i < s->nbase; i++) {
-        fw_markup(out, "; base shaken with ({n}, {n}) m/s\u00b2", s->base[i].ax_m_per_s2,
-                  s->base[i].ay_m_per_s2);
-        law(out, s->base[i].law);
-    }
-}
-
-static void surroundings(fw_text *out, const fw_device *device, const fw_scene *s) {
-    static const char *const air[] = {[FW_AIR_SLIDE] = "sliding film",
-                                      [FW_AIR_SQUEEZE] = "squeezed film",
-                                      [FW_AIR_DRAG] = "drag"};
-    for (int i = 0; i < s->nfriction; i++)
-        fw_markup(out, "; friction in {s}, coefficient {n}",
-                  s->friction[i].joint != FW_NONE ? device->joint[s->friction[i].joint].id
-                                                  : device->tie[s->friction[i].tie].id,
-                  s->friction[i].coefficient);
-    for (int i = 0; i < s->ncontact; i++)
-        fw_markup(out, "; contact {s}", s->contact[i].id);
-    if (s->ndamping) fw_text_add(out, "; damping by the material");
-    for (int i = 0; i < s->ntemperature; i++) {
-        fw_markup(out, "; temperature changed by {n} K", s->temperature[i].change_K);
-        law(out, s->temperature[i].law);
-    }
-    for (int i = 0; i < s->nstress; i++)
-        fw_markup(out, "; residual stress {u}", s->stress[i].mean_Pa, "Pa");
-    for (int i = 0; i < s->nair; i++)
-        fw_markup(out, "; air: {s} on {s}, {u}", air[s->air[i].kind],
-                  s->air[i].body < 0 ? "all bodies" : device->body[s->air[i].body].id,
-                  s->air[i].pressure_Pa, "Pa");
+static void write_markup(void *context, const char *format, va_list arguments) {
+    va_list own;
+    va_copy(own, arguments);
+    fw_markup_part(context, format, strlen(format), '\'', &own);
+    va_end(own);
 }
 
 static void loads(fw_text *out, const fw_device *device, const fw_scene *s) {
     fw_markup(out, "<p class=\"soft\">{u}", s->duration_s, "s");
-    for (int i = 0; i < s->nforce; i++) {
-        fw_markup(out, "; force on {s} ({u}, {u})", device->body[s->force[i].body].id,
-                  s->force[i].fx_N, "N", s->force[i].fy_N, "N");
-        law(out, s->force[i].law);
-    }
-    for (int i = 0; i < s->ntorque; i++) {
-        fw_markup(out, "; torque on {s} {u}", device->body[s->torque[i].body].id,
-                  s->torque[i].value_Nm, "N\u00b7m");
-        law(out, s->torque[i].law);
-    }
+    fw_effects_describe(device, s, &(fw_effects_words){write_markup, write_law, out});
     for (int i = 0; i < device->ndriver; i++)
         fw_markup(out, "; joint {s} driven in time", device->driver[i].id);
-    if (s->gravity)
-        fw_markup(out, "; gravity ({n}, {n}) m/s\u00b2", s->gx_m_per_s2, s->gy_m_per_s2);
-    actuators(out, device, s);
-    surroundings(out, device, s);
-    if (s->ninitial) fw_text_add(out, "; bodies start with a velocity");
     fw_text_add(out,
                 ". Dashed: as drawn. Blue trace: centre of the platform. The still picture shows "
                 "the worst instant.");

@@ -67,14 +67,18 @@ static unsigned http_status(fw_status status) {
         return 413; /* more than one request may cost */
     case FW_CANCELLED:
         return 409;
-    default:
-        return 500;
+    case FW_GEOMETRY:
+    case FW_IO:
+    case FW_SOLVER:
+    case FW_INTERNAL:
+        break;
     }
+    return 500;
 }
 
 static bool compute(fw_live *live, uint32_t what, const char *request, size_t n) {
     fw_live_answer a = {0};
-    switch (what) {
+    switch ((fw_compute)what) {
     case FW_COMPUTE_TABLE:
         a = fw_live_table(live);
         break;
@@ -87,9 +91,8 @@ static bool compute(fw_live *live, uint32_t what, const char *request, size_t n)
     case FW_COMPUTE_EDIT:
         a = fw_live_edit(live, request, n);
         break;
-    default:
-        return false;
     }
+    if (!a.text) return false; /* the parent asks for what this child does not know */
     return answer(http_status(a.status), a.text, a.length);
 }
 

@@ -239,9 +239,9 @@ static double event_value(const event *e, const state *p) {
         return p->hold[e->which];
     case FW_PATH_POINT:
     case FW_PATH_END:
-    default:
-        return p->s - 1;
+        break;
     }
+    return p->s - 1;
 }
 
 static double probe(const void *context, double length) {

@@ -131,28 +131,6 @@ static bool same(const char *a, const char *b) {
     return a && b && strcmp(a, b) == 0;
 }
 
-/* forces go with the square of a voltage; what is not there (NaN) stays so. false: nothing to scale
- */
-static bool scale_scene(fw_scene *s, double by) {
-    for (int i = 0; i < s->nforce; i++) {
-        s->force[i].fx_N *= by;
-        s->force[i].fy_N *= by;
-    }
-    for (int i = 0; i < s->ntorque; i++)
-        s->torque[i].value_Nm *= by;
-    for (int i = 0; i < s->ntendon; i++) {
-        s->tendon[i].pull_N *= by;
-        s->tendon[i].draw_m *= by;
-    }
-    for (int i = 0; i < s->nbase; i++) {
-        s->base[i].ax_m_per_s2 *= by;
-        s->base[i].ay_m_per_s2 *= by;
-    }
-    for (int i = 0; i < s->ncomb; i++)
-        s->comb[i].voltage_V *= sqrt(by);
-    return s->nforce + s->ntorque + s->ntendon + s->nbase + s->ncomb > 0;
-}
-
 /* a scene or workspace is scaled once per round, by the hinge that it strains most */
 static bool is_worst(const fw_trial *trial, const fw_trial_hinge *h) {
     for (int k = 0; k < trial->nhinge; k++) {
@@ -170,7 +148,7 @@ static bool lighten(fw_trial *trial, const fw_trial_hinge *h, double extra) {
     for (int i = 0; i < trial->changed->nscene; i++)
         if (same(trial->changed->scene[i].name, h->scene)) {
             trial->share[i] *= by;
-            return scale_scene(&trial->changed->scene[i], by);
+            return fw_effects_scale(&trial->changed->scene[i], by);
         }
     for (int i = 0; i < trial->changed->nworkspace; i++) {
         fw_workspace_box *w = &trial->changed->workspace[i];
@@ -195,30 +173,28 @@ static void add_share(fw_text *text, double share) {
 
 /* "the loads of scene push to 50 %"; what is scaled besides forces and torques is named */
 static void say_scene(fw_text *text, const fw_scene *s, double share, const char **join) {
-    bool pulls = false, draws = false;
-    for (int i = 0; i < s->ntendon; i++) {
-        pulls = pulls || !isnan(s->tendon[i].pull_N);
-        draws = draws || !isnan(s->tendon[i].draw_m);
+    fw_effects_loads loads;
+    int plain = 0, others = 0, named = 0;
+    fw_effects_find_loads(s, &loads);
+    for (int i = 0; i < loads.count; i++) {
+        plain += !loads.item[i].squared;
+        others += !loads.item[i].squared && !loads.item[i].ordinary;
     }
-    const char *const kind[] = {s->nforce ? "forces" : NULL, s->ntorque ? "torques" : NULL,
-                                pulls ? "tendon pulls" : NULL, draws ? "tendon draws" : NULL,
-                                s->nbase ? "base motion" : NULL};
-    bool others = pulls || draws || s->nbase > 0, first = true;
-    if (others || s->nforce + s->ntorque > 0) {
+    if (plain > 0) {
         fw_text_printf(text, "%sthe loads", *join);
-        for (size_t i = 0; others && i < sizeof kind / sizeof kind[0]; i++) {
-            if (!kind[i]) continue;
-            fw_text_printf(text, first ? " (%s" : ", %s", kind[i]);
-            first = false;
-        }
-        fw_text_printf(text, "%s of scene %s to ", others ? ")" : "", s->name);
+        for (int i = 0; others > 0 && i < loads.count; i++)
+            if (!loads.item[i].squared)
+                fw_text_printf(text, named++ ? ", %s" : " (%s", loads.item[i].name);
+        fw_text_printf(text, "%s of scene %s to ", others > 0 ? ")" : "", s->name);
         add_share(text, share);
         *join = ", ";
     }
-    if (s->ncomb == 0) return;
-    fw_text_printf(text, "%sthe voltages of scene %s to ", *join, s->name);
-    add_share(text, sqrt(share));
-    *join = ", ";
+    for (int i = 0; i < loads.count; i++) {
+        if (!loads.item[i].squared) continue;
+        fw_text_printf(text, "%sthe %s of scene %s to ", *join, loads.item[i].name, s->name);
+        add_share(text, sqrt(share));
+        *join = ", ";
+    }
 }
 
 /* the share that is left of each scene's loads and of each workspace */

@@ -33,9 +33,9 @@ static double tie_gap(const fw_mechanism *m, int i, double *angle_rad) {
         *angle_rad = 0;
         return driven(m, i) ? 0 : fabs(hypot(dx, dy) - t->length_m);
     case FW_TIE_WELD:
-    default:
-        return hypot(dx, dy);
+        break;
     }
+    return hypot(dx, dy);
 }
 
 fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *m,

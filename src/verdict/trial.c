@@ -7,16 +7,8 @@
 static fw_status copy_scenes(fw_arena *arena, fw_device *d) {
     size_t n = (size_t)d->nscene;
     FW_NEED(d->scene = fw_arena_grow(arena, d->scene, n, n, sizeof *d->scene));
-    for (size_t i = 0; i < n; i++) {
-        fw_scene *s = &d->scene[i];
-        size_t f = (size_t)s->nforce, t = (size_t)s->ntorque;
-        FW_NEED(s->force = fw_arena_grow(arena, s->force, f, f, sizeof *s->force));
-        size_t p = (size_t)s->ntendon, c = (size_t)s->ncomb, b = (size_t)s->nbase;
-        FW_NEED(s->torque = fw_arena_grow(arena, s->torque, t, t, sizeof *s->torque));
-        FW_NEED(s->tendon = fw_arena_grow(arena, s->tendon, p, p, sizeof *s->tendon));
-        FW_NEED(s->comb = fw_arena_grow(arena, s->comb, c, c, sizeof *s->comb));
-        FW_NEED(s->base = fw_arena_grow(arena, s->base, b, b, sizeof *s->base));
-    }
+    for (size_t i = 0; i < n; i++)
+        FW_TRY(fw_device_own_scene(arena, &d->scene[i]));
     return FW_OK;
 }
 

@@ -30,7 +30,24 @@ BANNED = [(re.compile(r"\b(assert|abort|exit)\s*\("), "ends the process"),
            "writes JSON beside base/json.h")]
 # elements of SVG come from the canvas alone; device/ names elements of the description that are called alike
 SVG = re.compile(r'"[^"\n]*</?(svg|path|rect|circle|line|poly\w+|text|tspan|g|use|defs|animate\w*)[ >"/\\]')
+LABEL = re.compile(r"\bcase\s+([^:]+):")
+OTHERS = re.compile(r"XML_|MHD_|JSON_")  # enums of libraries; all others that have names are ours
 EXCUSED = {"base/arena.c", "cli/options.c", "cli/run.c"}
+
+
+def defaults(code):
+    """lines of `default:` in a switch over an enum of ours: there gcc could not report a new member"""
+    for found in re.finditer(r"\bswitch\s*\(", code):
+        start = code.index("{", found.end())
+        depth, end = 1, start + 1
+        while depth:
+            depth += {"{": 1, "}": -1}.get(code[end], 0)
+            end += 1
+        body = code[start + 1:end - 1]
+        inner = re.sub(r"\bswitch\s*\([^{]*\{[^{}]*\}", "", body)  # a switch inside has its own
+        names = [label for label in LABEL.findall(inner) if re.match(r"[A-Za-z_]", label) and not OTHERS.match(label)]
+        if names and re.search(r"\bdefault\s*:", inner):
+            yield code.count("\n", 0, found.start()) + 1, names[0]
 
 
 def problems():
@@ -50,6 +67,9 @@ def problems():
             if name != "base/svg.c" and room != "device" and SVG.search(line):
                 yield f"{name}:{number}: writes SVG by itself; that is for base/svg.h"
         code = re.sub(r'/\*.*?\*/|"(\\.|[^"\\\n])*"', lambda m: "\n" * m.group(0).count("\n"), text, flags=re.S)
+        plain = re.sub(r"'(\\.|[^'\\\n])'", "0", code)
+        for number, member in defaults(plain):
+            yield f"{name}:{number}: a switch over an enum of ours ({member}) has a default; name every member, and return behind it"
         for number, line in enumerate(lines, 1):
             include = re.match(r'\s*#\s*include\s+([<"])([^>"]+)', line)
             if not include:

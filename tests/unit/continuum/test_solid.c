@@ -226,6 +226,7 @@ static void refusals(void **state) {
     m.npin = 7;
     assert_int_equal(fw_solid_device_of(arena, &m, NULL, &diags, &out), FW_GEOMETRY);
     scene.gravity = true;
+    scene.gy_m_per_s2 = -9.81;
     assert_int_equal(fw_solid_device_of(arena, e.mechanism, &scene, &diags, &out), FW_GEOMETRY);
     e.solid.nhinge = 2; /* three links hang in the air */
     fw_text deck = fw_text_new(arena);

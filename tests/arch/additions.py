@@ -1,0 +1,202 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A row is enough: a time law, an effect and a mask format that the program does not have (tests/arch/additions/*.patch,
+each of one new file and one line in a list) are added to a copy of the sources, and everything that should know of them
+is asked: simulate, the advice of check, hinge --deck, the report, --help, the reference page and the page's form.
+
+    additions.py BUILD
+
+Of the copy only what depends on a changed file is compiled, with the build's own commands; the rest of the program is the
+build's own objects. What passes: the additions appear in each place, and a motion under both is that of the same torque
+written as an expression."""
+import concurrent.futures
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PATCHES = sorted((ROOT / "tests/arch/additions").glob("*.patch"))
+
+
+def call(command, **more):
+    done = subprocess.run(command, capture_output=True, text=True, **more)
+    if done.returncode:
+        sys.exit(f"{' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+class Copy:
+    """the sources with the patches, and programs linked from them"""
+
+    def __init__(self, build, at):
+        self.build, self.at = build, at
+        for part in ("src", "include", "tests"):
+            shutil.copytree(ROOT / part, at / part, ignore=shutil.ignore_patterns("node_modules"))
+        self.added, self.changed = [], []
+        for patch in PATCHES:
+            touched = [line[6:] for line in patch.read_text().splitlines() if line.startswith("+++ b/")]
+            new = [name for name in touched if not (ROOT / name).exists()]
+            assert len(new) == 1, f"{patch.name} adds {len(new)} files; one is enough"
+            rows = 2 if patch.stem == "effect" else 1  # an effect has an element in the description
+            assert len(touched) - 1 <= rows, f"{patch.name} changes {touched}"
+            call(["git", "apply", "--recount", "-C1", patch], cwd=at)
+            self.added += new
+            self.changed += [name for name in touched if name not in new]
+        self.compile()
+
+    def commands(self):
+        entries = json.loads(call(["ninja", "-C", self.build, "-t", "compdb"]))
+        return {e["output"]: e["command"] for e in entries
+                if "/fw_" in e["output"] and e["output"].endswith(".o")}
+
+    def outdated(self, known):
+        """objects that depend on a changed file"""
+        found, output = set(), None
+        paths = {str(ROOT / name) for name in self.changed}
+        for line in call(["ninja", "-C", self.build, "-t", "deps"]).splitlines():
+            if line and not line.startswith(" "):
+                output = line.split(":")[0]
+            elif os.path.normpath(self.build / line.strip()) in paths and output in known:
+                found.add(output)
+        return found
+
+    def compile(self):
+        known, objects, jobs = self.commands(), self.at / "objects", []
+        objects.mkdir()
+        for output in sorted(self.outdated(known)):
+            jobs.append((known[output], output.split(".dir/")[1]))
+        for name in self.added:
+            room = name.split("/")[1]
+            model = next(o for o in sorted(known) if f"/fw_{room}.dir/src/{room}/" in o and "-m" not in known[o].split())
+            source = model.split(".dir/")[1]
+            jobs.append((known[model].replace(source[:-2], name), name + ".o"))
+        self.objects = [objects / name.replace("/", "-") for _, name in jobs]
+
+        def one(job):
+            command, name = job
+            old = command.split(" -o ")[1].split()[0]
+            command = command.replace(str(ROOT / "src"), str(self.at / "src"))
+            command = command.replace(str(ROOT / "include"), str(self.at / "include"))
+            command = command.replace("../src/", f"{self.at}/src/").replace("../include", f"{self.at}/include")
+            command = command.replace(old, str(objects / name.replace("/", "-")))
+            done = subprocess.run(command, shell=True, cwd=self.build, capture_output=True, text=True)
+            return done.stderr + done.stdout if done.returncode else ""
+
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            wrong = [text for text in pool.map(one, jobs) if text]
+        if wrong:
+            sys.exit("".join(wrong))
+        print(f"{len(jobs)} files compiled")
+
+    def link(self, target, first=None):
+        """a program of the build, with the new objects in front of the libraries"""
+        command = call(["ninja", "-C", self.build, "-t", "commands", target]).splitlines()[-1]
+        words = command.split(" ")
+        at = words.index("-o")
+        own = [w for w in words[:at] if w.endswith(".o")]
+        program = self.at / pathlib.Path(target).name
+        words[at + 1] = str(program)
+        for w in own:
+            words[words.index(w)] = str(first) if first else w
+        words[at:at] = map(str, self.objects)
+        call(["sh", "-c", " ".join(words)], cwd=self.build)
+        return program
+
+
+def device(at, name, load):
+    """the reference six-bar with one scene, in one flow"""
+    text = (ROOT / "docs/gallery/reference-six-bar/device.xml").read_text()
+    head, rest = text.split('  <scene name="step-load"')
+    tail = rest[rest.index("  <die "):]
+    head = head.replace('  <flow ref="copper-on-porous-silicon" material="copper-plated" thickness="9 um"/>\n', "")
+    assert "copper" not in head
+    file = at / f"{name}.xml"
+    file.write_text(f'{head}  <scene name="turned" duration="5 ms">\n    {load}\n  </scene>\n{tail}')
+    return file
+
+
+MAGNET = '<magnetic-torque on="AB" moment="{} mA mm^2" field="100 mT" law="decay" time-constant="2 ms"{}/>'
+SAME = '<torque on="AB" value="100 mT * {} mA mm^2" law="expression" factor="exp(-time/(2 ms))"/>'
+SMALL, LARGE = 400, 20000
+
+
+def check(copy):
+    at = copy.at
+    program = copy.link("flexwright")
+    run = lambda *arguments, ok=(0,): _run(program, arguments, ok)
+    small = device(at, "small", MAGNET.format(SMALL, ' start="0.5 ms"'))
+    pages = []
+
+    def expect(what, text, *words):
+        for word in words:
+            if word not in text:
+                sys.exit(f"{what} does not know {word!r}:\n{text[:4000]}")
+        pages.append(what)
+
+    # the motion is that of the same torque as an expression
+    mine = json.loads(run("simulate", device(at, "mine", MAGNET.format(SMALL, "")), "--json"))
+    same = json.loads(run("simulate", device(at, "same", SAME.format(SMALL)), "--json"))
+    ledger = {e["id"]: e for e in mine["effects"]}
+    assert ledger["magnetic-torque"]["called_for"] and ledger["magnetic-torque"]["active"], ledger
+    for a, b in zip(mine["peaks"], same["peaks"]):
+        assert abs(a["angle_rad"] - b["angle_rad"]) <= 2e-3 * abs(b["angle_rad"]) + 1e-9, (a, b)
+    assert max(abs(p["angle_rad"]) for p in mine["peaks"]) > 1e-3
+    pages.append("simulate")
+
+    large = device(at, "large", MAGNET.format(LARGE, ""))
+    expect("the advice of check", run("check", large, "--corners", "none", ok=(1,)), "REJECT", "magnetic fields")
+
+    decks = at / "decks"
+    said = subprocess.run([program, "hinge", small, "--deck", decks, "--level", "closed-form"], capture_output=True,
+                          text=True)
+    assert said.returncode in (0, 1), said.stderr
+    assert not list(decks.glob("*mechanism*")), "a deck was written without the effect"
+    expect("hinge --deck", said.stdout + said.stderr, "magnetic-torque", "cannot be written")
+
+    out = at / "out"
+    run("plan", small, "-o", out, "--mask-format", "points,svg", "--force", "--corners", "none", "--advice", "none",
+        ok=(0, 1, 4))
+    report = next(out.glob("*.html")).read_text()
+    expect("the report", report, "magnet on AB in a field of", "decay with the time constant", "from 500")
+    vertices = next((out / "masks").glob("*.points.csv")).read_text()
+    assert vertices.count("\n") > 100, vertices
+    pages.append("the masks")
+    expect("--help", run("plan", "--help"), "points")
+
+    # the reference page, its schema, and what the page makes its form of
+    source = at / "tests/arch/additions/pages.c"
+    object_ = at / "pages.o"
+    call(["cc", "-std=c17", f"-I{at}/src", f"-I{at}/include", "-c", source, "-o", object_])
+    text = call([copy.link("tests/live", object_)])
+    expect("the reference page and the schema", text, "| `decay` | `start`, **`time-constant`** |",
+           "decay: after which a share of 1/e is left", "### `<magnetic-torque>`", '<element name="magnetic-torque">',
+           "<value>decay</value>", '<attribute name="time-constant">')
+    form = json.loads(call([copy.link("tests/live"), "table"], input=""))
+    elements = {e["name"]: e for e in form["elements"]}
+    attributes = {a["name"]: a for a in elements["magnetic-torque"]["attributes"]}
+    assert "decay" in attributes["law"]["choices"] and attributes["time-constant"]["unit"] == "ms", attributes
+    assert any(f["name"] == "points" for f in form["mask_formats"]), form["mask_formats"]
+    assert any(e["name"] == "magnetic-torque" for e in form["effects"]), form["effects"]
+    pages.append("the page's form")
+    print("known to: " + ", ".join(pages))
+
+
+def _run(program, arguments, ok):
+    done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True)
+    if done.returncode not in ok:
+        sys.exit(f"{' '.join(map(str, arguments))}: exit {done.returncode}\n{done.stdout}\n{done.stderr}")
+    return done.stdout
+
+
+def main():
+    build = pathlib.Path(sys.argv[1]).resolve()
+    with tempfile.TemporaryDirectory() as here:
+        check(Copy(build, pathlib.Path(here)))
+
+
+if __name__ == "__main__":
+    main()
