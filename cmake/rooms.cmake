@@ -12,12 +12,11 @@ pkg_check_modules(ZIP REQUIRED IMPORTED_TARGET libzip)
 find_library(LAPACKE_LIBRARY lapacke REQUIRED)
 find_library(LAPACK_LIBRARY lapack REQUIRED)
 
-set(FW_ROOMS base maths geometry quantity device flexure layout mechanism effects multibody assembly
+set(FW_ROOMS base maths geometry quantity xml device flexure layout mechanism effects multibody assembly
              dynamics statics workspace
              verdict continuum process schedule mask wafer recipe report plan study serve cli)
 set(FW_EXTERN_maths PkgConfig::GSL ${LAPACKE_LIBRARY} ${LAPACK_LIBRARY} m)
-set(FW_EXTERN_device PkgConfig::XML2)
-set(FW_EXTERN_process PkgConfig::XML2)
+set(FW_EXTERN_xml PkgConfig::XML2)
 set(FW_EXTERN_mask PkgConfig::ZLIB)
 set(FW_EXTERN_report PkgConfig::CAIRO)
 set(FW_EXTERN_serve PkgConfig::MICROHTTPD PkgConfig::ZIP)

@@ -171,28 +171,28 @@ static void check_whole(fw_reader *r, const fw_record *record, const fw_flexure 
 
 /* children in their order; what is wrong with one is said there and the whole is not judged */
 static fw_status read_path(fw_reader *r, int at, fw_flexure *f) {
-    const fw_record *record = &r->record[at];
+    const fw_record *record = &r->xml.record[at];
     char label[FW_LABEL];
     fw_strip_piece *piece;
     double before = f->width_m, least = HUGE_VAL;
     bool ok = true;
     int n = 0;
     FW_NEED(piece = fw_arena_array(r->arena, fw_strip_piece, FW_STRIP_MOST));
-    for (int i = at + 1; i < r->nrecord && r->record[i].parent >= at; i++) {
-        if (r->record[i].parent != at) continue;
+    for (int i = at + 1; i < r->xml.nrecord && r->xml.record[i].parent >= at; i++) {
+        if (r->xml.record[i].parent != at) continue;
         if (n == FW_STRIP_MOST) {
-            fw_diag_error(r->diags, 262, r->record[i].element->place,
+            fw_diag_error(r->diags, 262, r->xml.record[i].element->place,
                           "%s: a path has at most %d pieces; join some", fw_label(record, label),
                           FW_STRIP_MOST);
             return FW_OK;
         }
-        bool good = read_piece(r, &r->record[i], before, &piece[n]);
+        bool good = read_piece(r, &r->xml.record[i], before, &piece[n]);
         before = good ? piece[n].width_m[2] : UNKNOWN;
         ok = ok && good;
         n++;
     }
     f->piece = piece, f->npiece = n, f->width_m = (double)NAN;
-    if (ok && n == 0 && !r->unknown_element)
+    if (ok && n == 0 && !r->xml.unknown_element)
         fw_diag_error(r->diags, 262, record->element->place,
                       "%s: a path needs its pieces: <line length=\"...\"/> and "
                       "<arc radius=\"...\" angle=\"...\"/> in their order",
@@ -214,11 +214,11 @@ static fw_status read_path(fw_reader *r, int at, fw_flexure *f) {
 
 static void refuse_pieces(fw_reader *r, int at, const char *kind) {
     char label[FW_LABEL];
-    for (int i = at + 1; i < r->nrecord && r->record[i].parent >= at; i++)
-        if (r->record[i].parent == at)
-            fw_diag_error(r->diags, 262, r->record[i].element->place,
+    for (int i = at + 1; i < r->xml.nrecord && r->xml.record[i].parent >= at; i++)
+        if (r->xml.record[i].parent == at)
+            fw_diag_error(r->diags, 262, r->xml.record[i].element->place,
                           "%s: a %s has no pieces of its own; remove <%s>, or write kind=\"path\"",
-                          fw_label(&r->record[at], label), kind, r->record[i].row->name);
+                          fw_label(&r->xml.record[at], label), kind, r->xml.record[i].row->name);
 }
 
 static void refuse_attributes(fw_reader *r, const fw_record *record, const char *const *name, int n,
@@ -246,7 +246,7 @@ static void leaf_of(fw_reader *r, const fw_record *record, fw_flexure *f) {
 }
 
 static fw_status flexure_of(fw_reader *r, int at, fw_flexure *f) {
-    const fw_record *record = &r->record[at];
+    const fw_record *record = &r->xml.record[at];
     const char *kind = fw_text_of(record, "kind");
     bool length = fw_given(record, "length");
     *f = (fw_flexure){.id = fw_text_of(record, "id"),
@@ -288,8 +288,10 @@ static fw_status flexure_of(fw_reader *r, int at, fw_flexure *f) {
 
 fw_status fw_build_flexures(fw_reader *r) {
     fw_device *d = r->device;
-    FW_NEED(d->flexure = fw_arena_array(r->arena, fw_flexure, (size_t)fw_count(r, "flexure")));
-    for (int i = 0; i < r->nrecord; i++)
-        if (fw_is(&r->record[i], "flexure")) FW_TRY(flexure_of(r, i, &d->flexure[d->nflexure++]));
+    FW_NEED(d->flexure =
+                fw_arena_array(r->arena, fw_flexure, (size_t)fw_count(&r->xml, "flexure")));
+    for (int i = 0; i < r->xml.nrecord; i++)
+        if (fw_is(&r->xml.record[i], "flexure"))
+            FW_TRY(flexure_of(r, i, &d->flexure[d->nflexure++]));
     return r->diags->failed ? FW_NOMEM : FW_OK;
 }

@@ -1,7 +1,204 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* <mechanism>: its bodies; joints are in build_joints.c. */
+/* <mechanism>: bodies, joints, springs, drivers. */
 #include "device/reader.h"
+#include "quantity/law_kind.h"
 #include <math.h>
+#include <string.h>
+
+/* ---- revolute, prismatic, distance, weld, spring, driver ---- */
+
+/* both ends of a joint or spring; false when one is not known */
+static bool read_ends(fw_reader *r, const fw_record *record, int *a, int *b) {
+    *a = fw_reference(r, record, "a");
+    *b = fw_reference(r, record, "b");
+    if (*a == FW_NOWHERE || *b == FW_NOWHERE) return false;
+    if (*a != *b) return true;
+    char label[FW_LABEL];
+    fw_diag_error(r->diags, 62, fw_place_of(record, "b"),
+                  "%s joins '%s' to itself; a and b must be two bodies, or a body and ground",
+                  fw_label(record, label), fw_text_of(record, "a"));
+    return false;
+}
+
+/* world = pose of the body * local; NaN while the body's pose waits for its shape */
+static void to_world(const fw_device *d, int body, double lx_m, double ly_m, double *x_m,
+                     double *y_m) {
+    *x_m = lx_m;
+    *y_m = ly_m;
+    if (body < 0) return;
+    const fw_body *b = &d->body[body];
+    double c = cos(b->phi_rad), s = sin(b->phi_rad);
+    *x_m = b->x_m + c * lx_m - s * ly_m;
+    *y_m = b->y_m + s * lx_m + c * ly_m;
+}
+
+/* ---- turning ---- */
+
+static void check_stops(fw_reader *r, const fw_record *record, const fw_joint *j) {
+    static const char *const need[] = {"stop-min", "stop-max", "stop-damping"};
+    char label[FW_LABEL], low[FW_LABEL], high[FW_LABEL];
+    bool angle = fw_given(record, "stop-min") || fw_given(record, "stop-max");
+    fw_label(record, label);
+    if (fw_given(record, "stop-stiffness") && !angle)
+        fw_diag_error(r->diags, 64, fw_place_of(record, "stop-stiffness"),
+                      "%s: stop-stiffness without a stop; add stop-min or stop-max, or remove it",
+                      label);
+    for (int i = 0; i < 3 && !fw_given(record, "stop-stiffness"); i++)
+        if (fw_given(record, need[i])) {
+            fw_diag_error(r->diags, 64, fw_place_of(record, need[i]),
+                          "%s: %s needs stop-stiffness, the torque per angle beyond the stop",
+                          label, need[i]);
+            break;
+        }
+    if (j->stop_min_rad >= j->stop_max_rad)
+        fw_diag_error(r->diags, 63, fw_place_of(record, "stop-min"),
+                      "%s: stop-min %s is not below stop-max %s; exchange them", label,
+                      fw_in_unit(low, j->stop_min_rad, "deg"),
+                      fw_in_unit(high, j->stop_max_rad, "deg"));
+    if (j->stop_stiffness_Nm_per_rad == 0)
+        fw_diag_error(r->diags, 64, fw_place_of(record, "stop-stiffness"),
+                      "%s: a stop needs a stop-stiffness above 0; increase it, or remove the stop",
+                      label);
+}
+
+static fw_joint revolute_of(fw_reader *r, const fw_record *record) {
+    const fw_device *d = r->device;
+    fw_joint j = {.id = fw_text_of(record, "id"),
+                  .x_m = (double)NAN,
+                  .y_m = (double)NAN,
+                  .ax_m = fw_number_or(record, "a-x", 0.0),
+                  .ay_m = fw_number_or(record, "a-y", 0.0),
+                  .bx_m = fw_number_or(record, "b-x", 0.0),
+                  .by_m = fw_number_or(record, "b-y", 0.0),
+                  .stiffness_Nm_per_rad = fw_number_of(record, "stiffness"),
+                  .damping_Nms_per_rad = fw_number_of(record, "damping"),
+                  .free_angle_rad = fw_number_or(record, "free-angle", 0.0),
+                  .flexure = fw_reference(r, record, "hinge"),
+                  .axis_rad = fw_number_of(record, "axis"),
+                  .stop_min_rad = fw_number_of(record, "stop-min"),
+                  .stop_max_rad = fw_number_of(record, "stop-max"),
+                  .stop_stiffness_Nm_per_rad = fw_number_of(record, "stop-stiffness"),
+                  .stop_damping_Nms_per_rad = fw_number_of(record, "stop-damping"),
+                  .place = record->element->place};
+    check_stops(r, record, &j);
+    if (!read_ends(r, record, &j.body_a, &j.body_b)) return j;
+    to_world(d, j.body_a, j.ax_m, j.ay_m, &j.x_m, &j.y_m);
+    if (j.flexure >= 0 || (j.body_a >= 0 && fw_body_drawn(&d->body[j.body_a])) ||
+        (j.body_b >= 0 && fw_body_drawn(&d->body[j.body_b]))) {
+        fw_wafer_check(r, record, "a-x", j.x_m);
+        fw_wafer_check(r, record, "a-y", j.y_m);
+    }
+    return j;
+}
+
+/* ---- other joints ---- */
+
+static fw_tie tie_of(fw_reader *r, const fw_record *record, fw_tie_kind kind) {
+    fw_tie t = {.id = fw_text_of(record, "id"),
+                .kind = kind,
+                .ax_m = fw_number_or(record, "a-x", 0.0),
+                .ay_m = fw_number_or(record, "a-y", 0.0),
+                .bx_m = fw_number_or(record, "b-x", 0.0),
+                .by_m = fw_number_or(record, "b-y", 0.0),
+                .axis_rad = fw_number_of(record, "axis"),
+                .angle_rad = fw_number_of(record, "angle"),
+                .length_m = fw_number_of(record, "length"),
+                .stiffness_N_per_m = fw_number_or(record, "stiffness", 0.0),
+                .damping_Ns_per_m = fw_number_or(record, "damping", 0.0),
+                .free_length_m = fw_number_or(record, "free-length", 0.0),
+                .place = record->element->place};
+    read_ends(r, record, &t.body_a, &t.body_b);
+    return t;
+}
+
+static fw_spring spring_of(fw_reader *r, const fw_record *record) {
+    const char *cable = fw_text_of(record, "cable");
+    fw_spring s = {.id = fw_text_of(record, "id"),
+                   .ax_m = fw_number_or(record, "a-x", 0.0),
+                   .ay_m = fw_number_or(record, "a-y", 0.0),
+                   .bx_m = fw_number_or(record, "b-x", 0.0),
+                   .by_m = fw_number_or(record, "b-y", 0.0),
+                   .stiffness_N_per_m = fw_number_of(record, "stiffness"),
+                   .damping_Ns_per_m = fw_number_or(record, "damping", 0.0),
+                   .length_m = fw_number_or(record, "length", 0.0),
+                   .cable = cable && strcmp(cable, "yes") == 0,
+                   .place = record->element->place};
+    read_ends(r, record, &s.body_a, &s.body_b);
+    return s;
+}
+
+/* ---- drivers ---- */
+
+/* `driven`, per joint and tie: line of its driver, 0: none yet */
+static fw_status add_driver(fw_reader *r, const fw_record *record, int *driven) {
+    static const fw_dimension angle = {.rad = 1}, length = {.m = 1};
+    fw_device *d = r->device;
+    int k = fw_reference(r, record, "joint");
+    const char *joint = fw_text_of(record, "joint"), *id = fw_text_of(record, "id");
+    fw_driver *driver = &d->driver[d->ndriver++];
+    *driver = (fw_driver){.id = id ? id : joint,
+                          .joint = FW_NONE,
+                          .tie = FW_NONE,
+                          .law = {.kind = &fw_quantity_law_expression},
+                          .place = record->element->place,
+                          .value_place = fw_place_of(record, "value")};
+    if (k < 0) return FW_OK;
+    if (k < d->njoint)
+        driver->joint = k;
+    else
+        driver->tie = k - d->njoint;
+    if (driver->tie != FW_NONE && d->tie[driver->tie].kind == FW_TIE_WELD)
+        return fw_diag_error(r->diags, 73, fw_place_of(record, "joint"),
+                             "driver: '%s' is a weld, and a weld does not move; drive a revolute, "
+                             "prismatic or distance joint",
+                             joint) == FW_NOMEM
+                   ? FW_NOMEM
+                   : FW_OK;
+    if (driven[k])
+        fw_diag_error(r->diags, 73, fw_place_of(record, "joint"),
+                      "driver: '%s' is driven already (line %d), and a joint cannot follow two "
+                      "laws; remove one",
+                      joint, driven[k]);
+    else
+        driven[k] = driver->place.line;
+    return fw_time_program(r, record, "value", driver->joint != FW_NONE ? angle : length,
+                           &driver->law.program);
+}
+
+static fw_status add_drivers(fw_reader *r) {
+    int *driven =
+        fw_arena_array(r->arena, int, (size_t)r->device->njoint + (size_t)r->device->ntie);
+    FW_NEED(driven);
+    for (int i = 0; i < r->xml.nrecord; i++)
+        if (fw_is(&r->xml.record[i], "driver")) FW_TRY(add_driver(r, &r->xml.record[i], driven));
+    return FW_OK;
+}
+
+static fw_status build_joints(fw_reader *r) {
+    fw_device *d = r->device;
+    size_t ties = (size_t)fw_count(&r->xml, "prismatic") + (size_t)fw_count(&r->xml, "distance") +
+                  (size_t)fw_count(&r->xml, "weld");
+    FW_NEED(d->spring = fw_arena_array(r->arena, fw_spring, (size_t)fw_count(&r->xml, "spring")));
+    FW_NEED(d->tie = fw_arena_array(r->arena, fw_tie, ties));
+    FW_NEED(d->driver = fw_arena_array(r->arena, fw_driver, (size_t)fw_count(&r->xml, "driver")));
+    for (int i = 0; i < r->xml.nrecord; i++) {
+        const fw_record *record = &r->xml.record[i];
+        if (fw_is(record, "revolute"))
+            d->joint[d->njoint++] = revolute_of(r, record);
+        else if (fw_is(record, "prismatic"))
+            d->tie[d->ntie++] = tie_of(r, record, FW_TIE_PRISMATIC);
+        else if (fw_is(record, "distance"))
+            d->tie[d->ntie++] = tie_of(r, record, FW_TIE_DISTANCE);
+        else if (fw_is(record, "weld"))
+            d->tie[d->ntie++] = tie_of(r, record, FW_TIE_WELD);
+        else if (fw_is(record, "spring"))
+            d->spring[d->nspring++] = spring_of(r, record);
+    }
+    FW_TRY(add_drivers(r));
+    return r->diags->failed ? FW_NOMEM : FW_OK;
+}
+
+/* ---- bodies ---- */
 
 void fw_mass_check(fw_reader *r, const fw_record *record, bool shape, const char *shape_advice) {
     char label[FW_LABEL];
@@ -71,21 +268,21 @@ static fw_body body_of(fw_reader *r, const fw_record *record) {
 
 static void check_present(fw_reader *r) {
     const fw_record *mechanism = NULL;
-    for (int i = 0; i < r->nrecord; i++)
-        if (fw_is(&r->record[i], "mechanism")) mechanism = &r->record[i];
-    if (r->unknown_element || r->device->nbody > 0) return;
+    for (int i = 0; i < r->xml.nrecord; i++)
+        if (fw_is(&r->xml.record[i], "mechanism")) mechanism = &r->xml.record[i];
+    if (r->xml.unknown_element || r->device->nbody > 0) return;
     if (mechanism)
         fw_diag_error(r->diags, 52, mechanism->element->place,
                       "<mechanism> has no <body>; add at least one");
     else
-        fw_diag_error(r->diags, 52, r->root->place,
+        fw_diag_error(r->diags, 52, r->xml.root->place,
                       "<device> has no mechanism; add <six-bar> or <mechanism>");
 }
 
 fw_status fw_build_mechanism(fw_reader *r) {
     fw_device *d = r->device;
-    for (int i = 0; i < r->nrecord; i++)
-        if (fw_is(&r->record[i], "body")) d->body[d->nbody++] = body_of(r, &r->record[i]);
+    for (int i = 0; i < r->xml.nrecord; i++)
+        if (fw_is(&r->xml.record[i], "body")) d->body[d->nbody++] = body_of(r, &r->xml.record[i]);
     check_present(r);
-    return fw_build_joints(r);
+    return build_joints(r);
 }

@@ -1,12 +1,175 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* <material-damping>, <temperature>, <residual-stress>, <air>. */
+/* What else acts in a <scene>: surfaces that rub or touch, the material, the air. */
 #include "device/scene_parts.h"
 #include "base/constants.h"
 #include <math.h>
 #include <string.h>
 
+/* ---- friction, contact ---- */
+
+/* ---- friction ---- */
+
+static const char *const tie_text[] = {
+    [FW_TIE_PRISMATIC] = "prismatic", [FW_TIE_DISTANCE] = "distance", [FW_TIE_WELD] = "weld"};
+
+/* does the joint have conjugate surfaces, whose radius can serve? */
+static bool has_surfaces(const fw_device *d, int joint) {
+    int k = d->joint[joint].flexure;
+    return k >= 0 && d->flexure[k].kind != FW_FLEXURE_LEAF && d->flexure[k].gap_m > 0;
+}
+
+static void check_what_slides(fw_reader *r, const fw_record *record, const fw_friction_use *f) {
+    static const char *const radius[] = {"radius"};
+    const fw_device *d = r->device;
+    char label[FW_LABEL];
+    fw_label(record, label);
+    if (f->tie != FW_NONE && d->tie[f->tie].kind != FW_TIE_PRISMATIC)
+        fw_diag_error(
+            r->diags, 77, fw_place_of(record, "on"),
+            "%s is a %s joint, in which no surfaces slide; name a revolute or a prismatic "
+            "joint, or use damping",
+            label, tie_text[d->tie[f->tie].kind]);
+    else if (f->tie != FW_NONE)
+        fw_refused(r, record, 77, radius, 1,
+                   "has no meaning for a prismatic, where friction acts along the line; remove it");
+    /* a flexure that could not be read has been reported */
+    else if (f->joint != FW_NONE && !fw_given(record, "radius") &&
+             d->joint[f->joint].flexure != FW_NOWHERE && !has_surfaces(d, f->joint))
+        fw_diag_error(r->diags, 77, record->element->place,
+                      "%s needs radius=\"...\", of the pin on which it slides: the joint has no "
+                      "conjugate surfaces to take it from",
+                      label);
+}
+
+static void check_friction(fw_reader *r, const fw_record *record, const fw_scene *s,
+                           const fw_friction_use *f) {
+    char label[FW_LABEL], low[FW_LABEL], high[FW_LABEL];
+    fw_label(record, label);
+    check_what_slides(r, record, f);
+    if (f->static_coefficient < f->coefficient)
+        fw_diag_error(
+            r->diags, 77, fw_place_of(record, "static-coefficient"),
+            "%s: static-coefficient %s is below coefficient %s; static friction is at least as "
+            "large as sliding friction: exchange them",
+            label, fw_in_unit(low, f->static_coefficient, "1"),
+            fw_in_unit(high, f->coefficient, "1"));
+    for (int i = 0; i < s->nfriction && (f->joint != FW_NONE || f->tie != FW_NONE); i++)
+        if (s->friction[i].joint == f->joint && s->friction[i].tie == f->tie) {
+            fw_diag_error(r->diags, 97, fw_place_of(record, "on"),
+                          "%s: the joint has friction in this scene already (line %d); remove one",
+                          label, s->friction[i].place.line);
+            return;
+        }
+}
+
+fw_status fw_build_friction(fw_scene_reader *s, int at) {
+    const fw_record *record = &s->r->xml.record[at];
+    int k = fw_reference(s->r, record, "on"), joints = s->r->device->njoint;
+    fw_friction_use f = {.joint = k >= 0 && k < joints ? k : FW_NONE,
+                         .tie = k >= joints ? k - joints : FW_NONE,
+                         .coefficient = fw_number_of(record, "coefficient"),
+                         .static_coefficient = fw_number_of(record, "static-coefficient"),
+                         .radius_m = fw_number_of(record, "radius"),
+                         .preload_N = fw_number_or(record, "preload", 0.0),
+                         .place = record->element->place};
+    check_friction(s->r, record, s->scene, &f);
+    s->scene->friction[s->scene->nfriction++] = f;
+    return FW_OK;
+}
+
+/* ---- contact ---- */
+
+static void check_hinge(fw_reader *r, const fw_record *record, const fw_scene *s, fw_contact_use *c,
+                        int k) {
+    static const char *const of_points[] = {"a",   "a-x", "a-y",  "b",
+                                            "b-x", "b-y", "side", "distance"};
+    const fw_device *d = r->device;
+    char label[FW_LABEL];
+    fw_label(record, label);
+    fw_refused(r, record, 78, of_points, 8,
+               "describes a contact of two points, and this one is on a hinge; remove it, or write "
+               "two contacts");
+    if (k < 0) return;
+    int flexure = k < d->njoint ? d->joint[k].flexure : FW_NONE;
+    if (flexure == FW_NOWHERE) return; /* reported */
+    if (flexure < 0) {
+        fw_diag_error(
+            r->diags, 78, fw_place_of(record, "on"),
+            "%s: '%s' is not a hinge with a flexure, so that it has no surfaces; name one, "
+            "or give a, b, side and distance instead of on",
+            label, fw_text_of(record, "on"));
+        return;
+    }
+    c->joint = k;
+    if (!fw_given(record, "gap") && d->flexure[flexure].gap_m == 0)
+        fw_diag_error(
+            r->diags, 78, fw_place_of(record, "on"),
+            "%s: flexure '%s' of this hinge has no gap, and so no conjugate surfaces; give "
+            "it a gap, or give one here",
+            label, d->flexure[flexure].id ? d->flexure[flexure].id : "");
+    for (int i = 0; i < s->ncontact; i++)
+        if (s->contact[i].joint == k)
+            fw_diag_error(r->diags, 97, fw_place_of(record, "on"),
+                          "%s: the hinge has a contact in this scene already (line %d); remove one",
+                          label, s->contact[i].place.line);
+}
+
+static void check_points(fw_reader *r, const fw_record *record, fw_contact_use *c) {
+    static const char *const needs[] = {"a", "b", "side", "distance", "stiffness"};
+    static const char *const why[] = {
+        "what carries the first of the two that touch; or on=\"...\", a hinge",
+        "what carries the second of the two that touch",
+        "inside (a disc in a hole) or outside (side by side)",
+        "of the two centres when the two touch", "force per length by which they come too near"};
+    static const char *const gap[] = {"gap"};
+    char label[FW_LABEL];
+    for (int i = 0; i < 5; i++)
+        if (fw_needed(r, record, 78, needs + i, 1, why[i]) && i == 0) return;
+    fw_refused(r, record, 78, gap, 1,
+               "is that of a hinge's surfaces; for two points write distance instead");
+    if (c->side == FW_CONTACT_OUTSIDE && c->distance_m == 0)
+        fw_diag_error(r->diags, 78, fw_place_of(record, "distance"),
+                      "%s: two circles side by side touch at the sum of their radii, so that "
+                      "distance must be above 0",
+                      fw_label(record, label));
+    if (fw_given(record, "a") && fw_given(record, "b") && c->body_a == c->body_b &&
+        c->body_a != FW_NOWHERE)
+        fw_diag_error(r->diags, 62, fw_place_of(record, "b"),
+                      "%s: '%s' cannot touch itself; a and b must be two bodies, or a body and "
+                      "ground",
+                      fw_label(record, label), fw_text_of(record, "a"));
+}
+
+fw_status fw_build_contact(fw_scene_reader *s, int at) {
+    const fw_record *record = &s->r->xml.record[at];
+    const char *side = fw_text_of(record, "side");
+    bool hinge = fw_given(record, "on");
+    fw_contact_use c = {.id = fw_text_of(record, "id"),
+                        .joint = FW_NONE,
+                        .side = side && strcmp(side, "outside") == 0 ? FW_CONTACT_OUTSIDE
+                                                                     : FW_CONTACT_INSIDE,
+                        .body_a = fw_reference(s->r, record, "a"),
+                        .body_b = fw_reference(s->r, record, "b"),
+                        .ax_m = fw_number_or(record, "a-x", 0.0),
+                        .ay_m = fw_number_or(record, "a-y", 0.0),
+                        .bx_m = fw_number_or(record, "b-x", 0.0),
+                        .by_m = fw_number_or(record, "b-y", 0.0),
+                        .distance_m = fw_number_of(record, hinge ? "gap" : "distance"),
+                        .stiffness_N_per_m = fw_number_of(record, "stiffness"),
+                        .damping_Ns_per_m = fw_number_or(record, "damping", 0.0),
+                        .place = record->element->place};
+    if (hinge)
+        check_hinge(s->r, record, s->scene, &c, fw_reference(s->r, record, "on"));
+    else
+        check_points(s->r, record, &c);
+    s->scene->contact[s->scene->ncontact++] = c;
+    return FW_OK;
+}
+
+/* ---- material-damping, temperature, residual-stress, air ---- */
+
 fw_status fw_build_material_damping(fw_scene_reader *s, int at) {
-    const fw_record *record = &s->r->record[at];
+    const fw_record *record = &s->r->xml.record[at];
     s->scene->damping[s->scene->ndamping++] =
         (fw_material_damping){.loss_factor = fw_number_of(record, "loss-factor"),
                               .frequency_Hz = fw_number_of(record, "frequency"),
@@ -15,7 +178,7 @@ fw_status fw_build_material_damping(fw_scene_reader *s, int at) {
 }
 
 fw_status fw_build_temperature(fw_scene_reader *s, int at) {
-    const fw_record *record = &s->r->record[at];
+    const fw_record *record = &s->r->xml.record[at];
     fw_temperature t = {.change_K = fw_number_of(record, "change"),
                         .expansion_per_K = fw_number_of(record, "expansion"),
                         .substrate_expansion_per_K = fw_number_of(record, "substrate-expansion"),
@@ -34,7 +197,7 @@ fw_status fw_build_temperature(fw_scene_reader *s, int at) {
 }
 
 fw_status fw_build_residual_stress(fw_scene_reader *s, int at) {
-    const fw_record *record = &s->r->record[at];
+    const fw_record *record = &s->r->xml.record[at];
     fw_residual_stress stress = {.mean_Pa = fw_number_or(record, "mean", 0.0),
                                  .gradient_Pa_per_m = fw_number_or(record, "gradient", 0.0),
                                  .place = record->element->place};
@@ -111,7 +274,7 @@ static void check_air_once(fw_reader *r, const fw_record *record, const fw_scene
 }
 
 fw_status fw_build_air(fw_scene_reader *s, int at) {
-    const fw_record *record = &s->r->record[at];
+    const fw_record *record = &s->r->xml.record[at];
     const char *kind = fw_text_of(record, "kind");
     fw_air air = {.body = fw_reference(s->r, record, "on"),
                   .against = fw_reference(s->r, record, "against"),

@@ -2,8 +2,8 @@
 /* Text in, text out: places come from the reader, and only the bytes of a change are touched. */
 #include "device/edit.h"
 #include "device/table.h"
-#include "device/xml.h"
-#include "device/xml_scan.h"
+#include "xml/xml.h"
+#include "xml/guard.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -82,7 +82,7 @@ static fw_status find_step(const editor *e, const step *s, const fw_element *ins
                            const fw_element **found) {
     char name[64] = "";
     memcpy(name, s->name, s->name_length < sizeof name ? s->name_length : sizeof name - 1);
-    const fw_element_row *row = fw_element_row_find(name);
+    const fw_element_row *row = fw_xml_row_find(&fw_device_table, name);
     search all = {.step = s, .key = row ? row->key : NULL, .wanted = number_of(s)};
     if (all.wanted < 0) return refuse(e, "this is no path; numbers of elements begin with 1", NULL);
     look(&all, inside ? inside->first_child : e->root, !inside);
@@ -221,10 +221,10 @@ static fw_status splice(const editor *e, size_t from, size_t to, const fw_text *
 static fw_status check_attribute(const editor *e, const fw_element *element, const char *name) {
     const char *names[FW_ATTRIBUTES_MOST];
     size_t n = 0;
-    const fw_element_row *row = fw_element_row_find(element->name);
+    const fw_element_row *row = fw_xml_row_find(&fw_device_table, element->name);
     if (!name_valid(name)) return refuse(e, "no attribute can be called", name);
-    fw_device_attributes all = {0};
-    if (row) FW_TRY(fw_device_attributes_of(e->arena, row, &all));
+    fw_xml_attributes all = {0};
+    if (row) FW_TRY(fw_xml_attributes_of(e->arena, row, &all));
     for (int i = 0; i < all.count && n < FW_ATTRIBUTES_MOST; i++) {
         if (strcmp(all.item[i].name, name) == 0) return FW_OK;
         names[n++] = all.item[i].name;

@@ -20,8 +20,8 @@ static int index_of(const char *id, const char *const *ids, int n) {
 }
 
 static void gather(const fw_reader *r, parts *p) {
-    for (int i = 0; i < r->nrecord; i++) {
-        const fw_record *record = &r->record[i];
+    for (int i = 0; i < r->xml.nrecord; i++) {
+        const fw_record *record = &r->xml.record[i];
         int k;
         if (fw_is(record, "hinge") &&
             (k = index_of(fw_text_of(record, "at"), joint_id, JOINTS)) >= 0 && !p->joint[k])
@@ -35,11 +35,11 @@ static void gather(const fw_reader *r, parts *p) {
 static void say_missing(fw_reader *r, const parts *p, fw_place place) {
     char list[200] = "";
     size_t used = 0;
-    for (int i = 0; i < JOINTS && !r->broken[FW_SPACE_JOINT]; i++)
+    for (int i = 0; i < JOINTS && !r->xml.broken[FW_SPACE_JOINT]; i++)
         if (!p->joint[i])
             used += (size_t)snprintf(list + used, sizeof list - used, " <hinge at=\"%s\">",
                                      joint_id[i]);
-    for (int i = 0; i < BODIES && !r->broken[FW_SPACE_BODY]; i++)
+    for (int i = 0; i < BODIES && !r->xml.broken[FW_SPACE_BODY]; i++)
         if (!p->body[i])
             used += (size_t)snprintf(list + used, sizeof list - used, " <%s id=\"%s\">",
                                      i == PLATFORM ? "platform" : "link", body_id[i]);
@@ -144,9 +144,10 @@ static fw_body body_of(fw_reader *r, const parts *p, int i) {
 fw_status fw_expand_six_bar(fw_reader *r) {
     fw_device *d = r->device;
     const fw_record *six_bar = NULL;
-    for (int i = 0; i < r->nrecord && !six_bar; i++)
-        if (fw_is(&r->record[i], "six-bar")) six_bar = &r->record[i];
-    size_t bodies = (size_t)fw_count(r, "body") + BODIES, joints = (size_t)fw_count(r, "revolute");
+    for (int i = 0; i < r->xml.nrecord && !six_bar; i++)
+        if (fw_is(&r->xml.record[i], "six-bar")) six_bar = &r->xml.record[i];
+    size_t bodies = (size_t)fw_count(&r->xml, "body") + BODIES,
+           joints = (size_t)fw_count(&r->xml, "revolute");
     FW_NEED(d->body = fw_arena_array(r->arena, fw_body, bodies));
     FW_NEED(d->joint = fw_arena_array(r->arena, fw_joint, joints + JOINTS));
     if (!six_bar) return FW_OK;

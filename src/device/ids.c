@@ -90,12 +90,12 @@ static void say_dangling(fw_reader *r, const fw_record *record, const fw_attribu
                          const fw_attribute *a) {
     const fw_device *d = r->device;
     size_t n = count_of(d, row->space);
-    const char *kind = fw_space_text(row->space), *better = NULL;
+    const char *kind = fw_device_table.space[row->space], *better = NULL;
     char label[FW_LABEL], list[200] = "";
     size_t used = 0;
     int least = 3;
     fw_place there = {0};
-    for (size_t i = 0; i < n && i < SUGGESTIONS_MOST && !fw_full(r); i++) {
+    for (size_t i = 0; i < n && i < SUGGESTIONS_MOST && !fw_full(r->diags); i++) {
         const named other = name_of(d, row->space, i);
         const char *id = other.id;
         int distance = fw_edit_distance(a->value, id, 2);
@@ -119,7 +119,7 @@ static void say_dangling(fw_reader *r, const fw_record *record, const fw_attribu
 }
 
 int fw_reference(fw_reader *r, const fw_record *record, const char *name) {
-    const fw_cell *cell = fw_cell_of(record, name);
+    const fw_xml_cell *cell = fw_cell_of(record, name);
     if (cell->missing || (cell->given && !cell->ok)) return FW_NOWHERE;
     if (!cell->given) return FW_NONE;
     const fw_attribute_row *row = record->attribute;
@@ -140,48 +140,6 @@ int fw_reference(fw_reader *r, const fw_record *record, const char *name) {
     }
     int found = *slot_of(r->device, row->space, &r->index[row->space], id);
     if (found) return found - 1;
-    if (!r->broken[row->space]) say_dangling(r, record, row, cell->given);
+    if (!r->xml.broken[row->space]) say_dangling(r, record, row, cell->given);
     return FW_NOWHERE;
-}
-
-typedef struct entry {
-    fw_space space;
-    int within; /* record whose own ids these are, -1: of the whole file */
-    const fw_attribute *id;
-    int order;
-} entry;
-
-static int compare(const void *left, const void *right) {
-    const entry *a = left, *b = right;
-    if (a->space != b->space) return a->space < b->space ? -1 : 1;
-    if (a->within != b->within) return a->within < b->within ? -1 : 1;
-    int c = strcmp(a->id->value, b->id->value);
-    return c ? c : a->order - b->order;
-}
-
-fw_status fw_ids_check(fw_reader *r) {
-    entry *entries = fw_arena_array(r->arena, entry, (size_t)r->nrecord);
-    FW_NEED(entries);
-    size_t n = 0;
-    for (int i = 0; i < r->nrecord; i++) {
-        const fw_record *record = &r->record[i];
-        const char *key = record->row->key;
-        if (record->row->space == FW_SPACE_NONE || !fw_text_of(record, key)) continue;
-        entries[n++] = (entry){record->row->space, record->row->within ? record->parent : -1,
-                               fw_cell_of(record, key)->given, i};
-    }
-    qsort(entries, n, sizeof *entries, compare);
-    for (size_t i = 1, first = 0; i < n; i++) {
-        const entry *a = &entries[first], *b = &entries[i];
-        if (a->space != b->space || a->within != b->within ||
-            strcmp(a->id->value, b->id->value) != 0) {
-            first = i;
-            continue;
-        }
-        fw_diag_error(r->diags, 45, b->id->place,
-                      "%s '%s' is given twice (first at line %d, column %d); rename or remove one",
-                      fw_space_text(a->space), a->id->value, a->id->place.line,
-                      a->id->place.column);
-    }
-    return r->diags->failed ? FW_NOMEM : FW_OK;
 }

@@ -27,8 +27,8 @@ static void lose(work *w, int k) {
     item *p = &w->item[k];
     if (p->state == LOST) return;
     p->state = LOST;
-    const fw_cell *name = fw_cell_of(p->record, "name");
-    if (name->given) w->r->lost[w->r->nlost++] = name->given->value;
+    const fw_xml_cell *name = fw_cell_of(p->record, "name");
+    if (name->given) w->r->xml.lost[w->r->xml.nlost++] = name->given->value;
 }
 
 static int find(const work *w, const char *name) {
@@ -72,12 +72,12 @@ static fw_status evaluate_one(work *w, int k) {
     fw_parameter *out = &w->r->device->parameter[k];
     bool ok = true;
     if (p->value)
-        FW_TRY(fw_attribute_evaluate(w->r, p->value, out->name, NULL, &out->dimension, &out->value,
-                                     &ok));
+        FW_TRY(fw_attribute_evaluate(&w->r->xml, p->value, out->name, NULL, &out->dimension,
+                                     &out->value, &ok));
     if (ok && p->set) {
         fw_dimension found;
-        FW_TRY(fw_attribute_evaluate(w->r, p->set, out->name, &out->dimension, &found, &out->value,
-                                     &ok));
+        FW_TRY(fw_attribute_evaluate(&w->r->xml, p->set, out->name, &out->dimension, &found,
+                                     &out->value, &ok));
         out->overridden = true;
     }
     if (!ok || !p->value || p->state == LOST || fw_failed(p->record, "name")) {
@@ -85,8 +85,8 @@ static fw_status evaluate_one(work *w, int k) {
         return FW_OK;
     }
     p->state = DONE;
-    w->r->name[w->r->names.count] = (fw_name_value){out->name, out->value, out->dimension};
-    w->r->names.count++;
+    w->r->name[w->r->xml.names.count] = (fw_name_value){out->name, out->value, out->dimension};
+    w->r->xml.names.count++;
     return FW_OK;
 }
 
@@ -120,7 +120,7 @@ static fw_status check_needed(work *w, const fw_attribute *a) {
 }
 
 static bool uses_lost(const work *w, const fw_attribute *a) {
-    return a && fw_expression_uses(a->value, strlen(a->value), w->r->lost, w->r->nlost);
+    return a && fw_expression_uses(a->value, strlen(a->value), w->r->xml.lost, w->r->xml.nlost);
 }
 
 /* value and bounds; a parameter outside of its bounds is lost, so that its users keep silent */
@@ -140,7 +140,8 @@ static fw_status read_bounds(work *w, int k) {
         bool read = true;
         fw_dimension found;
         if (a)
-            FW_TRY(fw_attribute_evaluate(r, a, name[i], &out->dimension, &found, bound[i], &read));
+            FW_TRY(fw_attribute_evaluate(&r->xml, a, name[i], &out->dimension, &found, bound[i],
+                                         &read));
         ok = ok && read;
     }
     if (!ok) return FW_OK;
@@ -170,21 +171,23 @@ static fw_status check(work *w, int k) {
     p->checked = true;
     FW_TRY(fw_expression_unit(w->r->arena, p->value->value, strlen(p->value->value), out->dimension,
                               &out->unit));
+    if (strcmp(out->unit, "Cel") == 0) w->r->xml.celsius[w->r->xml.ncelsius++] = out->name;
     FW_TRY(check_needed(w, p->set ? p->set : p->value));
     return read_bounds(w, k);
 }
 
 static fw_status prepare(work *w) {
     fw_reader *r = w->r;
-    int n = w->n = fw_count(r, "parameter");
+    int n = w->n = fw_count(&r->xml, "parameter");
     r->device->nparameter = n;
     FW_NEED(w->item = fw_arena_array(r->arena, item, (size_t)n));
     FW_NEED(r->device->parameter = fw_arena_array(r->arena, fw_parameter, (size_t)n));
     FW_NEED(r->name = fw_arena_array(r->arena, fw_name_value, (size_t)n));
-    FW_NEED(r->lost = fw_arena_array(r->arena, const char *, (size_t)n));
-    r->names = (fw_names){r->name, 0};
-    for (int i = 0, k = 0; i < r->nrecord; i++) {
-        fw_record *record = &r->record[i];
+    FW_NEED(r->xml.lost = fw_arena_array(r->arena, const char *, (size_t)n));
+    FW_NEED(r->xml.celsius = fw_arena_array(r->arena, const char *, (size_t)n));
+    r->xml.names = (fw_names){r->name, 0};
+    for (int i = 0, k = 0; i < r->xml.nrecord; i++) {
+        fw_record *record = &r->xml.record[i];
         if (!fw_is(record, "parameter")) continue;
         const fw_attribute *name = fw_cell_of(record, "name")->given;
         const fw_attribute *doc = fw_cell_of(record, "doc")->given;

@@ -1,78 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* docs/reference/device.md */
+/* docs/reference/device.md, device.rng and the list of elements, from the rows of table_*.c. */
 #include "base/text.h"
 #include "device/reader.h"
 #include "quantity/law_kind.h"
 #include <string.h>
 
-static void add_number(fw_text *out, double value, const char *unit) {
-    char buffer[FW_LABEL];
-    fw_text_add(out, fw_in_unit(buffer, value, unit));
-}
-
-static void add_value(fw_text *out, const fw_attribute_row *a) {
-    switch (a->kind) {
-    case FW_KIND_TEXT:
-        fw_text_add(out, "text");
-        break;
-    case FW_KIND_ID:
-    case FW_KIND_NAME:
-        fw_text_add(out, "name");
-        break;
-    case FW_KIND_ANY:
-        fw_text_add(out, "expression");
-        break;
-    case FW_KIND_TIMED:
-        fw_text_printf(out, "expression in time, %s",
-                       strcmp(a->unit, "1") == 0 ? "pure number" : a->unit);
-        break;
-    case FW_KIND_TABLE:
-        fw_text_add(out, "points `TIME: NUMBER; ...`");
-        break;
-    case FW_KIND_REF:
-        fw_text_printf(out, "id of a %s%s", fw_space_text(a->space),
-                       a->ground ? " or `ground`" : "");
-        break;
-    case FW_KIND_WORD:
-        for (int i = 0; a->words[i]; i++)
-            fw_text_printf(out, "%s`%s`", i ? ", " : "", a->words[i]);
-        break;
-    case FW_KIND_NUMBER:
-        if (strcmp(a->unit, "1") == 0)
-            fw_text_add(out, a->whole ? "whole number" : "pure number");
-        else
-            fw_text_printf(out, "%s, e.g. in `%s`", fw_dimension_text(out->arena, a->dimension),
-                           a->unit);
-        break;
-    }
-}
-
-static void add_range(fw_text *out, const fw_attribute_row *a) {
-    if (!a->ranged) return;
-    fw_text_add(out, a->open ? " Above " : " At least ");
-    add_number(out, a->min, a->unit);
-    fw_text_add(out, ", at most ");
-    add_number(out, a->max, a->unit);
-    fw_text_printf(out, " (%s).", a->reason);
-}
-
-static void add_attribute(fw_text *out, const fw_attribute_row *a) {
-    fw_text_printf(out, "| `%s` | ", a->name);
-    add_value(out, a);
-    fw_text_printf(out, " | %s | %s",
-                   a->required   ? "**required**"
-                   : a->fallback ? a->fallback
-                                 : "",
-                   a->sentence);
-    add_range(out, a);
-    fw_text_add(out, " |\n");
-}
-
-#define TABLE_HEAD "\n| attribute | value | when absent | meaning |\n|---|---|---|---|\n"
-
 /* the laws, and their attributes, which are the same for every element that goes with time */
 static fw_status add_laws(fw_text *out) {
-    fw_device_attributes all;
+    fw_xml_attributes all;
     fw_text_add(out, "| law | attributes | factor |\n|---|---|---|\n");
     for (const fw_quantity_law_kind *const *kind = fw_quantity_law_kinds; *kind; kind++) {
         fw_text_printf(out, "| `%s` |", (*kind)->name);
@@ -82,21 +17,18 @@ static fw_status add_laws(fw_text *out) {
         }
         fw_text_printf(out, " | %s |\n", (*kind)->factor);
     }
-    FW_TRY(fw_device_law_attributes(out->arena, &all));
-    fw_text_add(out, TABLE_HEAD);
+    FW_TRY(fw_xml_law_attributes(out->arena, &all));
+    fw_text_add(out, FW_XML_PAGE_HEAD);
     for (int i = 0; i < all.count; i++)
-        add_attribute(out, &all.item[i]);
+        fw_xml_page_attribute(&fw_device_table, &all.item[i], out);
     return FW_OK;
 }
 
 static void add_element(fw_text *out, const fw_element_row *e) {
-    fw_text_printf(out, "\n### `<%s>`\n\n%s", e->name, e->sentence);
-    if (e->parent[0])
-        fw_text_printf(out, " Inside `<%s>`%s.", e->parent, e->once ? ", at most once" : "");
-    fw_text_add(out, "\n");
-    if (e->nattribute > 0 || e->timed) fw_text_add(out, TABLE_HEAD);
+    fw_xml_page_element(e, out);
+    if (e->nattribute > 0 || e->timed) fw_text_add(out, FW_XML_PAGE_HEAD);
     for (int i = 0; i < e->nattribute; i++)
-        add_attribute(out, &e->attribute[i]);
+        fw_xml_page_attribute(&fw_device_table, &e->attribute[i], out);
     if (e->timed)
         fw_text_printf(
             out, "| `law` and its attributes | see [Time](#time) | %s | How it goes with time. |\n",
@@ -143,8 +75,16 @@ fw_status fw_device_reference_markdown(fw_text *out) {
              "`sin(2*pi*t/(10 ms))`, `3 rad/s * t`, `min(1, t/(5 ms))`. Where a parameter is "
              "called `t`, `time` must be written.\n\n"
              "## Elements\n");
-    for (int i = 0; (row = fw_element_row_at(i)) != NULL; i++)
+    for (int i = 0; (row = fw_xml_row_at(&fw_device_table, i)) != NULL; i++)
         add_element(out, row);
     add_units(out);
     return fw_text_end(out);
+}
+
+fw_status fw_device_relax_ng(fw_text *out) {
+    return fw_xml_schema(&fw_device_table, out);
+}
+
+fw_status fw_device_table_json(fw_text *out) {
+    return fw_xml_table_json(&fw_device_table, out);
 }

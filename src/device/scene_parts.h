@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One function per element of <scene>: build_loads.c, build_actuators.c, build_surfaces.c,
-   build_surroundings.c. Private to device/. */
+/* One function per element of <scene>: build_scenes.c, build_surroundings.c. Private to device/. */
 #ifndef FW_DEVICE_SCENE_PARTS_H
 #define FW_DEVICE_SCENE_PARTS_H
 #include "device/reader.h"

@@ -46,11 +46,11 @@ static size_t count_named(const fw_element *e, const char *element) {
 }
 
 static fw_status set_parameter(fw_reader *r, const edit *set) {
-    size_t most = count_named(r->root->first_child, "parameter");
+    size_t most = count_named(r->xml.root->first_child, "parameter");
     fw_element **found = fw_arena_array(r->arena, fw_element *, most);
     const char **names = fw_arena_array(r->arena, const char *, most);
     FW_NEED(found && names);
-    size_t n = collect(r->root->first_child, "parameter", "name", found, names, most, 0);
+    size_t n = collect(r->xml.root->first_child, "parameter", "name", found, names, most, 0);
     for (size_t i = 0; i < n; i++) {
         if (strcmp(names[i], set->path) != 0) continue;
         fw_attribute *a = fw_arena_one(r->arena, fw_attribute);
@@ -69,8 +69,8 @@ static fw_status replace(fw_reader *r, const edit *set, fw_element *e, const fw_
                          const char *attribute) {
     const char *names[FW_ATTRIBUTES_MOST];
     size_t n = 0;
-    fw_device_attributes all;
-    FW_TRY(fw_device_attributes_of(r->arena, row, &all));
+    fw_xml_attributes all;
+    FW_TRY(fw_xml_attributes_of(r->arena, row, &all));
     for (int i = 0; i < all.count && n < FW_ATTRIBUTES_MOST; i++)
         names[n++] = all.item[i].name;
     size_t k = 0;
@@ -122,20 +122,21 @@ static fw_status set_attribute(fw_reader *r, const edit *set) {
         return FW_OK;
     }
     const char *element = p.element, *id = p.id, *attribute = p.attribute;
-    const fw_element_row *row = fw_element_row_find(element);
+    const fw_element_row *row = fw_xml_row_find(&fw_device_table, element);
     if (!row) {
         const char *names[FW_ELEMENTS_MOST];
         size_t n = 0;
-        for (int i = 0; n < FW_ELEMENTS_MOST && (row = fw_element_row_at(i)) != NULL; i++)
+        for (int i = 0; n < FW_ELEMENTS_MOST && (row = fw_xml_row_at(&fw_device_table, i)) != NULL;
+             i++)
             names[n++] = row->name;
         unknown_path(r, set, "there is no such element", element, names, n);
         return FW_OK;
     }
-    size_t most = count_named(r->root, element);
+    size_t most = count_named(r->xml.root, element);
     fw_element **found = fw_arena_array(r->arena, fw_element *, most);
     const char **names = fw_arena_array(r->arena, const char *, most);
     FW_NEED(found && names);
-    size_t n = collect(r->root, element, row->key, found, names, most, 0);
+    size_t n = collect(r->xml.root, element, row->key, found, names, most, 0);
     size_t first = n, same = 0;
     for (size_t i = 0; i < n; i++)
         if (id ? row->key && strcmp(names[i], id) == 0 : n == 1) {

@@ -236,5 +236,34 @@ const fw_element_row fw_table_device[] = {
     {"sweep", "wafer", .most = 2, ROWS(sweep_rows),
      .sentence = "A parameter that differs from die to die: the first along columns, the second "
                  "along rows."},
+    {0},
 };
-const int fw_table_device_count = sizeof fw_table_device / sizeof fw_table_device[0];
+
+static const fw_element_row *const parts[] = {fw_table_device, fw_table_mechanism, fw_table_scene,
+                                              fw_table_effects, NULL};
+static const char *const spaces[FW_SPACE_COUNT] = {"name",  "parameter", "flow",       "flexure",
+                                                   "body",  "joint",     "spring",     "driver",
+                                                   "scene", "tendon",    "comb-drive", "contact"};
+
+const fw_xml_table fw_device_table = {.file = "device file",
+                                      .root = "device",
+                                      .urn = "urn:flexwright:device:1",
+                                      .head = "name=\"...\"",
+                                      .source = "src/device/table_*.c",
+                                      .part = parts,
+                                      .space = spaces,
+                                      .nspace = FW_SPACE_COUNT,
+                                      .names = FW_SPACE_PARAMETER,
+                                      .numbers = {.root = 15,
+                                                  .element = 40,
+                                                  .misplaced = 41,
+                                                  .attribute = 42,
+                                                  .missing = 43,
+                                                  .name = 44,
+                                                  .twice = 45,
+                                                  .range = 47,
+                                                  .word = 48,
+                                                  .text = 49,
+                                                  .once = 51,
+                                                  .most = 66,
+                                                  .whole = 96}};

@@ -240,5 +240,5 @@ const fw_element_row fw_table_effects[] = {
     {"residual-stress", "scene", .once = true, ROWS(stress_rows),
      .sentence = "Stress that the layer was deposited with and gives way to when it is set free."},
     {"air", "scene", .most = 10000, ROWS(air_rows), .sentence = "Damping by the surrounding air."},
+    {0},
 };
-const int fw_table_effects_count = sizeof fw_table_effects / sizeof fw_table_effects[0];

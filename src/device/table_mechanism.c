@@ -186,5 +186,5 @@ const fw_element_row fw_table_mechanism[] = {
     {"driver", "mechanism", "id", FW_SPACE_DRIVER, .most = 100000, ROWS(driver_rows),
      .sentence = "A motor: a joint follows an expression in time, whatever force that takes; "
                  "simulate --forces says how much."},
+    {0},
 };
-const int fw_table_mechanism_count = sizeof fw_table_mechanism / sizeof fw_table_mechanism[0];

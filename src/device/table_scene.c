@@ -47,5 +47,5 @@ const fw_element_row fw_table_scene[] = {
      .sentence = "Velocity of a body at the start. What is not given, of this body or of others, "
                  "follows through the joints; what they do not allow is corrected, as little as "
                  "possible."},
+    {0},
 };
-const int fw_table_scene_count = sizeof fw_table_scene / sizeof fw_table_scene[0];

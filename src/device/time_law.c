@@ -54,11 +54,11 @@ typedef struct table {
 static fw_status read_part(fw_reader *r, const fw_attribute *a, size_t from, size_t end,
                            fw_dimension wanted, double *value, bool *ok) {
     fw_expression_error error;
-    fw_status status = fw_expression_evaluate(r->arena, a->value + from, end - from, &r->names,
+    fw_status status = fw_expression_evaluate(r->arena, a->value + from, end - from, &r->xml.names,
                                               wanted, value, &error);
     if (status == FW_NOMEM) return status;
     if (status != FW_OK) *ok = false;
-    return status == FW_OK ? FW_OK : fw_expression_report(r, a, "table", from, &error);
+    return status == FW_OK ? FW_OK : fw_expression_report(&r->xml, a, "table", from, &error);
 }
 
 static size_t skip_blanks(const char *text, size_t at) {
@@ -100,7 +100,7 @@ static fw_status read_table(fw_reader *r, const fw_record *record, const char *n
                             bool *ok) {
     const fw_attribute *a = fw_cell_of(record, name)->given;
     size_t n = strlen(a->value), most = 1;
-    *ok = !fw_full(r) && !fw_expression_uses(a->value, n, r->lost, r->nlost);
+    *ok = !fw_full(r->diags) && !fw_expression_uses(a->value, n, r->xml.lost, r->xml.nlost);
     for (size_t i = 0; i < n; i++)
         most += a->value[i] == ';';
     table t = {.n = 0};
@@ -133,12 +133,13 @@ fw_status fw_time_program(fw_reader *r, const fw_record *record, const char *nam
     fw_expression_error error;
     fw_program *p;
     *program = NULL;
-    if (!a || fw_full(r) || fw_expression_uses(a->value, strlen(a->value), r->lost, r->nlost))
+    if (!a || fw_full(r->diags) ||
+        fw_expression_uses(a->value, strlen(a->value), r->xml.lost, r->xml.nlost))
         return FW_OK;
     fw_status status =
-        fw_program_compile(r->arena, a->value, strlen(a->value), &r->names, wanted, &p, &error);
+        fw_program_compile(r->arena, a->value, strlen(a->value), &r->xml.names, wanted, &p, &error);
     if (status == FW_NOMEM) return status;
-    if (status != FW_OK) return fw_expression_report(r, a, name, 0, &error);
+    if (status != FW_OK) return fw_expression_report(&r->xml, a, name, 0, &error);
     *program = p;
     return FW_OK;
 }
@@ -176,7 +177,7 @@ static fw_status read_attribute(fw_reader *r, const fw_record *record,
         *ok = law->program != NULL;
         if (*ok)
             fw_finite_check(r, record, a->name, law,
-                            fw_number_of(&r->record[record->parent], "duration"));
+                            fw_number_of(&r->xml.record[record->parent], "duration"));
         return FW_OK;
     }
     return FW_OK;
@@ -213,7 +214,7 @@ static fw_status read_law(fw_reader *r, const fw_record *record, const fw_quanti
 
 /* a law that is 0 for the whole scene: what begins when it is over, or a table's first entries */
 static void check_start(fw_reader *r, const fw_record *record, const fw_law *law) {
-    double end_s = fw_number_of(&r->record[record->parent], "duration");
+    double end_s = fw_number_of(&r->xml.record[record->parent], "duration");
     bool late = law->start_s >= end_s;
     bool empty = law->kind->may_be_nothing && !(fw_law_largest(law, end_s) > 0);
     char label[FW_LABEL], end[FW_LABEL];
@@ -230,7 +231,7 @@ static const double fw_most_periods = 1e6;
 
 static void check_periods(fw_reader *r, const fw_record *record, const fw_law *law) {
     const fw_quantity_law_wave wave = fw_quantity_law_wave_of(law);
-    double duration_s = fw_number_of(&r->record[record->parent], "duration");
+    double duration_s = fw_number_of(&r->xml.record[record->parent], "duration");
     double rate_Hz = wave.fastest_Hz;
     double periods = rate_Hz * (fmin(wave.to_s, duration_s) - wave.from_s);
     char label[FW_LABEL], rate[FW_LABEL], end[FW_LABEL];

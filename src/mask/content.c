@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The test die as a mask. */
-#include "mask/content.h"
+#include "mask/mask.h"
 #include <math.h>
 #include <string.h>
 

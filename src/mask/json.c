@@ -5,7 +5,6 @@
 #include "base/json.h"
 #include "base/constants.h"
 #include "geometry/segment.h"
-#include "mask/content.h"
 #include "mask/findings.h"
 #include "mask/flatten.h"
 #include "mask/notes.h"

@@ -1,45 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mask/table.h"
-#include "mask/content.h"
 #include "mask/order.h"
-#include "quantity/expression.h"
 #include <stdlib.h>
 #include <string.h>
 
-static const char name_space[] = "urn:flexwright:masks:1";
+static const char *const role_names[] = {
+    [FW_ROLE_STRUCTURE] = "structure", [FW_ROLE_FLEXURE] = "flexure", [FW_ROLE_FRAME] = "frame",
+    [FW_ROLE_TETHER] = "tether",       [FW_ROLE_TEXT] = "text",       [FW_ROLE_MARK] = "mark",
+    [FW_ROLE_DICING] = "dicing",       [FW_ROLE_BACK] = "back",       [FW_ROLE_COUNT] = NULL};
+static const char *const tones[] = {"data clear", "data dark", NULL};
+const char *const fw_mask_yes_no[] = {"yes", "no", NULL};
 
-typedef struct role_name {
-    const char *name;
-    fw_role role;
-} role_name;
-static const role_name roles[] = {
-    {"structure", FW_ROLE_STRUCTURE}, {"flexure", FW_ROLE_FLEXURE}, {"frame", FW_ROLE_FRAME},
-    {"tether", FW_ROLE_TETHER},       {"text", FW_ROLE_TEXT},       {"mark", FW_ROLE_MARK},
-    {"dicing", FW_ROLE_DICING},       {"back", FW_ROLE_BACK},
-};
-enum { NROLE = sizeof roles / sizeof roles[0] };
+/* ---- forms of text ---- */
 
-typedef struct reader {
-    fw_arena *arena;
-    fw_diags *diags;
-    fw_mask_layer *layer; /* being read */
-} reader;
-
-/* ---- one function per kind of value; mistakes are collected and reading goes on ---- */
-void fw_table_text(fw_diags *diags, const fw_attribute *a, const char **out) {
-    size_t n = strlen(a->value);
+bool fw_mask_is_plain(const char *text) {
+    size_t n = strlen(text);
     for (size_t i = 0; i < n; i++)
-        if ((unsigned char)a->value[i] < 0x20 || (unsigned char)a->value[i] > 0x7e) {
-            fw_diag_error(diags, 141, a->place,
-                          "%s=\"%s\" is not plain ASCII, which some mask readers refuse; write it "
-                          "without other characters",
-                          a->name, a->value);
-            return;
-        }
-    if (n == 0 || n > 400)
-        fw_diag_error(diags, 141, a->place, "%s has %zu characters; give 1 to 400", a->name, n);
-    else
-        *out = a->value;
+        if ((unsigned char)text[i] < 0x20 || (unsigned char)text[i] > 0x7e) return false;
+    return n > 0 && n <= 400;
 }
 
 static bool is_identifier(const char *s) {
@@ -48,167 +26,147 @@ static bool is_identifier(const char *s) {
     return strspn(s, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-") == n;
 }
 
-static void read_identifier(reader *r, const fw_attribute *a, const char **out) {
-    if (is_identifier(a->value))
-        *out = a->value;
-    else
-        fw_diag_error(r->diags, 141, a->place,
-                      "%s=\"%s\" is not a name: use 1 to 32 of A-Z a-z 0-9 _ -", a->name, a->value);
-}
-
-static void read_gds(reader *r, const fw_attribute *a) {
-    const char *s = a->value;
+static bool read_gds(const char *s, long *layer, long *datatype) {
     char *end;
-    long layer = strtol(s, &end, 10), datatype = -1;
-    bool ok = s[0] >= '0' && s[0] <= '9' && *end == '/' && end[1] >= '0' && end[1] <= '9';
-    if (ok) {
-        datatype = strtol(end + 1, &end, 10);
-        ok = *end == '\0' && layer >= 1 && layer <= 63 && datatype >= 0 && datatype <= 63;
-    }
-    if (!ok) {
-        fw_diag_error(r->diags, 141, a->place,
-                      "gds=\"%s\" is not LAYER/DATATYPE with layer 1 to 63 and data type 0 to 63 "
-                      "(the range that every mask shop reads); write for example \"1/0\"",
-                      s);
-        return;
-    }
-    r->layer->layer = (int)layer;
-    r->layer->datatype = (int)datatype;
+    *layer = strtol(s, &end, 10);
+    if (!(s[0] >= '0' && s[0] <= '9' && *end == '/' && end[1] >= '0' && end[1] <= '9'))
+        return false;
+    *datatype = strtol(end + 1, &end, 10);
+    return *end == '\0' && *layer >= 1 && *layer <= 63 && *datatype >= 0 && *datatype <= 63;
 }
 
-static void read_tone(reader *r, const fw_attribute *a) {
-    if (strcmp(a->value, "data clear") == 0 || strcmp(a->value, "data dark") == 0)
-        r->layer->tone = a->value;
-    else
-        fw_diag_error(r->diags, 141, a->place,
-                      "tone=\"%s\" is ambiguous; say \"data clear\" or \"data dark\"", a->value);
+static bool is_gds(const char *s) {
+    long layer, datatype;
+    return read_gds(s, &layer, &datatype);
 }
 
-static void read_colour(reader *r, const fw_attribute *a) {
-    if (strlen(a->value) == 7 && a->value[0] == '#' &&
-        strspn(a->value + 1, "0123456789abcdefABCDEF") == 6)
-        r->layer->colour = a->value;
-    else
-        fw_diag_error(r->diags, 141, a->place, "colour=\"%s\" is not #rrggbb, e.g. \"#3d6aa8\"",
-                      a->value);
+static bool is_colour(const char *s) {
+    return strlen(s) == 7 && s[0] == '#' && strspn(s + 1, "0123456789abcdefABCDEF") == 6;
 }
 
-static void read_yes(reader *r, const fw_attribute *a, bool *out) {
-    *out = strcmp(a->value, "yes") == 0;
-    if (!*out && strcmp(a->value, "no") != 0)
-        fw_diag_error(r->diags, 141, a->place, "%s=\"%s\" must be \"yes\" or \"no\"", a->name,
-                      a->value);
+/* ---- rows ---- */
+
+#define REQUIRED .required = true
+#define NAME                                                                                       \
+    .kind = FW_KIND_FORM, .form = is_identifier, .reason = "a name of 1 to 32 of A-Z a-z 0-9 _ -"
+#define LEAST                                                                                      \
+    FW_MASK_LENGTH, .ranged = true, .max = 1e-2, .reason = "no design rule is wider than 10 mm",   \
+                    .fallback = "no rule"
+
+static const fw_attribute_row root_rows[] = {
+    {"flow", NAME, REQUIRED, .sentence = "Flow that the masks are for."},
+    {"reading", FW_MASK_PLAIN, REQUIRED,
+     .sentence = "How the plate is read, such as right-reading chrome down."},
+    {"order", FW_MASK_PLAIN, .sentence = "What the mask shop is told."},
+    {"plate", FW_MASK_PLAIN, .sentence = "Layers with AND, OR, NOT or XOR between: 1/0 NOT 2/0."},
+};
+static const fw_attribute_row layer_rows[] = {
+    {"gds", .kind = FW_KIND_FORM, .form = is_gds, REQUIRED,
+     .reason = "LAYER/DATATYPE with layer 1 to 63 and data type 0 to 63, which every mask shop "
+               "reads, for example 1/0",
+     .sentence = "Its numbers in GDSII and OASIS."},
+    {"id", NAME, REQUIRED, .sentence = "Name that rules use."},
+    {"name", NAME, REQUIRED, .sentence = "Name in files of masks."},
+    {"purpose", FW_MASK_PLAIN, REQUIRED, .sentence = "What it is for."},
+    {"tone", .kind = FW_KIND_WORD, .words = tones, REQUIRED,
+     .sentence = "What the data are on the plate."},
+    {"colour", .kind = FW_KIND_FORM, .form = is_colour, REQUIRED,
+     .reason = "#rrggbb, for example #3d6aa8", .sentence = "In pictures."},
+    {"roles", .kind = FW_KIND_WORDS, .words = role_names, .sentence = "What is drawn on it."},
+    {"biased", FW_MASK_YES_NO, .sentence = "Does the bias of the process apply?"},
+    {"source", FW_MASK_PLAIN, .sentence = "Where its rule is from."},
+    {"min-width", LEAST, .sentence = "Narrowest that is printed."},
+    {"min-space", LEAST, .sentence = "Nearest that is printed apart."},
+    {"documentation", FW_MASK_YES_NO, .sentence = "yes: for people; nothing is exposed."},
+};
+static const fw_element_row rows[] = {
+    {"mask-table", "", FW_MASK_ROWS(root_rows), .sentence = "The layers of a flow's masks."},
+    {"layer", "mask-table", "id", .needed = true, FW_MASK_ROWS(layer_rows),
+     .sentence = "A layer of the masks."},
+    {"rule", "mask-table", .specialise = fw_mask_rule_row, .numbers = &fw_mask_rule_numbers,
+     .sentence = "A design rule of a layer."},
+    {"pattern", "mask-table", .specialise = fw_mask_pattern_row,
+     .numbers = &fw_mask_pattern_numbers, .sentence = "A test pattern."},
+    {0},
+};
+static const fw_element_row *const parts[] = {rows, NULL};
+static const char *const spaces[] = {"name"};
+
+static const fw_xml_table table_of_layers = {.file = "layer table",
+                                             .root = "mask-table",
+                                             .urn = "urn:flexwright:masks:1",
+                                             .head = "flow=\"...\" reading=\"...\"",
+                                             .source = "src/mask/table.c",
+                                             .part = parts,
+                                             .space = spaces,
+                                             .nspace = 1,
+                                             .numbers = {.root = 140,
+                                                         .element = 140,
+                                                         .misplaced = 140,
+                                                         .needed = 140,
+                                                         .attribute = 140,
+                                                         .at_value = true,
+                                                         .missing = 140,
+                                                         .text = 49,
+                                                         .word = 141,
+                                                         .form = 141,
+                                                         .range = 141}};
+
+/* ---- layers ---- */
+
+bool fw_mask_says(const fw_record *record, const char *name, const char *word) {
+    const char *text = fw_text_of(record, name);
+    return text && strcmp(text, word) == 0;
 }
 
-static void read_roles(reader *r, const fw_attribute *a) {
-    for (const char *s = a->value; *s;) {
-        s += strspn(s, " \t\r\n");
+static unsigned roles_of(const fw_record *record) {
+    const char *text = fw_text_of(record, "roles");
+    unsigned roles = 0;
+    for (const char *s = text ? text : ""; *s;) {
         size_t n = strcspn(s, " \t\r\n");
-        int k = 0;
-        while (k < NROLE && !(strlen(roles[k].name) == n && memcmp(roles[k].name, s, n) == 0))
-            k++;
-        if (n > 0 && k == NROLE)
-            fw_diag_error(r->diags, 141, a->place,
-                          "role \"%.*s\" is unknown; roles are structure flexure frame tether text "
-                          "mark dicing back",
-                          (int)(n > 40 ? 40 : n), s);
-        else if (n > 0)
-            r->layer->roles |= 1u << roles[k].role;
-        s += n;
+        for (unsigned k = 0; k < FW_ROLE_COUNT; k++)
+            if (strlen(role_names[k]) == n && memcmp(role_names[k], s, n) == 0) roles |= 1u << k;
+        s += n + strspn(s + n, " \t\r\n");
     }
+    return roles;
 }
 
-static fw_status read_length(reader *r, const fw_attribute *a, double *out) {
-    fw_expression_error error = {0};
-    fw_names none = {0};
-    fw_dimension length = {.m = 1};
-    double value = 0;
-    fw_status status =
-        fw_expression_evaluate(r->arena, a->value, strlen(a->value), &none, length, &value, &error);
-    if (status == FW_NOMEM) return status;
-    if (status != FW_OK) {
-        fw_place place = a->place;
-        if (a->exact) place.column += (int)error.offset;
-        fw_diag_error(r->diags, error.number, place, "%s", error.message);
-        return FW_OK;
+static fw_mask_layer layer_of(fw_diags *diags, const fw_record *record) {
+    fw_mask_layer l = {.id = fw_text_of(record, "id"),
+                       .name = fw_text_of(record, "name"),
+                       .purpose = fw_text_of(record, "purpose"),
+                       .tone = fw_text_of(record, "tone"),
+                       .colour = fw_text_of(record, "colour"),
+                       .roles = roles_of(record),
+                       .biased = fw_mask_says(record, "biased", "yes"),
+                       .rule_source = fw_text_of(record, "source"),
+                       .documentation = fw_mask_says(record, "documentation", "yes"),
+                       .place = record->element->place};
+    const char *gds = fw_text_of(record, "gds");
+    long layer, datatype;
+    if (gds && read_gds(gds, &layer, &datatype)) {
+        l.layer = (int)layer;
+        l.datatype = (int)datatype;
     }
-    if (!(value >= 0 && value <= 1e-2)) {
-        char number[64];
-        fw_diag_error(r->diags, 141, a->place, "%s is %s um; a design rule is between 0 and 10 mm",
-                      a->name, fw_number_text(number, sizeof number, value * 1e6, 6));
-        return FW_OK;
-    }
-    *out = value;
-    return FW_OK;
-}
-
-static const char *const attributes[] = {"gds",    "id",        "name",      "purpose",
-                                         "tone",   "colour",    "roles",     "biased",
-                                         "source", "min-width", "min-space", "documentation"};
-
-static fw_status read_attribute(reader *r, const fw_attribute *a) {
-    fw_mask_layer *l = r->layer;
-    const char *n = a->name;
-    if (strcmp(n, "gds") == 0)
-        read_gds(r, a);
-    else if (strcmp(n, "id") == 0)
-        read_identifier(r, a, &l->id);
-    else if (strcmp(n, "name") == 0)
-        read_identifier(r, a, &l->name);
-    else if (strcmp(n, "purpose") == 0)
-        fw_table_text(r->diags, a, &l->purpose);
-    else if (strcmp(n, "tone") == 0)
-        read_tone(r, a);
-    else if (strcmp(n, "colour") == 0)
-        read_colour(r, a);
-    else if (strcmp(n, "roles") == 0)
-        read_roles(r, a);
-    else if (strcmp(n, "biased") == 0)
-        read_yes(r, a, &l->biased);
-    else if (strcmp(n, "documentation") == 0)
-        read_yes(r, a, &l->documentation);
-    else if (strcmp(n, "source") == 0)
-        fw_table_text(r->diags, a, &l->rule_source);
-    else if (strcmp(n, "min-width") == 0)
-        return read_length(r, a, &l->min_width_m);
-    else if (strcmp(n, "min-space") == 0)
-        return read_length(r, a, &l->min_space_m);
-    else {
-        const char *meant =
-            fw_did_you_mean(n, attributes, sizeof attributes / sizeof attributes[0]);
-        fw_diag_error(r->diags, 140, a->place, "<layer> has no attribute \"%s\"%s%s%s", n,
-                      meant ? "; did you mean \"" : "", meant ? meant : "", meant ? "\"?" : "");
-    }
-    return FW_OK;
-}
-
-static fw_status read_layer(reader *r, const fw_element *e) {
-    r->layer->place = e->place;
-    for (int i = 0; i < e->nattribute; i++)
-        FW_TRY(read_attribute(r, &e->attribute[i]));
-    static const char *const required[] = {"gds", "id", "name", "purpose", "tone", "colour"};
-    for (size_t i = 0; i < sizeof required / sizeof required[0]; i++)
-        if (!fw_xml_attribute(e, required[i]))
-            fw_diag_error(r->diags, 140, e->place, "<layer> lacks the attribute \"%s\"",
-                          required[i]);
-    bool rule = r->layer->min_width_m > 0 || r->layer->min_space_m > 0;
-    if (rule && !fw_xml_attribute(e, "source"))
-        fw_diag_error(r->diags, 140, e->place,
+    const fw_xml_cell *width = fw_cell_of(record, "min-width"),
+                      *space = fw_cell_of(record, "min-space");
+    l.min_width_m = width->ok ? width->number : 0.0;
+    l.min_space_m = space->ok ? space->number : 0.0;
+    if ((l.min_width_m > 0 || l.min_space_m > 0) && !fw_given(record, "source"))
+        fw_diag_error(diags, 140, l.place,
                       "<layer> has a design rule without its reason; add source=\"...\"");
-    if (r->layer->documentation && r->layer->roles)
-        fw_diag_error(r->diags, 141, e->place,
+    if (l.documentation && l.roles)
+        fw_diag_error(diags, 141, l.place,
                       "a documentation layer is never exposed, so no role may be drawn on it; "
                       "remove roles or documentation");
-    if (e->first_child)
-        fw_diag_error(r->diags, 140, e->first_child->place, "<layer> has no child elements");
-    return FW_OK;
+    return l;
 }
 
-static void check_plate(const fw_mask_table *table, const fw_element *root, fw_diags *diags) {
+static void check_plate(const fw_mask_table *table, const fw_record *root, fw_diags *diags) {
     int first;
     const char *wrong;
     if (fw_plate_layers(table, NULL, &first, &wrong)) return;
-    fw_diag_error(diags, 133, fw_xml_attribute(root, "plate")->place,
+    fw_diag_error(diags, 133, fw_place_of(root, "plate"),
                   "plate=\"%s\" cannot be read at \"%s\"; write layers of this table with AND, OR, "
                   "NOT or XOR between, for example \"1/0 NOT 2/0\"",
                   table->plate, wrong);
@@ -227,11 +185,11 @@ static void check_collisions(const fw_mask_table *table, fw_diags *diags) {
                 fw_diag_error(diags, 142, b->place,
                               "layer %d/%d is used twice, first in line %d; choose a free number",
                               b->layer, b->datatype, a->place.line);
-            for (int k = 0; k < NROLE; k++)
-                if (a->roles & b->roles & 1u << roles[k].role)
+            for (unsigned k = 0; k < FW_ROLE_COUNT; k++)
+                if (a->roles & b->roles & 1u << k)
                     fw_diag_error(diags, 142, b->place,
                                   "role \"%s\" is drawn on two layers, first in line %d; keep one",
-                                  roles[k].name, a->place.line);
+                                  role_names[k], a->place.line);
             if (a->documentation && b->documentation)
                 fw_diag_error(diags, 142, b->place,
                               "two documentation layers, first in line %d; keep one",
@@ -239,63 +197,25 @@ static void check_collisions(const fw_mask_table *table, fw_diags *diags) {
         }
 }
 
-static void read_root(reader *r, const fw_element *root, fw_mask_table *table) {
-    for (int i = 0; i < root->nattribute; i++) {
-        const fw_attribute *a = &root->attribute[i];
-        if (strcmp(a->name, "flow") == 0)
-            read_identifier(r, a, &table->flow);
-        else if (strcmp(a->name, "reading") == 0)
-            fw_table_text(r->diags, a, &table->reading);
-        else if (strcmp(a->name, "order") == 0)
-            fw_table_text(r->diags, a, &table->order);
-        else if (strcmp(a->name, "plate") == 0)
-            fw_table_text(r->diags, a, &table->plate);
-        else
-            fw_diag_error(r->diags, 140, a->place, "<mask-table> has no attribute \"%s\"", a->name);
-    }
-    if (!fw_xml_attribute(root, "flow"))
-        fw_diag_error(r->diags, 140, root->place, "<mask-table> lacks the attribute \"flow\"");
-    if (!fw_xml_attribute(root, "reading"))
-        fw_diag_error(r->diags, 140, root->place,
-                      "<mask-table> lacks the attribute \"reading\", e.g. \"right-reading chrome "
-                      "down\"");
-}
-
 fw_status fw_mask_table_read(fw_arena *arena, const char *file, const char *xml, size_t n,
                              fw_diags *diags, fw_mask_table *table) {
     *table = (fw_mask_table){0};
     size_t errors = diags->errors;
-    fw_element *root = NULL;
-    fw_status status = fw_xml_read(arena, file, xml, n, diags, &root);
-    if (status != FW_OK || !root) return status != FW_OK ? status : FW_INPUT;
-    if (strcmp(root->name, "mask-table") != 0 || !root->space ||
-        strcmp(root->space, name_space) != 0)
-        return fw_diag_error(diags, 140, root->place,
-                             "the file must hold <mask-table xmlns=\"%s\">, not <%s>", name_space,
-                             root->name);
-    reader r = {arena, diags, NULL};
-    read_root(&r, root, table);
-    size_t count = 0;
-    for (const fw_element *e = root->first_child; e; e = e->next)
-        count++;
+    fw_xml_reader r;
+    FW_TRY(fw_xml_table_read(arena, &table_of_layers, file, xml, n, diags, &r));
+    const fw_record *root = r.record;
+    table->flow = fw_text_of(root, "flow");
+    table->reading = fw_text_of(root, "reading");
+    table->order = fw_text_of(root, "order");
+    table->plate = fw_text_of(root, "plate");
+    size_t count = (size_t)fw_xml_children(root, "layer");
     FW_NEED(table->layer = fw_arena_array(arena, fw_mask_layer, count));
-    FW_TRY(fw_mask_table_content(arena, root, diags, table));
-    for (const fw_element *e = root->first_child; e; e = e->next) {
-        if (strcmp(e->name, "rule") == 0) continue; /* when all layers are known */
-        if (strcmp(e->name, "pattern") == 0) continue;
-        if (strcmp(e->name, "layer") != 0) {
-            fw_diag_error(diags, 140, e->place,
-                          "<mask-table> holds only <layer>, <rule> and <pattern>, not <%s>",
-                          e->name);
-            continue;
-        }
-        r.layer = &table->layer[table->nlayer++];
-        FW_TRY(read_layer(&r, e));
-    }
-    if (table->nlayer == 0) fw_diag_error(diags, 140, root->place, "<mask-table> has no <layer>");
+    for (const fw_record *e = root->first_child; e; e = e->next)
+        if (fw_is(e, "layer")) table->layer[table->nlayer++] = layer_of(diags, e);
     check_collisions(table, diags);
-    check_plate(table, root, diags);
-    FW_TRY(fw_table_rules(arena, root, diags, table));
+    if (table->plate) check_plate(table, root, diags);
+    FW_TRY(fw_mask_patterns_build(&r, table));
+    FW_TRY(fw_mask_rules_build(&r, table));
     if (diags->failed) return FW_NOMEM;
     return diags->errors > errors ? FW_INPUT : FW_OK;
 }

@@ -2,50 +2,74 @@
 /* Rows <rule> of a layer table; docs/theory/masks.md lists the kinds and their attributes. */
 #include "mask/rule.h"
 #include "mask/table.h"
-#include "quantity/expression.h"
 #include <string.h>
 
-enum { ALWAYS = 0, NPRINT = 3 };
-static const fw_dimension length = {.m = 1}, area = {.m = 2}, angle = {.rad = 1}, share = {0};
+const fw_xml_numbers fw_mask_rule_numbers = {.element = 135,
+                                             .misplaced = 135,
+                                             .attribute = 135,
+                                             .missing = 135,
+                                             .text = 49,
+                                             .word = 135,
+                                             .form = 141,
+                                             .range = 135};
 
-typedef struct attribute_row { /* an attribute and the kinds that take it */
-    const char *name;
-    unsigned bit;
-    bool needed;
-} attribute_row;
-static const attribute_row attributes[] = {
-    {"kind", ALWAYS, true},
-    {"layer", ALWAYS, true},
-    {"source", ALWAYS, true},
-    {"severity", ALWAYS, false},
-    {"min", ALWAYS, false},
-    {"max", FW_TAKES_MAX, false},
-    {"inside", FW_TAKES_INSIDE, true},
-    {"from", FW_TAKES_FROM, true},
-    {"of", FW_TAKES_OF, false},
-    {"window", FW_TAKES_WINDOW, true},
-    {"step", FW_TAKES_WINDOW, false},
-    {"wavelength", FW_TAKES_PRINT, true},
-    {"gap", FW_TAKES_PRINT, true},
-    {"resist", FW_TAKES_PRINT, true},
+/* ---- rows: which attributes there are depends on the kind ---- */
+
+static const fw_dimension length = {.m = 1};
+static const char *const severities[] = {"error", "warning", NULL};
+static const char *const sides[] = {"outline", "polygon", NULL};
+static const char *const insides[] = {"island", "hole", NULL};
+
+typedef struct limit_unit { /* of min and max, by fw_rule_unit */
+    fw_dimension dimension;
+    const char *unit;
+    double most;
+} limit_unit;
+static const limit_unit limits[] = {[FW_UNIT_LENGTH] = {{.m = 1}, "um", 1e-2},
+                                    [FW_UNIT_ANGLE] = {{.rad = 1}, "deg", FW_PI},
+                                    [FW_UNIT_AREA] = {{.m = 2}, "um^2", 1e-4},
+                                    [FW_UNIT_SHARE] = {{0}, "%", 1}};
+
+#define REQUIRED .required = true
+#define ABOVE_0(up_to)                                                                             \
+    .ranged = true, .open = true, .max = (up_to), .reason = "of something on a mask"
+enum { ALWAYS = 0 };
+
+static const struct {
+    unsigned taken; /* by kinds that take this; ALWAYS: by all */
+    fw_attribute_row row;
+} attributes[] = {
+    {ALWAYS, {"kind", REQUIRED, .sentence = "What is looked at."}},
+    {ALWAYS, {"layer", REQUIRED, .sentence = "id of the layer that is looked at."}},
+    {ALWAYS, {"source", FW_MASK_PLAIN, REQUIRED, .sentence = "Where the rule is from."}},
+    {ALWAYS,
+     {"severity", .kind = FW_KIND_WORD, .words = severities, .fallback = "error",
+      .sentence = "warning: the mask is made all the same."}},
+    {ALWAYS, {"min", ABOVE_0(0), .sentence = "The least that is allowed."}},
+    {FW_TAKES_MAX, {"max", ABOVE_0(0), .sentence = "The most that is allowed."}},
+    {FW_TAKES_INSIDE, {"inside", REQUIRED, .sentence = "id of the layer around."}},
+    {FW_TAKES_FROM, {"from", REQUIRED, .sentence = "id of the other layer."}},
+    {FW_TAKES_OF, {"of", .kind = FW_KIND_WORD, .sentence = "What of it is looked at."}},
+    {FW_TAKES_WINDOW,
+     {"window", FW_MASK_LENGTH, ABOVE_0(1e-1), REQUIRED, .sentence = "Side of the window."}},
+    {FW_TAKES_WINDOW,
+     {"step", FW_MASK_LENGTH, ABOVE_0(1e-1), .fallback = "window",
+      .sentence = "From window to window."}},
+    {FW_TAKES_PRINT,
+     {"wavelength", FW_MASK_LENGTH, ABOVE_0(1e-2), REQUIRED, .sentence = "Of the light."}},
+    {FW_TAKES_PRINT,
+     {"gap", FW_MASK_LENGTH, ABOVE_0(1e-2), REQUIRED, .sentence = "Between mask and resist."}},
+    {FW_TAKES_PRINT,
+     {"resist", FW_MASK_LENGTH, ABOVE_0(1e-2), REQUIRED, .sentence = "Its thickness."}},
 };
 enum { NATTRIBUTE = sizeof attributes / sizeof attributes[0] };
 
-typedef struct reader {
-    fw_arena *arena;
-    fw_diags *diags;
-    const fw_mask_table *table;
-    fw_mask_rule *rule;
-    fw_name_value name[NPRINT]; /* for the formula of min */
-    size_t nname;
-} reader;
-
-static const fw_rule_row *kind_named(reader *r, const fw_element *e) {
+static const fw_rule_row *kind_named(fw_xml_reader *r, const fw_element *e) {
     const fw_attribute *a = fw_xml_attribute(e, "kind");
     const char *names[32];
     size_t n = 0;
     if (!a) {
-        fw_diag_error(r->diags, 135, e->place, "<rule> lacks the attribute \"kind\"");
+        fw_diag_error(r->diags, 135, e->place, "<rule> needs kind=\"...\": What is looked at.");
         return NULL;
     }
     const fw_rule_row *row;
@@ -54,42 +78,61 @@ static const fw_rule_row *kind_named(reader *r, const fw_element *e) {
         if (strcmp(row->name, a->value) == 0) return row;
         names[n++] = row->name;
     }
+    fw_text known = fw_text_new(r->arena);
+    for (size_t i = 0; i < n; i++)
+        fw_text_printf(&known, "%s%s", i ? ", " : "", names[i]);
     const char *meant = fw_did_you_mean(a->value, names, n);
-    fw_diag_error(
-        r->diags, 135, a->place,
-        "a rule of kind \"%s\" is unknown%s%s%s; kinds are width space notch feature angle "
-        "edge area density enclosure separation",
-        a->value, meant ? "; did you mean \"" : "", meant ? meant : "", meant ? "\"?" : "");
+    fw_diag_error(r->diags, 135, a->place, "<rule> kind=\"%.64s\" is not one of: %s%s%s%s",
+                  a->value, fw_text_end(&known) == FW_OK ? known.data : "",
+                  meant ? "; did you mean '" : "", meant ? meant : "", meant ? "'?" : "");
     return NULL;
 }
 
-static void check_attributes(reader *r, const fw_element *e, const fw_rule_row *kind) {
-    for (int i = 0; i < e->nattribute; i++) {
-        const fw_attribute *a = &e->attribute[i];
-        int k = 0;
-        while (k < NATTRIBUTE && strcmp(attributes[k].name, a->name) != 0)
-            k++;
-        if (k == NATTRIBUTE || (attributes[k].bit != ALWAYS && !(kind->takes & attributes[k].bit)))
-            fw_diag_error(r->diags, 135, a->name_place,
-                          "a rule of kind \"%s\" has no attribute \"%s\"", kind->name, a->name);
+/* min and max are in the kind's own unit; where there are names for a formula, min is read when
+   they have values */
+static fw_attribute_row attribute_of(const fw_rule_row *kind, fw_attribute_row row) {
+    bool min = strcmp(row.name, "min") == 0, max = strcmp(row.name, "max") == 0;
+    if (min || max) {
+        const limit_unit *unit = &limits[kind->unit];
+        row.kind = min && kind->takes & FW_TAKES_PRINT ? FW_KIND_TEXT : FW_KIND_NUMBER;
+        row.dimension = unit->dimension;
+        row.unit = unit->unit;
+        row.max = unit->most;
     }
-    for (int k = 0; k < NATTRIBUTE; k++)
-        if (attributes[k].needed &&
-            (attributes[k].bit == ALWAYS || kind->takes & attributes[k].bit) &&
-            !fw_xml_attribute(e, attributes[k].name))
-            fw_diag_error(r->diags, 135, e->place,
-                          "a rule of kind \"%s\" lacks the attribute \"%s\"", kind->name,
-                          attributes[k].name);
-    if (!fw_xml_attribute(e, "min") && !(kind->takes & FW_TAKES_MAX && fw_xml_attribute(e, "max")))
-        fw_diag_error(
-            r->diags, 135, e->place, "a rule of kind \"%s\" lacks its limit%s", kind->name,
-            kind->takes & FW_TAKES_MAX ? "; add min=\"...\" or max=\"...\"" : "; add min=\"...\"");
+    if (strcmp(row.name, "of") == 0) row.words = kind->of & FW_OF_OUTLINE ? sides : insides;
+    return row;
 }
+
+fw_status fw_mask_rule_row(fw_xml_reader *r, const fw_element *e, const fw_element_row **row) {
+    const fw_rule_row *kind = kind_named(r, e);
+    fw_element_row *made = fw_arena_one(r->arena, fw_element_row);
+    fw_attribute_row *list = fw_arena_array(r->arena, fw_attribute_row, NATTRIBUTE);
+    FW_NEED(made && list ? made : NULL);
+    const fw_element_row *any = *row;
+    *row = NULL;
+    if (!kind) return FW_OK;
+    *made = *any;
+    made->attribute = list;
+    for (int k = 0; k < NATTRIBUTE; k++)
+        if (attributes[k].taken == ALWAYS || kind->takes & attributes[k].taken)
+            list[made->nattribute++] = attribute_of(kind, attributes[k].row);
+    FW_NEED(made->name = fw_arena_printf(r->arena, "rule kind=\"%s\"", kind->name));
+    *row = made;
+    return FW_OK;
+}
+
+/* ---- what was read ---- */
+
+typedef struct reader {
+    fw_xml_reader *r;
+    const fw_mask_table *table;
+    fw_mask_rule *rule;
+} reader;
 
 /* index of the layer with that id; -1: there is none, which is told */
 static int layer_named(reader *r, const fw_attribute *a) {
     const fw_mask_table *t = r->table;
-    const char **names = fw_arena_array(r->arena, const char *, (size_t)t->nlayer);
+    const char **names = fw_arena_array(r->r->arena, const char *, (size_t)t->nlayer);
     size_t n = 0;
     for (int k = 0; names && k < t->nlayer; k++) {
         if (!t->layer[k].id || t->layer[k].documentation) continue;
@@ -97,69 +140,80 @@ static int layer_named(reader *r, const fw_attribute *a) {
         names[n++] = t->layer[k].id;
     }
     const char *meant = names ? fw_did_you_mean(a->value, names, n) : NULL;
-    fw_diag_error(r->diags, 135, a->place, "%s=\"%s\" is not the id of a layer that is drawn%s%s%s",
-                  a->name, a->value, meant ? "; did you mean \"" : "", meant ? meant : "",
-                  meant ? "\"?" : "");
+    fw_diag_error(r->r->diags, 135, a->place,
+                  "%s=\"%s\" is not the id of a layer that is drawn%s%s%s", a->name, a->value,
+                  meant ? "; did you mean \"" : "", meant ? meant : "", meant ? "\"?" : "");
     return -1;
 }
 
-static fw_status read_value(reader *r, const fw_element *e, const char *name, fw_dimension wanted,
-                            double most, double *out) {
-    const fw_attribute *a = fw_xml_attribute(e, name);
-    if (!a) return FW_OK;
-    fw_expression_error error = {0};
-    fw_names names = {r->name, r->nname};
-    double value = 0;
-    fw_status status = fw_expression_evaluate(r->arena, a->value, strlen(a->value), &names, wanted,
-                                              &value, &error);
-    if (status == FW_NOMEM) return status;
-    if (status != FW_OK) {
-        fw_diag_error(r->diags, error.number, fw_xml_inside(a, error.offset), "%s", error.message);
-        return FW_OK;
-    }
-    if (!(value > 0 && value <= most)) {
-        char number[32], limit[32];
-        fw_diag_error(r->diags, 135, a->place,
-                      "%s=\"%s\" is %s in SI units, not above 0 and at most %s", name, a->value,
-                      fw_number_text(number, sizeof number, value, 6),
-                      fw_number_text(limit, sizeof limit, most, 6));
-        return FW_OK;
-    }
-    *out = value;
-    return FW_OK;
-}
-
-static fw_status read_printing(reader *r, const fw_element *e) {
-    static const char *const print[NPRINT] = {"wavelength", "gap", "resist"};
-    for (int i = 0; i < NPRINT; i++) {
-        double value = 0;
-        FW_TRY(read_value(r, e, print[i], length, 1e-2, &value));
-        r->name[i] = (fw_name_value){print[i], value, length};
-    }
-    r->nname = NPRINT;
-    return FW_OK;
-}
-
-static fw_status read_limits(reader *r, const fw_element *e, const fw_rule_row *kind) {
-    static const fw_dimension *const dimension[] = {&length, &angle, &area, &share};
-    static const double most[] = {1e-2, FW_PI, 1e-4, 1};
+static void read_layers(reader *r, const fw_record *e) {
     fw_mask_rule *rule = r->rule;
-    if (kind->takes & FW_TAKES_PRINT) FW_TRY(read_printing(r, e));
-    FW_TRY(read_value(r, e, "min", *dimension[kind->unit], most[kind->unit], &rule->least));
-    r->nname = 0;
-    if (kind->takes & FW_TAKES_MAX)
-        FW_TRY(read_value(r, e, "max", *dimension[kind->unit], most[kind->unit], &rule->most));
-    if (rule->least > rule->most)
-        fw_diag_error(r->diags, 135, fw_xml_attribute(e, "max")->place,
-                      "max=\"%s\" is below min=\"%s\"", fw_xml_attribute(e, "max")->value,
-                      fw_xml_attribute(e, "min")->value);
-    if (!(kind->takes & FW_TAKES_WINDOW)) return FW_OK;
-    FW_TRY(read_value(r, e, "window", length, 1e-1, &rule->window_m));
-    rule->step_m = rule->window_m;
-    return read_value(r, e, "step", length, 1e-1, &rule->step_m);
+    const fw_attribute *a = fw_cell_of(e, "layer")->given, *other = fw_cell_of(e, "inside")->given;
+    if (!other) other = fw_cell_of(e, "from")->given;
+    if (a) rule->layer = layer_named(r, a);
+    if (other) rule->other = layer_named(r, other);
+    if (a && other && rule->layer >= 0 && rule->layer == rule->other)
+        fw_diag_error(r->r->diags, 135, other->place, "%s=\"%s\" is the rule's own layer",
+                      other->name, other->value);
 }
 
-static void read_of(reader *r, const fw_element *e, const fw_rule_row *kind) {
+static double value_of(const fw_record *e, const char *name, double absent) {
+    const fw_xml_cell *cell = fw_cell_of(e, name);
+    return cell->ok ? cell->number : absent;
+}
+
+/* min as a formula of wavelength, gap and resist */
+static fw_status read_formula(reader *r, const fw_record *e) {
+    static const char *const print[] = {"wavelength", "gap", "resist"};
+    enum { NPRINT = sizeof print / sizeof print[0] };
+    const fw_attribute *a = fw_cell_of(e, "min")->given;
+    fw_name_value name[NPRINT];
+    for (int i = 0; i < NPRINT; i++)
+        name[i] = (fw_name_value){print[i], value_of(e, print[i], 0.0), length};
+    const limit_unit *unit = &limits[r->rule->kind->unit];
+    fw_dimension found;
+    double value;
+    bool ok;
+    if (!a) return FW_OK;
+    r->r->names = (fw_names){name, NPRINT};
+    fw_status status = fw_attribute_evaluate(r->r, a, "min", &unit->dimension, &found, &value, &ok);
+    r->r->names = (fw_names){0};
+    FW_TRY(status);
+    if (!fw_mask_is_plain(a->value))
+        fw_diag_error(r->r->diags, 141, a->place, "min must be plain ASCII of 1 to 400 characters");
+    else
+        r->rule->formula = a->value;
+    char number[FW_LABEL], most[FW_LABEL];
+    if (ok && !(value > 0 && value <= unit->most))
+        fw_diag_error(r->r->diags, 135, a->place, "min is %s; it must be above 0 and at most %s",
+                      fw_in_unit(number, value, unit->unit),
+                      fw_in_unit(most, unit->most, unit->unit));
+    else if (ok)
+        r->rule->least = value;
+    return FW_OK;
+}
+
+static fw_status read_limits(reader *r, const fw_record *e) {
+    const fw_rule_row *kind = r->rule->kind;
+    fw_mask_rule *rule = r->rule;
+    if (!fw_given(e, "min") && !fw_given(e, "max"))
+        fw_diag_error(r->r->diags, 135, e->element->place,
+                      "<%s> lacks its limit; add min=\"...\"%s", e->row->name,
+                      kind->takes & FW_TAKES_MAX ? " or max=\"...\"" : "");
+    if (kind->takes & FW_TAKES_PRINT)
+        FW_TRY(read_formula(r, e));
+    else
+        rule->least = value_of(e, "min", 0.0);
+    rule->most = value_of(e, "max", HUGE_VAL);
+    if (rule->least > rule->most)
+        fw_diag_error(r->r->diags, 135, fw_place_of(e, "max"), "max=\"%s\" is below min=\"%s\"",
+                      fw_text_of(e, "max"), fw_text_of(e, "min"));
+    rule->window_m = value_of(e, "window", 0.0);
+    rule->step_m = value_of(e, "step", rule->window_m);
+    return FW_OK;
+}
+
+static unsigned of_word(const fw_record *e, unsigned usual) {
     static const struct {
         const char *word;
         unsigned of;
@@ -167,57 +221,24 @@ static void read_of(reader *r, const fw_element *e, const fw_rule_row *kind) {
                 {"polygon", FW_OF_POLYGON},
                 {"island", FW_OF_ISLAND},
                 {"hole", FW_OF_HOLE}};
-    const fw_attribute *a = fw_xml_attribute(e, "of");
-    r->rule->of = kind->usual_of;
-    if (!a || !(kind->takes & FW_TAKES_OF)) return;
     for (size_t i = 0; i < sizeof word / sizeof word[0]; i++)
-        if (strcmp(a->value, word[i].word) == 0 && kind->of & word[i].of) {
-            r->rule->of = word[i].of;
-            return;
-        }
-    fw_diag_error(r->diags, 135, a->place, "of=\"%s\" of a rule of kind \"%s\" must be %s",
-                  a->value, kind->name,
-                  kind->of & FW_OF_OUTLINE ? "\"outline\" or \"polygon\""
-                                           : "\"island\" or \"hole\", or left out for both");
+        if (fw_mask_says(e, "of", word[i].word)) return word[i].of;
+    return usual;
 }
 
-static void read_severity(reader *r, const fw_element *e) {
-    const fw_attribute *a = fw_xml_attribute(e, "severity");
-    r->rule->severity = FW_ERROR;
-    if (a && strcmp(a->value, "warning") == 0)
-        r->rule->severity = FW_WARNING;
-    else if (a && strcmp(a->value, "error") != 0)
-        fw_diag_error(r->diags, 135, a->place, "severity=\"%s\" must be \"error\" or \"warning\"",
-                      a->value);
-}
-
-static void read_layers(reader *r, const fw_element *e) {
-    fw_mask_rule *rule = r->rule;
-    const fw_attribute *a = fw_xml_attribute(e, "layer"), *other = fw_xml_attribute(e, "inside");
-    if (!other) other = fw_xml_attribute(e, "from");
-    if (a) rule->layer = layer_named(r, a);
-    if (other) rule->other = layer_named(r, other);
-    if (a && other && rule->layer >= 0 && rule->layer == rule->other)
-        fw_diag_error(r->diags, 135, other->place, "%s=\"%s\" is the rule's own layer", other->name,
-                      other->value);
-}
-
-static fw_status read_rule(reader *r, const fw_element *e) {
-    const fw_rule_row *kind = kind_named(r, e);
-    if (!kind) return FW_OK;
+static fw_status read_rule(reader *r, const fw_record *e) {
+    const fw_rule_row *kind = kind_named(r->r, e->element);
     *r->rule =
-        (fw_mask_rule){.kind = kind, .layer = -1, .other = -1, .most = HUGE_VAL, .place = e->place};
-    check_attributes(r, e, kind);
+        (fw_mask_rule){.kind = kind,
+                       .layer = -1,
+                       .other = -1,
+                       .most = HUGE_VAL,
+                       .of = of_word(e, kind->usual_of),
+                       .severity = fw_mask_says(e, "severity", "warning") ? FW_WARNING : FW_ERROR,
+                       .source = fw_text_of(e, "source"),
+                       .place = e->element->place};
     read_layers(r, e);
-    FW_TRY(read_limits(r, e, kind));
-    read_of(r, e, kind);
-    read_severity(r, e);
-    const fw_attribute *min = fw_xml_attribute(e, "min"), *source = fw_xml_attribute(e, "source");
-    if (min && kind->takes & FW_TAKES_PRINT) fw_table_text(r->diags, min, &r->rule->formula);
-    if (source) fw_table_text(r->diags, source, &r->rule->source);
-    if (e->first_child)
-        fw_diag_error(r->diags, 135, e->first_child->place, "<rule> has no child elements");
-    return FW_OK;
+    return read_limits(r, e);
 }
 
 static bool twice(const fw_mask_rule *p, const fw_mask_rule *q) {
@@ -225,7 +246,7 @@ static bool twice(const fw_mask_rule *p, const fw_mask_rule *q) {
            p->severity == q->severity && p->window_m == q->window_m;
 }
 
-static void check_twice(reader *r, const fw_mask_table *t) {
+static void check_twice(fw_diags *diags, const fw_mask_table *t) {
     for (int j = 0; j < t->nrule; j++) {
         const fw_mask_rule *q = &t->rule[j];
         if (!q->kind || q->layer < 0) continue;
@@ -233,13 +254,13 @@ static void check_twice(reader *r, const fw_mask_table *t) {
         bool own = (q->kind == &fw_kind_width && l->min_width_m > 0) ||
                    (q->kind == &fw_kind_space && l->min_space_m > 0);
         if (own && q->severity == FW_ERROR)
-            fw_diag_error(r->diags, 135, q->place,
+            fw_diag_error(diags, 135, q->place,
                           "layer \"%s\" has min-%s in line %d already; keep one of the two", l->id,
                           q->kind->name, l->place.line);
         for (int i = 0; i < j; i++)
             if (t->rule[i].kind && twice(&t->rule[i], q))
                 fw_diag_error(
-                    r->diags, 135, q->place,
+                    diags, 135, q->place,
                     "the rule \"%s\" of layer \"%s\" stands twice, first in line %d; keep "
                     "one",
                     q->kind->name, l->id, t->rule[i].place.line);
@@ -261,19 +282,17 @@ static void tell_layers(fw_mask_table *t) {
     }
 }
 
-fw_status fw_table_rules(fw_arena *arena, const fw_element *root, fw_diags *diags,
-                         fw_mask_table *table) {
-    reader r = {.arena = arena, .diags = diags, .table = table};
-    size_t n = 0;
-    for (const fw_element *e = root->first_child; e; e = e->next)
-        n += strcmp(e->name, "rule") == 0;
-    FW_NEED(table->rule = fw_arena_array(arena, fw_mask_rule, n));
-    for (const fw_element *e = root->first_child; e; e = e->next) {
-        if (strcmp(e->name, "rule") != 0) continue;
-        r.rule = &table->rule[table->nrule++];
-        FW_TRY(read_rule(&r, e));
+fw_status fw_mask_rules_build(fw_xml_reader *r, fw_mask_table *table) {
+    const fw_record *root = r->record;
+    reader work = {.r = r, .table = table};
+    FW_NEED(table->rule =
+                fw_arena_array(r->arena, fw_mask_rule, (size_t)fw_xml_children(root, "rule")));
+    for (const fw_record *e = root->first_child; e; e = e->next) {
+        if (!fw_is(e, "rule")) continue;
+        work.rule = &table->rule[table->nrule++];
+        FW_TRY(read_rule(&work, e));
     }
-    check_twice(&r, table);
+    check_twice(r->diags, table);
     tell_layers(table);
     return FW_OK;
 }

@@ -18,7 +18,7 @@ static const struct {
             {"youngs", {0}}};
 enum { KINDS = sizeof kind / sizeof kind[0] };
 
-static const fw_quantity *quantity(fw_pack *pack, const fw_element *e, const char *name, int of) {
+static const fw_quantity *quantity(fw_pack *pack, const fw_record *e, const char *name, int of) {
     const fw_attribute *a = fw_pack_get(e, name);
     if (!a) return NULL;
     const fw_quantity *q = fw_pack_find(pack, a, FW_ID_QUANTITY);
@@ -28,7 +28,7 @@ static const fw_quantity *quantity(fw_pack *pack, const fw_element *e, const cha
     return q;
 }
 
-static void read_corner(fw_pack *pack, const fw_element *e) {
+static void read_corner(fw_pack *pack, const fw_record *e) {
     fw_flow *f = pack->flow;
     int of = 0;
     while (of < KINDS && strcmp(kind[of].word, fw_pack_text(e, "of")) != 0)
@@ -39,12 +39,12 @@ static void read_corner(fw_pack *pack, const fw_element *e) {
                      .name = fw_pack_text(e, "name"),
                      .q = quantity(pack, e, "q", of),
                      .assumed = quantity(pack, e, "assumed", of),
-                     .place = e->place};
+                     .place = e->element->place};
     const fw_quantity *layer = f->thickness;
     if (of == FW_CORNER_THICKNESS && layer && c->q != layer && !layer->unknown)
         c->aim_m = layer->value;
     if ((of == FW_CORNER_YOUNGS) == (fw_pack_get(e, "q") != NULL))
-        fw_diag_error(pack->diags, 260, e->place,
+        fw_diag_error(pack->diags, 260, e->element->place,
                       of == FW_CORNER_YOUNGS
                           ? "the corner of Young's modulus is the material's own; it takes no q"
                           : "a corner of '%s' needs q: the quantity whose range it is",
@@ -52,8 +52,8 @@ static void read_corner(fw_pack *pack, const fw_element *e) {
 }
 
 void fw_pack_corners(fw_pack *pack) {
-    for (const fw_element *e = pack->root->first_child; e; e = e->next)
-        if (strcmp(e->name, "corner") == 0) read_corner(pack, e);
+    for (const fw_record *e = pack->root->first_child; e; e = e->next)
+        if (fw_is(e, "corner")) read_corner(pack, e);
     if (pack->flow->ncorner > FW_MADE_INPUTS)
         fw_diag_error(pack->diags, 260, pack->flow->corner[FW_MADE_INPUTS].place,
                       "a flow has at most %d corners: join those that move the same edge",

@@ -79,28 +79,21 @@ static fw_status replace(fw_arena *arena, fw_flow *flow, fw_diags *diags, const 
     return FW_OK;
 }
 
-static fw_status replace_all(fw_arena *arena, const fw_element *root, fw_flow *flow,
+static fw_status replace_all(fw_arena *arena, const fw_record *root, fw_flow *flow,
                              fw_diags *diags) {
     size_t before = diags->errors;
     fw_source_text *source;
     int nsource;
-    fw_status status = fw_sources_read(arena, root, diags, &source, &nsource);
+    fw_status status = fw_sources_read(arena, root->element, diags, &source, &nsource);
     if (status != FW_OK && status != FW_INPUT) return status;
-    for (const fw_element *e = root->first_child; e; e = e->next) {
-        const fw_attribute *id = fw_xml_attribute(e, "id");
-        if (strcmp(e->name, "q") != 0) {
-            if (strcmp(e->name, "source") != 0)
-                fw_diag_error(diags, 211, e->place,
-                              "a laboratory pack holds <source> and <q> only, not <%s>", e->name);
-            continue;
-        }
+    for (const fw_record *e = root->first_child; e; e = e->next) {
+        const fw_attribute *id = fw_pack_get(e, "id");
         fw_quantity q;
-        status = fw_quantity_read(arena, e, source, nsource, diags, &q);
+        if (!fw_is(e, "q")) continue;
+        status = fw_quantity_read(arena, e->element, source, nsource, diags, &q);
         if (status == FW_INPUT) continue;
         FW_TRY(status);
-        if (!id)
-            fw_diag_error(diags, 211, e->place, "<q> needs the attribute 'id'");
-        else if ((status = replace(arena, flow, diags, id, &q)) != FW_OK && status != FW_INPUT)
+        if (id && (status = replace(arena, flow, diags, id, &q)) != FW_OK && status != FW_INPUT)
             return status;
     }
     return diags->failed ? FW_NOMEM : diags->errors > before ? FW_INPUT : FW_OK;
@@ -108,24 +101,19 @@ static fw_status replace_all(fw_arena *arena, const fw_element *root, fw_flow *f
 
 fw_status fw_lab_apply(fw_arena *arena, const char *file, const char *xml, size_t n, fw_flow *flow,
                        fw_diags *diags) {
-    fw_element *root;
-    FW_TRY(fw_xml_read(arena, file, xml, n, diags, &root));
-    if (!root) return FW_INPUT;
-    if (strcmp(root->name, "process") != 0 || !root->space ||
-        strcmp(root->space, "urn:flexwright:process:1") != 0)
-        return fw_diag_error(diags, 178, root->place,
-                             "a laboratory pack starts with <process "
-                             "xmlns=\"urn:flexwright:process:1\">, not with <%s>",
-                             root->name);
-    const fw_attribute *of = fw_xml_attribute(root, "flow");
-    if (!of)
-        return fw_diag_error(diags, 211, root->place,
-                             "a laboratory pack must state the flow to which its values apply: "
-                             "add flow=\"%s\" to <process>",
-                             flow->id);
-    if (strcmp(of->value, flow->id) != 0) return FW_OK; /* of another flow of the device */
-    FW_TRY(replace_all(arena, root, flow, diags));
+    fw_xml_reader r = {.arena = arena, .diags = diags, .table = &fw_process_laboratory_table};
+    size_t before = diags->errors;
+    FW_TRY(fw_xml_read(arena, file, xml, n, diags, &r.root));
+    const fw_attribute *of = fw_xml_attribute(r.root, "flow");
+    bool other = of && strcmp(of->value, flow->id) != 0; /* of another flow of the device */
+    if (other && strcmp(r.root->name, r.table->root) == 0 &&
+        strcmp(r.root->space, r.table->urn) == 0)
+        return FW_OK;
+    FW_TRY(fw_xml_records_read(&r));
+    FW_TRY(fw_xml_words_read(&r));
+    if (!of || other) return FW_INPUT;
+    FW_TRY(replace_all(arena, r.record, flow, diags));
     for (int i = 0; i < flow->ncorner && !flow->thickness->unknown; i++)
         if (flow->corner[i].aim_m > 0.0) flow->corner[i].aim_m = flow->thickness->value;
-    return FW_OK;
+    return diags->errors > before ? FW_INPUT : FW_OK;
 }

@@ -5,11 +5,10 @@
 /* "stated" is a claim about a publication: it needs one as its source */
 static fw_status lint_stated(fw_pack *pack) {
     for (int part = 0; part < 2; part++) {
-        const fw_element *root = part == 0 ? pack->base : pack->root;
-        for (const fw_element *c = root->first_child; c; c = c->next) {
+        const fw_record *root = part == 0 ? pack->base : pack->root;
+        for (const fw_record *c = root->first_child; c; c = c->next) {
             const fw_attribute *src = fw_pack_get(c, "src");
-            if (strcmp(c->name, "q") != 0 || !src ||
-                strcmp(fw_pack_text(c, "status"), "stated") != 0)
+            if (!fw_is(c, "q") || !src || strcmp(fw_pack_text(c, "status"), "stated") != 0)
                 continue;
             const fw_source *s = fw_pack_find(pack, src, FW_ID_SOURCE);
             if (s && strcmp(s->kind, "publication") != 0 && strcmp(s->kind, "datasheet") != 0)
@@ -25,16 +24,13 @@ static fw_status lint_stated(fw_pack *pack) {
 /* <hazard> children that name something elsewhere */
 static fw_status lint_names(fw_pack *pack) {
     for (int part = 0; part < 2; part++) {
-        const fw_element *root = part == 0 ? pack->base : pack->root;
-        for (const fw_element *h = root->first_child; h; h = h->next)
-            for (const fw_element *c = h->first_child; c && strcmp(h->name, "hazard") == 0;
-                 c = c->next) {
+        const fw_record *root = part == 0 ? pack->base : pack->root;
+        for (const fw_record *h = root->first_child; h; h = h->next)
+            for (const fw_record *c = h->first_child; c && fw_is(h, "hazard"); c = c->next) {
                 const fw_attribute *with = fw_pack_get(c, "with"),
                                    *material = fw_pack_get(c, "material");
-                if (strcmp(c->name, "incompatible") == 0 && with)
-                    fw_pack_find(pack, with, FW_ID_HAZARD);
-                if (strcmp(c->name, "attacks") == 0 && material)
-                    fw_pack_find(pack, material, FW_ID_MATERIAL);
+                if (fw_is(c, "incompatible") && with) fw_pack_find(pack, with, FW_ID_HAZARD);
+                if (fw_is(c, "attacks") && material) fw_pack_find(pack, material, FW_ID_MATERIAL);
             }
     }
     return FW_OK;

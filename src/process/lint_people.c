@@ -5,22 +5,23 @@
 /* a hazard that speaks of hydrofluoric acid and does not say whether it may be handled alone */
 static void lint_acid(fw_pack *pack) {
     for (int part = 0; part < 2; part++) {
-        const fw_element *root = part == 0 ? pack->base : pack->root;
-        for (const fw_element *h = root->first_child; h; h = h->next) {
+        const fw_record *root = part == 0 ? pack->base : pack->root;
+        for (const fw_record *h = root->first_child; h; h = h->next) {
             bool named = false, antidote = false;
-            if (strcmp(h->name, "hazard") != 0) continue;
-            for (const fw_element *c = h->first_child; c; c = c->next) {
-                named = named || strstr(c->text, "hydrofluoric") || strstr(c->text, "HF ");
-                antidote = antidote || strstr(c->text, "gluconate");
+            if (!fw_is(h, "hazard")) continue;
+            for (const fw_record *c = h->first_child; c; c = c->next) {
+                named = named || strstr(c->element->text, "hydrofluoric") ||
+                        strstr(c->element->text, "HF ");
+                antidote = antidote || strstr(c->element->text, "gluconate");
             }
             if (!named || strcmp(fw_pack_text(h, "buddy"), "no") == 0) continue;
             if (!fw_pack_get(h, "buddy"))
-                fw_diag_error(pack->diags, 174, h->place,
+                fw_diag_error(pack->diags, 174, h->element->place,
                               "hazard '%s' mentions hydrofluoric acid: state buddy=\"yes\", or "
                               "buddy=\"no\" where nobody handles the acid itself",
                               fw_pack_text(h, "id"));
             else if (!antidote)
-                fw_diag_error(pack->diags, 174, h->place,
+                fw_diag_error(pack->diags, 174, h->element->place,
                               "hazard '%s' is hydrofluoric acid and its first aid does not name "
                               "calcium gluconate",
                               fw_pack_text(h, "id"));

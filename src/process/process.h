@@ -4,7 +4,6 @@
 #ifndef FW_PROCESS_PROCESS_H
 #define FW_PROCESS_PROCESS_H
 #include "device/material.h"
-#include "device/xml.h"
 #include "process/fixed_point.h"
 #include "quantity/quantity.h"
 #include <stdbool.h>
@@ -213,6 +212,11 @@ typedef struct fw_drive_facts { /* a comb drive of a scene that holds in the flo
     double gap_m; /* as drawn */
     fw_place place;
 } fw_drive_facts;
+
+/* processes/process.rng and laboratory.rng: what flows and laboratory packs may hold */
+fw_status fw_process_schema(fw_text *out);
+fw_status fw_process_laboratory_schema(fw_text *out);
+fw_status fw_process_reference_markdown(fw_text *out); /* docs/reference/process.md */
 
 /* reads base.xml and FLOW.xml; all mistakes in diags */
 fw_status fw_flow_read(fw_arena *arena, const char *base_file, const char *base_xml, size_t base_n,

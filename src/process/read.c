@@ -5,32 +5,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-const fw_attribute *fw_pack_get(const fw_element *e, const char *name) {
-    return fw_xml_attribute(e, name);
+const fw_attribute *fw_pack_get(const fw_record *e, const char *name) {
+    return fw_cell_of(e, name)->given;
 }
 
-const char *fw_pack_text(const fw_element *e, const char *name) {
-    const fw_attribute *a = fw_xml_attribute(e, name);
+const char *fw_pack_text(const fw_record *e, const char *name) {
+    const fw_attribute *a = fw_pack_get(e, name);
     return a ? a->value : "";
 }
 
-int fw_pack_count(const fw_element *e, const char *child) {
-    int n = 0;
-    for (const fw_element *c = e->first_child; c; c = c->next)
-        n += strcmp(c->name, child) == 0;
-    return n;
-}
-
-double fw_pack_number(fw_pack *pack, const fw_element *e, const char *name, double absent) {
-    const fw_attribute *a = fw_xml_attribute(e, name);
-    double value = absent;
-    if (!a) return absent;
-    if (!fw_number_parse(a->value, strlen(a->value), &value) || value < 0.0 || value > 1e9) {
-        fw_diag_error(pack->diags, 171, a->place, "%s='%s' is not a number of 0 or more", name,
-                      a->value);
-        return absent;
-    }
-    return value;
+double fw_pack_number(const fw_record *e, const char *name, double absent) {
+    const fw_xml_cell *cell = fw_cell_of(e, name);
+    return cell->ok ? cell->number : absent;
 }
 
 static int by_id(const void *a, const void *b) {
@@ -84,13 +70,13 @@ static void enter(fw_pack *pack, const char *id, fw_id_kind kind, bool base, voi
     pack->nid++;
 }
 
-static void read_source(fw_pack *pack, const fw_element *e, fw_source *s) {
+static void read_source(fw_pack *pack, const fw_record *e, fw_source *s) {
     *s = (fw_source){fw_pack_text(e, "id"), fw_pack_text(e, "kind"), fw_pack_text(e, "date"),
-                     e->text};
+                     e->element->text};
     (void)pack;
 }
 
-static fw_status read_hazard(fw_pack *pack, const fw_element *e, fw_hazard *h) {
+static fw_status read_hazard(fw_pack *pack, const fw_record *e, fw_hazard *h) {
     *h = (fw_hazard){.id = fw_pack_text(e, "id"),
                      .ghs = fw_pack_text(e, "ghs"),
                      .ppe = "",
@@ -98,81 +84,82 @@ static fw_status read_hazard(fw_pack *pack, const fw_element *e, fw_hazard *h) {
                      .waste_stream = "",
                      .waste = "",
                      .buddy = strcmp(fw_pack_text(e, "buddy"), "yes") == 0,
-                     .place = e->place};
-    size_t most = (size_t)fw_pack_count(e, "incompatible");
+                     .place = e->element->place};
+    size_t most = (size_t)fw_xml_children(e, "incompatible");
     FW_NEED(h->incompatible = fw_arena_array(pack->arena, const char *, most));
-    most = (size_t)fw_pack_count(e, "attacks");
+    most = (size_t)fw_xml_children(e, "attacks");
     FW_NEED(h->attacks = fw_arena_array(pack->arena, const char *, most));
-    for (const fw_element *c = e->first_child; c; c = c->next) {
-        if (strcmp(c->name, "ppe") == 0)
-            h->ppe = c->text;
-        else if (strcmp(c->name, "firstaid") == 0)
-            h->first_aid = c->text;
-        else if (strcmp(c->name, "waste") == 0) {
-            h->waste = c->text;
+    for (const fw_record *c = e->first_child; c; c = c->next) {
+        if (fw_is(c, "ppe"))
+            h->ppe = c->element->text;
+        else if (fw_is(c, "firstaid"))
+            h->first_aid = c->element->text;
+        else if (fw_is(c, "waste")) {
+            h->waste = c->element->text;
             h->waste_stream = fw_pack_text(c, "stream");
-        } else if (strcmp(c->name, "incompatible") == 0)
+        } else if (fw_is(c, "incompatible"))
             h->incompatible[h->nincompatible++] = fw_pack_text(c, "with");
-        else if (strcmp(c->name, "attacks") == 0)
+        else if (fw_is(c, "attacks"))
             h->attacks[h->nattacks++] = fw_pack_text(c, "material");
     }
     return FW_OK;
 }
 
 /* of a material's own quantities the process needs what it bears; the others are device/'s */
-static fw_status read_material(fw_pack *pack, const fw_element *e, fw_process_material *m) {
+static fw_status read_material(fw_pack *pack, const fw_record *e, fw_process_material *m) {
     *m = (fw_process_material){.id = fw_pack_text(e, "id"),
                                .name = fw_pack_text(e, "name"),
                                .contaminates = fw_pack_text(e, "contaminates"),
                                .holes = strcmp(fw_pack_text(e, "holes"), "yes") == 0,
-                               .place = e->place};
-    for (const fw_element *c = e->first_child; c; c = c->next) {
+                               .place = e->element->place};
+    for (const fw_record *c = e->first_child; c; c = c->next) {
         if (strcmp(fw_pack_text(c, "id"), "highest-temperature") != 0) continue;
         fw_quantity *q = fw_arena_one(pack->arena, fw_quantity);
         FW_NEED(q);
         fw_status status =
-            fw_quantity_read(pack->arena, c, pack->source, pack->nsource, pack->diags, q);
+            fw_quantity_read(pack->arena, c->element, pack->source, pack->nsource, pack->diags, q);
         if (status != FW_OK && status != FW_INPUT) return status;
         if (!fw_dimension_equal(q->dimension, (fw_dimension){.K = 1}))
-            fw_diag_error(pack->diags, 169, c->place, "highest-temperature is not a temperature");
+            fw_diag_error(pack->diags, 169, c->element->place,
+                          "highest-temperature is not a temperature");
         m->highest_K = q;
     }
     return FW_OK;
 }
 
-static fw_status read_one(fw_pack *pack, const fw_element *e, bool base) {
+static fw_status read_one(fw_pack *pack, const fw_record *e, bool base) {
     fw_flow *f = pack->flow;
     const fw_attribute *id = fw_pack_get(e, "id");
-    if (strcmp(e->name, "open-point") == 0) {
-        f->open_point[f->nopen_point++] = e->text;
+    if (fw_is(e, "open-point")) {
+        f->open_point[f->nopen_point++] = e->element->text;
         return FW_OK;
     }
-    if (!id && strcmp(e->name, "q") == 0)
-        fw_diag_error(pack->diags, 162, e->place, "<q> needs the attribute 'id'");
+    if (!id && fw_is(e, "q"))
+        fw_diag_error(pack->diags, 162, e->element->place, "<q> needs the attribute 'id'");
     if (!id) return FW_OK;
-    if (strcmp(e->name, "source") == 0) {
+    if (fw_is(e, "source")) {
         fw_source *s = &f->source[f->nsource++];
         read_source(pack, e, s);
         enter(pack, id->value, FW_ID_SOURCE, base, s, id->place);
-    } else if (strcmp(e->name, "material") == 0) {
+    } else if (fw_is(e, "material")) {
         fw_process_material *m = &f->process_material[f->nprocess_material++];
         FW_TRY(read_material(pack, e, m));
         enter(pack, id->value, FW_ID_MATERIAL, base, m, id->place);
-    } else if (strcmp(e->name, "equipment") == 0) {
+    } else if (fw_is(e, "equipment")) {
         fw_equipment *q = &f->equipment[f->nequipment++];
-        int capacity = (int)fw_pack_number(pack, e, "capacity", 1.0);
-        *q = (fw_equipment){id->value, fw_pack_text(e, "class"), e->text,
-                            capacity,  fw_pack_text(e, "takes"), e->place};
+        int capacity = (int)fw_pack_number(e, "capacity", 1.0);
+        *q = (fw_equipment){id->value, fw_pack_text(e, "class"), e->element->text,
+                            capacity,  fw_pack_text(e, "takes"), e->element->place};
         enter(pack, id->value, FW_ID_EQUIPMENT, base, q, id->place);
-    } else if (strcmp(e->name, "hazard") == 0) {
+    } else if (fw_is(e, "hazard")) {
         fw_hazard *h = &f->hazard[f->nhazard++];
         FW_TRY(read_hazard(pack, e, h));
         enter(pack, id->value, FW_ID_HAZARD, base, h, id->place);
-    } else if (strcmp(e->name, "q") == 0) {
+    } else if (fw_is(e, "q")) {
         fw_quantity *q = fw_arena_one(pack->arena, fw_quantity);
         FW_NEED(q);
         fw_status status =
-            fw_quantity_read(pack->arena, e, pack->source, pack->nsource, pack->diags, q);
+            fw_quantity_read(pack->arena, e->element, pack->source, pack->nsource, pack->diags, q);
         if (status != FW_OK && status != FW_INPUT) return status;
         q->id = id->value;
         f->quantity[f->nquantity++] = q;
@@ -182,10 +169,10 @@ static fw_status read_one(fw_pack *pack, const fw_element *e, bool base) {
 }
 
 /* <derive id> makes a quantity that is computed later */
-static fw_status read_derived_ids(fw_pack *pack, const fw_element *step) {
-    for (const fw_element *c = step->first_child; c; c = c->next) {
+static fw_status read_derived_ids(fw_pack *pack, const fw_record *step) {
+    for (const fw_record *c = step->first_child; c; c = c->next) {
         const fw_attribute *id = fw_pack_get(c, "id");
-        if (strcmp(c->name, "derive") != 0 || !id) continue;
+        if (!fw_is(c, "derive") || !id) continue;
         fw_quantity *q = fw_arena_one(pack->arena, fw_quantity);
         FW_NEED(q);
         *q = (fw_quantity){.id = id->value,
@@ -193,7 +180,7 @@ static fw_status read_derived_ids(fw_pack *pack, const fw_element *step) {
                            .unit = fw_pack_text(c, "unit"),
                            .status = FW_DERIVED,
                            .source = "computed",
-                           .place = c->place};
+                           .place = c->element->place};
         fw_unit unit;
         if (fw_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL))
             q->dimension = unit.dimension;
@@ -203,11 +190,11 @@ static fw_status read_derived_ids(fw_pack *pack, const fw_element *step) {
     return FW_OK;
 }
 
-static int count_ids(const fw_element *root) {
+static int count_ids(const fw_record *root) {
     int n = 0;
-    for (const fw_element *c = root->first_child; c; c = c->next) {
+    for (const fw_record *c = root->first_child; c; c = c->next) {
         n++;
-        if (strcmp(c->name, "step") == 0) n += fw_pack_count(c, "derive");
+        if (fw_is(c, "step")) n += fw_xml_children(c, "derive");
     }
     return n;
 }
@@ -224,15 +211,15 @@ static fw_status make_room(fw_pack *pack) {
     FW_NEED(f->corner = fw_arena_array(pack->arena, fw_corner, n));
     FW_NEED(f->open_point = fw_arena_array(pack->arena, const char *, n));
     FW_NEED(f->step =
-                fw_arena_array(pack->arena, fw_step, (size_t)fw_pack_count(pack->root, "step")));
+                fw_arena_array(pack->arena, fw_step, (size_t)fw_xml_children(pack->root, "step")));
     return FW_OK;
 }
 
 static fw_status read_sources(fw_pack *pack) {
     fw_source_text *list[2];
     int n[2];
-    FW_TRY(fw_sources_read(pack->arena, pack->root, pack->diags, &list[0], &n[0]));
-    FW_TRY(fw_sources_read(pack->arena, pack->base, pack->diags, &list[1], &n[1]));
+    FW_TRY(fw_sources_read(pack->arena, pack->root->element, pack->diags, &list[0], &n[0]));
+    FW_TRY(fw_sources_read(pack->arena, pack->base->element, pack->diags, &list[1], &n[1]));
     pack->nsource = n[0] + n[1];
     FW_NEED(pack->source = fw_arena_array(pack->arena, fw_source_text, (size_t)pack->nsource));
     for (int i = 0; i < pack->nsource; i++)
@@ -261,15 +248,15 @@ static void report_duplicates(fw_pack *pack) {
 
 static fw_status read_everything(fw_pack *pack) {
     for (int part = 0; part < 2; part++) {
-        const fw_element *root = part == 0 ? pack->base : pack->root;
-        for (const fw_element *c = root->first_child; c; c = c->next) {
+        const fw_record *root = part == 0 ? pack->base : pack->root;
+        for (const fw_record *c = root->first_child; c; c = c->next) {
             FW_TRY(read_one(pack, c, part == 0));
-            if (strcmp(c->name, "step") == 0) FW_TRY(read_derived_ids(pack, c));
+            if (fw_is(c, "step")) FW_TRY(read_derived_ids(pack, c));
         }
     }
     fw_step *step = pack->flow->step;
-    for (const fw_element *c = pack->root->first_child; c; c = c->next)
-        if (strcmp(c->name, "step") == 0) {
+    for (const fw_record *c = pack->root->first_child; c; c = c->next)
+        if (fw_is(c, "step")) {
             const fw_attribute *id = fw_pack_get(c, "id");
             if (id) enter(pack, id->value, FW_ID_STEP, false, step, id->place);
             step++;
@@ -286,11 +273,11 @@ static void read_head(fw_pack *pack) {
     f->id = fw_pack_text(pack->root, "id");
     f->version = fw_pack_text(pack->root, "version");
     f->title = fw_pack_text(pack->root, "title");
-    f->place = pack->root->place;
+    f->place = pack->root->element->place;
     f->bias_note = "";
     f->insulating = strcmp(fw_pack_text(pack->root, "carrier"), "insulating") == 0;
     if (!material || !thickness) {
-        fw_diag_error(pack->diags, 162, pack->root->place,
+        fw_diag_error(pack->diags, 162, pack->root->element->place,
                       "a flow needs the attributes 'material' and 'thickness' of its device layer");
         return;
     }
@@ -301,20 +288,44 @@ static void read_head(fw_pack *pack) {
         fw_diag_error(pack->diags, 169, thickness->place, "'%s' is not a length", thickness->value);
 }
 
+/* the records of base.xml, or of the flow, checked against the table; FW_OK although there may be
+   mistakes in them */
+static fw_status check(fw_xml_reader *r, bool is_base, const fw_record **root) {
+    FW_TRY(fw_xml_records_read(r));
+    FW_TRY(fw_xml_words_read(r));
+    FW_TRY(fw_xml_numbers_read(r));
+    *root = r->record;
+    const fw_place place = r->root->place;
+    int steps = fw_xml_children(*root, "step");
+    if (is_base && steps > 0)
+        fw_diag_error(r->diags, 160, place,
+                      "the shared pack holds no <step>; steps belong to a flow");
+    if (!is_base && steps == 0) fw_diag_error(r->diags, 180, place, "a flow needs a <step>");
+    return FW_OK;
+}
+
+static fw_status read_files(fw_xml_reader *base, const char *base_file, const char *base_xml,
+                            size_t base_n, fw_xml_reader *own, const char *file, const char *xml,
+                            size_t n) {
+    fw_status first =
+        fw_xml_read(base->arena, base_file, base_xml, base_n, base->diags, &base->root);
+    fw_status second = fw_xml_read(own->arena, file, xml, n, own->diags, &own->root);
+    if (first == FW_NOMEM || second == FW_NOMEM) return FW_NOMEM;
+    if (first != FW_OK || second != FW_OK) return first != FW_OK ? first : second;
+    return base->root && own->root ? FW_OK : FW_INPUT;
+}
+
 fw_status fw_flow_read(fw_arena *arena, const char *base_file, const char *base_xml, size_t base_n,
                        const char *file, const char *xml, size_t n, fw_diags *diags,
                        fw_flow **flow) {
-    fw_element *base = NULL, *root = NULL;
+    fw_xml_reader base = {.arena = arena, .diags = diags, .table = &fw_process_pack_table};
+    fw_xml_reader own = base;
+    fw_pack pack = {.arena = arena, .diags = diags};
     size_t errors = diags->errors;
     *flow = NULL;
-    fw_status first = fw_xml_read(arena, base_file, base_xml, base_n, diags, &base);
-    fw_status second = fw_xml_read(arena, file, xml, n, diags, &root);
-    if (first == FW_NOMEM || second == FW_NOMEM) return FW_NOMEM;
-    if (!base || !root || first != FW_OK || second != FW_OK)
-        return first != FW_OK ? first : second != FW_OK ? second : FW_INPUT;
-    fw_pack pack = {.arena = arena, .diags = diags, .base = base, .root = root};
-    FW_TRY(fw_pack_check(&pack, base, true));
-    FW_TRY(fw_pack_check(&pack, root, false));
+    FW_TRY(read_files(&base, base_file, base_xml, base_n, &own, file, xml, n));
+    FW_TRY(check(&base, true, &pack.base));
+    FW_TRY(check(&own, false, &pack.root));
     FW_NEED(pack.flow = fw_arena_one(arena, fw_flow));
     char hash[65];
     fw_sha256(xml, n, hash);

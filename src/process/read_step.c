@@ -4,12 +4,12 @@
 #include <math.h>
 #include <string.h>
 
-static const fw_quantity *quantity_of(fw_pack *pack, const fw_element *e, const char *name) {
+static const fw_quantity *quantity_of(fw_pack *pack, const fw_record *e, const char *name) {
     const fw_attribute *a = fw_pack_get(e, name);
     return a ? fw_pack_find(pack, a, FW_ID_QUANTITY) : NULL;
 }
 
-static fw_status dimension_error(fw_pack *pack, const fw_element *e, const char *what,
+static fw_status dimension_error(fw_pack *pack, const fw_record *e, const char *what,
                                  fw_dimension got, fw_dimension wanted) {
     const fw_attribute *a = fw_pack_get(e, "q");
     const char *is = fw_dimension_text(pack->arena, got),
@@ -21,30 +21,32 @@ static fw_status dimension_error(fw_pack *pack, const fw_element *e, const char 
 }
 
 /* <arg> and <needs> children of <time> or <derive> */
-static fw_status read_arguments(fw_pack *pack, const fw_element *e, const char *child,
+static fw_status read_arguments(fw_pack *pack, const fw_record *e, const char *child,
                                 fw_argument **list, int *n) {
-    size_t most = (size_t)fw_pack_count(e, child);
+    size_t most = (size_t)fw_xml_children(e, child);
     FW_NEED(*list = fw_arena_array(pack->arena, fw_argument, most));
-    for (const fw_element *c = e->first_child; c; c = c->next) {
-        if (strcmp(c->name, child) != 0) continue;
+    for (const fw_record *c = e->first_child; c; c = c->next) {
+        if (!fw_is(c, child)) continue;
         const fw_quantity *q = quantity_of(pack, c, "q");
         const char *name = fw_pack_text(c, "name");
         for (int i = 0; i < *n; i++)
             if (strcmp((*list)[i].name, name) == 0)
-                fw_diag_error(pack->diags, 164, c->place, "argument '%s' is given twice", name);
+                fw_diag_error(pack->diags, 164, c->element->place, "argument '%s' is given twice",
+                              name);
         if (q) (*list)[(*n)++] = (fw_argument){name, q};
     }
     if (*n > FW_LAW_ARGUMENTS) {
-        fw_diag_error(pack->diags, 171, e->place, "more than %d arguments", FW_LAW_ARGUMENTS);
+        fw_diag_error(pack->diags, 171, e->element->place, "more than %d arguments",
+                      FW_LAW_ARGUMENTS);
         *n = FW_LAW_ARGUMENTS;
     }
     return FW_OK;
 }
 
-static fw_status check_arguments(fw_pack *pack, const fw_element *e, const fw_process_law *law) {
-    for (const fw_element *c = e->first_child; c; c = c->next) {
+static fw_status check_arguments(fw_pack *pack, const fw_record *e, const fw_process_law *law) {
+    for (const fw_record *c = e->first_child; c; c = c->next) {
         const fw_attribute *name = fw_pack_get(c, "name"), *q = fw_pack_get(c, "q");
-        if (strcmp(c->name, "arg") != 0 || !name || !q) continue;
+        if (!fw_is(c, "arg") || !name || !q) continue;
         int at = fw_law_argument_index(law, name->value);
         if (at < 0) {
             const char *names[FW_LAW_ARGUMENTS];
@@ -64,18 +66,17 @@ static fw_status check_arguments(fw_pack *pack, const fw_element *e, const fw_pr
     }
     for (int i = 0; i < law->nargument; i++) {
         bool given = law->argument[i].need == FW_LAW_OPTIONAL;
-        for (const fw_element *c = e->first_child; c && !given; c = c->next)
-            given = strcmp(c->name, "arg") == 0 &&
-                    strcmp(fw_pack_text(c, "name"), law->argument[i].name) == 0;
+        for (const fw_record *c = e->first_child; c && !given; c = c->next)
+            given = fw_is(c, "arg") && strcmp(fw_pack_text(c, "name"), law->argument[i].name) == 0;
         if (!given)
-            fw_diag_error(pack->diags, 168, e->place, "law '%s' needs the argument '%s'", law->name,
-                          law->argument[i].name);
+            fw_diag_error(pack->diags, 168, e->element->place, "law '%s' needs the argument '%s'",
+                          law->name, law->argument[i].name);
     }
     return FW_OK;
 }
 
 /* tries the expression once; unknown inputs stand in as different numbers near 1 */
-static fw_status check_expression(fw_pack *pack, const fw_element *e, const char *text,
+static fw_status check_expression(fw_pack *pack, const fw_record *e, const char *text,
                                   fw_place place, const fw_argument *argument, int n,
                                   fw_dimension wanted) {
     fw_name_value item[FW_LAW_ARGUMENTS];
@@ -91,29 +92,30 @@ static fw_status check_expression(fw_pack *pack, const fw_element *e, const char
         fw_expression_evaluate(pack->arena, text, strlen(text), &names, wanted, &value, &error);
     if (status != FW_INPUT) return status;
     if (!strchr(text, '\n')) place.column += (int)error.offset;
-    fw_diag_error(pack->diags, 170, place, "<%s>: %s", e->name,
+    fw_diag_error(pack->diags, 170, place, "<%s>: %s", e->row->name,
                   error.message ? error.message : "the expression has no value");
     return FW_OK;
 }
 
-static fw_status read_expression(fw_pack *pack, const fw_element *e, const fw_process_law *law,
+static fw_status read_expression(fw_pack *pack, const fw_record *e, const fw_process_law *law,
                                  const fw_argument *argument, int n, fw_dimension wanted,
                                  const char **expression) {
     *expression = "";
-    const fw_element *found = NULL;
-    for (const fw_element *c = e->first_child; c; c = c->next)
-        if (strcmp(c->name, "expr") == 0) found = c;
+    const fw_record *found = NULL;
+    for (const fw_record *c = e->first_child; c; c = c->next)
+        if (fw_is(c, "expr")) found = c;
     if ((law == &fw_law_expr) != (found != NULL)) {
-        fw_diag_error(pack->diags, 170, e->place,
+        fw_diag_error(pack->diags, 170, e->element->place,
                       found ? "<expr> belongs to law='expr' only" : "law='expr' needs an <expr>");
         return FW_OK;
     }
     if (!found) return FW_OK;
-    *expression = found->text;
-    return check_expression(pack, e, found->text, found->text_place, argument, n, wanted);
+    *expression = found->element->text;
+    return check_expression(pack, e, found->element->text, found->element->text_place, argument, n,
+                            wanted);
 }
 
-static const fw_process_law *law_of(fw_pack *pack, const fw_element *e) {
+static const fw_process_law *law_of(fw_pack *pack, const fw_record *e) {
     const fw_attribute *a = fw_pack_get(e, "law");
     const fw_process_law *law = a ? fw_law_find(a->value) : NULL;
     if (!a || law) return law;
@@ -127,10 +129,10 @@ static const fw_process_law *law_of(fw_pack *pack, const fw_element *e) {
     return NULL;
 }
 
-static fw_status read_time(fw_pack *pack, const fw_element *e, fw_step *s) {
+static fw_status read_time(fw_pack *pack, const fw_record *e, fw_step *s) {
     const fw_process_law *law = law_of(pack, e);
-    s->overrun = fw_pack_number(pack, e, "overrun", 0.0);
-    s->k = fw_pack_number(pack, e, "k", 2.0);
+    s->overrun = fw_pack_number(e, "overrun", 0.0);
+    s->k = fw_pack_number(e, "k", 2.0);
     s->shape = fw_pack_text(e, "shape");
     FW_TRY(read_arguments(pack, e, "arg", &s->argument, &s->nargument));
     FW_TRY(read_arguments(pack, e, "needs", &s->need, &s->nneed));
@@ -141,7 +143,7 @@ static fw_status read_time(fw_pack *pack, const fw_element *e, fw_step *s) {
                            &s->expression);
 }
 
-static fw_status read_derive(fw_pack *pack, const fw_element *e, fw_derive *d) {
+static fw_status read_derive(fw_pack *pack, const fw_record *e, fw_derive *d) {
     const fw_process_law *law = law_of(pack, e);
     const fw_attribute *unit = fw_pack_get(e, "unit"), *id = fw_pack_get(e, "id");
     d->name = fw_pack_text(e, "name");
@@ -154,16 +156,16 @@ static fw_status read_derive(fw_pack *pack, const fw_element *e, fw_derive *d) {
     if (id) d->q = fw_pack_find(pack, id, FW_ID_QUANTITY);
     d->most = quantity_of(pack, e, "most");
     if (d->most && !fw_dimension_equal(d->most->dimension, d->dimension))
-        fw_diag_error(pack->diags, 169, e->place, "most='%s' is no limit for something in '%s'",
-                      d->most->id, d->unit);
+        fw_diag_error(pack->diags, 169, e->element->place,
+                      "most='%s' is no limit for something in '%s'", d->most->id, d->unit);
     FW_TRY(read_arguments(pack, e, "arg", &d->argument, &d->nargument));
     if (!law) return FW_OK;
     d->law = law->name;
     if (law->argument) {
         FW_TRY(check_arguments(pack, e, law));
         if (!fw_dimension_equal(d->dimension, (fw_dimension)FW_DIM_TIME))
-            fw_diag_error(pack->diags, 169, e->place, "law '%s' gives a time; unit='%s' is none",
-                          law->name, d->unit);
+            fw_diag_error(pack->diags, 169, e->element->place,
+                          "law '%s' gives a time; unit='%s' is none", law->name, d->unit);
     }
     return read_expression(pack, e, law, d->argument, d->nargument, d->dimension, &d->expression);
 }
@@ -174,7 +176,7 @@ static fw_face face_of(const char *word) {
                                          : FW_FACE_MIDDLE;
 }
 
-static void read_change(fw_pack *pack, const fw_element *e, fw_change *c) {
+static void read_change(fw_pack *pack, const fw_record *e, fw_change *c) {
     const fw_attribute *material = fw_pack_get(e, "material"), *where = fw_pack_get(e, "where"),
                        *from = fw_pack_get(e, "from");
     *c = (fw_change){.kind = fw_pack_text(e, "kind"),
@@ -188,56 +190,59 @@ static void read_change(fw_pack *pack, const fw_element *e, fw_change *c) {
                      .spread = quantity_of(pack, e, "spread"),
                      .reach = quantity_of(pack, e, "reach"),
                      .compensate = face_of(fw_pack_text(e, "compensate")),
-                     .place = e->place};
+                     .place = e->element->place};
     if (material) fw_pack_find(pack, material, FW_ID_MATERIAL);
     if (from)
         fw_pack_find(pack, from, FW_ID_MATERIAL);
     else if (strcmp(c->kind, "convert") == 0)
-        fw_diag_error(pack->diags, 162, e->place, "<change kind='convert'> needs 'from'");
+        fw_diag_error(pack->diags, 162, e->element->place, "<change kind='convert'> needs 'from'");
     if (c->thickness && !fw_dimension_equal(c->thickness->dimension, (fw_dimension)FW_DIM_LENGTH))
-        fw_diag_error(pack->diags, 169, e->place, "the thickness of <change> is not a length");
+        fw_diag_error(pack->diags, 169, e->element->place,
+                      "the thickness of <change> is not a length");
     if (c->reach && !fw_dimension_equal(c->reach->dimension, (fw_dimension)FW_DIM_LENGTH))
-        fw_diag_error(pack->diags, 169, e->place, "the reach of <change> is not a length");
+        fw_diag_error(pack->diags, 169, e->element->place, "the reach of <change> is not a length");
     if (c->reach && strcmp(c->kind, "remove") != 0)
-        fw_diag_error(pack->diags, 161, e->place,
+        fw_diag_error(pack->diags, 161, e->element->place,
                       "reach is how far a removal goes sideways: it belongs to kind='remove' only");
     if (c->isotropic && !c->thickness)
-        fw_diag_error(pack->diags, 162, e->place, "profile='isotropic' needs a thickness");
+        fw_diag_error(pack->diags, 162, e->element->place, "profile='isotropic' needs a thickness");
 }
 
-static void read_exposed(fw_pack *pack, const fw_element *e, fw_exposed *x) {
+static void read_exposed(fw_pack *pack, const fw_record *e, fw_exposed *x) {
     const fw_attribute *material = fw_pack_get(e, "material");
     *x = (fw_exposed){.material = fw_pack_text(e, "material"),
                       .rate = quantity_of(pack, e, "rate"),
                       .selectivity = quantity_of(pack, e, "selectivity"),
-                      .place = e->place};
+                      .place = e->element->place};
     if (material) fw_pack_find(pack, material, FW_ID_MATERIAL);
     if (!fw_pack_get(e, "rate") == !fw_pack_get(e, "selectivity"))
         fw_diag_error(
-            pack->diags, 162, e->place,
+            pack->diags, 162, e->element->place,
             "<exposed> needs either 'rate' or 'selectivity'; the quantity may be unknown");
     if (x->rate && !fw_dimension_equal(x->rate->dimension, (fw_dimension){.m = 1, .s = -1}))
-        fw_diag_error(pack->diags, 169, e->place, "the rate of <exposed> is not a length per time");
+        fw_diag_error(pack->diags, 169, e->element->place,
+                      "the rate of <exposed> is not a length per time");
     if (x->selectivity && !fw_dimension_equal(x->selectivity->dimension, (fw_dimension){0}))
-        fw_diag_error(pack->diags, 169, e->place, "the selectivity of <exposed> has a dimension");
+        fw_diag_error(pack->diags, 169, e->element->place,
+                      "the selectivity of <exposed> has a dimension");
 }
 
-static void read_lag(fw_pack *pack, const fw_element *e, fw_lag *lag) {
+static void read_lag(fw_pack *pack, const fw_record *e, fw_lag *lag) {
     const fw_attribute *unit = fw_pack_get(e, "unit"), *from = fw_pack_get(e, "from");
     fw_unit parsed = {.factor = 1.0};
     if (unit && (!fw_unit_parse(unit->value, strlen(unit->value), &parsed, NULL, NULL) ||
                  !fw_dimension_equal(parsed.dimension, (fw_dimension)FW_DIM_TIME)))
         fw_diag_error(pack->diags, 169, unit->place, "'%s' is not a unit of time", unit->value);
     lag->from = from ? from->value : "";
-    lag->place = e->place;
-    lag->min_s = fw_pack_number(pack, e, "min", (double)NAN) * parsed.factor;
-    lag->max_s = fw_pack_number(pack, e, "max", (double)NAN) * parsed.factor;
+    lag->place = e->element->place;
+    lag->min_s = fw_pack_number(e, "min", (double)NAN) * parsed.factor;
+    lag->max_s = fw_pack_number(e, "max", (double)NAN) * parsed.factor;
     if (from) fw_pack_find(pack, from, FW_ID_STEP);
     if (lag->min_s > lag->max_s)
-        fw_diag_error(pack->diags, 171, e->place, "<lag>: min is longer than max");
+        fw_diag_error(pack->diags, 171, e->element->place, "<lag>: min is longer than max");
 }
 
-static void read_set(fw_pack *pack, const fw_element *e, fw_step *s) {
+static void read_set(fw_pack *pack, const fw_record *e, fw_step *s) {
     const fw_quantity *q = quantity_of(pack, e, "q");
     static const char *const bound[] = {"tol-lo", "tol-hi"};
     for (int i = 0; i < 2; i++) {
@@ -251,66 +256,66 @@ static void read_set(fw_pack *pack, const fw_element *e, fw_step *s) {
             fw_pack_text(e, "name"), q, fw_pack_text(e, "tol-lo"), fw_pack_text(e, "tol-hi")};
 }
 
-static void read_accept(fw_pack *pack, const fw_element *e, fw_accept *a) {
+static void read_accept(const fw_record *e, fw_accept *a) {
     *a = (fw_accept){.measure = fw_pack_text(e, "measure"),
                      .low = fw_pack_text(e, "lo"),
                      .high = fw_pack_text(e, "hi"),
                      .unit = fw_pack_text(e, "unit"),
-                     .sites = (int)fw_pack_number(pack, e, "sites", 1.0),
-                     .every = (int)fw_pack_number(pack, e, "every", 1.0)};
+                     .sites = (int)fw_pack_number(e, "sites", 1.0),
+                     .every = (int)fw_pack_number(e, "every", 1.0)};
 }
 
-static void read_on_fail(fw_pack *pack, const fw_element *e, fw_on_fail *f) {
+static void read_on_fail(fw_pack *pack, const fw_record *e, fw_on_fail *f) {
     const fw_attribute *go_to = fw_pack_get(e, "goto");
     *f = (fw_on_fail){fw_pack_text(e, "if"), fw_pack_text(e, "then"), go_to ? go_to->value : "",
-                      e->text};
+                      e->element->text};
     if (go_to) fw_pack_find(pack, go_to, FW_ID_STEP);
 }
 
-static fw_status read_child(fw_pack *pack, const fw_element *c, fw_step *s) {
-    if (strcmp(c->name, "purpose") == 0)
-        s->purpose = c->text;
-    else if (strcmp(c->name, "change") == 0)
+static fw_status read_child(fw_pack *pack, const fw_record *c, fw_step *s) {
+    if (fw_is(c, "purpose"))
+        s->purpose = c->element->text;
+    else if (fw_is(c, "change"))
         read_change(pack, c, &s->change[s->nchange++]);
-    else if (strcmp(c->name, "exposed") == 0)
+    else if (fw_is(c, "exposed"))
         read_exposed(pack, c, &s->exposed[s->nexposed++]);
-    else if (strcmp(c->name, "set") == 0)
+    else if (fw_is(c, "set"))
         read_set(pack, c, s);
-    else if (strcmp(c->name, "time") == 0)
+    else if (fw_is(c, "time"))
         return s->law ? FW_OK : read_time(pack, c, s);
-    else if (strcmp(c->name, "derive") == 0)
+    else if (fw_is(c, "derive"))
         return read_derive(pack, c, &s->derive[s->nderive++]);
-    else if (strcmp(c->name, "endpoint") == 0)
-        s->endpoint[s->nendpoint++] = c->text;
-    else if (strcmp(c->name, "accept") == 0)
-        read_accept(pack, c, &s->accept[s->naccept++]);
-    else if (strcmp(c->name, "hazard-ref") == 0) {
+    else if (fw_is(c, "endpoint"))
+        s->endpoint[s->nendpoint++] = c->element->text;
+    else if (fw_is(c, "accept"))
+        read_accept(c, &s->accept[s->naccept++]);
+    else if (fw_is(c, "hazard-ref")) {
         const fw_attribute *ref = fw_pack_get(c, "ref");
         const fw_hazard *h = ref ? fw_pack_find(pack, ref, FW_ID_HAZARD) : NULL;
         if (h) s->hazard[s->nhazard++] = h;
-    } else if (strcmp(c->name, "on-fail") == 0)
+    } else if (fw_is(c, "on-fail"))
         read_on_fail(pack, c, &s->on_fail[s->non_fail++]);
-    else if (strcmp(c->name, "lag") == 0)
+    else if (fw_is(c, "lag"))
         read_lag(pack, c, &s->lag[s->nlag++]);
     return FW_OK;
 }
 
-static fw_status make_room(fw_arena *arena, const fw_element *e, fw_step *s) {
-    FW_NEED(s->change = fw_arena_array(arena, fw_change, (size_t)fw_pack_count(e, "change")));
-    FW_NEED(s->exposed = fw_arena_array(arena, fw_exposed, (size_t)fw_pack_count(e, "exposed")));
-    FW_NEED(s->setting = fw_arena_array(arena, fw_setting, (size_t)fw_pack_count(e, "set")));
-    FW_NEED(s->derive = fw_arena_array(arena, fw_derive, (size_t)fw_pack_count(e, "derive")));
+static fw_status make_room(fw_arena *arena, const fw_record *e, fw_step *s) {
+    FW_NEED(s->change = fw_arena_array(arena, fw_change, (size_t)fw_xml_children(e, "change")));
+    FW_NEED(s->exposed = fw_arena_array(arena, fw_exposed, (size_t)fw_xml_children(e, "exposed")));
+    FW_NEED(s->setting = fw_arena_array(arena, fw_setting, (size_t)fw_xml_children(e, "set")));
+    FW_NEED(s->derive = fw_arena_array(arena, fw_derive, (size_t)fw_xml_children(e, "derive")));
     FW_NEED(s->endpoint =
-                fw_arena_array(arena, const char *, (size_t)fw_pack_count(e, "endpoint")));
-    FW_NEED(s->accept = fw_arena_array(arena, fw_accept, (size_t)fw_pack_count(e, "accept")));
+                fw_arena_array(arena, const char *, (size_t)fw_xml_children(e, "endpoint")));
+    FW_NEED(s->accept = fw_arena_array(arena, fw_accept, (size_t)fw_xml_children(e, "accept")));
     FW_NEED(s->hazard =
-                fw_arena_array(arena, const fw_hazard *, (size_t)fw_pack_count(e, "hazard-ref")));
-    FW_NEED(s->on_fail = fw_arena_array(arena, fw_on_fail, (size_t)fw_pack_count(e, "on-fail")));
-    FW_NEED(s->lag = fw_arena_array(arena, fw_lag, (size_t)fw_pack_count(e, "lag")));
+                fw_arena_array(arena, const fw_hazard *, (size_t)fw_xml_children(e, "hazard-ref")));
+    FW_NEED(s->on_fail = fw_arena_array(arena, fw_on_fail, (size_t)fw_xml_children(e, "on-fail")));
+    FW_NEED(s->lag = fw_arena_array(arena, fw_lag, (size_t)fw_xml_children(e, "lag")));
     return FW_OK;
 }
 
-static fw_status read_step(fw_pack *pack, const fw_element *e, fw_step *s) {
+static fw_status read_step(fw_pack *pack, const fw_record *e, fw_step *s) {
     const fw_attribute *equipment = fw_pack_get(e, "equipment");
     *s = (fw_step){.id = fw_pack_text(e, "id"),
                    .op = fw_pack_text(e, "op"),
@@ -318,23 +323,23 @@ static fw_status read_step(fw_pack *pack, const fw_element *e, fw_step *s) {
                    .purpose = "",
                    .mask = fw_pack_text(e, "mask"),
                    .in_source = strcmp(fw_pack_text(e, "in-source"), "yes") == 0,
-                   .batch = (int)fw_pack_number(pack, e, "batch", 1.0),
+                   .batch = (int)fw_pack_number(e, "batch", 1.0),
                    .expression = "",
                    .shape = "",
                    .k = 2.0,
                    .second_signature = strcmp(fw_pack_text(e, "second-signature"), "yes") == 0,
-                   .attended_s = 60.0 * fw_pack_number(pack, e, "attended", 0.0),
-                   .place = e->place};
+                   .attended_s = 60.0 * fw_pack_number(e, "attended", 0.0),
+                   .place = e->element->place};
     if (equipment) s->equipment = fw_pack_find(pack, equipment, FW_ID_EQUIPMENT);
     FW_TRY(make_room(pack->arena, e, s));
-    for (const fw_element *c = e->first_child; c; c = c->next)
+    for (const fw_record *c = e->first_child; c; c = c->next)
         FW_TRY(read_child(pack, c, s));
     return FW_OK;
 }
 
 fw_status fw_pack_steps(fw_pack *pack) {
     fw_flow *f = pack->flow;
-    for (const fw_element *c = pack->root->first_child; c; c = c->next)
-        if (strcmp(c->name, "step") == 0) FW_TRY(read_step(pack, c, &f->step[f->nstep++]));
+    for (const fw_record *c = pack->root->first_child; c; c = c->next)
+        if (fw_is(c, "step")) FW_TRY(read_step(pack, c, &f->step[f->nstep++]));
     return FW_OK;
 }

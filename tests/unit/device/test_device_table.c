@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The table of elements and what is generated from it. To regenerate the committed pages:
    FW_WRITE_REFERENCE=1 test_device_table */
+#include "device/device.h"
 #include "device/table.h"
 #include "files.h"
 #include <stdlib.h>
@@ -36,11 +37,11 @@ static void rows_are_complete(void **state) {
     (void)state;
     const fw_element_row *e;
     int count = 0;
-    assert_null(fw_element_row_at(-1));
-    for (int i = 0; (e = fw_element_row_at(i)) != NULL; i++, count++) {
-        assert_int_equal(fw_element_index(e->name), i);
-        assert_ptr_equal(fw_element_row_find(e->name), e); /* names are unique */
-        assert_true(e->parent[0] == '\0' || fw_element_row_find(e->parent));
+    assert_null(fw_xml_row_at(&fw_device_table, -1));
+    for (int i = 0; (e = fw_xml_row_at(&fw_device_table, i)) != NULL; i++, count++) {
+        assert_int_equal(fw_xml_row_index(&fw_device_table, e->name), i);
+        assert_ptr_equal(fw_xml_row_find(&fw_device_table, e->name), e); /* names are unique */
+        assert_true(e->parent[0] == '\0' || fw_xml_row_find(&fw_device_table, e->parent));
         assert_non_null(e->sentence);
         assert_true(e->nattribute <= FW_ATTRIBUTES_MOST);
         bool key = e->key == NULL;

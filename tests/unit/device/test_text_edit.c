@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Changes to the text of a description: only the bytes that were meant change, there and back. */
 #include "device/edit.h"
-#include "device/xml.h"
+#include "xml/xml.h"
 #include "files.h"
 #include <stdbool.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* DXF read back by groups of two lines; arcs from end points and bulge alone. */
-#include "device/xml.h"
+#include "xml/xml.h"
 #include "scene.h"
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "device/xml.h"
+#include "xml/xml.h"
 #include "scene.h"
 #include <jansson.h>
 #include <stdlib.h>

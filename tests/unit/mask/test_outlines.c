@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* As drawn, on the mask, as fabricated. */
 #include "mask/outlines.h"
-#include "device/xml.h"
+#include "xml/xml.h"
 #include "scene.h"
 
 static fw_mask_edges edges;

@@ -398,6 +398,19 @@ static void wrong_packs(void **state) {
         assert_int_equal(last_number(&said), bad[i].number);
         assert_int_equal(f->noverride, 0);
     }
+    /* what is no laboratory pack is refused although it states another flow */
+    static const char device[] = "<device xmlns=\"urn:flexwright:device:1\" flow=\"another\"/>";
+    static const char space[] = "<process xmlns=\"urn:another\" id=\"lab\" version=\"1\" "
+                                "title=\"x\" flow=\"another\"/>";
+    const char *const foreign[] = {device, space};
+    for (int i = 0; i < 2; i++) {
+        fw_diags said = fw_diags_new(arena);
+        fw_flow *f = read_pack(arena, SILICON, NULL, NULL, &said);
+        assert_int_equal(fw_lab_apply(arena, "l.xml", foreign[i], strlen(foreign[i]), f, &said),
+                         FW_INPUT);
+        assert_int_equal(said.errors, 1);
+        assert_int_equal(last_number(&said), 178);
+    }
 }
 
 int main(void) {

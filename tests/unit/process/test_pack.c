@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "pack_fixture.h"
+#include "process/pack.h"
 #include <stdlib.h>
 #include <sys/wait.h>
 
@@ -16,6 +17,52 @@ static void packs_are_clean(void **state) {
         assert_non_null(f->thickness);
         assert_int_equal(f->nstep, i == 0 ? 28 : 23);
     }
+}
+
+/* to regenerate them: FW_WRITE_REFERENCE=1 test_pack */
+static void compare(const char *name, fw_status (*generate)(fw_text *)) {
+    fw_text text = fw_text_new(arena);
+    char path[512];
+    snprintf(path, sizeof path, "%s/%s", FW_TEST_SOURCE_DIR, name);
+    assert_int_equal(generate(&text), FW_OK);
+    if (getenv("FW_WRITE_REFERENCE")) {
+        FILE *f = fopen(path, "wb");
+        assert_non_null(f);
+        assert_int_equal(fwrite(text.data, 1, text.length, f), text.length);
+        assert_int_equal(fclose(f), 0);
+    }
+    char *committed;
+    size_t n;
+    assert_int_equal(fw_input_read(arena, path, 1 << 20, &diags, &committed, &n), FW_OK);
+    if (n != text.length || memcmp(committed, text.data, n) != 0)
+        fail_msg("%s differs from src/process/table.c; run FW_WRITE_REFERENCE=1 test_pack", name);
+}
+
+static void pages_are_current(void **state) {
+    (void)state;
+    compare("docs/reference/process.md", fw_process_reference_markdown);
+    compare("processes/process.rng", fw_process_schema);
+    compare("processes/laboratory.rng", fw_process_laboratory_schema);
+}
+
+static void rows_are_complete(void **state) {
+    (void)state;
+    const fw_xml_table *const tables[] = {&fw_process_pack_table, &fw_process_laboratory_table};
+    const fw_element_row *e;
+    for (int k = 0; k < 2; k++)
+        for (int i = 0; (e = fw_xml_row_at(tables[k], i)) != NULL; i++) {
+            assert_int_equal(fw_xml_row_index(tables[k], e->name), i); /* names are unique */
+            assert_true(e->sentence && e->sentence[strlen(e->sentence) - 1] == '.');
+            for (int n = 0; n < e->nattribute; n++) {
+                const fw_attribute_row *a = &e->attribute[n];
+                assert_true(a->sentence && strchr(".?", a->sentence[strlen(a->sentence) - 1]));
+                assert_true(!a->required || !a->fallback);
+                assert_true(!a->ranged || (a->min < a->max && a->reason));
+                assert_true((a->kind == FW_KIND_WORD) == (a->words != NULL));
+                assert_true((a->kind == FW_KIND_REF) == (a->space > 0));
+                assert_true(a->space < tables[k]->nspace);
+            }
+        }
 }
 
 static void packs_follow_the_schema(void **state) {
@@ -137,9 +184,9 @@ static void mistakes(void **state) {
         int number;
         const char *says;
     } bad[] = {
-        {"<purpose>", "<purpos>x</purpos><purpose>", 160, "did you mean 'purpose'?"},
+        {"<purpose>", "<purpos>x</purpos><purpose>", 160, "did you mean <purpose>?"},
         {"batch=\"1\" attended=\"8\"", "bach=\"1\" attended=\"8\"", 161, "did you mean 'batch'?"},
-        {" op=\"inspect\" title=\"Incoming", " title=\"Incoming", 162, "'op'"},
+        {" op=\"inspect\" title=\"Incoming", " title=\"Incoming", 162, "op="},
         {"op=\"inspect\"", "op=\"inspekt\"", 163, "did you mean 'inspect'?"},
         {"<q id=\"al.R\"", "<q id=\"al.d\"", 164, "'al.d' is used twice"},
         {"q=\"al.power\" tol", "q=\"al.powr\" tol", 165, "did you mean 'al.power'?"},
@@ -282,6 +329,8 @@ static void out_of_memory(void **state) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
 int main(void) {
     const struct CMUnitTest tests[] = {TEST(packs_are_clean),
+                                       TEST(pages_are_current),
+                                       TEST(rows_are_complete),
                                        TEST(packs_follow_the_schema),
                                        TEST(hydrofluoric_acid),
                                        TEST(provenance),

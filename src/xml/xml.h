@@ -4,8 +4,8 @@
    Refused at once, with a place: DOCTYPE and entities, processing instructions, text that is not
    UTF-8, NUL bytes, more than 8 MiB, 32 levels, 200 000 elements, 64 attributes per
    element and 1 000 000 in all, 4 096 bytes per value. No other file is ever opened. */
-#ifndef FW_DEVICE_XML_H
-#define FW_DEVICE_XML_H
+#ifndef FW_XML_XML_H
+#define FW_XML_XML_H
 #include "base/diag.h"
 
 typedef struct fw_attribute {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The raw bytes of an XML text: where tags and attributes stand, and what is refused before a
-   parser sees it. Private to device/. */
-#ifndef FW_DEVICE_XML_SCAN_H
-#define FW_DEVICE_XML_SCAN_H
+   parser sees it. Private to xml/. */
+#ifndef FW_XML_GUARD_H
+#define FW_XML_GUARD_H
 #include "base/diag.h"
 
 enum {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "device/xml.h"
+#include "xml/xml.h"
 #include "test.h"
 
 static fw_element *parse(fw_arena *arena, const char *text) {

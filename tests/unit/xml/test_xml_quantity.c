@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "device/quantity_xml.h"
+#include "xml/quantity.h"
 #include "test.h"
 
 static const fw_source_text sources[] = {{"s", "a source"}, {"t", "another"}};

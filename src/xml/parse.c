@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* libxml2 judges the syntax and hands out names and values; places come from the raw bytes. */
-#include "device/xml.h"
-#include "device/xml_scan.h"
+#include "xml/xml.h"
+#include "xml/guard.h"
 #include <libxml/parser.h>
 #include <libxml/parserInternals.h>
 #include <limits.h>

@@ -1,8 +1,31 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "device/quantity_xml.h"
+#include "xml/quantity.h"
 #include "base/text.h"
 #include <math.h>
 #include <string.h>
+
+static const char *const status_words[] = {"stated",   "derived", "typical",
+                                           "measured", "assumed", NULL};
+static const char *const true_word[] = {"true", NULL};
+#define DECIMAL .kind = FW_KIND_DECIMAL
+#define SIZE    DECIMAL, .ranged = true, .max = 1e300, .reason = "it is a size"
+const fw_attribute_row fw_quantity_rows[FW_QUANTITY_ROWS] = {
+    {"id", .datatype = "NCName", .required = true, .sentence = "Name that references use."},
+    {"value", DECIMAL, .sentence = "In the unit; needed unless it is unknown."},
+    {"u", SIZE, .sentence = "Standard uncertainty, in the unit; 0: exact."},
+    {"urel", SIZE, .sentence = "Or the relative one."},
+    {"lo", DECIMAL, .sentence = "Or the lowest it can be, with hi."},
+    {"hi", DECIMAL, .sentence = "The highest."},
+    {"unit", .required = true, .sentence = "1 for a pure number."},
+    {"status", .kind = FW_KIND_WORD, .words = status_words, .required = true,
+     .sentence = "How well it is known."},
+    {"src", .datatype = "NCName", .required = true, .sentence = "The <source> it is from."},
+    {"note", .sentence = "For people."},
+    {"unknown", .kind = FW_KIND_WORD, .words = true_word,
+     .sentence = "true: nobody knows it yet; what needs it is not computable."},
+    {"least", DECIMAL, .sentence = "Lowest value that makes sense at all, with most."},
+    {"most", DECIMAL, .sentence = "Highest value that makes sense at all."},
+};
 
 static fw_place value_place(const fw_element *e, const char *name) {
     const fw_attribute *a = fw_xml_attribute(e, name);
@@ -37,16 +60,15 @@ fw_status fw_sources_read(fw_arena *arena, const fw_element *parent, fw_diags *d
 }
 
 static void check_names(const fw_element *e, fw_diags *diags) {
-    static const char *const known[] = {"id",      "value", "u",      "urel", "lo",
-                                        "hi",      "unit",  "status", "src",  "note",
-                                        "unknown", "least", "most"};
-    enum { COUNT = sizeof known / sizeof known[0] };
+    const char *known[FW_QUANTITY_ROWS];
+    for (int k = 0; k < FW_QUANTITY_ROWS; k++)
+        known[k] = fw_quantity_rows[k].name;
     for (int i = 0; i < e->nattribute; i++) {
         int found = 0;
-        for (int k = 0; k < COUNT; k++)
+        for (int k = 0; k < FW_QUANTITY_ROWS; k++)
             found |= strcmp(known[k], e->attribute[i].name) == 0;
         if (found) continue;
-        const char *better = fw_did_you_mean(e->attribute[i].name, known, COUNT);
+        const char *better = fw_did_you_mean(e->attribute[i].name, known, FW_QUANTITY_ROWS);
         fw_diag_error(diags, 42, e->attribute[i].name_place, "<q> has no attribute '%s'%s%s%s",
                       e->attribute[i].name, better ? "; did you mean '" : "", better ? better : "",
                       better ? "'?"

@@ -6,10 +6,15 @@
    or lo and hi (uniform between them: u = (hi - lo)/sqrt(12)); or unknown="true" instead of value.
    least and most, both or none, are the range in which a value makes sense at all: what replaces
    this one must lie there too, which catches A for Ao and min for s. */
-#ifndef FW_DEVICE_QUANTITY_XML_H
-#define FW_DEVICE_QUANTITY_XML_H
-#include "device/xml.h"
+#ifndef FW_XML_QUANTITY_H
+#define FW_XML_QUANTITY_H
+#include "xml/table.h"
+#include "xml/xml.h"
 #include "quantity/quantity.h"
+
+/* what may stand in <q>, for tables (apart) and schemas; fw_quantity_read has the checks */
+enum { FW_QUANTITY_ROWS = 13 };
+extern const fw_attribute_row fw_quantity_rows[FW_QUANTITY_ROWS];
 
 typedef struct fw_source_text { /* <source id ...>text</source> */
     const char *id, *text;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The attributes of time laws as rows of the description's table. They come from the rows of the
+/* The attributes of time laws as rows of a table. They come from the rows of the
    laws (quantity/law_kind.h); one that several laws have stands there once, and its sentence says
    what it means in each. */
 #include "base/text.h"
-#include "device/table.h"
 #include "quantity/law_kind.h"
+#include "xml/table.h"
 #include <string.h>
 
 static const fw_quantity_law_attribute *find(const fw_quantity_law_kind *kind, const char *name) {
@@ -75,7 +75,7 @@ static fw_status choice(fw_arena *arena, fw_attribute_row *row) {
     return FW_OK;
 }
 
-fw_status fw_device_law_attributes(fw_arena *arena, fw_device_attributes *all) {
+fw_status fw_xml_law_attributes(fw_arena *arena, fw_xml_attributes *all) {
     fw_attribute_row *row;
     int n = 0;
     FW_NEED(row = fw_arena_array(arena, fw_attribute_row, FW_ATTRIBUTES_MOST));
@@ -87,21 +87,20 @@ fw_status fw_device_law_attributes(fw_arena *arena, fw_device_attributes *all) {
             row[n] = row_of(a);
             FW_NEED(row[n++].sentence = sentence_of(arena, a->name));
         }
-    *all = (fw_device_attributes){row, n};
+    *all = (fw_xml_attributes){row, n};
     return FW_OK;
 }
 
-fw_status fw_device_attributes_of(fw_arena *arena, const fw_element_row *row,
-                                  fw_device_attributes *all) {
-    *all = (fw_device_attributes){row->attribute, row->nattribute};
+fw_status fw_xml_attributes_of(fw_arena *arena, const fw_element_row *row, fw_xml_attributes *all) {
+    *all = (fw_xml_attributes){row->attribute, row->nattribute};
     if (!row->timed) return FW_OK;
-    fw_device_attributes law;
+    fw_xml_attributes law;
     fw_attribute_row *both;
-    FW_TRY(fw_device_law_attributes(arena, &law));
+    FW_TRY(fw_xml_law_attributes(arena, &law));
     size_t own = (size_t)row->nattribute, more = (size_t)law.count;
     FW_NEED(both = fw_arena_array(arena, fw_attribute_row, own + more));
     memcpy(both, row->attribute, own * sizeof *both);
     memcpy(both + own, law.item, more * sizeof *both);
-    *all = (fw_device_attributes){both, row->nattribute + law.count};
+    *all = (fw_xml_attributes){both, row->nattribute + law.count};
     return FW_OK;
 }

@@ -1,0 +1,282 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is generated from the rows of a table: schemas for editors and xmllint (the program itself
+   does not use them), reference pages, and a list in JSON for forms. */
+#include "base/json.h"
+#include "xml/reader.h"
+#include <string.h>
+
+bool fw_kind_is_expression(fw_kind kind) {
+    return kind == FW_KIND_NUMBER || kind == FW_KIND_ANY || kind == FW_KIND_TIMED ||
+           kind == FW_KIND_TABLE;
+}
+
+/* ---- RELAX NG ---- */
+
+static void schema_pattern(fw_text *out, const char *pattern) {
+    fw_text_printf(out, "<data type=\"string\"><param name=\"pattern\">%s</param></data>", pattern);
+}
+
+static void schema_decimal(fw_text *out, const fw_attribute_row *a) {
+    fw_text_printf(out, "<data type=\"%s\">", a->whole ? "integer" : "double");
+    if (a->ranged) {
+        fw_text_printf(out, "<param name=\"min%slusive\">", a->open ? "Exc" : "Inc");
+        fw_text_number(out, a->min, 6);
+        fw_text_add(out, "</param>");
+    }
+    fw_text_add(out, "</data>");
+}
+
+static void schema_value(fw_text *out, const fw_attribute_row *a) {
+    if (a->kind == FW_KIND_WORD || a->kind == FW_KIND_WORDS) {
+        const char *open = a->kind == FW_KIND_WORD ? "" : "<list><zeroOrMore>";
+        fw_text_printf(out, "%s<choice>", open);
+        for (int i = 0; a->words[i]; i++)
+            fw_text_printf(out, "<value>%s</value>", a->words[i]);
+        fw_text_printf(out, "</choice>%s", open[0] ? "</zeroOrMore></list>" : "");
+    } else if (a->datatype)
+        fw_text_printf(out, "<data type=\"%s\"/>", a->datatype);
+    else if (a->kind == FW_KIND_DECIMAL)
+        schema_decimal(out, a);
+    else if (a->kind == FW_KIND_ID || a->kind == FW_KIND_REF)
+        schema_pattern(out, "[A-Za-z_][A-Za-z0-9_\\-]{0,63}");
+    else if (a->kind == FW_KIND_NAME)
+        schema_pattern(out, "[A-Za-z_][A-Za-z0-9_]{0,63}");
+    else if (fw_kind_is_expression(a->kind))
+        schema_pattern(out, "[ -~\\s]*\\S[ -~\\s]*");
+    else
+        fw_text_add(out, "<text/>");
+}
+
+static void schema_attribute(fw_text *out, const fw_attribute_row *a) {
+    const char *open = a->required ? "" : "<optional>", *close = a->required ? "" : "</optional>";
+    fw_text_printf(out, "      %s<attribute name=\"%s\">", open, a->name);
+    schema_value(out, a);
+    fw_text_printf(out, "</attribute>%s\n", close);
+}
+
+/* in any order; how often each may stand only where some row says so */
+static void schema_children(const fw_xml_table *table, const fw_element_row *parent, fw_text *out) {
+    const fw_element_row *row;
+    int count = 0;
+    bool counted = false;
+    for (int i = 0; (row = fw_xml_row_at(table, i)) != NULL; i++) {
+        if (!fw_xml_row_inside(row, parent->name)) continue;
+        count++;
+        counted = counted || row->once || row->needed;
+    }
+    if (count == 0) return;
+    fw_text_add(out, counted ? "      <interleave>\n" : "      <zeroOrMore><choice>\n");
+    for (int i = 0; (row = fw_xml_row_at(table, i)) != NULL; i++) {
+        if (!fw_xml_row_inside(row, parent->name)) continue;
+        const char *often = !counted                   ? ""
+                            : row->once && row->needed ? ""
+                            : row->once                ? "optional"
+                            : row->needed              ? "oneOrMore"
+                                                       : "zeroOrMore";
+        if (often[0])
+            fw_text_printf(out, "        <%s><ref name=\"%s\"/></%s>\n", often, row->name, often);
+        else
+            fw_text_printf(out, "        <ref name=\"%s\"/>\n", row->name);
+    }
+    if (counted && parent->text) fw_text_add(out, "        <text/>\n");
+    fw_text_add(out, counted ? "      </interleave>\n" : "      </choice></zeroOrMore>\n");
+}
+
+fw_status fw_xml_schema(const fw_xml_table *table, fw_text *out) {
+    const fw_element_row *e;
+    fw_text_printf(out,
+                   "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                   "<!-- generated from %s; do not edit -->\n"
+                   "<grammar xmlns=\"http://relaxng.org/ns/structure/1.0\" "
+                   "ns=\"%s\"\n"
+                   "         datatypeLibrary=\"http://www.w3.org/2001/XMLSchema-datatypes\">\n"
+                   "  <start><ref name=\"%s\"/></start>\n",
+                   table->source, table->urn, table->root);
+    for (int i = 0; (e = fw_xml_row_at(table, i)) != NULL; i++) {
+        fw_text_printf(out, "  <define name=\"%s\">\n    <element name=\"%s\">\n", e->name,
+                       e->name);
+        fw_xml_attributes all;
+        FW_TRY(fw_xml_attributes_of(out->arena, e, &all));
+        for (int k = 0; k < all.count; k++)
+            schema_attribute(out, &all.item[k]);
+        size_t before = out->length;
+        schema_children(table, e, out);
+        if (out->length == before && e->text)
+            fw_text_add(out, "      <text/>\n");
+        else if (out->length == before && all.count == 0)
+            fw_text_add(out, "      <empty/>\n");
+        fw_text_add(out, "    </element>\n  </define>\n");
+    }
+    fw_text_add(out, "</grammar>\n");
+    return fw_text_end(out);
+}
+
+/* ---- reference page ---- */
+
+static void page_number(fw_text *out, double value, const char *unit) {
+    char buffer[FW_LABEL];
+    fw_text_add(out, fw_in_unit(buffer, value, unit));
+}
+
+static void page_value(const fw_xml_table *table, const fw_attribute_row *a, fw_text *out) {
+    switch (a->kind) {
+    case FW_KIND_TEXT:
+        fw_text_add(out, "text");
+        break;
+    case FW_KIND_FORM:
+        fw_text_add(out, a->reason);
+        break;
+    case FW_KIND_DECIMAL:
+        fw_text_add(out, a->whole ? "whole number" : "plain number");
+        break;
+    case FW_KIND_ID:
+    case FW_KIND_NAME:
+        fw_text_add(out, "name");
+        break;
+    case FW_KIND_ANY:
+        fw_text_add(out, "expression");
+        break;
+    case FW_KIND_TIMED:
+        fw_text_printf(out, "expression in time, %s",
+                       strcmp(a->unit, "1") == 0 ? "pure number" : a->unit);
+        break;
+    case FW_KIND_TABLE:
+        fw_text_add(out, "points `TIME: NUMBER; ...`");
+        break;
+    case FW_KIND_REF:
+        fw_text_printf(out, "id of a %s%s", table->space[a->space],
+                       a->ground ? " or `ground`" : "");
+        break;
+    case FW_KIND_WORD:
+    case FW_KIND_WORDS:
+        fw_text_add(out, a->kind == FW_KIND_WORDS ? "some of " : "");
+        for (int i = 0; a->words[i]; i++)
+            fw_text_printf(out, "%s`%s`", i ? ", " : "", a->words[i]);
+        break;
+    case FW_KIND_NUMBER:
+        if (strcmp(a->unit, "1") == 0)
+            fw_text_add(out, a->whole ? "whole number" : "pure number");
+        else
+            fw_text_printf(out, "%s, e.g. in `%s`", fw_dimension_text(out->arena, a->dimension),
+                           a->unit);
+        break;
+    }
+}
+
+static void page_range(fw_text *out, const fw_attribute_row *a) {
+    if (!a->ranged) return;
+    fw_text_add(out, a->open ? " Above " : " At least ");
+    page_number(out, a->min, a->unit);
+    fw_text_add(out, ", at most ");
+    page_number(out, a->max, a->unit);
+    fw_text_printf(out, " (%s).", a->reason);
+}
+
+void fw_xml_page_attribute(const fw_xml_table *table, const fw_attribute_row *a, fw_text *out) {
+    fw_text_printf(out, "| `%s` | ", a->name);
+    page_value(table, a, out);
+    fw_text_printf(out, " | %s | %s",
+                   a->required   ? "**required**"
+                   : a->fallback ? a->fallback
+                                 : "",
+                   a->sentence);
+    page_range(out, a);
+    fw_text_add(out, " |\n");
+}
+
+void fw_xml_page_element(const fw_element_row *e, fw_text *out) {
+    fw_text_printf(out, "\n### `<%s>`\n\n%s", e->name, e->sentence);
+    for (const char *at = e->parent; *at;) {
+        size_t n = strcspn(at, " ");
+        fw_text_printf(out, "%s `<%.*s>`", at == e->parent ? " Inside" : " or", (int)n, at);
+        at += n + (at[n] == ' ');
+    }
+    if (e->parent[0])
+        fw_text_printf(out, "%s.",
+                       e->once && e->needed ? ", exactly once"
+                       : e->once            ? ", at most once"
+                       : e->needed          ? ", at least once"
+                                            : "");
+    fw_text_add(out, "\n");
+}
+
+/* ---- JSON ---- */
+
+static const char *const kind_text[] = {
+    [FW_KIND_TEXT] = "text",     [FW_KIND_ID] = "id",         [FW_KIND_NAME] = "name",
+    [FW_KIND_WORD] = "word",     [FW_KIND_NUMBER] = "number", [FW_KIND_ANY] = "expression",
+    [FW_KIND_TIMED] = "in-time", [FW_KIND_TABLE] = "table",   [FW_KIND_REF] = "reference",
+    [FW_KIND_WORDS] = "words",   [FW_KIND_FORM] = "form",     [FW_KIND_DECIMAL] = "decimal"};
+
+/* in the unit of the row, to the digits that messages have */
+static void json_bound(fw_json *out, const char *key, const fw_attribute_row *a, double value) {
+    fw_unit unit = {.factor = 1.0};
+    if (a->unit && a->unit[0]) fw_unit_parse(a->unit, strlen(a->unit), &unit, NULL, NULL);
+    if (a->ranged)
+        fw_json_number(out, key, fw_unit_from_si(&unit, value), 12);
+    else
+        fw_json_null(out, key);
+}
+
+static void json_attribute(const fw_xml_table *table, const fw_attribute_row *a, fw_json *out) {
+    bool fixed = a->kind == FW_KIND_NUMBER || a->kind == FW_KIND_TIMED;
+    fw_json_object(out, NULL);
+    fw_json_text(out, "name", a->name);
+    fw_json_text(out, "type", kind_text[a->kind]);
+    fw_json_text(out, "unit", fw_kind_is_expression(a->kind) ? a->unit : NULL);
+    fw_json_text(out, "dimension", fixed ? fw_dimension_text(out->out->arena, a->dimension) : NULL);
+    fw_json_text(out, "default", a->fallback);
+    json_bound(out, "minimum", a, a->min);
+    json_bound(out, "maximum", a, a->max);
+    fw_json_truth(out, "above_minimum", a->open);
+    fw_json_truth(out, "whole", a->whole);
+    fw_json_truth(out, "required", a->required);
+    fw_json_text(out, "range_reason", a->ranged ? a->reason : NULL);
+    if (a->words) {
+        fw_json_list(out, "choices");
+        for (int i = 0; a->words[i]; i++)
+            fw_json_text(out, NULL, a->words[i]);
+        fw_json_end(out);
+    } else
+        fw_json_null(out, "choices");
+    fw_json_text(out, "refers_to", a->kind == FW_KIND_REF ? table->space[a->space] : NULL);
+    fw_json_truth(out, "ground", a->ground);
+    fw_json_text(out, "sentence", a->sentence);
+    fw_json_end(out);
+}
+
+static fw_status json_element(const fw_xml_table *table, const fw_element_row *row, fw_json *out) {
+    fw_xml_attributes all;
+    FW_TRY(fw_xml_attributes_of(out->out->arena, row, &all));
+    fw_json_object(out, NULL);
+    fw_json_text(out, "name", row->name);
+    fw_json_text(out, "parent", row->parent[0] ? row->parent : NULL);
+    fw_json_text(out, "key", row->key);
+    fw_json_text(out, "id_space", row->space ? table->space[row->space] : NULL);
+    fw_json_truth(out, "once", row->once);
+    if (row->most > 0)
+        fw_json_whole(out, "most", row->most);
+    else
+        fw_json_null(out, "most");
+    fw_json_text(out, "sentence", row->sentence);
+    fw_json_list(out, "attributes");
+    for (int k = 0; k < all.count; k++) {
+        fw_json_line(out, 2);
+        json_attribute(table, &all.item[k], out);
+    }
+    fw_json_end(out);
+    fw_json_end(out);
+    return FW_OK;
+}
+
+fw_status fw_xml_table_json(const fw_xml_table *table, fw_text *text) {
+    fw_json json = fw_json_new(text, FW_JSON_COMPACT), *out = &json;
+    const fw_element_row *row;
+    fw_json_list(out, NULL);
+    for (int i = 0; (row = fw_xml_row_at(table, i)) != NULL; i++) {
+        fw_json_line(out, 0);
+        FW_TRY(json_element(table, row, out));
+    }
+    fw_json_end(out);
+    return fw_json_finish(out, "");
+}
